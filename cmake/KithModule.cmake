@@ -1,0 +1,41 @@
+# kith_module(<name> [DEPENDS kith::x ...] [PRIVATE_DEPENDS lib ...] [TEST_DEPENDS lib ...])
+#
+# One folder under libs/ = one target = one layer = one include root. DEPENDS is
+# the only way to see another layer's headers, so the graph in CMake is the
+# graph in the code. Sources (src/*.cpp), headers (include/kith/<name>/*.hpp),
+# tests (tests/*_test.cpp) and benchmarks (bench/*_bench.cpp) are found by their
+# place; a layer without sources is header-only.
+function(kith_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "DEPENDS;PRIVATE_DEPENDS;TEST_DEPENDS")
+  file(GLOB headers CONFIGURE_DEPENDS include/kith/${name}/*.hpp)
+  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
+
+  if(sources)
+    set(kind PUBLIC)
+    add_library(kith_${name} STATIC ${sources})
+    target_link_libraries(kith_${name} PRIVATE $<BUILD_INTERFACE:kith_build> ${arg_PRIVATE_DEPENDS})
+    target_include_directories(kith_${name} PRIVATE src)
+  else()
+    set(kind INTERFACE)
+    add_library(kith_${name} INTERFACE)
+  endif()
+  add_library(kith::${name} ALIAS kith_${name})
+  set_target_properties(kith_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  target_sources(kith_${name} ${kind} FILE_SET HEADERS BASE_DIRS include FILES ${headers})
+  target_compile_features(kith_${name} ${kind} cxx_std_20)
+  target_link_libraries(kith_${name} ${kind} ${arg_DEPENDS})
+
+  file(GLOB tests CONFIGURE_DEPENDS tests/*_test.cpp)
+  if(KITH_BUILD_TESTS AND tests)
+    add_executable(kith_${name}_tests ${tests})
+    target_link_libraries(kith_${name}_tests PRIVATE kith::${name} kith_build kith_testing ${arg_TEST_DEPENDS})
+    target_include_directories(kith_${name}_tests PRIVATE tests)
+    gtest_discover_tests(kith_${name}_tests TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${name})
+  endif()
+
+  file(GLOB benches CONFIGURE_DEPENDS bench/*_bench.cpp)
+  if(KITH_BUILD_BENCHMARKS AND benches)
+    add_executable(kith_${name}_bench ${benches})
+    target_link_libraries(kith_${name}_bench PRIVATE kith::${name} kith_build benchmark::benchmark_main ${arg_TEST_DEPENDS})
+  endif()
+endfunction()

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kith/belief/likelihood.hpp"
+#include "kith/geometry/cone.hpp"
+#include "kith/random/stream.hpp"
+
+namespace kith {
+
+/// How a particle belief is updated.
+struct FilterOptions {
+  std::size_t particles = 1000;   ///< M >= 1.
+  double process_noise = 0.1;     ///< eta: bandwidth factor a >= 0 of the kernel after resampling.
+  double resample_below = 0.5;    ///< Resample when effective sample size / M is below this; in [0, 1].
+};
+
+/// A belief about the reward weights: M weighted points of the unit sphere in
+/// three dimensions, none of them outside the hard prior.
+///
+/// An update multiplies the weights by the likelihoods of all half-spaces at
+/// once, in log space, and normalises. When the effective sample size
+/// 1 / sum p_i^2 falls below its threshold, the points are resampled
+/// systematically and each is moved by N(0, h^2) per axis in its tangent plane,
+///   h = a * s * M^(-1/6),
+/// where s is the root mean square geodesic distance of the weighted points to
+/// their normalised mean, taken before resampling. A move that would leave the
+/// prior is drawn again, at most 20 times, else the point stays.
+class ParticleBelief {
+ public:
+  /// Uniform over the prior: exactly M points of a regular cover, weights 1/M.
+  /// `prior` may be the whole sphere. @throws std::invalid_argument on bad options.
+  ParticleBelief(const Cone& prior, const FilterOptions& options);
+
+  [[nodiscard]] std::size_t size() const noexcept { return weights_.size(); }
+  [[nodiscard]] std::span<const double> x() const noexcept { return x_; }
+  [[nodiscard]] std::span<const double> y() const noexcept { return y_; }
+  [[nodiscard]] std::span<const double> z() const noexcept { return z_; }
+  /// Sum to 1. Shape [size()].
+  [[nodiscard]] std::span<const double> weights() const noexcept { return weights_; }
+  [[nodiscard]] Eigen::Vector3d point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  [[nodiscard]] const FilterOptions& options() const noexcept { return *options_; }
+
+  /// Bayes update with the product of the half-spaces' likelihoods; an empty list changes nothing.
+  /// A half-space listed twice counts twice.
+  /// @throws kith::Error (kInfeasible), and leaves the belief as it was, if no particle remains possible.
+  void observe(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, RandomStream random);
+
+  /// Update of a joint belief: each point's factor is the largest, over the
+  /// alternatives, of the product of relative likelihoods (near side = 1), so a
+  /// point that fits any one of them keeps its weight. An empty alternative fits
+  /// everywhere; no alternatives change nothing.
+  void observe_any(std::span<const std::vector<HalfSpace>> alternatives, const HalfSpaceLikelihood& likelihood,
+                   RandomStream random);
+
+  /// Moves every point by N(0, angle^2) per axis in its tangent plane (radians),
+  /// inside the prior; weights stay. The teacher's doubt after a test.
+  void diffuse(double angle, RandomStream random);
+
+  /// Sum of the weights of the points that satisfy all half-spaces; 1 for an empty list.
+  [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces) const;
+
+  /// log of the expected product of the likelihoods, log sum_i p_i prod_j p(x_i | c_j).
+  [[nodiscard]] double log_evidence(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) const;
+
+  /// 1 / sum p_i^2, in [1, size()].
+  [[nodiscard]] double effective_sample_size() const noexcept;
+  /// The normalised weighted mean direction; the first point's direction if the mean vanishes.
+  [[nodiscard]] Eigen::Vector3d mean_direction() const;
+  /// Root mean square geodesic distance to mean_direction(), radians.
+  [[nodiscard]] double spread() const;
+
+  /// n systematic draws by weight (one offset for all): per drawn point its
+  /// index and how often it was drawn, in index order.
+  struct Draw {
+    std::size_t index;
+    std::size_t count;
+  };
+  [[nodiscard]] std::vector<Draw> systematic_draws(std::size_t n, RandomStream random) const;
+
+  /// How often this belief was resampled so far.
+  [[nodiscard]] std::size_t num_resamplings() const noexcept { return num_resamplings_; }
+
+ private:
+  // ...: the implementer's
+};
+
+/// Systematic resampling (Kitagawa 1996): counts of each index among n strata of
+/// the cumulative weights with one offset u in [0, 1). |count_i - n p_i| < 1 for every i.
+[[nodiscard]] std::vector<std::size_t> systematic_counts(std::span<const double> weights, std::size_t n, double u);
+
+}  // namespace kith

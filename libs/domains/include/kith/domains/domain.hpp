@@ -1,0 +1,123 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/geometry/half_space.hpp"
+#include "kith/mdp/mdp.hpp"
+
+namespace kith {
+
+using MdpIndex = Index<struct MdpTag>;
+
+/// A demonstration candidate, or a test: one start state of one MDP.
+struct DemoId {
+  MdpIndex mdp;
+  StateIndex start;
+  friend auto operator<=>(const DemoId&, const DemoId&) = default;
+};
+
+/// The robot's reward weights w*, as exact integers up to scale and as a unit vector.
+struct RewardWeights {
+  std::vector<double> raw;   ///< As written in the file, shape [d].
+  IntegerVector integer;     ///< Primitive integer vector in the same direction, exact.
+  Eigen::Vector3d unit;      ///< integer / |integer|.
+
+  /// w . mu with w at length 1: the return of a path with these feature counts.
+  [[nodiscard]] double return_of(const IntegerVector& feature_counts) const;
+};
+
+/// A cell of a map, 1-based, x to the right, y up.
+struct Cell {
+  int x = 0;
+  int y = 0;
+  friend auto operator<=>(const Cell&, const Cell&) = default;
+};
+
+/// One state of a gridworld, as people see it.
+struct GridState {
+  Cell robot;
+  std::vector<Cell> items;         ///< In declaration order; a carried item is at the robot's cell.
+  std::vector<bool> carried;       ///< Per item; at most one.
+  std::vector<Cell> stations;      ///< Those still present.
+  bool exited = false;
+  friend bool operator==(const GridState&, const GridState&) = default;
+};
+
+/// What a cell of one MDP's map holds apart from robot, items and stations.
+struct CellContent {
+  bool wall = false;
+  bool goal = false;
+  std::string terrain;             ///< Empty: plain floor.
+  std::string destination_of;      ///< Item that belongs here; empty: none.
+};
+
+/// A family of MDPs that share actions, features, reward weights and discount,
+/// and differ in which optional things are on the map.
+///
+/// MDP m's things are the bits of m, the first optional group in the most
+/// significant bit. Immutable and self-contained: a value.
+class Domain {
+ public:
+  struct Data;  ///< Made by the reader of domain files.
+  explicit Domain(Data data);
+  Domain(const Domain&);
+  Domain(Domain&&) noexcept;
+  Domain& operator=(const Domain&);
+  Domain& operator=(Domain&&) noexcept;
+  ~Domain();
+
+  [[nodiscard]] const std::string& id() const noexcept;
+  [[nodiscard]] const std::string& title() const noexcept;
+  [[nodiscard]] std::size_t num_features() const noexcept;
+  [[nodiscard]] const std::vector<std::string>& feature_names() const noexcept;
+  [[nodiscard]] const std::vector<std::string>& action_names() const noexcept;
+  /// How people call feature k ("crossing rubble"); its name if the file gives no words.
+  [[nodiscard]] const std::string& feature_words(std::size_t k) const;
+  [[nodiscard]] const RewardWeights& weights() const noexcept;
+  /// What every learner is assumed to know; all hold at the weights.
+  [[nodiscard]] const std::vector<HalfSpace>& prior() const noexcept;
+  [[nodiscard]] std::size_t max_steps() const noexcept;
+
+  [[nodiscard]] std::size_t num_mdps() const noexcept;
+  /// Number of (MDP, start) pairs.
+  [[nodiscard]] std::size_t num_starts() const noexcept;
+  [[nodiscard]] const Mdp& mdp(MdpIndex m) const;
+  /// The state in which a robot first enters MDP m (the map's start).
+  [[nodiscard]] StateIndex initial_state(MdpIndex m) const;
+  /// One bit per optional group, in index order (most significant first).
+  [[nodiscard]] std::vector<bool> variant(MdpIndex m) const;
+  /// Whether feature k can occur in MDP m at all. The last feature counts as always present.
+  [[nodiscard]] bool has_feature(MdpIndex m, std::size_t k) const;
+
+  [[nodiscard]] int width() const noexcept;
+  [[nodiscard]] int height() const noexcept;
+  [[nodiscard]] CellContent content(MdpIndex m, Cell cell) const;
+  /// Also for terminal states.
+  [[nodiscard]] const GridState& state(MdpIndex m, StateIndex s) const;
+  [[nodiscard]] std::optional<StateIndex> find_state(MdpIndex m, const GridState& state) const;
+  [[nodiscard]] const std::vector<std::string>& item_names() const noexcept;
+
+  /// How much there is to look at: optional things present in the start state
+  /// (terrain cells and stations that are toggled, plus stations still there).
+  [[nodiscard]] int complexity(DemoId demo) const;
+  /// How different two start pictures are:
+  ///   2 * sum |differences of the state's coordinates and flags| (over their common length)
+  ///   + number of optional groups other than stations that differ + |difference of station counts|.
+  [[nodiscard]] int dissimilarity(DemoId a, DemoId b) const;
+
+  /// The map of MDP m as text, top row first, one row per string, in the
+  /// symbols of the domain file; without `s` the initial picture, with it the
+  /// robot as '@' and the things where they are in `s`.
+  [[nodiscard]] std::vector<std::string> draw(MdpIndex m, std::optional<StateIndex> s) const;
+
+ private:
+  std::unique_ptr<const Data> data_;
+};
+
+}  // namespace kith

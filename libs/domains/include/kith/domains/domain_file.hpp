@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kith/core/diagnostic.hpp"
+#include "kith/domains/domain.hpp"
+
+namespace kith {
+
+/// What came of reading a domain file: a domain unless there are errors, and
+/// everything worth saying about the file, in file order.
+struct DomainReading {
+  std::optional<Domain> domain;
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// Parses and checks a domain file (schema kith.domain/1, see docs/formats.md).
+/// All errors of a file are reported at once (at most 20); `name` is used in
+/// messages. Never throws for bad content.
+[[nodiscard]] DomainReading parse_domain(std::string_view text, const std::string& name);
+
+/// Reads the file and parses it. @throws kith::Error (kIo) if it cannot be read.
+[[nodiscard]] DomainReading read_domain(const std::filesystem::path& path);
+
+/// A domain that comes with kith.
+struct BuiltInDomain {
+  std::string_view name;         ///< "item-delivery"
+  std::string_view description;
+  std::string_view text;         ///< The TOML file, embedded when kith was built.
+};
+[[nodiscard]] const std::vector<BuiltInDomain>& built_in_domains();
+
+/// A built-in by name, or the domain file at that path.
+/// @throws kith::Error with diagnostics if it is invalid, unknown (names the known ones) or unreadable.
+[[nodiscard]] Domain load_domain(const std::string& name_or_path);
+
+}  // namespace kith

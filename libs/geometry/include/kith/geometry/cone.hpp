@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kith/geometry/half_space.hpp"
+#include "kith/random/stream.hpp"
+
+namespace kith {
+
+/// A full-dimensional convex cone in three dimensions: the intersection of
+/// finitely many half-spaces that has a non-empty interior. On the unit sphere
+/// it is the whole sphere (no facet), a hemisphere (1), a lune (2) or a convex
+/// spherical polygon (3 or more).
+///
+/// All predicates are exact: facets are canonical integer half-spaces, extreme
+/// rays are integer cross products, signs are taken in 128-bit arithmetic.
+///
+/// Built by clipping, one half-space at a time, in O(facets) each; what is left
+/// of the facets is the minimal (irredundant) set by construction.
+class Cone {
+ public:
+  /// The whole sphere.
+  Cone() = default;
+
+  /// The intersection of all of them, or nothing if its interior is empty
+  /// (touching in a ray or a plane only counts as empty). An empty list gives
+  /// the whole sphere.
+  [[nodiscard]] static std::optional<Cone> intersection(std::span<const HalfSpace> half_spaces);
+
+  /// This cone without what lies outside `half_space`; nothing if no interior is left.
+  [[nodiscard]] std::optional<Cone> clipped(const HalfSpace& half_space) const;
+
+  /// Whether every point of the cone satisfies `half_space` (it would be redundant).
+  [[nodiscard]] bool implies(const HalfSpace& half_space) const;
+  /// Whether the boundary plane of `half_space` passes through the interior.
+  [[nodiscard]] bool is_cut_by(const HalfSpace& half_space) const;
+
+  /// The irredundant half-spaces, counter-clockwise seen from outside.
+  [[nodiscard]] std::span<const HalfSpace> facets() const noexcept { return facets_; }
+  /// The irredundant half-spaces sorted lexicographically: the canonical minimal set.
+  [[nodiscard]] std::vector<HalfSpace> minimal_set() const;
+
+  /// Integer vectors whose non-negative combinations are exactly this cone
+  /// (extreme rays; for lunes, hemispheres and the sphere also the lines).
+  [[nodiscard]] std::vector<IntegerVector> generators() const;
+
+  /// An integer direction strictly inside every facet.
+  [[nodiscard]] IntegerVector interior_direction() const;
+
+  /// Area on the unit sphere, in steradian, in (0, 4 pi]. Polygons by Van
+  /// Oosterom & Strackee's formula over a triangle fan, which stays accurate
+  /// for tiny regions because the triple products are exact.
+  [[nodiscard]] double solid_angle() const;
+
+  [[nodiscard]] bool contains(const Eigen::Vector3d& w) const noexcept;
+  /// Exactly.
+  [[nodiscard]] bool contains(const IntegerVector& w) const noexcept;
+
+  /// A uniform draw from the cone's part of the unit sphere (Arvo 1995 on a
+  /// triangle fan; lune and hemisphere directly).
+  [[nodiscard]] Eigen::Vector3d sample(RandomStream& random) const;
+
+  /// Same set.
+  friend bool operator==(const Cone& a, const Cone& b) { return a.minimal_set() == b.minimal_set(); }
+
+ private:
+  std::vector<HalfSpace> facets_;
+  // Extreme rays of a polygon: rays_[i] lies on facets i and i+1 (cyclic). Empty below 3 facets.
+  std::vector<IntegerVector> rays_;
+};
+
+/// The irredundant half-spaces of the set, sorted lexicographically, or nothing
+/// if the intersection has no interior.
+[[nodiscard]] std::optional<std::vector<HalfSpace>> minimal_set(std::span<const HalfSpace> half_spaces);
+
+/// Whether the intersection has interior points.
+[[nodiscard]] bool has_interior(std::span<const HalfSpace> half_spaces);
+
+/// Solid angle of the intersection in steradian; 0 if it has no interior.
+[[nodiscard]] double solid_angle(std::span<const HalfSpace> half_spaces);
+
+/// A smallest subset of the half-spaces whose intersection has no interior
+/// (no half-space can be left out), in the given order; empty if the whole set
+/// has interior points. Names a clash to people.
+[[nodiscard]] std::vector<HalfSpace> irreducible_conflict(std::span<const HalfSpace> half_spaces);
+
+}  // namespace kith

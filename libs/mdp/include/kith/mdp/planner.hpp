@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kith/mdp/mdp.hpp"
+
+namespace kith {
+
+/// A path through an Mdp: states[0] -actions[0]-> states[1] ... ; the last state
+/// is terminal if the path is complete. states has one entry more than actions.
+struct Trajectory {
+  std::vector<StateIndex> states;
+  std::vector<ActionIndex> actions;
+
+  friend bool operator==(const Trajectory&, const Trajectory&) = default;
+};
+
+/// The optimal values and actions of a deterministic, undiscounted, integral
+/// Mdp under integer reward weights; exact, ties included.
+///
+/// values[s] = max over paths from s to a terminal state of weights . mu(path).
+struct ExactSolution {
+  std::vector<std::int64_t> values;  ///< Shape [num_states + num_terminals]; 0 at terminals.
+  /// Indices into mdp.choices(s) of the first optimal choice in canonical action order, shape [num_states].
+  std::vector<std::uint32_t> canonical_choice;
+  /// Feature counts mu of the canonical path from s, shape [num_states + num_terminals].
+  std::vector<IntegerVector> feature_counts;
+};
+
+/// Why there is no optimal policy with a finite value.
+enum class PlanFailure {
+  kPositiveCycle,   ///< Some cycle earns a positive reward: the optimum is infinite.
+  kZeroCycle,       ///< Some cycle earns exactly nothing: never finishing is as good as finishing.
+  kNoTerminal,      ///< From some state no terminal state can be reached.
+};
+
+struct ExactPlan {
+  std::optional<ExactSolution> solution;
+  std::optional<PlanFailure> failure;       ///< Set iff there is no solution.
+  std::vector<StateIndex> cycle;            ///< For cycles: the states on it, in order. For kNoTerminal: one such state.
+};
+
+/// Bellman-Ford from the terminal states with exact detection of positive and
+/// zero cycles. Among equally good actions the first in action order is
+/// canonical. The canonical policy always terminates (ties are resolved among
+/// optimal actions, whose graph has no cycle).
+/// @throws std::invalid_argument unless the Mdp is deterministic, integral, has discount 1 and weights.size() == d.
+[[nodiscard]] ExactPlan plan_exactly(const Mdp& mdp, const IntegerVector& weights);
+
+/// The same under real weights, as a learner may hold them. Values within
+/// `tolerance` * max(1, |V|) count as equal; a cycle counts as positive if it
+/// gains more than that. Weights need not be normalised.
+struct RealSolution {
+  std::vector<double> values;  ///< Shape [num_states + num_terminals].
+  std::vector<std::uint32_t> canonical_choice;
+  std::vector<IntegerVector> feature_counts;
+};
+[[nodiscard]] std::optional<RealSolution> plan(const Mdp& mdp, std::span<const double> weights,
+                                               double tolerance = 1e-9);
+
+/// Whether choice `c` of state `s` is optimal within the tolerance of plan().
+[[nodiscard]] bool is_optimal_choice(const Mdp& mdp, const RealSolution& solution, std::span<const double> weights,
+                                     StateIndex s, std::size_t c, double tolerance = 1e-9);
+
+/// For every state the feature counts of that trajectory which, among the
+/// trajectories optimal for the learner's weights, earns most under the robot's
+/// weights: the benefit of the doubt, by a second dynamic programme over the
+/// learner's optimal actions. Shape [num_states + num_terminals].
+[[nodiscard]] std::vector<IntegerVector> best_for_robot(const Mdp& mdp, const RealSolution& learner,
+                                                        std::span<const double> learner_weights,
+                                                        const IntegerVector& robot_weights, double tolerance = 1e-9);
+
+/// The canonical path of a solution from `start` to its terminal state.
+[[nodiscard]] Trajectory canonical_trajectory(const Mdp& mdp, std::span<const std::uint32_t> canonical_choice,
+                                              StateIndex start);
+
+/// Value iteration for the general case: stochastic, discounted or not.
+struct ValueIterationOptions {
+  double tolerance = 1e-12;      ///< Stop when no value changes by more than tolerance * max(1, largest |V|).
+  std::size_t max_sweeps = 0;    ///< 0: as many as the discount needs; num_states + 1 when undiscounted and deterministic.
+};
+struct ValueIterationResult {
+  std::vector<double> values;    ///< Shape [num_states + num_terminals].
+  std::vector<std::uint32_t> greedy_choice;
+  std::size_t sweeps = 0;
+  bool converged = false;        ///< False: no finite optimum was found within the sweeps.
+};
+[[nodiscard]] ValueIterationResult value_iteration(const Mdp& mdp, std::span<const double> weights,
+                                                   const ValueIterationOptions& options = {});
+
+/// Expected (discounted) feature counts mu_pi(s) of the policy that takes
+/// `choice[s]`, by iterating mu = E[phi + discount * mu']. Row-major, shape
+/// [num_states + num_terminals, num_features].
+[[nodiscard]] std::vector<double> feature_expectations(const Mdp& mdp, std::span<const std::uint32_t> choice,
+                                                       double tolerance = 1e-12);
+
+}  // namespace kith
