@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kith/core/diagnostic.hpp"
@@ -28,7 +29,8 @@ class Error : public std::runtime_error {
   Error(ErrorKind kind, const std::string& message, std::vector<Diagnostic> diagnostics)
       : std::runtime_error{message}, kind_{kind}, diagnostics_{std::move(diagnostics)} {}
 
-  /// Invalid or, if every error is, infeasible input, described by its diagnostics.
+  /// Invalid or, if every error is, infeasible input, described by its
+  /// diagnostics; what() is their text, without the last line break.
   explicit Error(std::vector<Diagnostic> diagnostics);
 
   [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
