@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "kith/random/stream.hpp"
@@ -12,30 +13,45 @@ namespace kith {
 // implementations. Each takes the stream last and documents its draws.
 
 /// Uniform on [0, 1) with 53 random bits; 2 draws of 32 bits.
-[[nodiscard]] double uniform01(RandomStream& random) noexcept;
+[[nodiscard]] inline double uniform01(RandomStream& random) noexcept {
+  const std::uint64_t upper = random() >> 5;  // 27 bits
+  const std::uint64_t lower = random() >> 6;  // 26 bits
+  return static_cast<double>((upper << 26) | lower) * 0x1.0p-53;
+}
 
-/// Uniform on {0, ..., n-1} without bias (Lemire 2019). @pre n > 0.
+/// Uniform on {0, ..., n-1} without bias: multiply, keep the upper word, reject
+/// the few products that would favour an index [lemire2019]. 1 draw of 32 bits
+/// if n <= 2^32, else 2, and as many again after a rejection.
+/// @throws std::invalid_argument if n == 0.
 [[nodiscard]] std::size_t uniform_index(std::size_t n, RandomStream& random);
 
 /// A standard normal deviate (Box-Muller, the cosine branch; 4 draws).
 [[nodiscard]] double standard_normal(RandomStream& random) noexcept;
 
-/// Fills `out` with independent standard normals (Box-Muller, both branches).
+/// Fills `out` with independent standard normals (Box-Muller, both branches;
+/// 4 draws for two values, the last branch of an odd size is dropped).
 /// The values depend on the stream and out.size() only.
 void fill_standard_normal(std::span<double> out, RandomStream& random) noexcept;
 
-/// |N(0, sigma^2)|; mean sigma * sqrt(2 / pi). @pre sigma >= 0.
+/// |N(0, sigma^2)|; mean sigma * sqrt(2 / pi); 4 draws.
+/// @throws std::invalid_argument unless sigma is >= 0 and finite.
 [[nodiscard]] double half_normal(double sigma, RandomStream& random);
 
-/// Index i with probability weights[i] / sum. Weights are >= 0 with a positive, finite sum.
+/// Index i with probability weights[i] / sum; 2 draws. Never an index of weight 0.
+/// Weights are >= 0 with a positive, finite sum.
 /// @throws std::invalid_argument otherwise.
 [[nodiscard]] std::size_t categorical(std::span<const double> weights, RandomStream& random);
 
-/// A uniform point of the unit sphere in three dimensions (Archimedes: z and azimuth uniform).
+/// A uniform point of the unit sphere in three dimensions (Archimedes: z and azimuth uniform; 4 draws).
 [[nodiscard]] std::array<double, 3> uniform_on_sphere(RandomStream& random) noexcept;
 
 /// A von Mises-Fisher draw on the sphere in three dimensions with unit mean
-/// direction and concentration kappa >= 0 (Jakob 2012, closed-form inverse).
-[[nodiscard]] std::array<double, 3> von_mises_fisher(std::span<const double, 3> mean, double kappa, RandomStream& random);
+/// direction and concentration kappa >= 0: density proportional to
+/// exp(kappa mean . x). Closed-form inverse of [jakob2012], written with expm1
+/// and log1p so that it holds from kappa = 0 (uniform) to 1e300; 4 draws.
+/// @param mean shape [3], length 1.
+/// @throws std::invalid_argument unless kappa is >= 0 and finite.
+[[nodiscard]] std::array<double, 3> von_mises_fisher(std::span<const double, 3> mean, double kappa,
+                                                     RandomStream& random);
 
 }  // namespace kith

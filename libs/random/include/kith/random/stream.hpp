@@ -40,7 +40,10 @@ class RandomStream {
   [[nodiscard]] RandomStream split(std::string_view name) const noexcept { return split(stream_tag(name)); }
 
   /// The next 32 random bits.
-  result_type operator()() noexcept;
+  result_type operator()() noexcept {
+    if (next_ == 4) refill();
+    return block_.v[next_++];
+  }
 
   /// Identifies the stream's address; equal for equal paths, whatever was drawn.
   [[nodiscard]] std::uint64_t address() const noexcept;
@@ -50,6 +53,7 @@ class RandomStream {
 
  private:
   explicit RandomStream(r123::Philox4x32::key_type key) noexcept : key_{key} {}
+  void refill() noexcept;
 
   r123::Philox4x32::key_type key_;
   std::uint64_t counter_ = 0;
