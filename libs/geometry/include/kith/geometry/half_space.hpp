@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <compare>
-#include <vector>
+#include <cstddef>
+#include <functional>
 
 #include "kith/core/integer_vector.hpp"
 
@@ -16,22 +16,25 @@ namespace kith {
 /// prefer feature counts mu_a to mu_b satisfy (mu_a - mu_b) . w >= 0
 /// [brown2019machine]. On the unit sphere the set is a closed hemisphere.
 ///
-/// Dimension d = number of reward features; no units.
+/// Three dimensions (d = 3 reward features; a domain with fewer pads with
+/// zeros); no units.
 class HalfSpace {
  public:
-  /// @throws std::invalid_argument if `normal` is zero or an entry is beyond +-2^31.
+  /// @throws std::invalid_argument if `normal` is zero, has not three entries, or
+  /// if an entry of its canonical form is 2^31 or more in magnitude.
   explicit HalfSpace(const IntegerVector& normal);
 
-  /// The canonical normal, shape [d].
+  /// The canonical normal, shape [3].
   [[nodiscard]] const IntegerVector& normal() const noexcept { return normal_; }
   /// The normal at length 1, shape [3].
   [[nodiscard]] const Eigen::Vector3d& unit_normal() const noexcept { return unit_; }
 
   /// Signed sine of the angle from the boundary great circle; in [-1, 1] for a unit vector w.
   [[nodiscard]] double margin(const Eigen::Vector3d& w) const noexcept { return unit_.dot(w); }
+  /// In double precision: margin(w) >= 0.
   [[nodiscard]] bool contains(const Eigen::Vector3d& w) const noexcept { return margin(w) >= 0.0; }
-  /// Exactly, for an integer direction.
-  [[nodiscard]] bool contains(const IntegerVector& w) const noexcept { return sign_of_dot(normal_, w) >= 0; }
+  /// Exactly, for an integer direction, shape [3].
+  [[nodiscard]] bool contains(const IntegerVector& w) const { return sign_of_dot(normal_, w) >= 0; }
 
   /// The half-space on the other side of the same boundary.
   [[nodiscard]] HalfSpace opposite() const { return HalfSpace{-normal_}; }
@@ -48,5 +51,7 @@ class HalfSpace {
 
 template <>
 struct std::hash<kith::HalfSpace> {
-  std::size_t operator()(const kith::HalfSpace& h) const noexcept { return std::hash<kith::IntegerVector>{}(h.normal()); }
+  std::size_t operator()(const kith::HalfSpace& h) const noexcept {
+    return std::hash<kith::IntegerVector>{}(h.normal());
+  }
 };

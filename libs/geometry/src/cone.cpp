@@ -1,0 +1,226 @@
+// Cones by clipping. A polygon keeps, beside its facets f_0, ..., f_(n-1), the
+// extreme rays r_i = f_i x f_(i+1) (cyclic, divided by their gcd), so that facet i
+// spans the arc from r_(i-1) to r_i. A new half-space c is compared with the
+// rays only: the exact signs of c . r_i tell which facets survive.
+
+#include "kith/geometry/cone.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace kith {
+namespace {
+
+// a . b for three entries. Rays stay below 2^63 and normals below 2^31, so 128 bits hold it.
+Int128 dot3(const IntegerVector& a, const IntegerVector& b) {
+  return Int128{a[0]} * b[0] + Int128{a[1]} * b[1] + Int128{a[2]} * b[2];
+}
+
+int side(const HalfSpace& half_space, const IntegerVector& ray) { return sign(dot3(half_space.normal(), ray)); }
+
+IntegerVector axis(std::size_t k) {
+  IntegerVector e(3);
+  e[k] = 1;
+  return e;
+}
+
+std::size_t first_nonzero(const IntegerVector& v) {
+  std::size_t k = 0;
+  while (v[k] == 0) ++k;
+  return k;
+}
+
+IntegerVector common_ray(const HalfSpace& a, const HalfSpace& b) { return primitive(cross(a.normal(), b.normal())); }
+
+// A lune's edge is the line along +-edge. rays[i] lies inside facet i alone, so
+// that the lune is the line plus the combinations of the two. The cross product
+// with an axis, rather than with the edge, keeps the entries small.
+struct LuneFrame {
+  IntegerVector edge;
+  std::array<IntegerVector, 2> rays;
+};
+
+LuneFrame lune_frame(const HalfSpace& first, const HalfSpace& second) {
+  const IntegerVector edge = common_ray(first, second);
+  const std::size_t k = first_nonzero(edge);
+  const IntegerVector e = edge[k] > 0 ? axis(k) : -axis(k);
+  return {edge, {cross(e, first.normal()), cross(second.normal(), e)}};
+}
+
+// Divides by the gcd in 128 bits; only then must the entries fit into 64.
+IntegerVector narrowed(std::array<Int128, 3> v) {
+  Int128 divisor = 0;
+  for (Int128 x : v) {
+    x = x < 0 ? -x : x;
+    while (x != 0) divisor = std::exchange(x, divisor % x);
+  }
+  IntegerVector result(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Int128 x = v[k] / divisor;
+    if (x < std::numeric_limits<std::int64_t>::min() || x > std::numeric_limits<std::int64_t>::max()) {
+      throw std::overflow_error{"Cone::interior_direction: an entry leaves 64 bits"};
+    }
+    result[k] = static_cast<std::int64_t>(x);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Cone> Cone::intersection(std::span<const HalfSpace> half_spaces) {
+  Cone cone;
+  for (const HalfSpace& half_space : half_spaces) {
+    if (!cone.clip(half_space)) return std::nullopt;
+  }
+  return cone;
+}
+
+std::optional<Cone> Cone::clipped(const HalfSpace& half_space) const {
+  Cone cone = *this;
+  if (!cone.clip(half_space)) return std::nullopt;
+  return cone;
+}
+
+bool Cone::clip(const HalfSpace& half_space) {
+  switch (facets_.size()) {
+    case 0:
+      facets_.push_back(half_space);
+      return true;
+    case 1:
+      if (facets_.front() == half_space) return true;
+      if (facets_.front().normal() == -half_space.normal()) return false;
+      facets_.push_back(half_space);
+      return true;
+    case 2:
+      return clip_lune(half_space);
+    default:
+      return clip_polygon(half_space);
+  }
+}
+
+bool Cone::clip_lune(const HalfSpace& half_space) {
+  const auto [edge, rays] = lune_frame(facets_[0], facets_[1]);
+  const int along_edge = side(half_space, edge);
+  if (along_edge != 0) {
+    to_triangle(half_space, along_edge);
+    return true;
+  }
+  // All three normals lie in one plane, where the lune is the wedge between its two rays.
+  const int first = side(half_space, rays[0]);
+  const int second = side(half_space, rays[1]);
+  if (first >= 0 && second >= 0) return true;
+  if (first <= 0 && second <= 0) return false;
+  facets_[first > 0 ? 1 : 0] = half_space;
+  return true;
+}
+
+void Cone::to_triangle(const HalfSpace& half_space, int orientation) {
+  if (orientation < 0) std::swap(facets_[0], facets_[1]);
+  facets_.push_back(half_space);
+  for (std::size_t i = 0; i < 3; ++i) rays_.push_back(common_ray(facets_[i], facets_[(i + 1) % 3]));
+}
+
+bool Cone::clip_polygon(const HalfSpace& half_space) {
+  const std::size_t n = rays_.size();
+  const auto inside = [&](std::size_t i) { return side(half_space, rays_[i]) > 0; };
+  const auto first_if = [&](std::size_t from, auto claim) {
+    while (from < n && !claim(from)) ++from;
+    return from;
+  };
+
+  const std::size_t cut = first_if(0, [&](std::size_t i) { return side(half_space, rays_[i]) < 0; });
+  if (cut == n) return true;
+  // The rays strictly inside are consecutive (convexity), and `cut` is not one of
+  // them: they start at the first one after it, cyclically.
+  std::size_t begin = first_if(cut + 1, inside);
+  if (begin == n) begin = first_if(0, inside);
+  if (begin == n) return false;
+  if (begin > 0) {
+    const auto shift = static_cast<std::ptrdiff_t>(begin);
+    std::rotate(facets_.begin(), facets_.begin() + shift, facets_.end());
+    std::rotate(rays_.begin(), rays_.begin() + shift, rays_.end());
+  }
+  const std::size_t kept = first_if(0, [&](std::size_t i) { return !inside(i); });
+  // Facets 0 .. kept still have an end inside; the rest is replaced by the new one.
+  facets_.erase(facets_.begin() + static_cast<std::ptrdiff_t>(kept) + 1, facets_.end());
+  facets_.push_back(half_space);
+  rays_.erase(rays_.begin() + static_cast<std::ptrdiff_t>(kept), rays_.end());
+  rays_.push_back(common_ray(facets_[kept], half_space));
+  rays_.push_back(common_ray(half_space, facets_[0]));
+  return true;
+}
+
+bool Cone::implies(const HalfSpace& half_space) const {
+  if (facets_.empty()) return false;
+  if (facets_.size() == 1) return facets_.front() == half_space;
+  if (facets_.size() == 2) {
+    const auto [edge, rays] = lune_frame(facets_[0], facets_[1]);
+    return side(half_space, edge) == 0 && side(half_space, rays[0]) >= 0 && side(half_space, rays[1]) >= 0;
+  }
+  return std::all_of(rays_.begin(), rays_.end(), [&](const IntegerVector& ray) { return side(half_space, ray) >= 0; });
+}
+
+bool Cone::is_cut_by(const HalfSpace& half_space) const {
+  return !implies(half_space) && !implies(half_space.opposite());
+}
+
+std::vector<HalfSpace> Cone::minimal_set() const {
+  std::vector<HalfSpace> sorted = facets_;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+std::vector<IntegerVector> Cone::generators() const {
+  std::vector<IntegerVector> result = rays_;
+  const auto add_line = [&](const IntegerVector& v) {
+    result.push_back(v);
+    result.push_back(-v);
+  };
+  if (facets_.empty()) {
+    for (std::size_t k = 0; k < 3; ++k) add_line(axis(k));
+  } else if (facets_.size() == 1) {
+    const IntegerVector& normal = facets_.front().normal();
+    const std::size_t k = first_nonzero(normal);
+    result.push_back(normal);
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (j != k) add_line(primitive(cross(axis(j), normal)));
+    }
+  } else if (facets_.size() == 2) {
+    const auto [edge, rays] = lune_frame(facets_[0], facets_[1]);
+    result.assign({primitive(rays[0]), primitive(rays[1])});
+    add_line(edge);
+  }
+  return result;
+}
+
+IntegerVector Cone::interior_direction() const {
+  if (facets_.empty()) return axis(2);
+  if (facets_.size() == 1) return facets_.front().normal();
+  if (facets_.size() == 2) {
+    const LuneFrame frame = lune_frame(facets_[0], facets_[1]);
+    return primitive(frame.rays[0] + frame.rays[1]);
+  }
+  std::array<Int128, 3> sum{};
+  for (const IntegerVector& ray : rays_) {
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += ray[k];
+  }
+  return narrowed(sum);
+}
+
+bool Cone::contains(const Eigen::Vector3d& w) const noexcept {
+  return std::all_of(facets_.begin(), facets_.end(), [&](const HalfSpace& facet) { return facet.contains(w); });
+}
+
+bool Cone::contains(const IntegerVector& w) const {
+  return std::all_of(facets_.begin(), facets_.end(), [&](const HalfSpace& facet) { return facet.contains(w); });
+}
+
+bool operator==(const Cone& a, const Cone& b) {
+  if (a.facets_.size() != b.facets_.size()) return false;
+  return std::is_permutation(a.facets_.begin(), a.facets_.end(), b.facets_.begin());
+}
+
+}  // namespace kith
