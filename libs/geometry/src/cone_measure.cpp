@@ -1,5 +1,6 @@
 // Areas, and the area-preserving map from the unit square onto a cone.
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
