@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,9 @@ class CoverageSets {
   /// In its interior all cycles lose. Nothing outside is covered.
   [[nodiscard]] const Cone& finite_region() const noexcept { return finite_region_; }
   /// Feature counts, sorted lexicographically. Every one is the unique optimum of some weight inside finite_region().
+  /// @throws std::invalid_argument if s is terminal.
   [[nodiscard]] std::span<const IntegerVector> vertices(StateIndex s) const;
-  /// Sum over states of the number of vertices.
+  /// Sum over non-terminal states of the number of vertices.
   [[nodiscard]] std::size_t num_vertices() const noexcept { return vertices_.size(); }
 
  private:
@@ -36,12 +38,15 @@ class CoverageSets {
 /// still gain, and each cuts the cone. Then sets of feature counts are swept from
 /// the terminal states, candidates phi + V(s') pruned to those optimal somewhere
 /// inside the finite region, until nothing changes.
-/// @throws std::invalid_argument unless the Mdp is deterministic, integral, undiscounted with three features.
-/// @throws kith::Error (kInfeasible) if no weights have a finite optimum.
+/// @throws std::invalid_argument unless the Mdp is deterministic, integral, undiscounted with three features,
+/// or if feature counts or values could leave their exact range (2^31, 2^60).
+/// @throws kith::Error (kInfeasible) if the weights with a finite optimum have no interior, if the features of a cycle
+/// sum to zero (it costs nothing under any weights), or if some state cannot reach a terminal one.
 [[nodiscard]] CoverageSets coverage_sets(const Mdp& mdp);
 
 /// The vectors that are the unique maximiser of w . v for some w inside
 /// `region`, sorted lexicographically. Duplicates are dropped.
+/// @throws std::invalid_argument unless all vectors have three entries.
 [[nodiscard]] std::vector<IntegerVector> upper_hull(std::span<const IntegerVector> vectors, const Cone& region);
 
 }  // namespace kith

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "kith/core/index.hpp"
@@ -29,6 +30,13 @@ struct Choice {
   std::uint32_t num_outcomes = 0;
 };
 
+/// One way into a state: the other end of an Outcome.
+struct Arrival {
+  StateIndex from;
+  std::uint32_t choice = 0;       ///< Position in choices(from).
+  std::uint32_t feature_row = 0;  ///< Row of the Mdp's feature table.
+};
+
 /// A finite Markov decision process without a reward: states, legal actions,
 /// transition probabilities and a feature vector phi(s, a, s') per transition.
 /// A reward is added by weights w, R = w . phi.
@@ -51,6 +59,7 @@ class Mdp {
   [[nodiscard]] bool is_terminal(StateIndex s) const noexcept { return s.value() >= num_states(); }
 
   /// Legal actions of a non-terminal state, in the canonical action order.
+  /// @throws std::invalid_argument if s is terminal.
   [[nodiscard]] std::span<const Choice> choices(StateIndex s) const;
   [[nodiscard]] std::span<const Outcome> outcomes(const Choice& choice) const;
   /// phi of an outcome, shape [num_features].
@@ -58,9 +67,22 @@ class Mdp {
   /// The same as integers. @pre is_integral().
   [[nodiscard]] const IntegerVector& integer_features(const Outcome& outcome) const;
 
+  /// Number of distinct feature vectors, the rows of the feature table.
+  [[nodiscard]] std::size_t num_feature_rows() const noexcept { return num_rows_; }
+  /// phi of a row, shape [num_features].
+  [[nodiscard]] std::span<const double> feature_row(std::size_t row) const;
+  /// The same as integers. @pre is_integral().
+  [[nodiscard]] const IntegerVector& integer_feature_row(std::size_t row) const;
+
+  /// All ways into a state, terminal or not, ordered by the state they come from.
+  [[nodiscard]] std::span<const Arrival> arrivals(StateIndex s) const;
+  /// The non-terminal states from which some terminal state can be reached, by
+  /// increasing number of steps to the nearest one: the order for backward sweeps.
+  [[nodiscard]] std::span<const StateIndex> by_distance() const noexcept { return by_distance_; }
+
   /// Whether every choice has exactly one outcome.
   [[nodiscard]] bool is_deterministic() const noexcept { return deterministic_; }
-  /// Whether every feature of every transition is an integer.
+  /// Whether every feature of every transition is an integer below 2^31 in size.
   [[nodiscard]] bool is_integral() const noexcept { return integral_; }
   /// Whether feature k is non-zero on some transition.
   [[nodiscard]] bool has_feature(std::size_t k) const { return has_feature_[k]; }
@@ -68,10 +90,13 @@ class Mdp {
  private:
   friend class MdpBuilder;
   Mdp() = default;
+  void index_arrivals();
+  void order_by_distance();
 
   std::size_t num_terminals_ = 0;
   std::size_t num_actions_ = 0;
   std::size_t num_features_ = 0;
+  std::size_t num_rows_ = 0;
   double discount_ = 1.0;
   bool deterministic_ = true;
   bool integral_ = true;
@@ -79,15 +104,19 @@ class Mdp {
   std::vector<std::uint32_t> first_choice_;  // shape [num_states + 1]
   std::vector<Choice> choices_;
   std::vector<Outcome> outcomes_;
-  std::vector<double> feature_table_;          // row-major, shape [rows, num_features]
-  std::vector<IntegerVector> integer_table_;   // shape [rows]; empty unless integral
+  std::vector<double> feature_table_;         // row-major, shape [rows, num_features]
+  std::vector<IntegerVector> integer_table_;  // shape [rows]; empty unless integral
+  std::vector<std::uint32_t> first_arrival_;  // shape [num_states + num_terminals + 1]
+  std::vector<Arrival> arrivals_;
+  std::vector<StateIndex> by_distance_;
 };
 
 /// Collects states in order and makes an Mdp. Choices of state s are added after
 /// those of all states before s.
 class MdpBuilder {
  public:
-  /// @throws std::invalid_argument unless discount in (0, 1] and 1 <= num_features <= IntegerVector::kMaxDimension.
+  /// @throws std::invalid_argument unless discount in (0, 1], 1 <= num_features <= IntegerVector::kMaxDimension
+  /// and there are fewer than 2^32 states.
   MdpBuilder(std::size_t num_states, std::size_t num_terminals, std::size_t num_actions, std::size_t num_features,
              double discount);
 
@@ -97,16 +126,21 @@ class MdpBuilder {
     std::vector<double> features;  ///< phi(s, a, next), shape [num_features]
   };
 
-  /// Adds a legal action of state `s`. Probabilities must sum to 1 within 1e-9.
+  /// Adds a legal action of state `s`. Probabilities are positive and sum to 1 within 1e-9. A state may stay
+  /// without choices: a dead end.
   /// @throws std::invalid_argument if s or an index is out of range, s or the action comes out of order, the
-  /// features have the wrong length or are not finite, or the probabilities do not sum to 1.
+  /// features have the wrong length or are not finite, a probability is not positive, they do not sum to 1,
+  /// or no transition leaves `s`.
   void add_choice(StateIndex s, ActionIndex action, std::span<const Transition> transitions);
 
+  /// The process with the choices added so far; the builder is used up.
   [[nodiscard]] Mdp build() &&;
 
  private:
+  std::uint32_t row_of(const std::vector<double>& features);
+
   Mdp mdp_;
-  std::vector<std::vector<double>> rows_;
+  std::map<std::vector<double>, std::uint32_t> rows_;
   std::optional<std::size_t> last_state_;
   std::optional<std::size_t> last_action_;
 };

@@ -32,32 +32,39 @@ struct ExactSolution {
 
 /// Why there is no optimal policy with a finite value.
 enum class PlanFailure {
-  kPositiveCycle,   ///< Some cycle earns a positive reward: the optimum is infinite.
-  kZeroCycle,       ///< Some cycle earns exactly nothing: never finishing is as good as finishing.
-  kNoTerminal,      ///< From some state no terminal state can be reached.
+  kPositiveCycle,  ///< Some cycle earns a positive reward: the optimum is infinite.
+  kZeroCycle,      ///< Some cycle earns exactly nothing: never finishing is as good as finishing.
+  kNoTerminal,     ///< From some state no terminal state can be reached.
 };
 
+/// What plan_exactly() found: a solution, or why there is none and where.
 struct ExactPlan {
   std::optional<ExactSolution> solution;
-  std::optional<PlanFailure> failure;       ///< Set iff there is no solution.
-  std::vector<StateIndex> cycle;            ///< For cycles: the states on it, in order. For kNoTerminal: one such state.
+  std::optional<PlanFailure> failure;  ///< Set iff there is no solution.
+  std::vector<StateIndex> cycle;       ///< For cycles: the states on it, in order. For kNoTerminal: one such state.
 };
 
 /// Bellman-Ford from the terminal states with exact detection of positive and
 /// zero cycles. Among equally good actions the first in action order is
 /// canonical. The canonical policy always terminates (ties are resolved among
 /// optimal actions, whose graph has no cycle).
-/// @throws std::invalid_argument unless the Mdp is deterministic, integral, has discount 1 and weights.size() == d.
+/// @throws std::invalid_argument unless the Mdp is deterministic, integral, has discount 1 and weights.size() == d,
+/// or if weights are so large (about 2^60 / num_states per step) that values could overflow.
 [[nodiscard]] ExactPlan plan_exactly(const Mdp& mdp, const IntegerVector& weights);
 
-/// The same under real weights, as a learner may hold them. Values within
+/// The optimal values and actions under real weights, as a learner may hold them. Values within
 /// `tolerance` * max(1, |V|) count as equal; a cycle counts as positive if it
 /// gains more than that. Weights need not be normalised.
 struct RealSolution {
-  std::vector<double> values;  ///< Shape [num_states + num_terminals].
-  std::vector<std::uint32_t> canonical_choice;
-  std::vector<IntegerVector> feature_counts;
+  std::vector<double> values;                   ///< Shape [num_states + num_terminals].
+  std::vector<std::uint32_t> canonical_choice;  ///< Shape [num_states]; first optimal choice within the tolerance.
+  std::vector<IntegerVector> feature_counts;    ///< Of the canonical path, shape [num_states + num_terminals].
 };
+
+/// plan_exactly() for real weights; nothing if there is no optimal policy with
+/// a finite value, or if a cycle earns nothing within the tolerance.
+/// @throws std::invalid_argument unless the Mdp is deterministic, integral, has discount 1, weights.size() == d, the
+/// weights are finite and tolerance >= 0.
 [[nodiscard]] std::optional<RealSolution> plan(const Mdp& mdp, std::span<const double> weights,
                                                double tolerance = 1e-9);
 
@@ -69,31 +76,51 @@ struct RealSolution {
 /// trajectories optimal for the learner's weights, earns most under the robot's
 /// weights: the benefit of the doubt, by a second dynamic programme over the
 /// learner's optimal actions. Shape [num_states + num_terminals].
+/// @pre `learner` solves `mdp` for `learner_weights` with at least this tolerance.
+/// @throws std::invalid_argument if lengths do not fit, or the optimal actions form a cycle under this tolerance.
 [[nodiscard]] std::vector<IntegerVector> best_for_robot(const Mdp& mdp, const RealSolution& learner,
                                                         std::span<const double> learner_weights,
                                                         const IntegerVector& robot_weights, double tolerance = 1e-9);
 
 /// The canonical path of a solution from `start` to its terminal state.
+/// @throws std::invalid_argument unless the Mdp is deterministic and the choices exist and lead to a terminal state.
 [[nodiscard]] Trajectory canonical_trajectory(const Mdp& mdp, std::span<const std::uint32_t> canonical_choice,
                                               StateIndex start);
 
-/// Value iteration for the general case: stochastic, discounted or not.
+/// When value_iteration() stops.
 struct ValueIterationOptions {
-  double tolerance = 1e-12;      ///< Stop when no value changes by more than tolerance * max(1, largest |V|).
-  std::size_t max_sweeps = 0;    ///< 0: as many as the discount needs; num_states + 1 when undiscounted and deterministic.
+  double tolerance = 1e-12;  ///< Stop when no value changes by more than tolerance * max(1, largest |V|).
+  /// 0: as many as the discount needs to forget the start; num_states + 1 when undiscounted and deterministic;
+  /// 1000 * (num_states + 1) when undiscounted and stochastic.
+  std::size_t max_sweeps = 0;
 };
+
+/// What value_iteration() found.
 struct ValueIterationResult {
-  std::vector<double> values;    ///< Shape [num_states + num_terminals].
+  std::vector<double> values;  ///< Shape [num_states + num_terminals].
+  /// First choice within 1e-9 * max(1, |V|) of the best, shape [num_states]; 0 in a dead end.
   std::vector<std::uint32_t> greedy_choice;
-  std::size_t sweeps = 0;
-  bool converged = false;        ///< False: no finite optimum was found within the sweeps.
+  std::size_t sweeps = 0;  ///< Including the last one, which changed nothing.
+  bool converged = false;  ///< False: no finite optimum was found within the sweeps.
 };
+
+/// Value iteration for the general case, stochastic or not, discounted or not:
+///   V(s) = max_a sum_s' p(s' | s, a) (w . phi(s, a, s') + discount V(s')),
+/// in place, nearest to a terminal state first. Starts at 0; at -infinity when
+/// undiscounted and deterministic, so that values only rise and |S| sweeps
+/// settle whether the optimum is finite. States that cannot finish (dead ends)
+/// keep -infinity and nothing has converged then.
+/// A cycle that earns exactly nothing does not prevent convergence here.
+/// @throws std::invalid_argument unless weights.size() == d, all are finite and tolerance > 0.
 [[nodiscard]] ValueIterationResult value_iteration(const Mdp& mdp, std::span<const double> weights,
                                                    const ValueIterationOptions& options = {});
 
 /// Expected (discounted) feature counts mu_pi(s) of the policy that takes
-/// `choice[s]`, by iterating mu = E[phi + discount * mu']. Row-major, shape
+/// `choice[s]`, by iterating mu = E[phi + discount * mu'] until a sweep changes no
+/// entry by more than tolerance * max(1, largest |mu|). Row-major, shape
 /// [num_states + num_terminals, num_features].
+/// @throws std::invalid_argument if a choice does not exist, tolerance <= 0, or the process is undiscounted and the
+/// policy cannot reach a terminal state from everywhere (the sums would be infinite).
 [[nodiscard]] std::vector<double> feature_expectations(const Mdp& mdp, std::span<const std::uint32_t> choice,
                                                        double tolerance = 1e-12);
 
