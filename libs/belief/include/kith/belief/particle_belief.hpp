@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "kith/belief/likelihood.hpp"
+#include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/random/stream.hpp"
 
@@ -14,16 +14,18 @@ namespace kith {
 
 /// How a particle belief is updated.
 struct FilterOptions {
-  std::size_t particles = 1000;   ///< M >= 1.
-  double process_noise = 0.1;     ///< eta: bandwidth factor a >= 0 of the kernel after resampling.
-  double resample_below = 0.5;    ///< Resample when effective sample size / M is below this; in [0, 1].
+  std::size_t particles = 1000;  ///< M >= 1.
+  double process_noise = 0.1;    ///< eta: bandwidth factor a >= 0 of the kernel after resampling.
+  double resample_below = 0.5;   ///< Resample when effective sample size / M is below this; in [0, 1].
+  friend bool operator==(const FilterOptions&, const FilterOptions&) = default;
 };
 
 /// A belief about the reward weights: M weighted points of the unit sphere in
 /// three dimensions, none of them outside the hard prior.
 ///
 /// An update multiplies the weights by the likelihoods of all half-spaces at
-/// once, in log space, and normalises. When the effective sample size
+/// once, in log space, and normalises. The log weights are kept, so no product
+/// underflows, however long. When the effective sample size
 /// 1 / sum p_i^2 falls below its threshold, the points are resampled
 /// systematically and each is moved by N(0, h^2) per axis in its tangent plane,
 ///   h = a * s * M^(-1/6),
@@ -35,6 +37,8 @@ class ParticleBelief {
   /// Uniform over the prior: exactly M points of a regular cover, weights 1/M.
   /// `prior` may be the whole sphere. @throws std::invalid_argument on bad options.
   ParticleBelief(const Cone& prior, const FilterOptions& options);
+  /// The same, from a cover made before. @throws std::invalid_argument also unless it has options.particles points.
+  ParticleBelief(const PriorCover& cover, const FilterOptions& options);
 
   [[nodiscard]] std::size_t size() const noexcept { return weights_.size(); }
   [[nodiscard]] std::span<const double> x() const noexcept { return x_; }
@@ -43,10 +47,11 @@ class ParticleBelief {
   /// Sum to 1. Shape [size()].
   [[nodiscard]] std::span<const double> weights() const noexcept { return weights_; }
   [[nodiscard]] Eigen::Vector3d point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-  [[nodiscard]] const FilterOptions& options() const noexcept { return *options_; }
+  [[nodiscard]] const FilterOptions& options() const noexcept { return options_; }
 
   /// Bayes update with the product of the half-spaces' likelihoods; an empty list changes nothing.
-  /// A half-space listed twice counts twice.
+  /// A half-space listed twice counts twice; the order does not change a bit. Without a resampling, `random`
+  /// is not used; with one, its first draw is the systematic offset and the rest moves the points.
   /// @throws kith::Error (kInfeasible), and leaves the belief as it was, if no particle remains possible.
   void observe(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, RandomStream random);
 
@@ -65,7 +70,8 @@ class ParticleBelief {
   [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces) const;
 
   /// log of the expected product of the likelihoods, log sum_i p_i prod_j p(x_i | c_j).
-  [[nodiscard]] double log_evidence(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) const;
+  [[nodiscard]] double log_evidence(std::span<const HalfSpace> half_spaces,
+                                    const HalfSpaceLikelihood& likelihood) const;
 
   /// 1 / sum p_i^2, in [1, size()].
   [[nodiscard]] double effective_sample_size() const noexcept;
@@ -85,8 +91,21 @@ class ParticleBelief {
   /// How often this belief was resampled so far.
   [[nodiscard]] std::size_t num_resamplings() const noexcept { return num_resamplings_; }
 
+  /// The same points, weights and options, bit for bit.
+  friend bool operator==(const ParticleBelief&, const ParticleBelief&) = default;
+
  private:
-  // ...: the implementer's
+  void reweigh(std::vector<double> log_factors, RandomStream random);
+  void normalise();
+  void resample(RandomStream& random);
+
+  FilterOptions options_;
+  std::vector<Eigen::Vector3d> prior_normals_;
+  std::vector<double> x_, y_, z_;
+  std::vector<double> log_weights_;  // up to a constant; the largest is 0
+  std::vector<double> weights_;      // exp(log_weights_) / their sum
+  double log_sum_ = 0.0;             // log of that sum
+  std::size_t num_resamplings_ = 0;
 };
 
 /// Systematic resampling (Kitagawa 1996): counts of each index among n strata of

@@ -1,0 +1,110 @@
+#include "kith/belief/particle_belief.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "kith/belief/team_belief.hpp"
+#include "kith/random/distributions.hpp"
+
+namespace kith {
+namespace {
+
+// n half-spaces that share the direction (1, 2, -4), as demonstrations of one robot do.
+std::vector<HalfSpace> half_spaces(std::size_t n) {
+  RandomStream random{1};
+  std::vector<HalfSpace> list;
+  while (list.size() < n) {
+    IntegerVector normal(3);
+    for (std::size_t k = 0; k < 3; ++k) normal[k] = static_cast<std::int64_t>(uniform_index(9, random)) - 4;
+    const IntegerVector inside{1, 2, -4};
+    if (dot(normal, inside) > 0) list.emplace_back(normal);
+  }
+  return list;
+}
+
+Cone prior() { return *Cone::intersection(std::vector{HalfSpace{{0, 0, -1}}}); }
+
+void update(benchmark::State& state, double resample_below, double process_noise) {
+  const auto list = half_spaces(static_cast<std::size_t>(state.range(0)));
+  const HalfSpaceLikelihood likelihood{0.8};
+  const ParticleBelief start{prior(), {.process_noise = process_noise, .resample_below = resample_below}};
+  ParticleBelief belief = start;
+  const RandomStream random{2};
+  std::uint64_t n = 0;
+  for (auto _ : state) {
+    belief.observe(list, likelihood, random.split(n++));
+    benchmark::DoNotOptimize(belief.weights().data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(belief.size()));
+  state.counters["resamplings"] =
+      benchmark::Counter(static_cast<double>(belief.num_resamplings()), benchmark::Counter::kAvgIterations);
+}
+
+// What does an update of 1 000 particles cost when it only weighs them?
+void BM_Weigh(benchmark::State& state) { update(state, 0.0, 0.1); }
+BENCHMARK(BM_Weigh)->Arg(1)->Arg(3)->Arg(8);
+
+// ... and when it always resamples and moves them as well?
+void BM_WeighResampleMove(benchmark::State& state) { update(state, 1.0, 0.1); }
+BENCHMARK(BM_WeighResampleMove)->Arg(1)->Arg(3)->Arg(8);
+
+void BM_WeighResample(benchmark::State& state) { update(state, 1.0, 0.0); }
+BENCHMARK(BM_WeighResample)->Arg(3);
+
+void BM_Diffuse(benchmark::State& state) {
+  ParticleBelief belief{prior(), {}};
+  const RandomStream random{2};
+  std::uint64_t n = 0;
+  for (auto _ : state) belief.diffuse(0.05, random.split(n++));
+}
+BENCHMARK(BM_Diffuse);
+
+// The baseline: one std::exp per particle and half-space, densities multiplied, then normalised.
+void BM_NaiveWeigh(benchmark::State& state) {
+  const auto list = half_spaces(static_cast<std::size_t>(state.range(0)));
+  const HalfSpaceLikelihood likelihood{0.8};
+  const ParticleBelief belief{prior(), {}};
+  std::vector<double> weights(belief.weights().begin(), belief.weights().end());
+  for (auto _ : state) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      for (const HalfSpace& h : list) weights[i] *= likelihood.density(h.margin(belief.point(i)));
+      sum += weights[i];
+    }
+    for (double& weight : weights) weight /= sum;
+    benchmark::DoNotOptimize(weights.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(weights.size()));
+}
+BENCHMARK(BM_NaiveWeigh)->Arg(1)->Arg(3)->Arg(8);
+
+void BM_CopyABelief(benchmark::State& state) {
+  const ParticleBelief belief{prior(), {}};
+  for (auto _ : state) benchmark::DoNotOptimize(ParticleBelief{belief});
+}
+BENCHMARK(BM_CopyABelief);
+
+void BM_MakeACover(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(PriorCover{prior(), 1000});
+}
+BENCHMARK(BM_MakeACover);
+
+// One period of a team of three: a lesson, answers of which one contradicts the others, and feedback.
+void BM_TeamPeriod(benchmark::State& state) {
+  const auto list = half_spaces(3);
+  const std::vector<std::vector<HalfSpace>> responses{list, {list[0].opposite()}, {list[1]}};
+  TeamBelief team{prior(), {}, {RandomStream{1}, RandomStream{2}, RandomStream{3}}, RandomStream{4}};
+  std::uint64_t period = 0;
+  for (auto _ : state) {
+    ++period;
+    team.observe_demonstrations(list, period);
+    benchmark::DoNotOptimize(team.observe_responses(responses, period));
+    team.observe_feedback(list, period);
+  }
+}
+BENCHMARK(BM_TeamPeriod);
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kith/geometry/cone.hpp"
+
+namespace kith {
+
+/// Where particle beliefs over one prior begin: exactly M points of a regular
+/// cover of the prior's part of the unit sphere, with the prior's facets. It
+/// depends on (prior, M) only and takes far longer to compute than to copy, so
+/// whoever builds many beliefs makes one and passes it around.
+class PriorCover {
+ public:
+  /// @param prior the hard prior; may be the whole sphere. @param particles M.
+  /// @throws std::invalid_argument if particles is 0.
+  PriorCover(Cone prior, std::size_t particles);
+
+  [[nodiscard]] const Cone& prior() const noexcept { return prior_; }
+  /// M.
+  [[nodiscard]] std::size_t size() const noexcept { return x_.size(); }
+  /// Coordinates of the points, shape [size()] each.
+  [[nodiscard]] const std::vector<double>& x() const noexcept { return x_; }
+  [[nodiscard]] const std::vector<double>& y() const noexcept { return y_; }
+  [[nodiscard]] const std::vector<double>& z() const noexcept { return z_; }
+  /// Unit normals of the prior's facets.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& normals() const noexcept { return normals_; }
+
+ private:
+  Cone prior_;
+  std::vector<double> x_, y_, z_;
+  std::vector<Eigen::Vector3d> normals_;
+};
+
+}  // namespace kith

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kith/belief/likelihood.hpp"
+#include "kith/geometry/half_space.hpp"
+#include "kith/random/stream.hpp"
+
+// The inner loops of the particle filter, over structures of arrays. They are
+// plain loops that the compiler vectorises; sums run in a fixed number of lanes,
+// so a result does not depend on the width of the machine's vectors.
+namespace kith::detail {
+
+// Points of the sphere as three arrays of equal length.
+struct Points {
+  std::span<const double> x, y, z;
+  [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+};
+struct MutablePoints {
+  std::span<double> x, y, z;
+  [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+};
+
+// One half-space's contribution to the exponent: t = u . p < 0 ? log_far + kappa t : 0.
+struct Plane {
+  double ux, uy, uz, log_far, kappa;
+};
+
+// The half-spaces as planes, sorted, with repetitions merged into one of a
+// multiple weight: so the order of the list cannot change the rounding.
+[[nodiscard]] std::vector<Plane> planes_of(std::span<const HalfSpace> half_spaces,
+                                           const HalfSpaceLikelihood& likelihood);
+
+// out[i] = the exponent of point i, summed over the planes: the log of the
+// product of relative likelihoods.
+void log_relative_products(const Points& points, std::span<const Plane> planes, std::span<double> out);
+
+// out[i] = exp(in[i] - shift) for in[i] <= shift, with 0 below exp(-708);
+// relative error below 1e-15. Returns the sum.
+double exp_below(std::span<const double> in, double shift, std::span<double> out);
+
+[[nodiscard]] double sum_of_squares(std::span<const double> values);
+[[nodiscard]] double largest(std::span<const double> values);
+
+// sum_i weights[i] points[i].
+[[nodiscard]] Eigen::Vector3d weighted_sum(const Points& points, std::span<const double> weights);
+
+// sum_i weights[i] angle(points[i], centre)^2, relative error below 1e-12.
+[[nodiscard]] double weighted_square_angles(const Points& points, std::span<const double> weights,
+                                            const Eigen::Vector3d& centre);
+
+// Sum of the weights of the points with normal . p >= 0 for all of the half-spaces.
+[[nodiscard]] double weight_inside(const Points& points, std::span<const double> weights,
+                                   std::span<const HalfSpace> half_spaces);
+
+// Moves every point by N(0, angle^2) per axis in its tangent plane, through the
+// exponential map. A move to where some normal . p < 0 is drawn again up to 20
+// times, else the point stays.
+void move_points(const MutablePoints& points, double angle, std::span<const Eigen::Vector3d> normals,
+                 RandomStream& random);
+
+}  // namespace kith::detail

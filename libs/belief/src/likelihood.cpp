@@ -1,0 +1,83 @@
+#include "kith/belief/likelihood.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace kith {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double checked_ability(double ability) {
+  if (!(ability >= 0.5 && ability <= 1.0)) {
+    throw std::invalid_argument("HalfSpaceLikelihood: the ability must lie in [0.5, 1], got " +
+                                std::to_string(ability));
+  }
+  return ability;
+}
+
+// The positive root of q k + exp(-k) - 1, for q = (1 - beta) / beta. The
+// function is convex and its root lies left of 1/q, so Newton's iteration from
+// there falls monotonically until rounding stops it.
+double continuous_concentration(double ability) {
+  if (ability <= 0.5) return 0.0;
+  if (ability >= 1.0) return kInfinity;
+  const double q = (1.0 - ability) / ability;
+  double k = 1.0 / q;
+  for (int step = 0; step < 200; ++step) {
+    const double slope = q - std::exp(-k);
+    const double next = k - (q * k + std::expm1(-k)) / slope;
+    if (!(slope > 0.0) || !(next < k)) break;
+    k = next;
+  }
+  return k;
+}
+
+// ln(beta / (1 - beta)), exact near 0.5.
+double log_odds(double ability) { return ability >= 1.0 ? kInfinity : 2.0 * std::atanh(2.0 * ability - 1.0); }
+
+// log of kappa (2 / (4 sinh kappa)) / beta. With s = 2 beta - 1 the sine
+// hyperbolic is s / (2 beta (1 - beta)), which leaves (1 - beta) kappa / s.
+double discontinuous_log_far(double ability, double kappa) {
+  const double s = 2.0 * ability - 1.0;
+  if (s <= 0.0) return 0.0;
+  if (ability >= 1.0) return -kInfinity;
+  return std::min(0.0, std::log((1.0 - ability) * (kappa / s)));
+}
+
+}  // namespace
+
+HalfSpaceLikelihood::HalfSpaceLikelihood(double ability, LikelihoodForm form)
+    : ability_{checked_ability(ability)},
+      form_{form},
+      kappa_{form == LikelihoodForm::kDiscontinuous ? log_odds(ability) : continuous_concentration(ability)},
+      log_near_{std::log(ability / (2.0 * std::numbers::pi))},
+      log_far_{form == LikelihoodForm::kDiscontinuous ? discontinuous_log_far(ability, kappa_) : 0.0} {}
+
+bool HalfSpaceLikelihood::is_hard() const noexcept { return ability_ >= 1.0; }
+
+double HalfSpaceLikelihood::density(double t) const noexcept {
+  const double near = ability_ / (2.0 * std::numbers::pi);
+  return t >= 0.0 ? near : near * std::exp(log_relative(t));
+}
+
+double HalfSpaceLikelihood::log_density(double t) const noexcept { return log_near_ + log_relative(t); }
+
+double HalfSpaceLikelihood::log_relative(double t) const noexcept { return t >= 0.0 ? 0.0 : log_far_ + kappa_ * t; }
+
+double scaled_ability(double ability, double scale) {
+  if (!(ability >= 0.5 && ability <= 1.0)) {
+    throw std::invalid_argument("scaled_ability: the ability must lie in [0.5, 1]");
+  }
+  if (!(scale > 0.0 && std::isfinite(scale))) {
+    throw std::invalid_argument("scaled_ability: the scale must be positive and finite");
+  }
+  if (ability >= 1.0 || scale == 1.0) return ability;  // 1 stays 1, and no scale changes no bit
+  return 1.0 / (1.0 + std::pow((1.0 - ability) / ability, scale));
+}
+
+}  // namespace kith

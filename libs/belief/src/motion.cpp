@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernels.hpp"
+#include "kith/random/batch_normal.hpp"
+#include "kith/random/distributions.hpp"
+
+namespace kith::detail {
+namespace {
+
+constexpr std::size_t kBlock = 256;
+constexpr int kRetries = 20;
+using Block = std::array<double, kBlock>;
+
+struct Step {
+  double along, across;  // in the tangent plane, radians
+};
+
+// A right-handed frame (first, second, p) without branches (Duff et al. 2017, "Building an Orthonormal
+// Basis, Revisited"), and the combination first * along + second * across.
+Eigen::Vector3d tangent(const Eigen::Vector3d& p, const Step& step) {
+  const double sign = std::copysign(1.0, p.z());
+  const double a = -1.0 / (sign + p.z());
+  const double b = p.x() * p.y() * a;
+  const Eigen::Vector3d first{1.0 + sign * p.x() * p.x() * a, sign * b, -sign * p.x()};
+  const Eigen::Vector3d second{b, sign + p.y() * p.y() * a, -p.y()};
+  return first * step.along + second * step.across;
+}
+
+// The exponential map, for any length of the step.
+Eigen::Vector3d moved(const Eigen::Vector3d& p, const Step& step) {
+  const double angle = std::hypot(step.along, step.across);
+  if (angle == 0.0) return p;
+  const Eigen::Vector3d to = std::cos(angle) * p + (std::sin(angle) / angle) * tangent(p, step);
+  return to / to.norm();
+}
+
+bool inside(const Eigen::Vector3d& p, std::span<const Eigen::Vector3d> normals) {
+  return std::all_of(normals.begin(), normals.end(), [&](const Eigen::Vector3d& u) { return u.dot(p) >= 0.0; });
+}
+
+// A block of moves at once: where each point would go, and the square of its angle.
+struct Moves {
+  Block x, y, z, square;
+};
+
+// Series of cos(sqrt q) and sin(sqrt q) / sqrt q, accurate to 3e-16 for q <= 1;
+// longer steps are mended afterwards.
+void move_block(const MutablePoints& points, std::size_t begin, std::size_t n, double angle, const double* along,
+                const double* across, Moves& out) {
+  const double* const px = points.x.data() + begin;
+  const double* const py = points.y.data() + begin;
+  const double* const pz = points.z.data() + begin;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double s = angle * along[i];
+    const double t = angle * across[i];
+    const double q = s * s + t * t;
+    double c = 1.0 / 20922789888000.0;
+    c = c * q - 1.0 / 87178291200.0;
+    c = c * q + 1.0 / 479001600.0;
+    c = c * q - 1.0 / 3628800.0;
+    c = c * q + 1.0 / 40320.0;
+    c = c * q - 1.0 / 720.0;
+    c = c * q + 1.0 / 24.0;
+    c = c * q - 0.5;
+    c = c * q + 1.0;
+    double f = 1.0 / 355687428096000.0;
+    f = f * q - 1.0 / 1307674368000.0;
+    f = f * q + 1.0 / 6227020800.0;
+    f = f * q - 1.0 / 39916800.0;
+    f = f * q + 1.0 / 362880.0;
+    f = f * q - 1.0 / 5040.0;
+    f = f * q + 1.0 / 120.0;
+    f = f * q - 1.0 / 6.0;
+    f = f * q + 1.0;
+    const double x = px[i];
+    const double y = py[i];
+    const double z = pz[i];
+    const double sign = std::copysign(1.0, z);
+    const double a = -1.0 / (sign + z);
+    const double b = x * y * a;
+    const double mx = c * x + f * ((1.0 + sign * x * x * a) * s + b * t);
+    const double my = c * y + f * (sign * b * s + (sign + y * y * a) * t);
+    const double mz = c * z - f * (sign * x * s + y * t);
+    // One step of Newton's iteration for 1 / |m| keeps rounding from building up over many moves.
+    const double scale = 1.5 - 0.5 * (mx * mx + my * my + mz * mz);
+    out.x[i] = mx * scale;
+    out.y[i] = my * scale;
+    out.z[i] = mz * scale;
+    out.square[i] = q;
+  }
+}
+
+// The smallest margin of each proposed point over the normals.
+void least_margins(const Moves& moves, std::size_t n, std::span<const Eigen::Vector3d> normals, Block& margin) {
+  std::fill_n(margin.begin(), n, 1.0);
+  for (const Eigen::Vector3d& u : normals) {
+    const double ux = u.x();
+    const double uy = u.y();
+    const double uz = u.z();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = ux * moves.x[i] + uy * moves.y[i] + uz * moves.z[i];
+      margin[i] = t < margin[i] ? t : margin[i];
+    }
+  }
+}
+
+// Another try for a point whose move left the prior.
+Eigen::Vector3d redrawn(const Eigen::Vector3d& from, double angle, std::span<const Eigen::Vector3d> normals,
+                        RandomStream& random) {
+  for (int attempt = 0; attempt < kRetries; ++attempt) {
+    std::array<double, 2> normal;
+    fill_standard_normal(normal, random);
+    const Eigen::Vector3d to = moved(from, {angle * normal[0], angle * normal[1]});
+    if (inside(to, normals)) return to;
+  }
+  return from;
+}
+
+}  // namespace
+
+void move_points(const MutablePoints& points, double angle, std::span<const Eigen::Vector3d> normals,
+                 RandomStream& random) {
+  const std::size_t size = points.size();
+  std::vector<double> normal(2 * size);
+  batch_standard_normal(normal, random);
+  Moves moves;
+  Block margin;
+  for (std::size_t begin = 0; begin < size; begin += kBlock) {
+    const std::size_t n = std::min(kBlock, size - begin);
+    const double* const along = normal.data() + begin;
+    const double* const across = along + size;
+    move_block(points, begin, n, angle, along, across, moves);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(moves.square[i] > 1.0)) continue;
+      const std::size_t k = begin + i;
+      const auto to = moved({points.x[k], points.y[k], points.z[k]}, {angle * along[i], angle * across[i]});
+      moves.x[i] = to.x();
+      moves.y[i] = to.y();
+      moves.z[i] = to.z();
+    }
+    least_margins(moves, n, normals, margin);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(margin[i] < 0.0)) continue;
+      const std::size_t k = begin + i;
+      const auto to = redrawn({points.x[k], points.y[k], points.z[k]}, angle, normals, random);
+      moves.x[i] = to.x();
+      moves.y[i] = to.y();
+      moves.z[i] = to.z();
+    }
+    const auto offset = static_cast<std::ptrdiff_t>(begin);
+    std::copy_n(moves.x.begin(), n, points.x.begin() + offset);
+    std::copy_n(moves.y.begin(), n, points.y.begin() + offset);
+    std::copy_n(moves.z.begin(), n, points.z.begin() + offset);
+  }
+}
+
+}  // namespace kith::detail
