@@ -22,11 +22,8 @@ std::int64_t narrow(Int128 x) {
 
 }  // namespace
 
-std::size_t IntegerVector::checked(std::size_t dimension) {
-  if (dimension > kMaxDimension) {
-    throw std::invalid_argument{"IntegerVector: the dimension must be at most 8, not " + std::to_string(dimension)};
-  }
-  return dimension;
+void IntegerVector::reject(std::size_t dimension) {
+  throw std::invalid_argument{"IntegerVector: the dimension must be at most 8, not " + std::to_string(dimension)};
 }
 
 IntegerVector primitive(const IntegerVector& v) noexcept {

@@ -12,15 +12,15 @@ enum class Severity { kError, kWarning };
 /// how to mend it. Lines and columns are 1-based; 0 means "the file as a whole".
 struct Diagnostic {
   Severity severity = Severity::kError;
-  std::string id;       ///< Stable name, such as "E0312"; documented in docs/errors.md.
-  std::string message;  ///< One sentence, lower case, no full stop.
-  std::string file;     ///< As the user named it.
+  std::string id{};       ///< Stable name, such as "E0312"; documented in docs/errors.md.
+  std::string message{};  ///< One sentence, lower case, no full stop.
+  std::string file{};     ///< As the user named it.
   std::size_t line = 0;
   std::size_t column = 0;
-  std::size_t length = 1;   ///< Characters to underline, at least 1.
-  std::string hint;         ///< The mend; may be empty.
-  std::string source_line;  ///< The text of `line`, for display; may be empty.
-  bool infeasible = false;  ///< Well-formed, but nothing can be done with it (exit 4 rather than 3).
+  std::size_t length = 1;     ///< Characters to underline, at least 1.
+  std::string hint{};         ///< The mend; may be empty.
+  std::string source_line{};  ///< The text of `line`, for display; may be empty.
+  bool infeasible = false;    ///< Well-formed, but nothing can be done with it (exit 4 rather than 3).
 
   friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };

@@ -74,7 +74,11 @@ class IntegerVector {
   friend bool operator==(const IntegerVector& a, const IntegerVector& b) noexcept = default;
 
  private:
-  static std::size_t checked(std::size_t dimension);
+  static std::size_t checked(std::size_t dimension) {
+    if (dimension > kMaxDimension) reject(dimension);
+    return dimension;
+  }
+  [[noreturn]] static void reject(std::size_t dimension);
 
   std::size_t size_ = 0;                               // compared first
   std::array<std::int64_t, kMaxDimension> entries_{};  // entries beyond size_ stay 0
