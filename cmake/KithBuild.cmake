@@ -1,21 +1,45 @@
 # How every translation unit of kith is compiled. Linked PRIVATE, so none of it
 # reaches users of the libraries.
 #
-# The baseline is x86-64-v2; contraction and fast-math stay off, because the
-# bits of a result are part of the result.
+# The bits of a result are part of the result, so what could change them is
+# fixed here: the baseline instruction set (x86-64-v2; faster kernels are chosen
+# at run time), no contraction to fused multiply-add, no fast-math.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES AND PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Kind of build" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+if(KITH_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(KITH_CCACHE_PROGRAM ccache)
+  mark_as_advanced(KITH_CCACHE_PROGRAM)
+  if(KITH_CCACHE_PROGRAM)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${KITH_CCACHE_PROGRAM})
+  endif()
+endif()
+
 add_library(kith_build INTERFACE)
 target_compile_options(kith_build INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
-  -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough
-  -ffp-contract=off -fno-fast-math $<$<BOOL:${KITH_WERROR}>:-Werror>)
+  -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough -Wformat=2 -Wcast-qual -Wundef
+  $<$<BOOL:${KITH_WERROR}>:-Werror>
+  -ffp-contract=off -fno-fast-math
+  -fno-semantic-interposition)  # position-independent, and still inlined within a file
 target_compile_definitions(kith_build INTERFACE _GLIBCXX_ASSERTIONS)
-if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   target_compile_options(kith_build INTERFACE -march=x86-64-v2)
 endif()
+
 if(KITH_SANITIZE)
-  target_compile_options(kith_build INTERFACE -fsanitize=${KITH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_compile_options(kith_build INTERFACE
+    -fsanitize=${KITH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(kith_build INTERFACE -fsanitize=${KITH_SANITIZE})
 else()
-  target_compile_options(kith_build INTERFACE -fstack-protector-strong $<$<CONFIG:Release>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
-  target_link_options(kith_build INTERFACE -Wl,-z,relro,-z,now)
+  # _FORTIFY_SOURCE needs an optimiser.
+  target_compile_options(kith_build INTERFACE
+    -fstack-protector-strong "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
+  target_link_options(kith_build INTERFACE LINKER:-z,relro,-z,now)
 endif()

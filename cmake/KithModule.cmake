@@ -5,8 +5,14 @@
 # graph in the code. Sources (src/*.cpp), headers (include/kith/<name>/*.hpp),
 # tests (tests/*_test.cpp) and benchmarks (bench/*_bench.cpp) are found by their
 # place; a layer without sources is header-only.
+#
+# Every header is compiled alone against exactly DEPENDS by the target
+# all_verify_interface_header_sets, which is not part of `all`.
 function(kith_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "DEPENDS;PRIVATE_DEPENDS;TEST_DEPENDS")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "kith_module(${name}): what is '${arg_UNPARSED_ARGUMENTS}'?")
+  endif()
   file(GLOB headers CONFIGURE_DEPENDS include/kith/${name}/*.hpp)
   file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
 
@@ -24,18 +30,20 @@ function(kith_module name)
   target_sources(kith_${name} ${kind} FILE_SET HEADERS BASE_DIRS include FILES ${headers})
   target_compile_features(kith_${name} ${kind} cxx_std_20)
   target_link_libraries(kith_${name} ${kind} ${arg_DEPENDS})
+  if(KITH_INSTALL)
+    install(TARGETS kith_${name} EXPORT kithTargets COMPONENT development FILE_SET HEADERS COMPONENT development)
+  endif()
 
   file(GLOB tests CONFIGURE_DEPENDS tests/*_test.cpp)
   if(KITH_BUILD_TESTS AND tests)
-    add_executable(kith_${name}_tests ${tests})
-    target_link_libraries(kith_${name}_tests PRIVATE kith::${name} kith_build kith_testing ${arg_TEST_DEPENDS})
+    kith_test_program(${name} SOURCES ${tests} DEPENDS kith::${name} ${arg_TEST_DEPENDS})
     target_include_directories(kith_${name}_tests PRIVATE tests)
-    gtest_discover_tests(kith_${name}_tests TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${name})
   endif()
 
   file(GLOB benches CONFIGURE_DEPENDS bench/*_bench.cpp)
   if(KITH_BUILD_BENCHMARKS AND benches)
     add_executable(kith_${name}_bench ${benches})
-    target_link_libraries(kith_${name}_bench PRIVATE kith::${name} kith_build benchmark::benchmark_main ${arg_TEST_DEPENDS})
+    target_link_libraries(kith_${name}_bench PRIVATE
+      kith::${name} kith_build benchmark::benchmark_main ${arg_TEST_DEPENDS})
   endif()
 endfunction()

@@ -1,0 +1,36 @@
+# `cmake --install`, find_package(kith) and `cpack`; tested by tests/install.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kith)
+
+install(EXPORT kithTargets NAMESPACE kith:: DESTINATION ${package_dir} COMPONENT development)
+configure_package_config_file(
+  ${PROJECT_SOURCE_DIR}/cmake/kithConfig.cmake.in ${PROJECT_BINARY_DIR}/kithConfig.cmake
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(
+  ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake
+  DESTINATION ${package_dir} COMPONENT development)
+
+if(TARGET kith)
+  install(TARGETS kith COMPONENT program)
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/domains ${PROJECT_SOURCE_DIR}/studies
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/kith COMPONENT program FILES_MATCHING PATTERN "*.toml")
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "kith developers <kith@localhost>")
+set(CPACK_PACKAGE_VENDOR kith)
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kith)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libeigen3-dev, librandom123-dev, libtbb-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev")
+include(CPack)

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Builds kith and runs it; see usage below.
+#
+# Running the study again is left to kith: it finds its journal in the output
+# folder and finishes, or finds everything done. This script deletes nothing; a
+# study whose files have changed since is refused, and needs another folder.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
+root=$PWD
+. scripts/packages.sh
+
+usage() {
+  cat <<'TEXT'
+usage: ./run.sh            build kith, run the paper's study into results/paper, print its tables
+       ./run.sh --setup    install what is missing and build, no more
+       ./run.sh ARGS...    the same, then `kith ARGS...` (./run.sh help: what kith can do)
+
+Installs missing Debian packages first, and says which and how large; that needs
+root or sudo, and the network, once. Builds into build/release.
+TEXT
+}
+
+case ${1:-} in
+  -h | --help)
+    usage
+    exit
+    ;;
+esac
+
+ensure_packages "${packages_to_build[@]}"
+tests=()
+# Without GoogleTest there is nothing to test with; a folder that test.sh has made stays as it is.
+[[ -e build/release/build.ninja ]] || tests=(-DKITH_BUILD_TESTS=OFF)
+configure_and_build release "${tests[@]}" -- kith
+kith=$root/build/release/bin/kith
+
+case ${1:-} in
+  --setup)
+    say "Ready: build/release/bin/kith"
+    ;;
+  '')
+    say "Running the paper's study: kith study studies/paper.toml -o results/paper"
+    "$kith" study studies/paper.toml -o results/paper || exit
+    say "Tables: results/paper/tables/*.csv, every column explained in results/paper/tables/codebook.json"
+    ;;
+  *)
+    cd "${OLDPWD:-$root}" && exec "$kith" "$@"
+    ;;
+esac

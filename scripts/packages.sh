@@ -1,0 +1,113 @@
+# Sourced by run.sh and test.sh: installs the Debian packages that are missing,
+# and builds quietly. All messages go to stderr; stdout belongs to kith.
+
+say() { printf '%s\n' "$*" >&2; }
+die() { say "$(basename "$0"): $*"; exit 1; }
+
+packages_to_build=(
+  g++ cmake ninja-build
+  libeigen3-dev librandom123-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
+)
+packages_to_test=(libgtest-dev libgmock-dev)
+packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev libbenchmark-dev)
+
+# ensure_packages NAME...: installs those that are not installed; does nothing,
+# offline too, if all are. Needs root or sudo; else names the command and stops.
+ensure_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    say "This is not Debian: the build needs what these packages hold: $*"
+    return
+  fi
+  local missing=() package
+  for package in "$@"; do
+    [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+
+  local as_root=()
+  if ((EUID != 0)); then
+    if command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
+      as_root=(sudo)
+    else
+      say "These packages are missing, and installing them needs root:"
+      say "  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
+      exit 1
+    fi
+  fi
+  say "Missing packages: ${missing[*]}"
+  run_logged "reading the package lists" "${as_root[@]}" apt-get update -qq
+  apt_get_install "${missing[@]}"
+}
+
+# Uses as_root of ensure_packages. Says how much is coming before it comes.
+apt_get_install() {
+  local options=(-y --no-install-recommends -o DPkg::Lock::Timeout=120) size
+  size=$(LC_ALL=C apt-get install --no-install-recommends --assume-no "$@" 2>/dev/null |
+    sed -nE 's/^Need to get (.*) of archives.*/\1 to download/p; s/^After this operation, (.*) of additional.*/\1 on disk/p' |
+    paste -sd ';' | sed 's/;/, /')
+  say "Installing them and what they need: ${size:-size unknown}"
+  run_logged "installing packages" "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C \
+    apt-get install -qq -o Dpkg::Use-Pty=0 "${options[@]}" "$@"
+}
+
+# run_logged WHAT COMMAND...: a dot every few seconds; the output only if it fails.
+run_logged() {
+  local what=$1 log pid
+  shift
+  log=$(mktemp)
+  printf '%s ' "$what" >&2
+  "$@" >"$log" 2>&1 </dev/null &
+  pid=$!
+  while kill -0 "$pid" 2>/dev/null; do
+    sleep 1
+    ((SECONDS % 5)) || printf . >&2
+  done
+  if ! wait "$pid"; then
+    say "failed:"
+    tail -n 40 "$log" >&2
+    rm -f "$log"
+    die "$what failed; are you online? The command was: $*"
+  fi
+  rm -f "$log"
+  say "done"
+}
+
+# configure_and_build PRESET [-D...] -- TARGET...: nothing but a summary where
+# nothing is to be done; progress, warnings and errors otherwise.
+configure_and_build() {
+  local preset=$1 definitions=() log
+  shift
+  while [[ $1 != -- ]]; do definitions+=("$1"); shift; done
+  shift
+  # A folder that was copied or moved cannot go on with its old cache.
+  local cache=build/$preset/CMakeCache.txt
+  if [[ -e $cache ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" "$cache"; then definitions+=(--fresh); fi
+
+  log=$(mktemp)
+  if ! cmake --preset "$preset" "${definitions[@]}" >"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
+    die "configuring build/$preset failed"
+  fi
+  grep -A 8 'CMake Warning' "$log" >&2
+  rm -f "$log"
+  if [[ -t 2 ]]; then
+    NINJA_STATUS="[$preset %f/%t] " cmake --build --preset "$preset" --target "$@" >&2
+  else
+    NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" --target "$@" 2>&1 | some_progress "$preset" >&2
+  fi || die "building build/$preset failed"
+}
+
+# From ninja's "[done/total] ..." lines only every tenth part and the last; all other lines.
+some_progress() {
+  awk -v preset="$1" '
+    /^\[[0-9]+\/[0-9]+\] / {
+      split(substr($1, 2), part, /[\/\]]/)
+      tenth = int(10 * part[1] / part[2])
+      if (tenth != shown || part[2] != total) printf "[%s %d/%d]\n", preset, part[1], part[2]
+      shown = tenth; total = part[2]; next
+    }
+    /^ninja: no work to do/ { next }
+    { print }
+    { fflush() }'
+}

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Installs, builds and tests everything; see usage below.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
+. scripts/packages.sh
+
+usage() {
+  cat <<'TEXT'
+usage: ./test.sh             what has to pass before anything is merged:
+                             every header alone, all tests in build/release, and
+                             the libraries' tests under ASan and UBSan in build/asan
+       ./test.sh --quick     the same without the sanitizers
+       ./test.sh --nightly   also the slow tests, ThreadSanitizer over the study
+                             layer, clang-tidy, and the benchmarks built
+
+Installs missing Debian packages first, as ./run.sh does. To run a part of the
+tests again: ctest --preset release -R Cone
+TEXT
+}
+
+mode=${1:-normal}
+case $mode in
+  normal | --quick | --nightly) ;;
+  -h | --help)
+    usage
+    exit
+    ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac
+
+packages=("${packages_to_build[@]}" "${packages_to_test[@]}")
+if [[ $mode == --nightly ]]; then packages+=("${packages_for_nightly[@]}"); fi
+ensure_packages "${packages[@]}"
+
+jobs=$(nproc)
+run_tests() {
+  say
+  say "== tests in build/$1"
+  ctest --preset "$1" -j "$jobs" "${@:2}" || die "tests in build/$1 failed (again: ctest --preset $1 --rerun-failed)"
+}
+
+configure_and_build release -DKITH_BUILD_TESTS=ON -- all all_verify_interface_header_sets
+if [[ $mode != --quick ]]; then
+  configure_and_build asan -- all
+  run_tests asan
+fi
+if [[ $mode == --nightly ]]; then
+  configure_and_build tsan -- kith_study_tests
+  run_tests tsan
+  configure_and_build tidy -- all
+  configure_and_build bench -- all
+  say
+  say "== slow tests in build/release"
+  ctest --test-dir build/release -L '^slow$' --output-on-failure -j "$jobs" || die "slow tests failed"
+fi
+# Last, so that the log ends with the summary of the whole suite.
+run_tests release

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# Checks one rule of the repository; run from its root. Exit 0: kept, 1: broken
+# (the places are printed), 77: cannot be checked on this machine.
+set -uo pipefail
+export LC_ALL=C
+
+# The files of the repository, those not yet added included, one a line; paths hold no line breaks.
+files() {
+  if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
+    git ls-files --cached --others --exclude-standard -- "$@" | while IFS= read -r file; do
+      [[ -f $file ]] && printf '%s\n' "$file"
+    done
+  else
+    local name=() pattern
+    for pattern in "$@"; do name+=(-o -name "${pattern##*/}"); done
+    find . \( -path ./build -o -path ./results -o -path ./.git \) -prune -o -type f \
+      ${name[@]+\( "${name[@]:1}" \)} -print | sed 's|^\./||'
+  fi
+}
+sources() { files '*.cpp' '*.hpp' '*.in' '*.cmake' 'CMakeLists.txt' '*.sh' '*.json' '*.toml'; }
+texts() { files | grep -vE '\.(png|gz|sqlite)$'; }
+
+# Prints what it reads, and fails if that was anything.
+none() { ! grep . ; }
+
+check_ascii() {  # sources are ASCII, so that every tool and terminal agrees about columns
+  sources | xargs -d '\n' grep -nP '[^\x00-\x7F]' | none
+}
+
+check_places() {  # no absolute path of one particular machine
+  texts | xargs -d '\n' grep -nE '(^|[^[:alnum:]_.}*/])/(home|root|work|farm|mnt|media|Users|scratch)/[[:alnum:]_.]' | none
+}
+
+check_pragma() {  # every header begins with #pragma once
+  files '*.hpp' | while IFS= read -r file; do
+    [[ $(head -n 1 "$file") == '#pragma once' ]] || echo "$file: the first line is not '#pragma once'"
+  done | none
+}
+
+# A layer needs only layers that come before it in libs/CMakeLists.txt.
+check_layers() {
+  local seen=' ' layer need
+  sed -n 's/^ *add_subdirectory(\([a-z_]*\)).*/\1/p' libs/CMakeLists.txt | {
+    while IFS= read -r layer; do
+      for need in $(tr '\n' ' ' <"libs/$layer/CMakeLists.txt" | grep -oE 'kith_module\([^)]*' |
+        sed 's/TEST_DEPENDS.*//' | grep -oE 'kith::[a-z_]+' | sed 's/kith:://'); do
+        [[ $seen == *" $need "* ]] || echo "libs/$layer needs $need, which does not come before it in libs/CMakeLists.txt"
+      done
+      seen+="$layer "
+    done
+  } | none
+  local kept=$?
+  for layer in libs/*/; do
+    layer=$(basename "$layer")
+    grep -q "add_subdirectory($layer)" libs/CMakeLists.txt || { echo "libs/$layer is not in libs/CMakeLists.txt"; kept=1; }
+  done
+  return $kept
+}
+
+check_newline() {  # text files end with a line break, and lines with what one sees
+  {
+    texts | while IFS= read -r file; do
+      [[ -s $file && -n $(tail -c 1 "$file") ]] && echo "$file: no line break at the end"
+    done
+    files '*.cpp' '*.hpp' '*.cmake' 'CMakeLists.txt' '*.sh' '*.toml' '*.md' | xargs -d '\n' grep -nE '[[:space:]]+$'
+  } | none
+}
+
+check_links() {  # relative links in documents lead somewhere
+  files '*.md' | while IFS= read -r file; do
+    grep -oE '\]\([^)# ]+' "$file" | sed 's/^](//' | grep -vE '^(https?|mailto):' | while IFS= read -r target; do
+      [[ -e $(dirname "$file")/$target ]] || echo "$file: $target does not exist"
+    done
+  done | none
+}
+
+check_format() {  # C++ is as clang-format 14 writes it
+  if ! command -v clang-format >/dev/null; then
+    echo "clang-format is not installed"
+    return 77
+  fi
+  if ! clang-format --version | grep -q 'version 14\.'; then
+    echo "clang-format is not version 14, Debian 12's"
+    return 77
+  fi
+  files '*.cpp' '*.hpp' | xargs -d '\n' clang-format --dry-run --Werror 2>&1
+}
+
+rule=${1:-}
+if ! declare -F "check_$rule" >/dev/null; then
+  echo "usage: $0 RULE, one of: $(declare -F | sed -n 's/^declare -f check_//p' | tr '\n' ' ')" >&2
+  exit 2
+fi
+"check_$rule"
