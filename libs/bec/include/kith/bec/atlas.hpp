@@ -1,0 +1,173 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "kith/bec/constraint_table.hpp"
+#include "kith/bec/knowledge_component.hpp"
+#include "kith/bec/policy_cells.hpp"
+#include "kith/bec/regions.hpp"
+#include "kith/domains/domain.hpp"
+#include "kith/mdp/planner.hpp"
+
+namespace kith {
+
+/// A (MDP, start) pair's position among all of a domain's, MDP by MDP.
+using DemoIndex = Index<struct DemoTag>;
+/// Demonstrations that convey the same to everybody; see Atlas::demo_class.
+using DemoClassIndex = Index<struct DemoClassTag>;
+
+/// Everything about a domain that does not depend on who is taught: the robot's
+/// trajectories, one-step constraints, coverage sets, knowledge components, and
+/// the policy cell of every weight, so that "what would this person expect the
+/// robot to do?" is a look-up.
+///
+/// Immutable after construction and safe to share between threads.
+class Atlas {
+ public:
+  /// Plans everything; item delivery takes tens of milliseconds.
+  /// @throws kith::Error (kInfeasible) if the domain does not have three features, is not deterministic and
+  /// undiscounted with integer features, or the robot has no finite optimum in some MDP.
+  explicit Atlas(Domain domain);
+
+  [[nodiscard]] const Domain& domain() const noexcept { return domain_; }
+  [[nodiscard]] const ConstraintTable& constraints() const noexcept { return constraints_; }
+  /// The prior's half-spaces as constraints and as a cone.
+  [[nodiscard]] const ConstraintSet& prior() const noexcept { return prior_; }
+  [[nodiscard]] const Cone& prior_cone() const noexcept { return prior_cone_; }
+
+  // --- demonstrations -------------------------------------------------------
+  [[nodiscard]] std::size_t num_demos() const noexcept { return demos_.size(); }
+  [[nodiscard]] DemoId id(DemoIndex demo) const { return demos_[demo.value()].id; }
+  [[nodiscard]] DemoIndex index(DemoId id) const { return DemoIndex{first_demo_[id.mdp.value()] + id.start.value()}; }
+  /// The robot's canonical path.
+  [[nodiscard]] Trajectory trajectory(DemoIndex demo) const;
+  /// mu of the robot's path, shape [d].
+  [[nodiscard]] const IntegerVector& feature_counts(DemoIndex demo) const { return demos_[demo.value()].counts; }
+  /// Whether the robot's optimal path is unique (ties in features or not).
+  [[nodiscard]] bool is_unique(DemoIndex demo) const { return demos_[demo.value()].unique; }
+  /// Whether some optimal action besides the canonical one exists in the start state itself.
+  [[nodiscard]] bool has_tie(DemoIndex demo) const { return demos_[demo.value()].tie; }
+  /// Minimal set of the one-step deviation constraints along the path:
+  /// mu_robot(s_t) - mu(s_t, b) for every state s_t of the path and every action b.
+  [[nodiscard]] const ConstraintSet& one_step(DemoIndex demo) const {
+    return one_step_sets_[demos_[demo.value()].one_step];
+  }
+  /// Equal for demonstrations that look the same: same pictures, same actions.
+  [[nodiscard]] std::uint32_t trajectory_class(DemoIndex demo) const { return demos_[demo.value()].trajectory_class; }
+  /// Mean dissimilarity of the start picture to all others of the same MDP, rounded.
+  [[nodiscard]] int mean_dissimilarity(DemoIndex demo) const { return demos_[demo.value()].mean_dissimilarity; }
+
+  // --- the robot's policy ---------------------------------------------------
+  /// Minimal set of all one-step constraints: the behaviour equivalence class of the policy.
+  [[nodiscard]] const ConstraintSet& policy_bec() const noexcept { return policy_bec_; }
+  [[nodiscard]] const std::vector<HalfSpace>& policy_bec_half_spaces() const noexcept {
+    return policy_bec_half_spaces_;
+  }
+  /// Solid angle of the policy's BEC with the prior, in steradian.
+  [[nodiscard]] double policy_bec_area_sr() const noexcept { return policy_bec_area_; }
+  [[nodiscard]] const std::vector<KnowledgeComponent>& knowledge_components() const noexcept { return components_; }
+  /// z_k: how many rows of all demonstrations' one-step minimal sets have a non-zero k-th entry, shape [d].
+  [[nodiscard]] const std::vector<std::size_t>& mask_counters() const noexcept { return mask_counters_; }
+
+  // --- what a learner would do ----------------------------------------------
+  [[nodiscard]] const PolicyCells& cells() const noexcept { return cells_; }
+  [[nodiscard]] std::size_t num_hulls() const noexcept { return hulls_.size(); }
+  [[nodiscard]] HullIndex hull(DemoIndex demo) const { return demos_[demo.value()].hull; }
+  /// Vertices of the coverage set of every start state: in all and at most.
+  struct Coverage {
+    std::size_t vertices = 0;
+    double mean = 0.0;
+    std::size_t max = 0;
+  };
+  [[nodiscard]] const Coverage& coverage() const noexcept { return coverage_; }
+  /// The feature counts of the coverage set of a start state, sorted.
+  [[nodiscard]] std::vector<IntegerVector> coverage_set(DemoIndex demo) const;
+  /// Feature counts of the path that a person of this cell takes, or nothing if they have no optimum there.
+  [[nodiscard]] std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell) const;
+  /// Whether weights have a finite optimum in the demonstration's MDP (strictly inside its region).
+  [[nodiscard]] const Cone& finite_region(DemoIndex demo) const { return hulls_[hull(demo).value()].finite_region; }
+  /// Constraints that tell the robot's path from the next best ones at the start: the facets of its cell in the
+  /// coverage set.
+  [[nodiscard]] const ConstraintSet& robot_cell_facets(DemoIndex demo) const {
+    return hull_facets_[hull(demo).value()];
+  }
+
+  // --- counterfactuals ------------------------------------------------------
+  [[nodiscard]] std::size_t num_demo_classes() const noexcept { return classes_.size(); }
+  [[nodiscard]] DemoClassIndex demo_class(DemoIndex demo) const { return demos_[demo.value()].demo_class; }
+  /// In ascending order.
+  [[nodiscard]] std::span<const DemoIndex> members(DemoClassIndex c) const { return classes_[c.value()].members; }
+  /// Whether the class's MDPs lack the component's masked feature (the same for all of its members).
+  [[nodiscard]] bool belongs_to(DemoClassIndex c, const KnowledgeComponent& component) const {
+    return component.uses_mdp[id(classes_[c.value()].members.front()).mdp.value()];
+  }
+  /// What demonstrations convey to people who hold weights of the given cells: per class, one row of
+  /// words, the union over cells and over the states s_t of the path of mu_robot(s_t) - mu_learner(s_t).
+  /// Cells without an optimum in the MDP contribute nothing. Shape [num_demo_classes, words_per_set()].
+  [[nodiscard]] std::vector<std::uint64_t> conveyed_by_class(std::span<const PolicyCellIndex> cells) const;
+  /// The same for one demonstration, not reduced.
+  [[nodiscard]] ConstraintSet conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) const;
+  [[nodiscard]] std::size_t words_per_set() const noexcept { return (constraints_.size() + 63) / 64; }
+
+  // --- tests ----------------------------------------------------------------
+  /// Demonstrations whose one-step set contains c and whose start discriminates c (it is a facet of
+  /// the robot's cell there): what can test c. Ascending.
+  [[nodiscard]] std::span<const DemoIndex> tests_for(ConstraintIndex c) const { return tests_for_[c.value()]; }
+
+  /// The set of all constraints in the table that are empty: a fresh set of the right size.
+  [[nodiscard]] ConstraintSet no_constraints() const { return ConstraintSet{constraints_.size()}; }
+
+ private:
+  friend class AtlasBuilder;
+
+  struct Demo {
+    DemoId id;
+    IntegerVector counts;
+    bool unique = true;
+    bool tie = false;
+    std::uint32_t one_step = 0;  // row of one_step_sets_
+    std::uint32_t trajectory_class = 0;
+    int mean_dissimilarity = 0;
+    HullIndex hull;
+    DemoClassIndex demo_class;
+    std::uint32_t next = kTerminal;  // demo index of the next state on the path
+  };
+  struct DemoClass {
+    std::vector<HullIndex> hulls;  // of all states on the path, those with anything to convey
+    std::vector<DemoIndex> members;
+  };
+  static constexpr std::uint32_t kTerminal = 0xFFFFFFFF;
+
+  // ORs into `row` what hull h conveys to the cells.
+  void add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells, std::span<std::uint64_t> row) const;
+
+  Domain domain_;
+  ConstraintTable constraints_;
+  ConstraintSet prior_;
+  Cone prior_cone_;
+  std::vector<std::size_t> first_demo_;
+  std::vector<Demo> demos_;
+  std::vector<std::vector<std::uint32_t>> canonical_choices_;  // per MDP, shape [num_states]
+  std::vector<ConstraintSet> one_step_sets_;
+  ConstraintSet policy_bec_;
+  std::vector<HalfSpace> policy_bec_half_spaces_;
+  double policy_bec_area_ = 0.0;
+  std::vector<KnowledgeComponent> components_;
+  std::vector<std::size_t> mask_counters_;
+  std::vector<Hull> hulls_;
+  std::vector<ConstraintSet> hull_facets_;
+  std::vector<std::vector<std::int32_t>>
+      hull_constraints_;  // per hull and vertex: constraint number, or -1 for no loss
+  PolicyCells cells_;
+  Coverage coverage_;
+  std::vector<DemoClass> classes_;
+  std::vector<std::vector<DemoIndex>> tests_for_;
+};
+
+}  // namespace kith

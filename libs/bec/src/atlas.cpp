@@ -1,0 +1,60 @@
+#include "kith/bec/atlas.hpp"
+
+#include <algorithm>
+
+#include "atlas_builder.hpp"
+
+namespace kith {
+
+Atlas::Atlas(Domain domain) : domain_{std::move(domain)} { AtlasBuilder{*this}.build(); }
+
+Trajectory Atlas::trajectory(DemoIndex demo) const {
+  const auto [mdp, start] = id(demo);
+  return canonical_trajectory(domain_.mdp(mdp), canonical_choices_[mdp.value()], start);
+}
+
+std::vector<IntegerVector> Atlas::coverage_set(DemoIndex demo) const {
+  std::vector<IntegerVector> vertices;
+  for (const auto& loss : hulls_[hull(demo).value()].losses) vertices.push_back(feature_counts(demo) - loss);
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+std::optional<IntegerVector> Atlas::answer(DemoIndex demo, PolicyCellIndex cell) const {
+  const auto choice = cells_.choice(cell, hull(demo));
+  if (choice == PolicyCells::kNone) return std::nullopt;
+  return feature_counts(demo) - hulls_[hull(demo).value()].losses[choice];
+}
+
+void Atlas::add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells, std::span<std::uint64_t> row) const {
+  const auto& constraint_of = hull_constraints_[h.value()];
+  for (const auto cell : cells) {
+    const auto choice = cells_.choice(cell, h);
+    if (choice == PolicyCells::kNone || constraint_of[choice] < 0) continue;
+    const auto c = static_cast<std::size_t>(constraint_of[choice]);
+    row[c / 64] |= std::uint64_t{1} << (c % 64);
+  }
+}
+
+std::vector<std::uint64_t> Atlas::conveyed_by_class(std::span<const PolicyCellIndex> cells) const {
+  const auto words = words_per_set();
+  std::vector<std::uint64_t> by_hull(hulls_.size() * words, 0);
+  for (std::size_t h = 0; h < hulls_.size(); ++h) {
+    add_conveyed(HullIndex{h}, cells, std::span{by_hull}.subspan(h * words, words));
+  }
+  std::vector<std::uint64_t> by_class(classes_.size() * words, 0);
+  for (std::size_t c = 0; c < classes_.size(); ++c) {
+    for (const auto h : classes_[c].hulls) {
+      for (std::size_t i = 0; i < words; ++i) by_class[c * words + i] |= by_hull[h.value() * words + i];
+    }
+  }
+  return by_class;
+}
+
+ConstraintSet Atlas::conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) const {
+  auto set = no_constraints();
+  for (const auto h : classes_[demo_class(demo).value()].hulls) add_conveyed(h, cells, set.words());
+  return set;
+}
+
+}  // namespace kith

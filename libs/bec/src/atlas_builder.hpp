@@ -1,0 +1,64 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+#include "kith/mdp/coverage_set.hpp"
+
+namespace kith {
+
+// Fills an Atlas whose domain is set, stage by stage. The table of constraints
+// must be complete before the first ConstraintSet of its size is made, so the
+// one-step constraints are reduced in a table of their own first.
+class AtlasBuilder {
+ public:
+  explicit AtlasBuilder(Atlas& atlas) : atlas_{atlas} {}
+  void build();
+
+ private:
+  void check_domain() const;
+  void plan();
+  void describe_paths(MdpIndex m, const ExactSolution& robot);
+  void reduce_one_step(MdpIndex m, const ExactSolution& robot);
+  void find_hulls(MdpIndex m, const ExactSolution& robot);
+  void intern_hull(Atlas::Demo& demo, const CoverageSets& coverage);
+  void number_constraints();
+  void make_one_step_sets();
+  void make_policy_bec();
+  void count_masks();
+  void make_components();
+  [[nodiscard]] KnowledgeComponent component(std::optional<std::size_t> masked, std::size_t reference);
+  void make_facets();
+  void group_demos();
+  void index_tests();
+  void average_dissimilarities();
+
+  [[nodiscard]] Atlas::Demo& demo(MdpIndex m, StateIndex s) {
+    return atlas_.demos_[atlas_.first_demo_[m.value()] + s.value()];
+  }
+  [[nodiscard]] std::uint32_t picture(MdpIndex m, StateIndex s);
+
+  struct IntsHash {
+    std::size_t operator()(const std::vector<std::int64_t>& ints) const noexcept {
+      std::uint64_t hash = 0xCBF29CE484222325ull;
+      for (const auto i : ints) hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x100000001B3ull;
+      return static_cast<std::size_t>(hash ^ (hash >> 31));
+    }
+  };
+  template <typename Value>
+  using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, IntsHash>;
+
+  Atlas& atlas_;
+  // One-step constraints before numbering: raw ones, and the minimal set per demonstration.
+  ConstraintTable raw_;
+  std::vector<std::vector<ConstraintIndex>> raw_sets_;  // per demonstration: all along the path, sorted
+  std::vector<std::vector<HalfSpace>> minimal_sets_;    // distinct minimal sets
+  IntsMap<std::uint32_t> minimal_set_of_;               // raw set -> position in minimal_sets_
+  IntsMap<std::uint32_t> pictures_;
+  IntsMap<std::uint32_t> trajectory_classes_;
+  IntsMap<std::size_t> hull_index_;
+  std::vector<Cone> regions_;  // distinct finite regions
+};
+
+}  // namespace kith

@@ -1,0 +1,267 @@
+#include "kith/bec/atlas.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "item_delivery.hpp"
+#include "kith/mdp/coverage_set.hpp"
+#include "kith/random/distributions.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::half_spaces;
+using testing::item_delivery;
+
+Eigen::Vector3d random_weights(RandomStream& random) {
+  const auto p = uniform_on_sphere(random);
+  return {p[0], p[1], p[2]};
+}
+
+std::vector<HalfSpace> one_step(const Atlas& atlas, DemoIndex demo) {
+  return atlas.constraints().half_spaces(atlas.one_step(demo));
+}
+
+// The facts of the paper's domain.
+
+TEST(ItemDelivery, HasItsPublishedSize) {
+  const auto& atlas = item_delivery();
+  EXPECT_EQ(atlas.domain().num_mdps(), 64u);
+  EXPECT_EQ(atlas.num_demos(), 9312u);
+  std::size_t ties = 0;
+  std::size_t unique = 0;
+  std::size_t shortest = std::numeric_limits<std::size_t>::max();
+  std::size_t longest = 0;
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    ties += atlas.has_tie(demo) ? 1u : 0u;
+    unique += atlas.is_unique(demo) ? 1u : 0u;
+    const auto length = atlas.trajectory(demo).actions.size();
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  EXPECT_EQ(ties, 1526u);
+  EXPECT_EQ(unique, 6182u);
+  EXPECT_EQ(shortest, 1u);
+  EXPECT_EQ(longest, 14u);
+}
+
+TEST(ItemDelivery, HasThePublishedBec) {
+  const auto& atlas = item_delivery();
+  EXPECT_EQ(atlas.policy_bec_half_spaces(), half_spaces({{-1, 0, 2}, {0, -1, -4}, {1, 1, 0}}));
+  EXPECT_NEAR(atlas.policy_bec_area_sr(), 0.0260947, 1e-6);
+}
+
+TEST(ItemDelivery, HasThreeKnowledgeComponents) {
+  const auto& atlas = item_delivery();
+  const auto& components = atlas.knowledge_components();
+  ASSERT_EQ(components.size(), 3u);
+  EXPECT_THAT(atlas.mask_counters(), ElementsAre(9480u, 1767u, 15979u));
+  const auto uses = [](const KnowledgeComponent& c) { return std::count(c.uses_mdp.begin(), c.uses_mdp.end(), true); };
+
+  EXPECT_EQ(components[0].masked, 1u);
+  EXPECT_EQ(components[0].name, "rubble");
+  EXPECT_EQ(uses(components[0]), 32);
+  EXPECT_EQ(atlas.constraints().half_spaces(components[0].constraints), half_spaces({{-1, 0, 2}, {1, 0, -4}}));
+  EXPECT_NEAR(components[0].area_sr, 0.437338, 1e-6);
+
+  EXPECT_EQ(components[1].masked, 0u);
+  EXPECT_EQ(components[1].name, "recharge");
+  EXPECT_EQ(uses(components[1]), 2);
+  EXPECT_EQ(atlas.constraints().half_spaces(components[1].constraints), half_spaces({{0, 1, 2}, {0, -1, -4}}));
+  EXPECT_NEAR(components[1].area_sr, 0.437338, 1e-6);
+
+  EXPECT_FALSE(components[2].masked.has_value());
+  EXPECT_EQ(components[2].name, "rubble+recharge");
+  EXPECT_EQ(uses(components[2]), 64);
+  EXPECT_EQ(components[2].constraints, atlas.policy_bec());
+
+  Regions regions{atlas.constraints()};
+  EXPECT_NEAR(regions.of(atlas.prior() | components[0].constraints | components[1].constraints).area_sr, 0.052189,
+              1e-6);
+}
+
+TEST(ItemDelivery, HasTheKnownCoverageSets) {
+  const auto& coverage = item_delivery().coverage();
+  EXPECT_EQ(coverage.vertices, 19324u);
+  EXPECT_NEAR(coverage.mean, 2.08, 0.005);
+  EXPECT_EQ(coverage.max, 7u);
+}
+
+// Laws.
+
+TEST(Atlas, EveryConstraintThatIsConveyedHoldsAtTheRobotsWeights) {
+  const auto& atlas = item_delivery();
+  for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+    EXPECT_GE(sign_of_dot(atlas.constraints()[c].normal(), atlas.domain().weights().integer), 0)
+        << to_string(atlas.constraints()[c].normal());
+  }
+}
+
+TEST(Atlas, ThePolicysBecImpliesEveryOneStepAndCounterfactualConstraint) {
+  const auto& atlas = item_delivery();
+  const auto bec = Cone::intersection(atlas.policy_bec_half_spaces());
+  ASSERT_TRUE(bec.has_value());
+  for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+    EXPECT_TRUE(bec->implies(atlas.constraints()[c])) << to_string(atlas.constraints()[c].normal());
+  }
+}
+
+TEST(Atlas, IndexAndIdAreInverse) {
+  const auto& atlas = item_delivery();
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) ASSERT_EQ(atlas.index(atlas.id(demo)), demo);
+}
+
+TEST(Atlas, ClassesPartitionTheDemonstrations) {
+  const auto& atlas = item_delivery();
+  std::size_t members = 0;
+  for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
+    for (const auto demo : atlas.members(c)) ASSERT_EQ(atlas.demo_class(demo), c);
+    members += atlas.members(c).size();
+  }
+  EXPECT_EQ(members, atlas.num_demos());
+}
+
+// A learner's answer by look-up is the best of the coverage set under the
+// weights, for 1 000 random weights x all starts; weights outside the finite
+// region have no answer.
+TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
+  const auto& atlas = item_delivery();
+  RandomStream random{20240617};
+  for (int i = 0; i < 1000; ++i) {
+    auto w = random_weights(random);
+    if (i % 2 == 0) w.z() = -std::abs(w.z());  // half of them where optima are finite
+    const auto cell = atlas.cells().locate(w);
+    for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+      const auto answer = atlas.answer(demo, cell);
+      ASSERT_EQ(answer.has_value(), atlas.finite_region(demo).contains(w));
+      if (!answer) continue;
+      const std::array<double, 3> x{w.x(), w.y(), w.z()};
+      double best = -std::numeric_limits<double>::infinity();
+      for (const auto& vertex : atlas.coverage_set(demo)) best = std::max(best, dot(vertex, x));
+      ASSERT_NEAR(dot(*answer, x), best, 1e-12);
+    }
+  }
+}
+
+// The hull maximum is the value that planning finds, wherever the optimum is
+// finite: 1 000 random weights x every MDP x all starts.
+TEST(AtlasSlow, HullMaximumEqualsPlanningForEveryWeightMdpAndStart) {
+  const auto& atlas = item_delivery();
+  RandomStream random{77};
+  std::size_t finite = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto w = random_weights(random);
+    const std::array<double, 3> x{w.x(), w.y(), w.z()};
+    for (MdpIndex m{0}; m.value() < atlas.domain().num_mdps(); ++m) {
+      const auto solution = plan(atlas.domain().mdp(m), x);
+      const bool covered = atlas.finite_region(atlas.index({m, StateIndex{0}})).contains(w);
+      ASSERT_EQ(solution.has_value(), covered);
+      if (!solution) continue;
+      ++finite;
+      for (StateIndex s{0}; s.value() < atlas.domain().mdp(m).num_states(); ++s) {
+        double best = -std::numeric_limits<double>::infinity();
+        for (const auto& vertex : atlas.coverage_set(atlas.index({m, s}))) best = std::max(best, dot(vertex, x));
+        ASSERT_NEAR(solution->values[s.value()], best, 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(finite, 10'000u);
+}
+
+// What a demonstration conveys to one belief, by look-up, against planning for
+// that belief and comparing paths state by state.
+TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
+  const auto& atlas = item_delivery();
+  const auto& domain = atlas.domain();
+  RandomStream random{4};
+  for (int i = 0; i < 40; ++i) {
+    auto w = random_weights(random);
+    w.z() = -std::abs(w.z());
+    const std::array<double, 3> x{w.x(), w.y(), w.z()};
+    const std::array cells{atlas.cells().locate(w)};
+    const MdpIndex m{uniform_index(domain.num_mdps(), random)};
+    const auto solution = plan(domain.mdp(m), x);
+    std::vector<IntegerVector> learner;
+    if (solution) learner = best_for_robot(domain.mdp(m), *solution, x, domain.weights().integer);
+    for (StateIndex s{0}; s.value() < domain.mdp(m).num_states(); ++s) {
+      const auto demo = atlas.index({m, s});
+      std::vector<HalfSpace> expected;
+      const auto path = atlas.trajectory(demo).states;
+      for (std::size_t t = 0; solution && t + 1 < path.size(); ++t) {
+        const auto loss = atlas.feature_counts(atlas.index({m, path[t]})) - learner[path[t].value()];
+        if (!loss.is_zero()) expected.emplace_back(loss);
+      }
+      std::sort(expected.begin(), expected.end());
+      expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+      ASSERT_EQ(atlas.constraints().half_spaces(atlas.conveyed(demo, cells)), expected);
+    }
+  }
+}
+
+TEST(Atlas, ClassRowsEqualTheDemonstrationsOwn) {
+  const auto& atlas = item_delivery();
+  RandomStream random{5};
+  std::vector<PolicyCellIndex> cells;
+  for (int i = 0; i < 8; ++i) {
+    auto w = random_weights(random);
+    w.z() = -std::abs(w.z());
+    cells.push_back(atlas.cells().locate(w));
+  }
+  const auto rows = atlas.conveyed_by_class(cells);
+  const auto words = atlas.words_per_set();
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 7}) {
+    const auto row = std::span{rows}.subspan(atlas.demo_class(demo).value() * words, words);
+    ASSERT_EQ(ConstraintSet{row}, atlas.conveyed(demo, cells));
+  }
+}
+
+// Somebody who differs from the robot in nothing but c answers a test of c differently.
+TEST(Atlas, TestsDiscriminateTheirConstraint) {
+  const auto& atlas = item_delivery();
+  std::size_t tested = 0;
+  for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+    for (const auto demo : atlas.tests_for(c)) {
+      ASSERT_TRUE(atlas.one_step(demo).contains(c));
+      auto others = atlas.robot_cell_facets(demo);
+      ASSERT_TRUE(others.contains(c));
+      std::vector<HalfSpace> sides = atlas.constraints().half_spaces(others);
+      const auto flip = std::find(sides.begin(), sides.end(), atlas.constraints()[c]);
+      ASSERT_NE(flip, sides.end());
+      *flip = flip->opposite();
+      for (const auto& facet : atlas.finite_region(demo).facets()) sides.push_back(facet);
+      const auto beyond = Cone::intersection(sides);
+      ASSERT_TRUE(beyond.has_value());
+      ++tested;
+    }
+  }
+  EXPECT_GT(tested, 100u);
+}
+
+TEST(Atlas, NextToTheRobotsWeightsEverybodyAnswersLikeTheRobot) {
+  const auto& atlas = item_delivery();
+  const auto cell = atlas.cells().locate(atlas.domain().weights().unit);
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    ASSERT_EQ(atlas.answer(demo, cell), atlas.feature_counts(demo));
+  }
+}
+
+TEST(PolicyCells, WeightsOfOneCellChooseAlikeAndOthersDiffer) {
+  const auto& atlas = item_delivery();
+  EXPECT_GE(atlas.cells().num_leaves(), atlas.cells().size());
+  // Rows of choices are pairwise distinct: a cell is a maximal set of weights that choose alike.
+  std::vector<std::vector<PolicyCells::Choice>> rows;
+  for (std::size_t cell = 0; cell < atlas.cells().size(); ++cell) {
+    auto& row = rows.emplace_back();
+    for (std::size_t h = 0; h < atlas.num_hulls(); ++h)
+      row.push_back(atlas.cells().choice(PolicyCellIndex{cell}, HullIndex{h}));
+  }
+  std::sort(rows.begin(), rows.end());
+  EXPECT_EQ(std::adjacent_find(rows.begin(), rows.end()), rows.end());
+}
+
+}  // namespace
+}  // namespace kith
