@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "kith/teaching/lesson.hpp"
+
+namespace kith {
+
+/// The tests of one unit.
+struct TestChoice {
+  std::vector<Test> tests;
+  std::size_t untested = 0;  ///< Constraints that nothing can test.
+};
+
+/// Chooses start states that show whether the taught constraints were understood.
+///
+/// A start tests c if c is among the one-step constraints of the robot's path
+/// and a facet of the robot's cell in the start's coverage set (somebody who
+/// differs only in c answers differently). Unvisited starts whose pictures were
+/// not shown come first; without any test of c itself, the constraint nearest in angle
+/// stands in, among those over the same features if there are any. Starts that test
+/// several constraints are taken greedily, then one per constraint; the most
+/// complex pictures first, then those least like the unit's demonstrations, then chance.
+///
+/// @param taught  T, sorted.
+/// @param visited  shape [num_demos]; chosen ones are added.
+[[nodiscard]] TestChoice select_tests(const Atlas& atlas, const KnowledgeComponent& component,
+                                      const std::vector<Demonstration>& unit, const std::vector<HalfSpace>& taught,
+                                      std::vector<bool>& visited, RandomStream random);
+
+}  // namespace kith

@@ -1,0 +1,288 @@
+#include "kith/teaching/session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "item_delivery.hpp"
+
+namespace kith {
+namespace {
+
+using testing::item_delivery;
+
+std::vector<RandomStream> persons(std::size_t n) {
+  std::vector<RandomStream> streams;
+  for (std::size_t i = 0; i < n; ++i) streams.push_back(RandomStream{99}.split("person").split(i));
+  return streams;
+}
+
+Session make_session(TeachingCache& cache, Strategy strategy, std::size_t members,
+                     const TeachingOptions& options = {}) {
+  return {item_delivery(), cache, options, strategy, persons(members), RandomStream{99}.split("teacher")};
+}
+
+// Everybody answers like the robot.
+std::vector<std::vector<Answer>> robots_answers(const Session& session) {
+  std::vector<Answer> answers;
+  for (const auto& test : session.lesson().tests) answers.emplace_back(item_delivery().feature_counts(test.demo));
+  return std::vector(session.num_members(), answers);
+}
+
+// A path that is worse than the robot's: another vertex of the coverage set.
+IntegerVector worse_answer(DemoIndex test) {
+  for (const auto& vertex : item_delivery().coverage_set(test)) {
+    if (vertex != item_delivery().feature_counts(test)) return vertex;
+  }
+  throw std::logic_error{"a test without an alternative does not discriminate"};
+}
+
+std::vector<std::vector<Answer>> wrong_answers(const Session& session) {
+  std::vector<Answer> answers;
+  for (const auto& test : session.lesson().tests) answers.emplace_back(worse_answer(test.demo));
+  return std::vector(session.num_members(), answers);
+}
+
+class EveryStrategy : public ::testing::TestWithParam<Strategy> {
+ protected:
+  [[nodiscard]] std::size_t team_size() const { return GetParam() == Strategy::kBaseline ? 1 : 3; }
+  TeachingCache cache_{item_delivery().constraints()};
+};
+
+TEST_P(EveryStrategy, PerfectAnswersLearnEveryComponentInOnePeriodEach) {
+  auto session = make_session(cache_, GetParam(), team_size());
+  while (!session.finished()) {
+    const auto feedback = session.submit(robots_answers(session));
+    EXPECT_TRUE(feedback.component_learned);
+  }
+  EXPECT_EQ(session.status(), SessionStatus::kComplete);
+  EXPECT_LE(session.periods(), 3u);
+  for (const auto status : session.components()) EXPECT_NE(status, ComponentStatus::kOpen);
+}
+
+TEST_P(EveryStrategy, AnUnlearnedComponentIsNeverLeft) {
+  auto session = make_session(cache_, GetParam(), team_size(), {.max_periods = 12});
+  while (!session.finished()) {
+    EXPECT_EQ(session.lesson().component, 0u);
+    EXPECT_FALSE(session.lesson().demonstrations.empty());
+    EXPECT_FALSE(session.lesson().tests.empty());
+    session.submit(wrong_answers(session));
+  }
+  EXPECT_EQ(session.status(), SessionStatus::kMaxPeriods);
+  EXPECT_EQ(session.periods(), 12u);
+  EXPECT_EQ(session.components()[0], ComponentStatus::kOpen);
+}
+
+TEST_P(EveryStrategy, LessonsKeepTheirPromises) {
+  const auto& atlas = item_delivery();
+  auto session = make_session(cache_, GetParam(), team_size());
+  std::vector<bool> visited(atlas.num_demos(), false);
+  for (std::size_t period = 1; !session.finished() && period <= 12; ++period) {
+    const auto lesson = session.lesson();
+    const auto& component = atlas.knowledge_components()[lesson.component];
+    EXPECT_EQ(lesson.period, period);
+    auto conveyed = atlas.prior();
+    double log_gain = 0.0;
+    for (const auto& shown : lesson.demonstrations) {
+      EXPECT_TRUE(component.uses_mdp[atlas.id(shown.demo).mdp.value()]);
+      EXPECT_GT(shown.gain, 1.0);
+      EXPECT_GE(shown.num_new, 1u);
+      log_gain += std::log(shown.gain);
+      conveyed |= shown.constraints;
+    }
+    if (!lesson.repeats) EXPECT_NEAR(lesson.gain, log_gain, 1e-9);
+    EXPECT_NEAR(lesson.area_sr, cache_.regions().of(conveyed).area_sr, 1e-12);
+    EXPECT_LE(lesson.running_area_sr, lesson.area_sr + 1e-12);
+    std::vector<HalfSpace> covered;
+    for (const auto& test : lesson.tests) {
+      EXPECT_TRUE(component.uses_mdp[atlas.id(test.demo).mdp.value()]);
+      EXPECT_FALSE(test.covered.empty());
+      covered.insert(covered.end(), test.covered.begin(), test.covered.end());
+    }
+    std::sort(covered.begin(), covered.end());
+    covered.erase(std::unique(covered.begin(), covered.end()), covered.end());
+    EXPECT_EQ(covered.size() + lesson.untested, lesson.taught.size());
+    for (const auto& constraint : covered) {
+      EXPECT_TRUE(std::binary_search(lesson.taught.begin(), lesson.taught.end(), constraint));
+    }
+    session.submit(period % 3 == 0 ? robots_answers(session) : wrong_answers(session));
+  }
+}
+
+TEST_P(EveryStrategy, EqualStreamsAndAnswersGiveEqualSessions) {
+  TeachingCache other_cache{item_delivery().constraints()};
+  (void)other_cache.regions().of(item_delivery().policy_bec());  // a cache that has seen other things
+  auto a = make_session(cache_, GetParam(), team_size());
+  auto b = make_session(other_cache, GetParam(), team_size());
+  for (int i = 0; i < 5 && !a.finished(); ++i) {
+    ASSERT_FALSE(b.finished());
+    ASSERT_EQ(a.lesson().demonstrations.size(), b.lesson().demonstrations.size());
+    for (std::size_t k = 0; k < a.lesson().demonstrations.size(); ++k) {
+      EXPECT_EQ(a.lesson().demonstrations[k].demo, b.lesson().demonstrations[k].demo);
+    }
+    a.submit(i % 2 == 0 ? wrong_answers(a) : robots_answers(a));
+    b.submit(i % 2 == 0 ? wrong_answers(b) : robots_answers(b));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryStrategy,
+                         ::testing::Values(Strategy::kBaseline, Strategy::kIndividualLow, Strategy::kIndividualHigh,
+                                           Strategy::kCommon, Strategy::kJoint),
+                         [](const auto& c) {
+                           std::string name{name_of(c.param)};
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Session, ATeamOfOneIsTaughtAlikeByEveryStrategy) {
+  std::vector<std::vector<DemoIndex>> shown;
+  for (const auto& entry : strategies()) {
+    TeachingCache cache{item_delivery().constraints()};
+    auto session = make_session(cache, entry.strategy, 1);
+    auto& list = shown.emplace_back();
+    for (int i = 0; i < 6 && !session.finished(); ++i) {
+      for (const auto& demo : session.lesson().demonstrations) list.push_back(demo.demo);
+      for (const auto& test : session.lesson().tests) list.push_back(test.demo);
+      session.submit(i % 2 == 0 ? wrong_answers(session) : robots_answers(session));
+    }
+  }
+  for (const auto& list : shown) EXPECT_EQ(list, shown.front());
+}
+
+TEST(Session, ConsecutiveCorrectAsksForSeveralGoodPeriods) {
+  TeachingCache cache{item_delivery().constraints()};
+  auto session = make_session(cache, Strategy::kCommon, 2, {.consecutive_correct = 2});
+  EXPECT_FALSE(session.submit(robots_answers(session)).component_learned);
+  EXPECT_FALSE(session.submit(wrong_answers(session)).component_learned);
+  EXPECT_FALSE(session.submit(robots_answers(session)).component_learned);
+  EXPECT_TRUE(session.submit(robots_answers(session)).component_learned);
+}
+
+TEST(Session, DuplicateSetsAskAboutEveryConstraintThatOften) {
+  TeachingCache cache{item_delivery().constraints()};
+  const auto once = make_session(cache, Strategy::kCommon, 2);
+  const auto twice = make_session(cache, Strategy::kCommon, 2, {.duplicate_sets = 2});
+  EXPECT_GE(twice.lesson().tests.size(), 2 * once.lesson().tests.size());
+}
+
+TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
+  TeachingCache cache{item_delivery().constraints()};
+  auto session = make_session(cache, Strategy::kJoint, 3);
+  auto answers = robots_answers(session);
+  answers[1][0] = worse_answer(session.lesson().tests[0].demo);
+  const auto feedback = session.submit(answers);
+  EXPECT_THAT(feedback.all_correct, ::testing::ElementsAre(true, false, true));
+  EXPECT_FALSE(feedback.component_learned);
+  EXPECT_GT(feedback.verdicts[1][0].regret, 0.0);
+  EXPECT_EQ(feedback.verdicts[0][0].regret, 0.0);
+}
+
+TEST(Session, AMissingAnswerIsWrongAndShowsNothing) {
+  TeachingCache cache{item_delivery().constraints()};
+  auto session = make_session(cache, Strategy::kCommon, 1);
+  const auto feedback = session.submit(std::vector{std::vector<Answer>(session.lesson().tests.size())});
+  for (const auto& verdict : feedback.verdicts[0]) {
+    EXPECT_FALSE(verdict.correct);
+    EXPECT_FALSE(verdict.answered);
+    EXPECT_TRUE(verdict.half_spaces.empty());
+  }
+}
+
+TEST(Session, AWrongAnswerShowsTheHalfSpaceInWhichItWins) {
+  TeachingCache cache{item_delivery().constraints()};
+  auto session = make_session(cache, Strategy::kCommon, 1);
+  const auto test = session.lesson().tests[0].demo;
+  auto answers = wrong_answers(session);
+  const auto loss = item_delivery().feature_counts(test) - *answers[0][0];
+  const auto feedback = session.submit(answers);
+  ASSERT_EQ(feedback.verdicts[0][0].half_spaces.size(), 1u);
+  EXPECT_EQ(feedback.verdicts[0][0].half_spaces[0], HalfSpace{-loss});
+}
+
+TEST(Session, RefusesAnswersOfTheWrongShapeOrBetterThanOptimal) {
+  TeachingCache cache{item_delivery().constraints()};
+  auto session = make_session(cache, Strategy::kCommon, 2);
+  auto answers = robots_answers(session);
+  EXPECT_THROW(session.submit(std::vector{answers[0]}), std::invalid_argument);
+  auto short_list = answers;
+  short_list[1].pop_back();
+  EXPECT_THROW(session.submit(short_list), std::invalid_argument);
+  answers[0][0] = IntegerVector{0, 5, 0};
+  EXPECT_THROW(session.submit(answers), std::invalid_argument);
+  EXPECT_EQ(session.periods(), 0u);
+}
+
+TEST(Session, RefusesBadOptionsAndTeams) {
+  TeachingCache cache{item_delivery().constraints()};
+  EXPECT_THROW(make_session(cache, Strategy::kCommon, 0), std::invalid_argument);
+  EXPECT_THROW(make_session(cache, Strategy::kCommon, 31), std::invalid_argument);
+  EXPECT_THROW(make_session(cache, Strategy::kBaseline, 2), std::invalid_argument);
+  EXPECT_THROW(make_session(cache, Strategy::kCommon, 1, {.counterfactuals = 0}), std::invalid_argument);
+  EXPECT_THROW(make_session(cache, Strategy::kCommon, 1, {.max_periods = 0}), std::invalid_argument);
+  EXPECT_THROW(make_session(cache, Strategy::kCommon, 1, {.assumed_ability = 0.4}), std::invalid_argument);
+}
+
+TEST(Session, HasNoLessonOnceFinished) {
+  TeachingCache cache{item_delivery().constraints()};
+  auto session = make_session(cache, Strategy::kCommon, 1);
+  while (!session.finished()) session.submit(robots_answers(session));
+  EXPECT_THROW((void)session.lesson(), std::logic_error);
+  EXPECT_THROW(session.submit({}), std::logic_error);
+}
+
+TEST(Session, ThirtyMembersAreTaught) {
+  TeachingCache cache{item_delivery().constraints()};
+  auto session = make_session(cache, Strategy::kJoint, 30, {.max_periods = 3});
+  for (int i = 0; !session.finished(); ++i) {
+    auto answers = robots_answers(session);
+    for (std::size_t m = 0; m < 15; ++m) answers[2 * m] = wrong_answers(session)[0];
+    session.submit(answers);
+  }
+  EXPECT_EQ(session.periods(), 3u);
+}
+
+// A learner who already holds the policy's BEC as prior has nothing to learn.
+TEST(Session, SkipsEveryComponentWhenThePriorSaysItAll) {
+  std::string text;
+  for (const auto& domain : built_in_domains()) {
+    if (domain.name == "item-delivery") text = domain.text;
+  }
+  const std::string prior = "halfspaces = [ { step = -1 } ]";
+  const auto at = text.find(prior);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(
+      at, prior.size(),
+      "halfspaces = [ { rubble = -1, step = 2 }, { recharge = -1, step = -4 }, { rubble = 1, recharge = 1 } ]");
+  auto reading = parse_domain(text, "all-known.toml");
+  ASSERT_TRUE(reading.domain.has_value());
+  const Atlas atlas{*reading.domain};
+  TeachingCache cache{atlas.constraints()};
+  const Session session{atlas, cache, {}, Strategy::kCommon, persons(2), RandomStream{1}};
+  EXPECT_EQ(session.status(), SessionStatus::kComplete);
+  EXPECT_EQ(session.periods(), 0u);
+  for (const auto status : session.components()) EXPECT_EQ(status, ComponentStatus::kSkipped);
+}
+
+TEST(Strategies, AreFoundByTheirNames) {
+  for (const auto& entry : strategies()) {
+    EXPECT_EQ(find_strategy(entry.name), entry.strategy);
+    EXPECT_EQ(name_of(entry.strategy), entry.name);
+  }
+  EXPECT_FALSE(find_strategy("individual").has_value());
+}
+
+TEST(Strategies, IndividualOnesRankByKnowledgeAndBreakTiesByAddress) {
+  const std::vector<double> knowledge{0.4, 0.1, 0.9, 0.1};
+  const std::vector<std::uint64_t> hashes{1, 9, 3, 4};
+  const TeamView team{knowledge, hashes};
+  EXPECT_EQ(entry_of(Strategy::kIndividualLow).choose(team), (SourceBelief{SourceBelief::Kind::kMember, 3}));
+  EXPECT_EQ(entry_of(Strategy::kIndividualHigh).choose(team), (SourceBelief{SourceBelief::Kind::kMember, 2}));
+  EXPECT_EQ(entry_of(Strategy::kCommon).choose(team).kind, SourceBelief::Kind::kCommon);
+  EXPECT_EQ(entry_of(Strategy::kJoint).choose(team).kind, SourceBelief::Kind::kJoint);
+}
+
+}  // namespace
+}  // namespace kith
