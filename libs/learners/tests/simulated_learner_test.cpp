@@ -1,0 +1,118 @@
+#include "kith/learners/simulated_learner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "item_delivery.hpp"
+
+namespace kith {
+namespace {
+
+using testing::half_spaces;
+using testing::item_delivery;
+
+SimulatedLearner make_learner(const LearnerParameters& parameters, std::uint64_t person = 1) {
+  const auto& atlas = item_delivery();
+  return {atlas, ParticleBelief{atlas.prior_cone(), {}}, parameters, LikelihoodForm::kDiscontinuous,
+          RandomStream{person}};
+}
+
+constexpr LearnerParameters kNovice{
+    .ability = 0.7, .confirm_gain = 0.02, .correct_gain = 0.05, .ability_max = 0.95, .ability_scale = 1.0};
+
+TEST(SimulatedLearner, AbilityGrowsWithFeedbackUpToItsCapAndReturnsWithANewComponent) {
+  auto learner = make_learner(kNovice);
+  EXPECT_EQ(learner.ability(), 0.7);
+  learner.hear_feedback(true, {}, 1);
+  EXPECT_DOUBLE_EQ(learner.ability(), 0.72);
+  learner.hear_feedback(false, {}, 2);
+  EXPECT_DOUBLE_EQ(learner.ability(), 0.77);
+  for (std::size_t period = 3; period < 20; ++period) learner.hear_feedback(false, {}, period);
+  EXPECT_EQ(learner.ability(), 0.95);
+  learner.begin_component();
+  EXPECT_EQ(learner.ability(), 0.7);
+}
+
+TEST(SimulatedLearner, LearnsFromDemonstrationsAndFeedback) {
+  const auto& bec = item_delivery().policy_bec_half_spaces();
+  auto learner = make_learner(kNovice);
+  const double before = learner.belief().mass_in(bec);
+  learner.watch(bec, 1);
+  const double watched = learner.belief().mass_in(bec);
+  EXPECT_GT(watched, before);
+  learner.hear_feedback(false, bec, 1);
+  EXPECT_GT(learner.belief().mass_in(bec), watched);
+}
+
+// At ability 0.5 both sides of every constraint are equally likely.
+TEST(SimulatedLearner, AtAbilityOneHalfNothingIsLearnedFromDemonstrations) {
+  auto learner = make_learner(
+      {.ability = 0.5, .confirm_gain = 0.0, .correct_gain = 0.0, .ability_max = 0.95, .ability_scale = 1.0});
+  const auto before = learner.belief();
+  for (std::size_t period = 1; period <= 10; ++period) learner.watch(item_delivery().policy_bec_half_spaces(), period);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_NEAR(learner.belief().weights()[i], before.weights()[i], 1e-15);
+  EXPECT_EQ(learner.belief().num_resamplings(), 0u);
+}
+
+TEST(SimulatedLearner, AbilityScaleTempersEveryUpdate) {
+  const auto& bec = item_delivery().policy_bec_half_spaces();
+  auto plain = make_learner(kNovice);
+  auto tempered_parameters = kNovice;
+  tempered_parameters.ability_scale = 0.5;
+  auto tempered = make_learner(tempered_parameters);
+  plain.watch(bec, 1);
+  tempered.watch(bec, 1);
+  EXPECT_GT(plain.belief().mass_in(bec), tempered.belief().mass_in(bec));
+}
+
+TEST(SimulatedLearner, AnswersAllTestsFromOneWeightThatHasAnOptimumInAllOfThem) {
+  const auto& atlas = item_delivery();
+  const auto learner = make_learner(kNovice);
+  const std::array tests{DemoIndex{10}, DemoIndex{4000}, DemoIndex{9000}};
+  for (std::size_t period = 1; period <= 200; ++period) {
+    const auto response = learner.answer(tests, period);
+    ASSERT_TRUE(response.weights.has_value());
+    const auto cell = atlas.cells().locate(*response.weights);
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      ASSERT_TRUE(response.answers[t].has_value());
+      EXPECT_EQ(response.answers[t], atlas.answer(tests[t], cell));
+    }
+  }
+}
+
+TEST(SimulatedLearner, AnswersOfAPeriodDoNotDependOnWhatWasAskedBefore) {
+  const std::array tests{DemoIndex{10}, DemoIndex{4000}};
+  const auto learner = make_learner(kNovice);
+  const auto fresh = learner.answer(tests, 7);
+  (void)learner.answer(tests, 3);
+  EXPECT_EQ(learner.answer(tests, 7).answers, fresh.answers);
+  EXPECT_EQ(learner.answer(tests, 7).weights, fresh.weights);
+}
+
+// Somebody to whom every step is a reward has no plan that ends.
+TEST(SimulatedLearner, HasNoAnswerWhenNoWeightHasAFiniteOptimum) {
+  const auto& atlas = item_delivery();
+  const auto likes_steps = Cone::intersection(half_spaces({{0, 0, 1}}));
+  ASSERT_TRUE(likes_steps.has_value());
+  const SimulatedLearner learner{atlas, ParticleBelief{*likes_steps, {}}, kNovice, LikelihoodForm::kDiscontinuous,
+                                 RandomStream{3}};
+  const auto response = learner.answer(std::array{DemoIndex{0}, DemoIndex{1}}, 1);
+  EXPECT_FALSE(response.weights.has_value());
+  for (const auto& answer : response.answers) EXPECT_FALSE(answer.has_value());
+}
+
+TEST(SimulatedLearner, OwnCounterfactualsHoldAtTheRobotsWeights) {
+  const auto& atlas = item_delivery();
+  Regions regions{atlas.constraints()};
+  const auto learner = make_learner(kNovice);
+  const auto conveyed = learner.own_counterfactuals(regions, std::array{DemoIndex{8000}, DemoIndex{9000}}, 8, 1);
+  EXPECT_FALSE(conveyed.empty());
+  for (const auto& half_space : conveyed) {
+    EXPECT_GE(sign_of_dot(half_space.normal(), atlas.domain().weights().integer), 0);
+  }
+}
+
+}  // namespace
+}  // namespace kith
