@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/core/integer_vector.hpp"
+#include "kith/study/study_spec.hpp"
+
+namespace kith {
+
+/// Where a team stands in a study's design.
+struct TeamAddress {
+  std::size_t variant = 0;  ///< Setting of the varied factors; 0 without any.
+  Strategy strategy = Strategy::kCommon;
+  std::string composition;
+  std::size_t replicate = 1;  ///< 1, 2, ...
+  std::size_t team = 1;       ///< 1, 2, ... over the whole study, in the order of the tables.
+};
+
+/// A row of responses.csv.
+struct ResponseRecord {
+  std::size_t period = 0;
+  std::size_t component = 0;  ///< 1-based
+  std::size_t test = 0;       ///< 1-based within the period
+  std::size_t member = 0;     ///< 1-based
+  std::size_t mdp = 0;
+  std::size_t start = 0;  ///< State index in the MDP.
+  bool correct = false;
+  std::optional<double> regret;         ///< Missing without an answer.
+  std::optional<IntegerVector> answer;  ///< Feature counts; missing without an answer.
+  std::vector<HalfSpace> constraints;   ///< What the answer shows.
+};
+
+/// A row of periods.csv.
+struct PeriodRecord {
+  std::size_t period = 0;
+  std::size_t member = 0;     ///< 1-based for the baseline, whose periods are numbered within the member; else 0.
+  std::size_t component = 0;  ///< 1-based
+  std::string source;         ///< "common", "joint" or "member N" (1-based)
+  std::size_t demonstrations = 0;
+  double area_sr = 0.0;
+  double running_area_sr = 0.0;
+  std::size_t tests = 0;
+  bool all_correct = false;  ///< Everybody answered every test correctly.
+  std::size_t excluded = 0;
+  std::size_t untested = 0;
+  double gain = 0.0;
+  double p_bec_common = 0.0;
+  double p_bec_joint = 0.0;
+};
+
+/// A row of learners.csv.
+struct LearnerRecord {
+  std::size_t member = 0;  ///< 1-based
+  char type = 'N';
+  LearnerParameters parameters;
+  double p_bec = 0.0;  ///< Mass of the final belief in the policy's BEC.
+  std::size_t periods = 0;
+  std::size_t tests = 0;
+  std::size_t correct = 0;
+};
+
+/// Everything that is written down about one team; one row of teams.csv and those that belong to it.
+struct TeamRecord {
+  TeamAddress address;
+  std::string seed_address;  ///< Readable address of the team's random streams.
+  bool completed = false;    ///< Every component learned or skipped (in every member's session, for the baseline).
+  std::size_t periods = 0;
+  std::size_t demonstrations = 0;
+  std::size_t tests = 0;
+  double knowledge = 0.0;  ///< Mean over members of LearnerRecord::p_bec.
+  double knowledge_min = 0.0;
+  std::size_t components_learned = 0;  ///< Summed over members for the baseline.
+  std::size_t components_skipped = 0;
+  double area_sr = 0.0;  ///< Mean over periods of PeriodRecord::area_sr; 0 without periods.
+  std::vector<LearnerRecord> learners;
+  std::vector<PeriodRecord> period_records;  ///< Empty at RecordLevel::kTeam.
+  std::vector<ResponseRecord> responses;     ///< Empty at RecordLevel::kTeam.
+};
+
+}  // namespace kith

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/geometry/half_space.hpp"
+#include "kith/learners/population.hpp"
+#include "kith/teaching/session.hpp"
+
+namespace kith {
+
+/// A type of simulated learner, named by one letter in compositions.
+struct LearnerType {
+  char letter = 'N';
+  Population population;
+  FilterOptions filter;                         ///< particles and process noise of the learner's own belief
+  std::optional<std::vector<HalfSpace>> prior;  ///< what this type starts from; none: the domain's prior
+};
+
+/// Whether compared strategies teach the same simulated people.
+enum class Pairing {
+  kReplicate,  ///< Common random numbers: replicate r of a composition is the same people in every strategy.
+  kNone,       ///< Fresh people in every cell.
+};
+
+/// How much of every team is written down.
+enum class RecordLevel { kTeam, kPeriod, kParticles };
+
+/// One setting of the varied keys of a design, such as {"teacher.process_noise", "0.5"}.
+struct FactorSetting {
+  std::string key;
+  std::string value;
+  friend bool operator==(const FactorSetting&, const FactorSetting&) = default;
+};
+
+/// A study as it will be run: every key of a study file, resolved, for one
+/// setting of the varied factors. See docs/formats.md.
+struct StudySpec {
+  std::string id;
+  std::string title;
+  std::string domain = "item-delivery";  ///< Built-in name or path.
+  std::uint64_t seed = 1;
+  std::size_t replicates = 15;  ///< Teams per cell, >= 1.
+  std::vector<Strategy> strategies;
+  std::vector<std::string> compositions;  ///< Such as "NNP": 1 to 30 letters of learner types.
+  Pairing pairing = Pairing::kReplicate;
+  std::vector<LearnerType> learner_types;
+  TeachingOptions teaching;
+  bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
+  RecordLevel record = RecordLevel::kPeriod;
+  std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
+};
+
+/// The type with this letter. @throws std::invalid_argument if there is none.
+[[nodiscard]] const LearnerType& learner_type(const StudySpec& spec, char letter);
+
+}  // namespace kith

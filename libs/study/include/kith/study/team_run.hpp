@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+
+#include "kith/learners/simulated_learner.hpp"
+#include "kith/study/records.hpp"
+#include "kith/teaching/cache.hpp"
+#include "kith/teaching/session.hpp"
+
+namespace kith {
+
+/// Watches a team being taught, for transcripts. All calls come in the order of events, from the thread that runs the
+/// team.
+class TeamObserver {
+ public:
+  virtual ~TeamObserver() = default;
+  /// A session begins: the whole team's, or one member's (1-based) in the baseline; member is 0 for the whole team.
+  virtual void on_session(const Session& session, std::size_t member) = 0;
+  /// The lesson of the coming period, before anybody saw it.
+  virtual void on_lesson(const Session& session, const Lesson& lesson,
+                         const std::vector<SimulatedLearner>& learners) = 0;
+  /// Everybody watched, answered and heard the feedback; learners and session are as they are afterwards.
+  virtual void on_feedback(const Session& session, const Lesson& lesson,
+                           const std::vector<SimulatedLearner::Response>& responses, const Feedback& feedback,
+                           const std::vector<SimulatedLearner>& learners) = 0;
+  /// The session has ended.
+  virtual void on_end(const Session& session, const std::vector<SimulatedLearner>& learners) = 0;
+};
+
+/// Teaches one simulated team to the end and writes everything down. The outcome depends on the specification
+/// and the address only. The baseline is a sequence of one-person sessions of the same people.
+/// @param cache  of the calling thread; influences nothing.
+/// @param observer  may be null. With an observer, all beliefs are kept up to date.
+[[nodiscard]] TeamRecord run_team(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec,
+                                  const TeamAddress& address, TeamObserver* observer = nullptr);
+
+}  // namespace kith

@@ -1,0 +1,240 @@
+#include "kith/study/team_run.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "kith/core/assert.hpp"
+
+namespace kith {
+namespace {
+
+// One simulated person before a session: who they are and where their chance comes from.
+struct Person {
+  char type = 'N';
+  LearnerParameters parameters;
+  RandomStream stream{0};
+  std::size_t member = 0;  // 1-based
+};
+
+class TeamRun {
+ public:
+  TeamRun(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
+          TeamObserver* observer)
+      : atlas_{atlas}, cache_{cache}, spec_{spec}, observer_{observer}, stream_{team_stream(spec, address)} {
+    record_.address = address;
+    record_.seed_address = readable_address(spec, address);
+    options_ = spec.teaching;
+    const bool everything = observer != nullptr;
+    const bool periods = everything || spec.record != RecordLevel::kTeam;
+    options_.also_record.members |= everything;
+    options_.also_record.common |= periods;
+    options_.also_record.joint |= periods;
+    draw_people();
+  }
+
+  TeamRecord run() {
+    record_.completed = true;
+    if (record_.address.strategy == Strategy::kBaseline) {
+      for (const auto& person : people_) run_session({person}, person.stream.split("alone"), person.member);
+    } else {
+      run_session(people_, stream_.split("teacher"), 0);
+    }
+    summarize();
+    return std::move(record_);
+  }
+
+ private:
+  static RandomStream team_stream(const StudySpec& spec, const TeamAddress& address) {
+    RandomStream root{spec.seed};
+    if (spec.pairing == Pairing::kNone) root = root.split(name_of(address.strategy));
+    return root.split(address.composition).split(address.replicate);
+  }
+
+  static std::string readable_address(const StudySpec& spec, const TeamAddress& address) {
+    std::string text = std::to_string(spec.seed) + "/";
+    if (spec.pairing == Pairing::kNone) text += std::string{name_of(address.strategy)} + "/";
+    return text + address.composition + "/" + std::to_string(address.replicate);
+  }
+
+  void draw_people() {
+    std::size_t member = 0;
+    for (const char letter : record_.address.composition) {
+      ++member;
+      const auto stream = stream_.split("person").split(member);
+      people_.push_back(
+          {letter, draw_learner(learner_type(spec_, letter).population, stream.split("parameters")), stream, member});
+    }
+  }
+
+  [[nodiscard]] SimulatedLearner learner(const Person& person) const {
+    const auto& type = learner_type(spec_, person.type);
+    auto prior = atlas_.prior_cone();
+    if (type.prior) {
+      const auto own = Cone::intersection(*type.prior);
+      KITH_ASSERT(own.has_value());  // checked when the study was read
+      prior = *own;
+    }
+    return {atlas_, ParticleBelief{cache_.cover(prior, type.filter.particles), type.filter}, person.parameters,
+            spec_.teaching.likelihood, person.stream.split("learner")};
+  }
+
+  void run_session(const std::vector<Person>& people, const RandomStream& teacher, std::size_t member) {
+    std::vector<RandomStream> streams;
+    std::vector<SimulatedLearner> learners;
+    for (const auto& person : people) {
+      streams.push_back(person.stream.split("teacher belief"));
+      learners.push_back(learner(person));
+    }
+    Session session{atlas_, cache_, options_, record_.address.strategy, streams, teacher};
+    std::vector<LearnerRecord> rows;
+    for (const auto& person : people) {
+      rows.push_back({.member = person.member, .type = person.type, .parameters = person.parameters});
+    }
+    if (observer_ != nullptr) observer_->on_session(session, member);
+    std::optional<std::size_t> component;
+    while (!session.finished()) {
+      if (component != session.lesson().component) {
+        component = session.lesson().component;
+        for (auto& one : learners) one.begin_component();
+      }
+      run_period(session, learners, rows, member);
+    }
+    if (observer_ != nullptr) observer_->on_end(session, learners);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].periods = session.periods();
+      rows[i].p_bec = learners[i].belief().mass_in(atlas_.policy_bec_half_spaces());
+      record_.learners.push_back(rows[i]);
+    }
+    record_.periods += session.periods();
+    record_.completed = record_.completed && session.status() == SessionStatus::kComplete;
+    for (const auto status : session.components()) {
+      record_.components_learned += status == ComponentStatus::kLearned ? 1u : 0u;
+      record_.components_skipped += status == ComponentStatus::kSkipped ? 1u : 0u;
+    }
+  }
+
+  void run_period(Session& session, std::vector<SimulatedLearner>& learners, std::vector<LearnerRecord>& rows,
+                  std::size_t member) {
+    const Lesson lesson = session.lesson();
+    if (observer_ != nullptr) observer_->on_lesson(session, lesson, learners);
+    watch(lesson, learners);
+    std::vector<DemoIndex> tests;
+    for (const auto& test : lesson.tests) tests.push_back(test.demo);
+    std::vector<SimulatedLearner::Response> responses;
+    std::vector<std::vector<Answer>> answers;
+    for (const auto& one : learners) {
+      responses.push_back(one.answer(tests, lesson.period));
+      answers.push_back(responses.back().answers);
+    }
+    const auto feedback = session.submit(answers);
+    for (std::size_t i = 0; i < learners.size(); ++i) {
+      learners[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
+      rows[i].tests += tests.size();
+      for (const auto& verdict : feedback.verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
+    }
+    write_down(session, lesson, answers, feedback, rows, member);
+    if (observer_ != nullptr) observer_->on_feedback(session, lesson, responses, feedback, learners);
+  }
+
+  void watch(const Lesson& lesson, std::vector<SimulatedLearner>& learners) {
+    std::vector<HalfSpace> conveyed;
+    std::vector<DemoIndex> demos;
+    for (const auto& shown : lesson.demonstrations) {
+      conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
+      demos.push_back(shown.demo);
+    }
+    for (auto& one : learners) {
+      if (spec_.learner_counterfactuals_self) {
+        one.watch(one.own_counterfactuals(cache_.regions(), demos, spec_.teaching.counterfactuals, lesson.period),
+                  lesson.period);
+      } else {
+        one.watch(conveyed, lesson.period);
+      }
+    }
+  }
+
+  void write_down(const Session& session, const Lesson& lesson, const std::vector<std::vector<Answer>>& answers,
+                  const Feedback& feedback, const std::vector<LearnerRecord>& rows, std::size_t member) {
+    record_.demonstrations += lesson.demonstrations.size();
+    record_.tests += lesson.tests.size();
+    area_sum_ += lesson.area_sr;
+    if (spec_.record == RecordLevel::kTeam) return;
+    const auto& bec = atlas_.policy_bec_half_spaces();
+    record_.period_records.push_back(
+        {.period = lesson.period,
+         .member = member,
+         .component = lesson.component + 1,
+         .source = source_name(lesson.source, member),
+         .demonstrations = lesson.demonstrations.size(),
+         .area_sr = lesson.area_sr,
+         .running_area_sr = lesson.running_area_sr,
+         .tests = lesson.tests.size(),
+         .all_correct =
+             std::all_of(feedback.all_correct.begin(), feedback.all_correct.end(), [](bool all) { return all; }),
+         .excluded = feedback.excluded.size(),
+         .untested = lesson.untested,
+         .gain = lesson.gain,
+         .p_bec_common = session.belief().common().mass_in(bec),
+         .p_bec_joint = session.belief().joint().mass_in(bec)});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (std::size_t t = 0; t < lesson.tests.size(); ++t) {
+        const auto& verdict = feedback.verdicts[i][t];
+        const auto id = atlas_.id(lesson.tests[t].demo);
+        record_.responses.push_back({.period = lesson.period,
+                                     .component = lesson.component + 1,
+                                     .test = t + 1,
+                                     .member = rows[i].member,
+                                     .mdp = id.mdp.value(),
+                                     .start = id.start.value(),
+                                     .correct = verdict.correct,
+                                     .regret = verdict.answered ? std::optional{verdict.regret} : std::nullopt,
+                                     .answer = answers[i][t],
+                                     .constraints = verdict.half_spaces});
+      }
+    }
+  }
+
+  // In the baseline the only member's seat is 0, whoever sits there.
+  [[nodiscard]] static std::string source_name(SourceBelief source, std::size_t alone) {
+    switch (source.kind) {
+      case SourceBelief::Kind::kCommon:
+        return "common";
+      case SourceBelief::Kind::kJoint:
+        return "joint";
+      case SourceBelief::Kind::kMember:
+        return "member " + std::to_string(alone != 0 ? alone : source.member + 1);
+    }
+    return {};
+  }
+
+  void summarize() {
+    // Summed in the order of size, so that seats do not matter to the last bit.
+    std::vector<double> masses;
+    for (const auto& row : record_.learners) masses.push_back(row.p_bec);
+    std::sort(masses.begin(), masses.end());
+    double sum = 0.0;
+    for (const double mass : masses) sum += mass;
+    record_.knowledge = sum / static_cast<double>(masses.size());
+    record_.knowledge_min = masses.front();
+    record_.area_sr = record_.periods > 0 ? area_sum_ / static_cast<double>(record_.periods) : 0.0;
+  }
+
+  const Atlas& atlas_;
+  TeachingCache& cache_;
+  const StudySpec& spec_;
+  TeamObserver* observer_;
+  RandomStream stream_;
+  TeachingOptions options_;
+  std::vector<Person> people_;
+  TeamRecord record_;
+  double area_sum_ = 0.0;
+};
+
+}  // namespace
+
+TeamRecord run_team(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
+                    TeamObserver* observer) {
+  return TeamRun{atlas, cache, spec, address, observer}.run();
+}
+
+}  // namespace kith

@@ -1,0 +1,243 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "item_delivery.hpp"
+#include "kith/study/study.hpp"
+#include "kith/study/summary.hpp"
+#include "kith/study/team_run.hpp"
+
+namespace kith {
+namespace {
+
+using testing::item_delivery;
+
+Population population(double ability, double sd, double confirm, double correct) {
+  Population result;
+  result.ability_mean = ability;
+  result.ability_sd = sd;
+  result.confirm_gain = {.half_normal = confirm, .value = {}};
+  result.correct_gain = {.half_normal = correct, .value = {}};
+  return result;
+}
+
+// The paper's design with the default parameters.
+StudySpec paper(std::size_t replicates, double ability_scale = 1.0) {
+  StudySpec spec;
+  spec.id = "paper";
+  spec.seed = 20240424;
+  spec.replicates = replicates;
+  for (const auto& entry : strategies()) spec.strategies.push_back(entry.strategy);
+  spec.compositions = {"NNN", "NNP", "NPP", "PPP"};
+  auto novice = population(0.703, 0.034, 0.033, 0.056);
+  auto proficient = population(0.809, 0.025, 0.022, 0.052);
+  novice.ability_scale = ability_scale;
+  proficient.ability_scale = ability_scale;
+  spec.learner_types = {{.letter = 'N', .population = novice, .filter = {}, .prior = {}},
+                        {.letter = 'P', .population = proficient, .filter = {}, .prior = {}}};
+  return spec;
+}
+
+void expect_equal(const TeamRecord& a, const TeamRecord& b) {
+  EXPECT_EQ(a.address.team, b.address.team);
+  EXPECT_EQ(a.periods, b.periods);
+  EXPECT_EQ(a.knowledge, b.knowledge);  // to the last bit
+  EXPECT_EQ(a.area_sr, b.area_sr);
+  EXPECT_EQ(a.demonstrations, b.demonstrations);
+  ASSERT_EQ(a.period_records.size(), b.period_records.size());
+  for (std::size_t i = 0; i < a.period_records.size(); ++i) {
+    EXPECT_EQ(a.period_records[i].p_bec_joint, b.period_records[i].p_bec_joint);
+    EXPECT_EQ(a.period_records[i].p_bec_common, b.period_records[i].p_bec_common);
+  }
+  ASSERT_EQ(a.responses.size(), b.responses.size());
+  for (std::size_t i = 0; i < a.responses.size(); ++i) EXPECT_EQ(a.responses[i].answer, b.responses[i].answer);
+}
+
+TEST(RunTeams, GivesTheSameRecordsOnAnyNumberOfThreadsAndInAnyOrder) {
+  const Study study{{paper(2)}};
+  const auto addresses = team_addresses(study);
+  const auto one = run_teams(item_delivery(), study, addresses, {.threads = 1, .on_progress = {}});
+  const auto two = run_teams(item_delivery(), study, addresses, {.threads = 2, .on_progress = {}});
+  const auto seven = run_teams(item_delivery(), study, addresses, {.threads = 7, .on_progress = {}});
+  auto backwards = addresses;
+  std::reverse(backwards.begin(), backwards.end());
+  const auto reversed = run_teams(item_delivery(), study, backwards, {.threads = 2, .on_progress = {}});
+  ASSERT_EQ(one.teams.size(), addresses.size());
+  for (std::size_t i = 0; i < addresses.size(); ++i) {
+    expect_equal(one.teams[i], two.teams[i]);
+    expect_equal(one.teams[i], seven.teams[i]);
+    expect_equal(one.teams[i], reversed.teams[addresses.size() - 1 - i]);
+  }
+}
+
+TEST(RunTeams, AnotherSeedGivesOtherTeams) {
+  auto spec = paper(2);
+  const Study study{{spec}};
+  spec.seed += 1;
+  const Study other{{spec}};
+  const auto a = run_teams(item_delivery(), study, team_addresses(study));
+  const auto b = run_teams(item_delivery(), other, team_addresses(other));
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.teams.size(); ++i) different += a.teams[i].knowledge != b.teams[i].knowledge ? 1u : 0u;
+  EXPECT_EQ(different, a.teams.size());
+}
+
+TEST(RunTeams, PairingTeachesTheSamePeopleInEveryStrategy) {
+  auto spec = paper(1);
+  spec.compositions = {"NNP"};
+  const Study paired{{spec}};
+  const auto teams = run_teams(item_delivery(), paired, team_addresses(paired)).teams;
+  for (const auto& team : teams) {
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(team.learners[i].parameters, teams[0].learners[i].parameters);
+  }
+  spec.pairing = Pairing::kNone;
+  const Study unpaired{{spec}};
+  const auto strangers = run_teams(item_delivery(), unpaired, team_addresses(unpaired)).teams;
+  EXPECT_NE(strangers[0].learners[0].parameters, strangers[1].learners[0].parameters);
+}
+
+TEST(RunTeams, TheBaselineSumsPeriodsOverItsMembers) {
+  auto spec = paper(3);
+  spec.strategies = {Strategy::kBaseline};
+  const Study study{{spec}};
+  for (const auto& team : run_teams(item_delivery(), study, team_addresses(study)).teams) {
+    std::size_t periods = 0;
+    for (const auto& learner : team.learners) periods += learner.periods;
+    EXPECT_EQ(team.periods, periods);
+    EXPECT_EQ(team.period_records.size(), periods);
+    EXPECT_LE(team.components_learned + team.components_skipped, 9u);
+  }
+}
+
+TEST(RunTeams, StopsWhenAskedTo) {
+  const Study study{{paper(2)}};
+  const auto result = run_teams(item_delivery(), study, team_addresses(study),
+                                {.threads = 1, .on_progress = [](std::size_t done, std::size_t) { return done < 5; }});
+  EXPECT_TRUE(result.stopped);
+  EXPECT_EQ(result.teams.size(), 5u);
+}
+
+// Seats do not matter: members who swap seats, and take their streams along,
+// swap their results, and the team's lessons stay the same, bit for bit.
+TEST(Teams, PermutingTheMembersPermutesTheirResults) {
+  const auto& atlas = item_delivery();
+  const auto teach = [&](Strategy strategy, const std::vector<std::uint64_t>& seats) {
+    TeachingCache cache{atlas.constraints()};
+    std::vector<RandomStream> streams;
+    std::vector<SimulatedLearner> learners;
+    for (const auto person : seats) {
+      const auto stream = RandomStream{11}.split(person);
+      const LearnerParameters parameters{.ability = 0.65 + 0.05 * static_cast<double>(person),
+                                         .confirm_gain = 0.02,
+                                         .correct_gain = 0.05,
+                                         .ability_max = 0.95,
+                                         .ability_scale = 1.0};
+      streams.push_back(stream.split("teacher belief"));
+      learners.emplace_back(atlas, ParticleBelief{atlas.prior_cone(), {}}, parameters, LikelihoodForm::kDiscontinuous,
+                            stream.split("learner"));
+    }
+    Session session{atlas,    cache,   {.also_record = {.members = true, .common = true, .joint = true}},
+                    strategy, streams, RandomStream{12}};
+    for (int period = 0; period < 8 && !session.finished(); ++period) {
+      const auto lesson = session.lesson();
+      std::vector<DemoIndex> tests;
+      for (const auto& test : lesson.tests) tests.push_back(test.demo);
+      std::vector<std::vector<Answer>> answers;
+      for (auto& learner : learners) {
+        for (const auto& shown : lesson.demonstrations) learner.watch(shown.half_spaces, lesson.period);
+        answers.push_back(learner.answer(tests, lesson.period).answers);
+      }
+      const auto feedback = session.submit(answers);
+      for (std::size_t i = 0; i < learners.size(); ++i) {
+        learners[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
+      }
+    }
+    return std::pair{std::move(session), std::move(learners)};
+  };
+  for (const auto& entry : strategies()) {
+    if (entry.strategy == Strategy::kBaseline) continue;
+    const std::vector<std::uint64_t> order{0, 1, 2, 3};
+    const std::vector<std::uint64_t> permuted{2, 0, 3, 1};
+    const auto [session, learners] = teach(entry.strategy, order);
+    const auto [other, others] = teach(entry.strategy, permuted);
+    EXPECT_EQ(session.periods(), other.periods());
+    EXPECT_EQ(session.belief().common(), other.belief().common());
+    EXPECT_EQ(session.belief().joint(), other.belief().joint());
+    for (std::size_t seat = 0; seat < order.size(); ++seat) {
+      EXPECT_EQ(learners[permuted[seat]].belief(), others[seat].belief());
+      EXPECT_EQ(session.belief().member(permuted[seat]), other.belief().member(seat));
+    }
+  }
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double standard_error(const std::vector<double>& values) {
+  const double m = mean(values);
+  double squares = 0.0;
+  for (const double v : values) squares += (v - m) * (v - m);
+  const auto n = static_cast<double>(values.size());
+  return std::sqrt(squares / (n - 1.0) / n);
+}
+
+// Abler learners need fewer periods: the same 100 teams, except that everybody's
+// initial ability is 0.66 or 0.86. The mean paired difference lies above zero by
+// more than 5 of its standard errors.
+TEST(Teams, AblerTeamsNeedFewerPeriods) {
+  auto spec = paper(100);
+  spec.strategies = {Strategy::kCommon};
+  spec.compositions = {"NNN"};
+  spec.learner_types[0].population = population(0.66, 0.001, 0.02, 0.05);
+  auto abler = spec;
+  abler.learner_types[0].population = population(0.86, 0.001, 0.02, 0.05);
+  const Study slow{{spec}};
+  const Study fast{{abler}};
+  const auto a = run_teams(item_delivery(), slow, team_addresses(slow)).teams;
+  const auto b = run_teams(item_delivery(), fast, team_addresses(fast)).teams;
+  std::vector<double> saved;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    saved.push_back(static_cast<double>(a[i].periods) - static_cast<double>(b[i].periods));
+  EXPECT_GT(mean(saved), 5.0 * standard_error(saved));
+  EXPECT_GT(mean(saved), 1.0);
+}
+
+// Where an independent prototype of the same model lies, at 500 teams per cell.
+// The bounds are its figures with the spread that is allowed between programs.
+struct Expected {
+  double ability_scale;
+  double group_periods;
+  double baseline_periods;
+  double group_knowledge;
+  double baseline_knowledge;
+};
+
+class PublishedStudySlow : public ::testing::TestWithParam<Expected> {};
+
+TEST_P(PublishedStudySlow, LiesWhereAnIndependentPrototypeLies) {
+  const auto expected = GetParam();
+  auto spec = paper(500, expected.ability_scale);
+  spec.record = RecordLevel::kTeam;
+  const Study study{{spec}};
+  const auto summary = summarize(run_teams(item_delivery(), study, team_addresses(study)).teams);
+  ASSERT_TRUE(summary.group && summary.baseline);
+  EXPECT_NEAR(summary.group->periods.mean, expected.group_periods, 0.25);
+  EXPECT_NEAR(summary.baseline->periods.mean, expected.baseline_periods, 0.4);
+  EXPECT_NEAR(summary.group->knowledge.mean, expected.group_knowledge, 0.04);
+  EXPECT_NEAR(summary.baseline->knowledge.mean, expected.baseline_knowledge, 0.04);
+  EXPECT_GE(summary.group->completed, summary.group->teams * 99 / 100);
+  EXPECT_GE(summary.baseline->completed, summary.baseline->teams * 99 / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(AbilityScale, PublishedStudySlow,
+                         ::testing::Values(Expected{1.0, 7.33, 15.55, 0.74, 0.55},
+                                           Expected{0.9, 7.67, 16.2, 0.71, 0.52}),
+                         [](const auto& c) { return c.param.ability_scale == 1.0 ? "One" : "NineTenths"; });
+
+}  // namespace
+}  // namespace kith
