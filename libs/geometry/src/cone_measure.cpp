@@ -13,6 +13,7 @@ namespace kith {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kLongCosine = -0.5;  // of 120 degrees
 
 Eigen::Vector3d real(const IntegerVector& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -29,7 +30,19 @@ double lune_angle(const HalfSpace& first, const HalfSpace& second) {
 struct FanTriangle {
   Eigen::Vector3d apex, from, to;
   double area;
+
+  // Between nearly antipodal corners the arc is badly determined by the corners, though not by the facets.
+  bool is_long() const { return std::min({apex.dot(from), from.dot(to), to.dot(apex)}) < kLongCosine; }
 };
+
+// Girard: the sum of the interior angles less (n - 2) pi. Its error does not
+// depend on the corners, but is absolute: only for areas that are not tiny.
+double area_by_angles(std::span<const HalfSpace> facets) {
+  const std::size_t n = facets.size();
+  double excess = (2.0 - static_cast<double>(n)) * kPi;
+  for (std::size_t i = 0; i < n; ++i) excess += lune_angle(facets[i], facets[(i + 1) % n]);
+  return excess;
+}
 
 // With r_i = (f_i x f_(i+1)) / g, the triple product needs no numbers beyond 128 bits:
 //   det(r_0, r_i, r_(i+1)) = (f_(i+1) . r_0) (f_i . r_(i+1)) / g.
@@ -97,7 +110,11 @@ double Cone::solid_angle() const {
   if (facets_.size() == 1) return 2.0 * kPi;
   if (facets_.size() == 2) return 2.0 * lune_angle(facets_[0], facets_[1]);
   double area = 0.0;
-  for (std::size_t i = 1; i + 1 < rays_.size(); ++i) area += fan_triangle(facets_, rays_, i).area;
+  for (std::size_t i = 1; i + 1 < rays_.size(); ++i) {
+    const FanTriangle triangle = fan_triangle(facets_, rays_, i);
+    if (triangle.is_long()) return area_by_angles(facets_);
+    area += triangle.area;
+  }
   return area;
 }
 

@@ -58,9 +58,10 @@ class Cone {
   /// bits, which cannot happen while normals stay below 2^24.
   [[nodiscard]] IntegerVector interior_direction() const;
 
-  /// Area on the unit sphere, in steradian, in (0, 4 pi]. Polygons by Van
-  /// Oosterom & Strackee's formula over a triangle fan, which stays accurate
-  /// for tiny regions because the triple products are exact.
+  /// Area on the unit sphere, in steradian, in (0, 4 pi]. Polygons by the formula
+  /// of [vanoosterom1983] over a triangle fan, which stays accurate for tiny
+  /// regions because the triple products are exact; by Girard's theorem where
+  /// corners of the fan are more than 120 degrees apart.
   [[nodiscard]] double solid_angle() const;
 
   /// In double precision: every margin is at least 0.

@@ -1,0 +1,217 @@
+#include "kith/geometry/cover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "random_systems.hpp"
+
+namespace kith {
+namespace {
+
+Cone item_delivery_region() {
+  return Cone::intersection(std::vector{HalfSpace{{-1, 0, 2}}, HalfSpace{{0, -1, -4}}, HalfSpace{{1, 1, 0}}}).value();
+}
+
+// Share of the columns that `h` contains.
+double share_inside(const Eigen::Matrix3Xd& points, const HalfSpace& h) {
+  int inside = 0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) inside += h.contains(Eigen::Vector3d{points.col(i)}) ? 1 : 0;
+  return static_cast<double>(inside) / static_cast<double>(points.cols());
+}
+
+double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return 2.0 * std::asin((a - b).norm() / 2.0); }
+
+double least_angle(const Eigen::Matrix3Xd& points) {
+  double least = 4.0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) least = std::min(least, angle(points.col(i), points.col(j)));
+  }
+  return least;
+}
+
+TEST(FibonacciCover, StandsAtItsFormula) {
+  const Eigen::Matrix3Xd points = fibonacci_cover(4);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / 4.0;
+    const double azimuth = 2.0 * std::numbers::pi * static_cast<double>(i) / std::numbers::phi;
+    const double radius = std::sqrt(1.0 - z * z);
+    EXPECT_NEAR((points.col(i) - Eigen::Vector3d{radius * std::cos(azimuth), radius * std::sin(azimuth), z}).norm(),
+                0.0, 1e-14);
+  }
+  EXPECT_EQ(fibonacci_cover(0).cols(), 0);
+}
+
+TEST(FibonacciCover, GivesEveryHemisphereHalfOfItsPoints) {
+  RandomStream random{1};
+  const Eigen::Matrix3Xd points = fibonacci_cover(2000);
+  for (int i = 0; i < 200; ++i) {
+    // A great circle is a belt of about 2 pi / (cell width 0.079) = 79 cells: half of those, of 2000.
+    ASSERT_NEAR(share_inside(points, HalfSpace{testing::random_vector(20, random)}), 0.5, 40.0 / 2000.0);
+  }
+}
+
+TEST(FibonacciCover, OfTheWholeSphereIsThatOfTheSphereTurnedByHalfATurn) {
+  Eigen::Matrix3Xd turned = fibonacci_cover(50);
+  turned.topRows(2) *= -1.0;
+  EXPECT_LT((fibonacci_cover(Cone{}, 50) - turned).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(FibonacciCover, OfAConeHasExactlyTheGivenNumberOfPointsAllInside) {
+  RandomStream random{2};
+  for (const Cone& cone : testing::random_cones(100, 8, random)) {
+    for (const std::size_t n : {1u, 2u, 7u, 100u, 500u}) {
+      const Eigen::Matrix3Xd points = fibonacci_cover(cone, n);
+      ASSERT_EQ(points.cols(), static_cast<Eigen::Index>(n));
+      for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        ASSERT_TRUE(cone.contains(Eigen::Vector3d{points.col(i)}));
+        ASSERT_NEAR(points.col(i).norm(), 1.0, 1e-14);
+      }
+    }
+  }
+}
+
+// Shares of sub-cones: independent points would miss by up to 3 sqrt(0.25 / 1000)
+// = 0.047 over so many cuts; the cover must stay within a standard deviation, 0.016.
+TEST(FibonacciCover, OfAConeIsMoreEvenThanIndependentPoints) {
+  RandomStream random{3};
+  int cuts = 0;
+  for (const Cone& cone : testing::random_cones(200, 6, random)) {
+    const Eigen::Matrix3Xd points = fibonacci_cover(cone, 1000);
+    for (int k = 0; k < 10; ++k) {
+      const HalfSpace h{testing::random_vector(6, random)};
+      if (!cone.is_cut_by(h)) continue;
+      ++cuts;
+      ASSERT_NEAR(share_inside(points, h), cone.clipped(h)->solid_angle() / cone.solid_angle(), 0.016);
+    }
+  }
+  EXPECT_GT(cuts, 500);
+}
+
+TEST(FibonacciCover, OfARegionKeepsItsPointsApart) {
+  const Cone region = item_delivery_region();
+  const double cell = std::sqrt(region.solid_angle() / 500.0);
+  // Of 500 independent points the closest two are about cell / 500 apart.
+  EXPECT_GT(least_angle(fibonacci_cover(region, 500)), 0.3 * cell);
+}
+
+TEST(FibonacciCover, RefusesToBeEmpty) { EXPECT_THROW((void)fibonacci_cover(Cone{}, 0), std::invalid_argument); }
+
+TEST(DesernoCover, HasTheKnownCounts) {
+  EXPECT_EQ(deserno_cover(500).cols(), 500);
+  EXPECT_EQ(deserno_cover(1000).cols(), 998);
+  EXPECT_EQ(deserno_cover(2500).cols(), 2500);
+  EXPECT_THROW((void)deserno_cover(0), std::invalid_argument);
+}
+
+TEST(DesernoCover, IsEvenAndOnTheSphere) {
+  RandomStream random{4};
+  const Eigen::Matrix3Xd points = deserno_cover(2500);
+  EXPECT_LT((points.colwise().norm().array() - 1.0).abs().maxCoeff(), 1e-14);
+  EXPECT_GT(least_angle(points), 0.5 * std::sqrt(4.0 * std::numbers::pi / 2500.0));
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_NEAR(share_inside(points, HalfSpace{testing::random_vector(20, random)}), 0.5, 44.0 / 2500.0);
+  }
+}
+
+TEST(KCentres, TakesTheFarthestPointAndTheLowerIndexOfATie) {
+  Eigen::Matrix3Xd points(3, 5);
+  points << 1, 0, 0, -1, 1,  //
+      0, 1, 0, 0, 0,         //
+      0, 0, 1, 0, 0;
+  EXPECT_EQ(k_centres(points, 4, 0), (std::vector<std::size_t>{0, 3, 1, 2}));
+  EXPECT_EQ(k_centres(points, 5, 0), (std::vector<std::size_t>{0, 3, 1, 2, 4}));  // also a duplicate, once
+  EXPECT_EQ(k_centres(points, 0, 0), std::vector<std::size_t>{});
+  EXPECT_THROW((void)k_centres(points, 6, 0), std::invalid_argument);
+  EXPECT_THROW((void)k_centres(points, 2, 5), std::invalid_argument);
+}
+
+// Gonzalez's bound: every point lies within the distance at which the next centre would have been taken, and the
+// centres are at least that far apart.
+TEST(KCentres, CoversWithinTheDistanceOfItsCentres) {
+  RandomStream random{5};
+  for (int trial = 0; trial < 50; ++trial) {
+    Eigen::Matrix3Xd points(3, 60);
+    for (Eigen::Index i = 0; i < 60; ++i) points.col(i) = Cone{}.sample(random);
+    const auto centres = k_centres(points, 8, uniform_index(60, random));
+    ASSERT_EQ(std::set<std::size_t>(centres.begin(), centres.end()).size(), 8u);
+    double radius = 0.0, separation = 4.0;
+    for (Eigen::Index i = 0; i < 60; ++i) {
+      double nearest = 4.0;
+      for (const std::size_t c : centres) {
+        nearest = std::min(nearest, angle(points.col(i), points.col(static_cast<Eigen::Index>(c))));
+      }
+      radius = std::max(radius, nearest);
+    }
+    for (const std::size_t a : centres) {
+      for (const std::size_t b : centres) {
+        if (a == b) continue;
+        separation = std::min(
+            separation, angle(points.col(static_cast<Eigen::Index>(a)), points.col(static_cast<Eigen::Index>(b))));
+      }
+    }
+    ASSERT_LE(radius, separation + 1e-12);
+  }
+}
+
+double total_angle(const Eigen::Matrix3Xd& points, const std::vector<double>& weights, const Eigen::Vector3d& c) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    sum += weights[static_cast<std::size_t>(i)] * angle(points.col(i), c);
+  return sum;
+}
+
+TEST(GeodesicMedian, IsBetterThanEveryNeighbourAndEveryPoint) {
+  RandomStream random{6};
+  const Cone octant =
+      Cone::intersection(std::vector{HalfSpace{{1, 0, 0}}, HalfSpace{{0, 1, 0}}, HalfSpace{{0, 0, 1}}}).value();
+  for (int trial = 0; trial < 50; ++trial) {
+    Eigen::Matrix3Xd points(3, 15);
+    std::vector<double> weights;
+    for (Eigen::Index i = 0; i < 15; ++i) {
+      points.col(i) = octant.sample(random);
+      weights.push_back(uniform01(random));
+    }
+    const Eigen::Vector3d median = geodesic_median(points, weights);
+    ASSERT_NEAR(median.norm(), 1.0, 1e-14);
+    const double best = total_angle(points, weights, median);
+    for (Eigen::Index i = 0; i < 15; ++i) ASSERT_LE(best, total_angle(points, weights, points.col(i)) + 1e-4);
+    for (int k = 0; k < 50; ++k) {
+      const Eigen::Vector3d other = (median + 0.01 * Cone{}.sample(random)).normalized();
+      // Where the median meets a point, softening and the limit of 100 steps leave it about 1e-5 short.
+      ASSERT_LE(best, total_angle(points, weights, other) + 1e-4);
+    }
+  }
+}
+
+TEST(GeodesicMedian, IsAMedianAndNotAMean) {
+  // Three points on an arc: the middle one has more weight than the imbalance of the others, so it is the median.
+  Eigen::Matrix3Xd points(3, 3);
+  points << 1, std::cos(0.2), std::cos(1.2),  //
+      0, std::sin(0.2), std::sin(1.2),        //
+      0, 0, 0;
+  const std::vector<double> weights{1.0, 1.0, 1.0};
+  EXPECT_LT(angle(geodesic_median(points, weights), points.col(1)), 0.01);
+  const std::vector<double> heavy{5.0, 1.0, 1.0};
+  EXPECT_LT(angle(geodesic_median(points, heavy), points.col(0)), 0.01);
+}
+
+TEST(GeodesicMedian, RefusesWeightsThatDoNotFit) {
+  const Eigen::Matrix3Xd points = fibonacci_cover(2);
+  for (const std::vector<double>& weights : {std::vector<double>{}, {1.0}, {0.0, 0.0}, {1.0, -1.0}, {1.0, HUGE_VAL}}) {
+    EXPECT_THROW((void)geodesic_median(points, weights), std::invalid_argument);
+  }
+}
+
+TEST(GeodesicMedian, TakesTheHeaviestOfPointsWithoutAMeanDirection) {
+  Eigen::Matrix3Xd points(3, 2);
+  points << 1, -1, 0, 0, 0, 0;
+  EXPECT_EQ(geodesic_median(points, std::vector{1.0, 1.0}), Eigen::Vector3d::UnitX());
+}
+
+}  // namespace
+}  // namespace kith
