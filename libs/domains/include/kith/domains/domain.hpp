@@ -22,13 +22,19 @@ struct DemoId {
   friend auto operator<=>(const DemoId&, const DemoId&) = default;
 };
 
+/// How reward weights are scaled when a return is shown to people. Nothing else
+/// depends on it: a policy depends only on the direction of the weights.
+enum class WeightNorm { kL2, kL1 };
+
 /// The robot's reward weights w*, as exact integers up to scale and as a unit vector.
 struct RewardWeights {
-  std::vector<double> raw;   ///< As written in the file, shape [d].
-  IntegerVector integer;     ///< Primitive integer vector in the same direction, exact.
-  Eigen::Vector3d unit;      ///< integer / |integer|.
+  std::vector<double> raw;                         ///< As written in the file, shape [d].
+  IntegerVector integer;                           ///< Primitive integer vector in the same direction, exact.
+  Eigen::Vector3d unit = Eigen::Vector3d::Zero();  ///< integer / |integer|; zero unless d = 3.
+  WeightNorm norm = WeightNorm::kL2;               ///< Which length return_of() takes as 1.
 
   /// w . mu with w at length 1: the return of a path with these feature counts.
+  /// @throws std::invalid_argument unless feature_counts has d entries.
   [[nodiscard]] double return_of(const IntegerVector& feature_counts) const;
 };
 
@@ -42,9 +48,9 @@ struct Cell {
 /// One state of a gridworld, as people see it.
 struct GridState {
   Cell robot;
-  std::vector<Cell> items;         ///< In declaration order; a carried item is at the robot's cell.
-  std::vector<bool> carried;       ///< Per item; at most one.
-  std::vector<Cell> stations;      ///< Those still present.
+  std::vector<Cell> items;     ///< Those of the MDP in declaration order; a carried item is at the robot's cell.
+  std::vector<bool> carried;   ///< Per entry of items; at most one.
+  std::vector<Cell> stations;  ///< Those still present, in reading order (top row first).
   bool exited = false;
   friend bool operator==(const GridState&, const GridState&) = default;
 };
@@ -53,8 +59,8 @@ struct GridState {
 struct CellContent {
   bool wall = false;
   bool goal = false;
-  std::string terrain;             ///< Empty: plain floor.
-  std::string destination_of;      ///< Item that belongs here; empty: none.
+  std::string terrain;         ///< Empty: plain floor.
+  std::string destination_of;  ///< Item that belongs here; empty: none.
 };
 
 /// A family of MDPs that share actions, features, reward weights and discount,
@@ -80,7 +86,7 @@ class Domain {
   /// How people call feature k ("crossing rubble"); its name if the file gives no words.
   [[nodiscard]] const std::string& feature_words(std::size_t k) const;
   [[nodiscard]] const RewardWeights& weights() const noexcept;
-  /// What every learner is assumed to know; all hold at the weights.
+  /// What every learner is assumed to know; all hold at the weights. Empty unless there are three features.
   [[nodiscard]] const std::vector<HalfSpace>& prior() const noexcept;
   [[nodiscard]] std::size_t max_steps() const noexcept;
 
@@ -92,6 +98,9 @@ class Domain {
   [[nodiscard]] StateIndex initial_state(MdpIndex m) const;
   /// One bit per optional group, in index order (most significant first).
   [[nodiscard]] std::vector<bool> variant(MdpIndex m) const;
+  /// The optional things that MDP m has, in words: "rubble@{(2,1),(2,2)} charger@{}". Here cells are
+  /// (column, row) from the top left, as in all messages about domain files.
+  [[nodiscard]] std::string describe_variant(MdpIndex m) const;
   /// Whether feature k can occur in MDP m at all. The last feature counts as always present.
   [[nodiscard]] bool has_feature(MdpIndex m, std::size_t k) const;
 
@@ -99,9 +108,13 @@ class Domain {
   [[nodiscard]] int height() const noexcept;
   [[nodiscard]] CellContent content(MdpIndex m, Cell cell) const;
   /// Also for terminal states.
-  [[nodiscard]] const GridState& state(MdpIndex m, StateIndex s) const;
+  [[nodiscard]] GridState state(MdpIndex m, StateIndex s) const;
+  /// The inverse of state(); nothing if the MDP has no such state.
   [[nodiscard]] std::optional<StateIndex> find_state(MdpIndex m, const GridState& state) const;
+  /// All items of the family, in declaration order.
   [[nodiscard]] const std::vector<std::string>& item_names() const noexcept;
+  /// Which of item_names() MDP m has: entry i names GridState::items[i]. All, unless items are optional.
+  [[nodiscard]] std::vector<std::size_t> items_in(MdpIndex m) const;
 
   /// How much there is to look at: optional things present in the start state
   /// (terrain cells and stations that are toggled, plus stations still there).
@@ -114,6 +127,7 @@ class Domain {
   /// The map of MDP m as text, top row first, one row per string, in the
   /// symbols of the domain file; without `s` the initial picture, with it the
   /// robot as '@' and the things where they are in `s`.
+  /// An item away from its first cell is drawn as '*', unless the robot is there.
   [[nodiscard]] std::vector<std::string> draw(MdpIndex m, std::optional<StateIndex> s) const;
 
  private:

@@ -28,9 +28,9 @@ struct DomainReading {
 
 /// A domain that comes with kith.
 struct BuiltInDomain {
-  std::string_view name;         ///< "item-delivery"
+  std::string_view name;  ///< "item-delivery"
   std::string_view description;
-  std::string_view text;         ///< The TOML file, embedded when kith was built.
+  std::string_view text;  ///< The TOML file, embedded when kith was built.
 };
 [[nodiscard]] const std::vector<BuiltInDomain>& built_in_domains();
 

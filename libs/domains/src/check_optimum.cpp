@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "family.hpp"
+#include "kith/mdp/planner.hpp"
+#include "state_layout.hpp"
+
+namespace kith::detail {
+namespace {
+
+// Plans every MDP under the robot's weights and looks at the result.
+class OptimumChecker {
+ public:
+  OptimumChecker(const World& world, const Dynamics& dynamics, const Reward& reward, TomlReport& report)
+      : world_{world}, dynamics_{dynamics}, reward_{reward}, report_{report}, layout_{world} {}
+
+  void check(std::size_t number, const DomainMember& member) {
+    const ExactPlan plan = plan_exactly(member.mdp, reward_.weights.integer);
+    for (std::size_t k = 0; k < occurs_.size(); ++k) occurs_[k] = occurs_[k] || member.mdp.has_feature(k);
+    if (plan.solution) {
+      check_ties(member, *plan.solution);
+      check_lengths(number, member, *plan.solution);
+      return;
+    }
+    ++num_failures_;
+    if (num_failures_ > 1) return;
+    positive_ = plan.failure == PlanFailure::kPositiveCycle;
+    cycle_text_ = cycle_text(member, plan.cycle);
+    failing_variant_ = variant_text(world_, number);
+  }
+
+  void report(std::size_t num_mdps) {
+    if (num_failures_ > 0) report_cycle(num_mdps);
+    if (num_ties_ > 0) {
+      report_.warning(
+          "W0302", reward_.weights_place,
+          "from " + std::to_string(num_ties_) + " states there are equally good paths that differ in what they count",
+          "the weights lie on the edge of what demonstrations can teach");
+    }
+    if (longest_ > dynamics_.max_steps) {
+      report_.warning("W0303", reward_.weights_place,
+                      "the longest optimal path has " + std::to_string(longest_) + " steps, but max_steps is " +
+                          std::to_string(dynamics_.max_steps),
+                      "first in variant: " + variant_text(world_, longest_variant_));
+    }
+    for (std::size_t k = 0; k < occurs_.size(); ++k) {
+      if (occurs_[k] || num_failures_ > 0) continue;
+      report_.warning("W0301", dynamics_.features[k].place,
+                      "feature '" + dynamics_.features[k].name + "' occurs in no variant");
+    }
+  }
+
+ private:
+  void report_cycle(std::size_t num_mdps) {
+    const std::string where = "; in " + std::to_string(num_failures_) + " of " + std::to_string(num_mdps) +
+                              (num_mdps == 1 ? " variant" : " variants") + ", first in: " + failing_variant_;
+    if (positive_) {
+      report_.infeasible("E0321", reward_.weights_place,
+                         "the robot can go round in circles for ever-growing reward: " + cycle_text_ + where,
+                         "give what happens on this circle a negative sum, for instance by a cost per action");
+    } else {
+      report_.infeasible("E0322", reward_.weights_place,
+                         "the robot can go round in circles for nothing: " + cycle_text_ + where,
+                         "give every action a cost, so that finishing is better than wandering");
+    }
+  }
+
+  // "(1,1) right (2,1) left (1,1)".
+  [[nodiscard]] std::string cycle_text(const DomainMember& member, const std::vector<StateIndex>& cycle) const {
+    constexpr std::size_t kShown = 12;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(cycle.size(), kShown); ++i) {
+      const StateIndex s = cycle[i];
+      const StateIndex next = cycle[(i + 1) % cycle.size()];
+      text += cell_text(world_, layout_.robot(member.states[s.value()])) + ' ' + action_between(member, s, next) + ' ';
+    }
+    if (cycle.size() > kShown) return text + "...";
+    return cycle.empty() ? "" : text + cell_text(world_, layout_.robot(member.states[cycle[0].value()]));
+  }
+
+  // The best action that leads from `s` to `next`.
+  [[nodiscard]] std::string action_between(const DomainMember& member, StateIndex s, StateIndex next) const {
+    std::optional<Int128> best;
+    std::string name = "...";
+    for (const Choice& choice : member.mdp.choices(s)) {
+      const Outcome& outcome = member.mdp.outcomes(choice).front();
+      if (outcome.next != next) continue;
+      const Int128 reward = dot(reward_.weights.integer, member.mdp.integer_features(outcome));
+      if (best && reward <= *best) continue;
+      best = reward;
+      name = all_action_names()[static_cast<std::size_t>(dynamics_.actions[choice.action.value()])];
+    }
+    return name;
+  }
+
+  // If at every state all optimal choices count the same, so do all optimal paths.
+  void check_ties(const DomainMember& member, const ExactSolution& solution) {
+    for (std::size_t s = 0; s < member.mdp.num_states(); ++s) {
+      bool differs = false;
+      for (const Choice& choice : member.mdp.choices(StateIndex{s})) {
+        const Outcome& outcome = member.mdp.outcomes(choice).front();
+        const IntegerVector counts =
+            member.mdp.integer_features(outcome) + solution.feature_counts[outcome.next.value()];
+        differs = differs ||
+                  (counts != solution.feature_counts[s] && dot(reward_.weights.integer, counts) == solution.values[s]);
+      }
+      num_ties_ += differs ? 1 : 0;
+    }
+  }
+
+  void check_lengths(std::size_t number, const DomainMember& member, const ExactSolution& solution) {
+    const std::size_t n = member.mdp.num_states();
+    std::vector<std::size_t> length(n + member.mdp.num_terminals(), 0);
+    std::vector<std::size_t> path;
+    for (std::size_t start = 0; start < n; ++start) {
+      std::size_t s = start;
+      for (; s < n && length[s] == 0; s = next_on_path(member, solution, s)) path.push_back(s);
+      std::size_t steps = length[s];
+      for (; !path.empty(); path.pop_back()) length[path.back()] = ++steps;
+      if (length[start] > longest_) {
+        longest_ = length[start];
+        longest_variant_ = number;
+      }
+    }
+  }
+
+  static std::size_t next_on_path(const DomainMember& member, const ExactSolution& solution, std::size_t s) {
+    const Choice& choice = member.mdp.choices(StateIndex{s})[solution.canonical_choice[s]];
+    return member.mdp.outcomes(choice).front().next.value();
+  }
+
+  const World& world_;
+  const Dynamics& dynamics_;
+  const Reward& reward_;
+  TomlReport& report_;
+  StateLayout layout_;
+  std::vector<bool> occurs_ = std::vector<bool>(dynamics_.features.size(), false);
+  std::size_t num_failures_ = 0;
+  bool positive_ = false;
+  std::string cycle_text_;
+  std::string failing_variant_;
+  std::size_t num_ties_ = 0;
+  std::size_t longest_ = 0;
+  std::size_t longest_variant_ = 0;
+};
+
+}  // namespace
+
+void check_optimum(const World& world, const Dynamics& dynamics, const Reward& reward,
+                   const std::vector<DomainMember>& members, TomlReport& report) {
+  if (dynamics.discount < 1.0) return;  // every discounted optimum is finite
+  OptimumChecker checker{world, dynamics, reward, report};
+  for (std::size_t mdp = 0; mdp < members.size(); ++mdp) checker.check(mdp, members[mdp]);
+  checker.report(members.size());
+}
+
+}  // namespace kith::detail

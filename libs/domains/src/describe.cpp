@@ -1,0 +1,92 @@
+// What people see of a domain: drawings, and figures of how start pictures look.
+#include <algorithm>
+#include <stdexcept>
+
+#include "domain_data.hpp"
+
+namespace kith {
+namespace {
+
+using detail::SymbolContent;
+using detail::World;
+
+// The symbol that shows exactly `content`: the cell's own if it does, else the
+// first of the legend that does; without one the cell's own, or a blank for floor.
+char glyph_for(const World& world, std::size_t cell, const SymbolContent& content) {
+  const detail::Symbol& own = world.symbols[world.symbol_of[cell]];
+  if (own.content == content) return own.glyph;
+  for (const detail::Symbol& symbol : world.symbols) {
+    if (symbol.content == content) return symbol.glyph;
+  }
+  return content.is_floor() ? ' ' : own.glyph;
+}
+
+}  // namespace
+
+void Domain::Data::describe_starts() {
+  const std::size_t num_groups = world.groups.size();
+  for (std::size_t group = 0; group < num_groups; ++group) {
+    const auto is_station = [&](std::size_t cell) { return !world.content(cell).station.empty(); };
+    const bool only_stations = std::ranges::all_of(world.groups[group].cells, is_station);
+    if (!only_stations) non_station_groups |= std::uint64_t{1} << (num_groups - 1 - group);
+  }
+  digits_per_start = 2 + 3 * world.items.size() + 2 * world.stations.size();
+  first_start.push_back(0);
+  for (const DomainMember& member : members) {
+    first_start.push_back(first_start.back() + member.mdp.num_states());
+    for (std::size_t s = 0; s < member.mdp.num_states(); ++s) describe_start(member, member.states[s]);
+  }
+}
+
+// Digits: robot x y; per item of the MDP x y carried; per station still there x y.
+void Domain::Data::describe_start(const DomainMember& member, detail::PackedState s) {
+  const std::size_t row_begin = digits.size();
+  const auto add_cell = [&](std::size_t index) {
+    const Cell cell = world.cell_at(index);
+    digits.push_back(cell.x);
+    digits.push_back(cell.y);
+  };
+  add_cell(layout.robot(s));
+  for (std::size_t i = 0; i < member.item_present.size(); ++i) {
+    if (!member.item_present[i]) continue;
+    add_cell(layout.item(s, i));
+    digits.push_back(layout.carried(s) == i + 1 ? 1 : 0);
+  }
+  std::uint16_t stations = 0;
+  for (std::size_t i = 0; i < world.stations.size(); ++i) {
+    if (!layout.has_station(s, i)) continue;
+    add_cell(world.stations[i].cell);
+    ++stations;
+  }
+  num_stations.push_back(stations);
+  num_digits.push_back(static_cast<std::uint16_t>(digits.size() - row_begin));
+  digits.resize(row_begin + digits_per_start, 0);
+}
+
+std::vector<std::string> Domain::draw(MdpIndex m, std::optional<StateIndex> s) const {
+  const World& world = data_->world;
+  const GridState now = s ? state(m, *s) : GridState{};
+  const std::vector<std::size_t> items = items_in(m);
+  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
+  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
+    const Cell at = world.cell_at(cell);
+    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
+    bool moved_here = false;
+    if (s) {
+      content.start = false;
+      if (std::ranges::find(now.stations, at) == now.stations.end()) content.station.clear();
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        const std::string& name = data_->item_names[items[i]];
+        if (now.items[i] != at && content.item == name) content.item.clear();
+        moved_here = moved_here || (now.items[i] == at && content.item != name);
+      }
+    }
+    char glyph = glyph_for(world, cell, content);
+    if (moved_here) glyph = '*';
+    if (s && now.robot == at) glyph = '@';
+    rows[cell / static_cast<std::size_t>(world.width)] += glyph;
+  }
+  return rows;
+}
+
+}  // namespace kith

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "condition.hpp"
+#include "world.hpp"
+
+namespace kith::detail {
+
+struct Feature {
+  std::string name;
+  Condition when;
+  std::string exclusive;  // empty: fires whatever the others do
+  TomlPlace place;        // of the name
+};
+
+// What the robot can do, and what transitions count for.
+struct Dynamics {
+  double discount = 1.0;
+  std::size_t max_steps = 1000;
+  std::vector<Action> actions;  // canonical order
+  std::vector<Atom> atoms;
+  std::vector<Feature> features;
+  std::vector<Condition> forbidden;
+
+  [[nodiscard]] std::vector<std::string> feature_names() const;
+};
+
+// Reads [mdp], [[feature]] and [[rule]].
+[[nodiscard]] Dynamics read_dynamics(TomlReader& file, const World& world, bool world_is_complete);
+
+// Feature vectors by atom mask: each distinct mask is evaluated once.
+class FeatureTable {
+ public:
+  explicit FeatureTable(const Dynamics& dynamics) : dynamics_{dynamics} {}
+
+  struct Row {
+    bool forbidden = false;
+    std::vector<double> features;  // shape [num_features]
+  };
+
+  // The number of the row for `mask`.
+  [[nodiscard]] std::uint32_t row_of(AtomMask mask);
+  [[nodiscard]] const Row& row(std::uint32_t index) const { return rows_[index]; }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+
+ private:
+  [[nodiscard]] Row evaluate(AtomMask mask) const;
+
+  const Dynamics& dynamics_;
+  std::unordered_map<AtomMask, std::uint32_t> numbers_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace kith::detail

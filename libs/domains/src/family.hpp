@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "domain_data.hpp"
+#include "dynamics.hpp"
+#include "kith/toml/reader.hpp"
+#include "reward.hpp"
+
+namespace kith::detail {
+
+// Explores and checks every MDP of the family. Reports what makes the family
+// infeasible or too large; the result is complete only without errors.
+[[nodiscard]] std::vector<DomainMember> build_family(const World& world, const Dynamics& dynamics, TomlReport& report);
+
+// Reports MDPs in which the robot has no finite optimum, ties that matter, and
+// optimal paths longer than max_steps. Needs integral features and discount 1.
+void check_optimum(const World& world, const Dynamics& dynamics, const Reward& reward,
+                   const std::vector<DomainMember>& members, TomlReport& report);
+
+}  // namespace kith::detail

@@ -1,0 +1,336 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "world.hpp"
+
+namespace kith::detail {
+namespace {
+
+constexpr std::size_t kMaxCells = 1'000'000;
+constexpr std::size_t kMaxGroups = 16;
+
+bool is_name(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+// Reads the legend: what each symbol stands for.
+class LegendReader {
+ public:
+  LegendReader(World& world, TomlReport& report) : world_{world}, report_{report} {}
+
+  void read(const TomlTable& legend) {
+    for (const TomlEntry& entry : legend.entries()) {
+      if (!check_glyph(entry)) continue;
+      Symbol symbol;
+      symbol.glyph = entry.key.front();
+      symbol.place = entry.place;
+      if (entry.value.string() != nullptr) {
+        read_short(entry.value, symbol);
+      } else if (const TomlTable* table = entry.value.table()) {
+        read_long(*table, entry, symbol);
+      } else {
+        report_.error("E0205", entry.value.place(),
+                      std::string{"symbol '"} + symbol.glyph + "' must be a string or a table, not " +
+                          std::string{entry.value.kind_name()});
+      }
+      world_.symbols.push_back(std::move(symbol));
+    }
+    collect_names();
+  }
+
+ private:
+  bool check_glyph(const TomlEntry& entry) {
+    const bool printable = entry.key.size() == 1 && entry.key[0] >= 0x20 && entry.key[0] < 0x7F;
+    if (printable && entry.key != "@") return true;
+    report_.error("E0204", entry.place,
+                  "'" + entry.key + "' cannot be a symbol: it must be one printable ASCII character other than '@'",
+                  entry.key == "@" ? "'@' is where the robot is drawn" : "");
+    return false;
+  }
+
+  void read_short(const TomlValue& value, Symbol& symbol) {
+    const std::string& word = *value.string();
+    if (word == "wall") {
+      symbol.content.wall = true;
+    } else if (word != "floor") {
+      const std::string nearest = nearest_word(word, {"wall", "floor"});
+      report_.error(
+          "E0205", value.place(), "a symbol alone can be \"wall\" or \"floor\", not \"" + word + "\"",
+          nearest.empty() ? "for a terrain write { terrain = \"" + word + "\" }" : "did you mean '" + nearest + "'?");
+    }
+  }
+
+  void read_long(const TomlTable& table, const TomlEntry& entry, Symbol& symbol) {
+    TomlReader reader{table, entry.value.place(), std::string{"symbol '"} + symbol.glyph + "'", report_};
+    SymbolContent& content = symbol.content;
+    content.wall = reader.boolean("wall", Presence::kOptional).value_or(false);
+    content.start = reader.boolean("start", Presence::kOptional).value_or(false);
+    content.terrain = name(reader, "terrain");
+    content.station = name(reader, "station");
+    content.item = name(reader, "item");
+    content.destination = name(reader, "destination");
+    if (const auto [set, word] = flag_or_name(reader, "goal"); set) {
+      content.goal = true;
+      content.goal_name = word;
+    }
+    if (const auto [set, word] = flag_or_name(reader, "optional"); set) {
+      symbol.toggles_each_cell = word.empty();
+      symbol.toggle = word;
+    }
+    reader.finish();
+    check(symbol);
+  }
+
+  std::string name(TomlReader& reader, std::string_view key) {
+    const auto text = reader.string(key, Presence::kOptional);
+    if (!text) return "";
+    if (is_name(*text)) return *text;
+    report_bad_name(*reader.content().find(key), *text);
+    return "";
+  }
+
+  // `KEY = true` or `KEY = "NAME"`.
+  std::pair<bool, std::string> flag_or_name(TomlReader& reader, std::string_view key) {
+    const TomlValue* value = reader.value(key, Presence::kOptional);
+    if (value == nullptr) return {false, ""};
+    if (const bool* flag = value->boolean()) return {*flag, ""};
+    if (const std::string* text = value->string()) {
+      if (is_name(*text)) return {true, *text};
+      report_bad_name(*value, *text);
+      return {false, ""};
+    }
+    report_.error("E0108", value->place(),
+                  std::string{key} + " must be true or a name, not " + std::string{value->kind_name()});
+    return {false, ""};
+  }
+
+  void report_bad_name(const TomlValue& value, const std::string& text) {
+    report_.error("E0225", value.place(), "'" + text + "' cannot be a name", "use letters, digits, '_' and '-'");
+  }
+
+  void check(const Symbol& symbol) {
+    const SymbolContent& content = symbol.content;
+    if (content.wall && content.start) {
+      report_.error("E0209", symbol.place, "the robot cannot start on a wall");
+    } else if (content.wall) {
+      SymbolContent rest = content;
+      rest.wall = false;
+      if (!rest.is_floor()) report_.error("E0223", symbol.place, "nothing else can be where a wall is");
+    }
+    if (symbol.is_optional() && content.start) {
+      report_.error("E0213", symbol.place, "the start cannot be optional");
+    } else if (symbol.is_optional() && !content.destination.empty()) {
+      report_.error("E0213", symbol.place, "a destination cannot be optional");
+    } else if (symbol.is_optional() && content.is_floor()) {
+      report_.error("E0213", symbol.place, "there is nothing on the symbol that could be optional");
+    }
+  }
+
+  void collect_names() {
+    for (const Symbol& symbol : world_.symbols) {
+      const SymbolContent& content = symbol.content;
+      add_once(world_.terrain_names, content.terrain);
+      add_once(world_.station_names, content.station);
+      add_once(world_.goal_names, content.goal_name);
+      if (content.item.empty()) continue;
+      const bool known = std::any_of(world_.items.begin(), world_.items.end(),
+                                     [&](const Item& item) { return item.name == content.item; });
+      if (known) {
+        report_.error("E0211", symbol.place, "item '" + content.item + "' has two symbols; an item lies on one cell");
+      } else {
+        world_.items.push_back({content.item, std::nullopt, false});
+      }
+    }
+    for (const Symbol& symbol : world_.symbols) check_references(symbol);
+  }
+
+  void check_references(const Symbol& symbol) {
+    const SymbolContent& content = symbol.content;
+    const auto& stations = world_.station_names;
+    if (!content.terrain.empty() && std::find(stations.begin(), stations.end(), content.terrain) != stations.end()) {
+      report_.error("E0214", symbol.place, "'" + content.terrain + "' is the name of a terrain and of a station",
+                    "leave:" + content.terrain + " could mean either");
+    }
+    std::vector<std::string> items;
+    for (const Item& item : world_.items) items.push_back(item.name);
+    if (!content.destination.empty() && std::find(items.begin(), items.end(), content.destination) == items.end()) {
+      report_.error("E0212", symbol.place, "destination of an unknown item '" + content.destination + "'",
+                    suggestion(content.destination, items));
+    }
+  }
+
+  World& world_;
+  TomlReport& report_;
+};
+
+// Reads the rows and finds what stands where.
+class RowsReader {
+ public:
+  RowsReader(World& world, TomlReport& report) : world_{world}, report_{report} {}
+
+  void read(const TomlValue& value) {
+    const TomlArray* rows = read_array(value, "'rows'", report_);
+    if (rows == nullptr || !check_shape(value, *rows)) return;
+    fill(*rows);
+    find_things(value);
+    group_optional_cells(value);
+    for (const Symbol& symbol : world_.symbols) warn_if_unused(symbol);
+  }
+
+ private:
+  bool check_shape(const TomlValue& value, const TomlArray& rows) {
+    const std::size_t errors_before = report_.num_errors();
+    if (rows.empty()) report_.error("E0201", value.place(), "the map has no rows");
+    for (const TomlValue& row : rows) {
+      if (!read_string(row, "a row of the map", report_)) continue;
+      const std::size_t width = rows.front().string() == nullptr ? 0 : rows.front().string()->size();
+      if (row.string()->empty()) {
+        report_.error("E0201", row.place(), "a row of the map is empty");
+      } else if (rows.front().string() != nullptr && row.string()->size() != width) {
+        report_.error("E0202", row.place(),
+                      "this row has " + std::to_string(row.string()->size()) + " cells, the first one has " +
+                          std::to_string(width),
+                      "all rows must be of one length, one ASCII character per cell");
+      }
+    }
+    if (report_.num_errors() > errors_before) return false;
+    const std::size_t num_cells = rows.size() * rows.front().string()->size();
+    if (num_cells <= kMaxCells) return true;
+    report_.error("E0217", value.place(),
+                  "the map has " + std::to_string(num_cells) + " cells; at most 1000000 are read");
+    return false;
+  }
+
+  void fill(const TomlArray& rows) {
+    world_.width = static_cast<int>(rows.front().string()->size());
+    world_.height = static_cast<int>(rows.size());
+    std::array<int, 256> number{};
+    number.fill(-1);
+    for (std::size_t i = 0; i < world_.symbols.size(); ++i) {
+      number[static_cast<unsigned char>(world_.symbols[i].glyph)] = static_cast<int>(i);
+    }
+    for (const TomlValue& row : rows) {
+      world_.row_places.push_back(row.place());
+      const std::string& text = *row.string();
+      for (std::size_t x = 0; x < text.size(); ++x) {
+        int& symbol = number[static_cast<unsigned char>(text[x])];
+        if (symbol == -1) {
+          report_.error("E0203", report_.document().inside(row, x),
+                        std::string{"symbol '"} + text[x] + "' is not declared in [map.legend]",
+                        suggestion_for_undeclared());
+          symbol = -2;  // once per symbol
+        }
+        world_.symbol_of.push_back(static_cast<std::uint8_t>(std::max(symbol, 0)));
+      }
+    }
+    if (world_.symbols.empty()) world_.symbols.emplace_back();
+  }
+
+  [[nodiscard]] std::string suggestion_for_undeclared() const {
+    std::string hint = "declared:";
+    for (const Symbol& symbol : world_.symbols) hint += std::string{" '"} + symbol.glyph + "'";
+    return world_.symbols.empty() ? "" : hint;
+  }
+
+  void find_things(const TomlValue& rows) {
+    std::optional<std::size_t> start;
+    for (std::size_t cell = 0; cell < world_.num_cells(); ++cell) {
+      const SymbolContent& content = world_.content(cell);
+      if (content.start && start) {
+        report_.error("E0208", place_of_cell(world_, cell), "there is a second start");
+      } else if (content.start) {
+        start = cell;
+      }
+      if (!content.station.empty()) world_.stations.push_back({content.station, cell});
+      if (content.goal || !content.destination.empty()) world_.some_goal = world_.some_goal.value_or(cell);
+      find_item(content, cell);
+    }
+    if (!start) report_.error("E0206", rows.place(), "the map has no start", "declare a symbol with start = true");
+    world_.start = start.value_or(0);
+  }
+
+  void find_item(const SymbolContent& content, std::size_t cell) {
+    for (Item& item : world_.items) {
+      if (item.name == content.destination) item.has_destination = true;
+      if (item.name != content.item) continue;
+      if (item.home) {
+        report_.error("E0211", place_of_cell(world_, cell), "item '" + item.name + "' lies on two cells");
+      }
+      item.home = cell;
+    }
+  }
+
+  void group_optional_cells(const TomlValue& rows) {
+    world_.group_of.assign(world_.num_cells(), -1);
+    std::vector<std::vector<std::size_t>> cells_of(world_.symbols.size());
+    for (std::size_t cell = 0; cell < world_.num_cells(); ++cell) {
+      if (world_.symbols[world_.symbol_of[cell]].is_optional()) cells_of[world_.symbol_of[cell]].push_back(cell);
+    }
+    std::vector<std::pair<std::string, std::size_t>> named;
+    for (std::size_t i = 0; i < world_.symbols.size(); ++i) {
+      for (const std::size_t cell : cells_of[i]) {
+        const std::size_t group = group_for(world_.symbols[i], named);
+        world_.groups[group].cells.push_back(cell);
+        world_.group_of[cell] = static_cast<std::int32_t>(group);
+      }
+    }
+    if (world_.groups.size() > kMaxGroups) {
+      report_.error("E0218", rows.place(),
+                    std::to_string(world_.groups.size()) + " optional things make about " + power_of_two() +
+                        " MDPs; at most 65536 are built",
+                    "toggle cells together: optional = \"NAME\"");
+    }
+  }
+
+  std::size_t group_for(const Symbol& symbol, std::vector<std::pair<std::string, std::size_t>>& named) {
+    if (!symbol.toggle.empty()) {
+      for (const auto& [name, group] : named) {
+        if (name == symbol.toggle) return group;
+      }
+      named.emplace_back(symbol.toggle, world_.groups.size());
+    }
+    world_.groups.emplace_back();
+    return world_.groups.size() - 1;
+  }
+
+  [[nodiscard]] std::string power_of_two() const {
+    const std::size_t n = world_.groups.size();
+    return n < 60 ? std::to_string(std::size_t{1} << n) : "2^" + std::to_string(n);
+  }
+
+  // Walls and floor may be declared and not used; other things are there to be used.
+  void warn_if_unused(const Symbol& symbol) {
+    SymbolContent wall;
+    wall.wall = true;
+    if (symbol.content.is_floor() || symbol.content == wall) return;
+    const auto number = static_cast<std::uint8_t>(&symbol - world_.symbols.data());
+    if (std::find(world_.symbol_of.begin(), world_.symbol_of.end(), number) != world_.symbol_of.end()) return;
+    report_.warning("W0201", symbol.place, std::string{"symbol '"} + symbol.glyph + "' is nowhere on the map");
+  }
+
+  World& world_;
+  TomlReport& report_;
+};
+
+}  // namespace
+
+World read_world(TomlReader& file) {
+  World world;
+  auto map = file.table("map", Presence::kRequired);
+  if (!map) return world;
+  TomlReport& report = file.report();
+  world.map_place = map->place();
+  if (auto legend = map->table("legend", Presence::kRequired)) LegendReader{world, report}.read(legend->content());
+  if (const TomlValue* rows = map->value("rows", Presence::kRequired)) RowsReader{world, report}.read(*rows);
+  map->finish();
+  return world;
+}
+
+}  // namespace kith::detail

@@ -1,0 +1,183 @@
+#include "reward.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "exact_vector.hpp"
+#include "kith/geometry/cone.hpp"
+
+namespace kith::detail {
+namespace {
+
+class RewardReader {
+ public:
+  RewardReader(TomlReader& file, const std::vector<Feature>& features)
+      : file_{file}, report_{file.report()}, features_{features} {
+    for (const Feature& feature : features) names_.push_back(feature.name);
+  }
+
+  Reward read() {
+    read_weights();
+    read_prior();
+    read_words();
+    return std::move(reward_);
+  }
+
+ private:
+  void read_weights() {
+    auto table = file_.table("reward", Presence::kRequired);
+    if (!table) return;
+    if (const TomlValue* weights = table->value("weights", Presence::kRequired)) {
+      reward_.weights_place = weights->place();
+      if (read_table(*weights, "'weights'", report_) != nullptr) take_weights(*weights);
+    }
+    if (table->word("normalize", Presence::kOptional, {"l2", "l1"}) == std::size_t{1}) {
+      reward_.weights.norm = WeightNorm::kL1;
+    }
+    table->finish();
+  }
+
+  void take_weights(const TomlValue& value) {
+    const std::size_t errors_before = report_.num_errors();
+    const auto numbers = read_numbers(*value.table(), "weight", "weights");
+    for (const std::string& name : names_) {
+      if (value.table()->find(name) != nullptr) continue;
+      report_.error("E0311", value.place(), "feature '" + name + "' has no weight");
+    }
+    if (report_.num_errors() > errors_before || numbers.empty() || numbers.size() > IntegerVector::kMaxDimension)
+      return;
+    const auto integer = exact_direction(numbers);
+    if (!integer) {
+      report_.error("E0315", value.place(), "the weights need more digits than exact arithmetic takes",
+                    "at a common denominator every weight must stay below 2^31: round them");
+    } else if (integer->is_zero()) {
+      report_.error("E0313", value.place(), "all weights are zero, so nothing matters to the robot");
+    } else {
+      set_weights(numbers, *integer);
+    }
+  }
+
+  void set_weights(const std::vector<double>& numbers, const IntegerVector& integer) {
+    reward_.weights.raw = numbers;
+    reward_.weights.integer = integer;
+    reward_.weights.unit = Eigen::Vector3d::Zero();
+    if (integer.size() != 3) return;
+    const Eigen::Vector3d direction{static_cast<double>(integer[0]), static_cast<double>(integer[1]),
+                                    static_cast<double>(integer[2])};
+    reward_.weights.unit = direction.normalized();
+  }
+
+  // The numbers by feature, 0 for those not given. Reports what is no finite number of a known feature.
+  std::vector<double> read_numbers(const TomlTable& table, const std::string& what, const std::string& plural) {
+    std::vector<double> numbers(names_.size(), 0.0);
+    for (const TomlEntry& entry : table.entries()) {
+      const auto feature = find_feature(entry, what);
+      if (!feature) continue;
+      if (!entry.value.is_number()) {
+        report_.error("E0108", entry.value.place(),
+                      plural + " must be numbers, not " + std::string{entry.value.kind_name()});
+        continue;
+      }
+      const double* real = entry.value.real();
+      const double number = real != nullptr ? *real : static_cast<double>(*entry.value.integer());
+      if (std::isfinite(number)) {
+        numbers[*feature] = number;
+      } else {
+        report_.error("E0314", entry.value.place(), "a " + what + " must be finite, not " + to_toml(entry.value));
+      }
+    }
+    return numbers;
+  }
+
+  std::optional<std::size_t> find_feature(const TomlEntry& entry, const std::string& what) {
+    const auto it = std::find(names_.begin(), names_.end(), entry.key);
+    if (it != names_.end()) return static_cast<std::size_t>(it - names_.begin());
+    std::string hint = suggestion(entry.key, names_);
+    const std::string nearest = nearest_word(entry.key, names_);
+    for (const Feature& feature : features_) {
+      if (nearest.empty() || feature.name != nearest) continue;
+      hint += " (declared at line " + std::to_string(feature.place.line) + ')';
+    }
+    report_.error("E0312", entry.place, what + " names an unknown feature '" + entry.key + "'", hint);
+    return std::nullopt;
+  }
+
+  void read_prior() {
+    auto table = file_.table("prior", Presence::kOptional);
+    if (!table) return;
+    if (const TomlArray* list = table->array("halfspaces", Presence::kRequired)) {
+      for (const TomlValue& element : *list) {
+        if (read_table(element, "a half-space", report_) != nullptr) read_half_space(element);
+      }
+      const TomlPlace place = table->content().find("halfspaces")->place();
+      if (!prior_clashes_) check_prior_leaves_room(place);
+    }
+    table->finish();
+  }
+
+  void read_half_space(const TomlValue& value) {
+    const std::size_t errors_before = report_.num_errors();
+    const auto numbers = read_numbers(*value.table(), "half-space", "half-spaces");
+    if (report_.num_errors() > errors_before || numbers.size() > IntegerVector::kMaxDimension) return;
+    const auto normal = exact_direction(numbers);
+    if (!normal) {
+      report_.error("E0315", value.place(), "the half-space needs more digits than exact arithmetic takes");
+    } else if (normal->is_zero()) {
+      report_.error("E0331", value.place(), "a half-space of zeros says nothing", "give at least one feature a number");
+    } else {
+      check_half_space(value, *normal);
+    }
+  }
+
+  void check_half_space(const TomlValue& value, const IntegerVector& normal) {
+    const IntegerVector& weights = reward_.weights.integer;
+    if (weights.size() == normal.size() && sign_of_dot(normal, weights) < 0) {
+      prior_clashes_ = true;
+      report_.infeasible(
+          "E0332", value.place(),
+          "the prior " + to_toml(value) + " contradicts the weights: " + product_text(normal) + " is negative",
+          "learners would be taught something that they hold to be impossible");
+    }
+    if (normal.size() == 3) reward_.prior.emplace_back(normal);
+  }
+
+  // "(-1,0,2) . (-6,7,-2)": the clash in numbers.
+  [[nodiscard]] std::string product_text(const IntegerVector& normal) const {
+    return to_string(normal) + " . " + to_string(reward_.weights.integer);
+  }
+
+  void check_prior_leaves_room(const TomlPlace& place) {
+    const auto clash = irreducible_conflict(reward_.prior);
+    if (clash.empty()) return;
+    std::string text;
+    for (const HalfSpace& half_space : clash) text += (text.empty() ? "" : " and ") + to_string(half_space.normal());
+    report_.infeasible("E0333", place, "the prior leaves no room for weights: " + text + " clash");
+  }
+
+  void read_words() {
+    reward_.words = names_;
+    auto table = file_.table("words", Presence::kOptional);
+    if (!table) return;
+    for (const TomlEntry& entry : table->content().entries()) {
+      const auto feature = find_feature(entry, "[words]");
+      if (!feature) continue;
+      if (auto words = read_string(entry.value, "words", report_)) reward_.words[*feature] = *std::move(words);
+    }
+  }
+
+  TomlReader& file_;
+  TomlReport& report_;
+  const std::vector<Feature>& features_;
+  std::vector<std::string> names_;
+  Reward reward_;
+  bool prior_clashes_ = false;
+};
+
+}  // namespace
+
+Reward read_reward(TomlReader& file, const std::vector<Feature>& features) {
+  return RewardReader{file, features}.read();
+}
+
+}  // namespace kith::detail

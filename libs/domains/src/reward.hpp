@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics.hpp"
+#include "kith/domains/domain.hpp"
+#include "kith/toml/reader.hpp"
+
+namespace kith::detail {
+
+// What the file says about worth: [reward], [prior] and [words].
+struct Reward {
+  RewardWeights weights;
+  TomlPlace weights_place;
+  std::vector<HalfSpace> prior;    // empty unless there are three features
+  std::vector<std::string> words;  // per feature
+};
+
+[[nodiscard]] Reward read_reward(TomlReader& file, const std::vector<Feature>& features);
+
+}  // namespace kith::detail
