@@ -1,7 +1,7 @@
 // Cones by clipping. A polygon keeps, beside its facets f_0, ..., f_(n-1), the
-// extreme rays r_i = f_i x f_(i+1) (cyclic, divided by their gcd), so that facet i
-// spans the arc from r_(i-1) to r_i. A new half-space c is compared with the
-// rays only: the exact signs of c . r_i tell which facets survive.
+// extreme rays r_i = f_i x f_(i+1) (cyclic), so that facet i spans the arc from
+// r_(i-1) to r_i. A new half-space c is compared with the rays only: the exact
+// signs of c . r_i tell which facets survive.
 
 #include "kith/geometry/cone.hpp"
 
@@ -11,15 +11,16 @@
 #include <stdexcept>
 #include <utility>
 
+#include "exact.hpp"
+
 namespace kith {
 namespace {
 
-// a . b for three entries. Rays stay below 2^63 and normals below 2^31, so 128 bits hold it.
-Int128 dot3(const IntegerVector& a, const IntegerVector& b) {
-  return Int128{a[0]} * b[0] + Int128{a[1]} * b[1] + Int128{a[2]} * b[2];
-}
+constexpr std::size_t kUsualFacets = 8;  // more than nearly every cone has, so that growing does not allocate again
 
-int side(const HalfSpace& half_space, const IntegerVector& ray) { return sign(dot3(half_space.normal(), ray)); }
+using detail::cross_of_normals;
+using detail::cross_unchecked;
+using detail::side;
 
 IntegerVector axis(std::size_t k) {
   IntegerVector e(3);
@@ -33,8 +34,6 @@ std::size_t first_nonzero(const IntegerVector& v) {
   return k;
 }
 
-IntegerVector common_ray(const HalfSpace& a, const HalfSpace& b) { return primitive(cross(a.normal(), b.normal())); }
-
 // A lune's edge is the line along +-edge. rays[i] lies inside facet i alone, so
 // that the lune is the line plus the combinations of the two. The cross product
 // with an axis, rather than with the edge, keeps the entries small.
@@ -44,10 +43,10 @@ struct LuneFrame {
 };
 
 LuneFrame lune_frame(const HalfSpace& first, const HalfSpace& second) {
-  const IntegerVector edge = common_ray(first, second);
+  const IntegerVector edge = cross_of_normals(first, second);
   const std::size_t k = first_nonzero(edge);
   const IntegerVector e = edge[k] > 0 ? axis(k) : -axis(k);
-  return {edge, {cross(e, first.normal()), cross(second.normal(), e)}};
+  return {edge, {cross_unchecked(e, first.normal()), cross_unchecked(second.normal(), e)}};
 }
 
 // Divides by the gcd in 128 bits; only then must the entries fit into 64.
@@ -72,6 +71,9 @@ IntegerVector narrowed(std::array<Int128, 3> v) {
 
 std::optional<Cone> Cone::intersection(std::span<const HalfSpace> half_spaces) {
   Cone cone;
+  const std::size_t expected = std::min<std::size_t>(half_spaces.size() + 1, kUsualFacets);
+  cone.facets_.reserve(expected);
+  cone.rays_.reserve(expected);
   for (const HalfSpace& half_space : half_spaces) {
     if (!cone.clip(half_space)) return std::nullopt;
   }
@@ -120,7 +122,7 @@ bool Cone::clip_lune(const HalfSpace& half_space) {
 void Cone::to_triangle(const HalfSpace& half_space, int orientation) {
   if (orientation < 0) std::swap(facets_[0], facets_[1]);
   facets_.push_back(half_space);
-  for (std::size_t i = 0; i < 3; ++i) rays_.push_back(common_ray(facets_[i], facets_[(i + 1) % 3]));
+  for (std::size_t i = 0; i < 3; ++i) rays_.push_back(cross_of_normals(facets_[i], facets_[(i + 1) % 3]));
 }
 
 bool Cone::clip_polygon(const HalfSpace& half_space) {
@@ -148,8 +150,8 @@ bool Cone::clip_polygon(const HalfSpace& half_space) {
   facets_.erase(facets_.begin() + static_cast<std::ptrdiff_t>(kept) + 1, facets_.end());
   facets_.push_back(half_space);
   rays_.erase(rays_.begin() + static_cast<std::ptrdiff_t>(kept), rays_.end());
-  rays_.push_back(common_ray(facets_[kept], half_space));
-  rays_.push_back(common_ray(half_space, facets_[0]));
+  rays_.push_back(cross_of_normals(facets_[kept], half_space));
+  rays_.push_back(cross_of_normals(half_space, facets_[0]));
   return true;
 }
 
@@ -174,7 +176,8 @@ std::vector<HalfSpace> Cone::minimal_set() const {
 }
 
 std::vector<IntegerVector> Cone::generators() const {
-  std::vector<IntegerVector> result = rays_;
+  std::vector<IntegerVector> result;
+  for (const IntegerVector& ray : rays_) result.push_back(primitive(ray));
   const auto add_line = [&](const IntegerVector& v) {
     result.push_back(v);
     result.push_back(-v);
@@ -186,12 +189,12 @@ std::vector<IntegerVector> Cone::generators() const {
     const std::size_t k = first_nonzero(normal);
     result.push_back(normal);
     for (std::size_t j = 0; j < 3; ++j) {
-      if (j != k) add_line(primitive(cross(axis(j), normal)));
+      if (j != k) add_line(primitive(cross_unchecked(axis(j), normal)));
     }
   } else if (facets_.size() == 2) {
     const auto [edge, rays] = lune_frame(facets_[0], facets_[1]);
     result.assign({primitive(rays[0]), primitive(rays[1])});
-    add_line(edge);
+    add_line(primitive(edge));
   }
   return result;
 }
@@ -205,7 +208,8 @@ IntegerVector Cone::interior_direction() const {
   }
   std::array<Int128, 3> sum{};
   for (const IntegerVector& ray : rays_) {
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += ray[k];
+    const IntegerVector shortest = primitive(ray);
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += shortest[k];
   }
   return narrowed(sum);
 }

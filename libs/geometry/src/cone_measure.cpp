@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <span>
 
+#include "exact.hpp"
 #include "kith/geometry/cone.hpp"
 
 namespace kith {
@@ -22,7 +22,7 @@ Eigen::Vector3d real(const IntegerVector& v) {
 // The angle between the two boundary arcs. Numerator and denominator of the
 // tangent are exact integers before they are rounded, so thin lunes keep their digits.
 double lune_angle(const HalfSpace& first, const HalfSpace& second) {
-  const Eigen::Vector3d edge = real(cross(first.normal(), second.normal()));
+  const Eigen::Vector3d edge = real(detail::cross_of_normals(first, second));
   return std::atan2(edge.norm(), -static_cast<double>(dot(first.normal(), second.normal())));
 }
 
@@ -44,14 +44,11 @@ double area_by_angles(std::span<const HalfSpace> facets) {
   return excess;
 }
 
-// With r_i = (f_i x f_(i+1)) / g, the triple product needs no numbers beyond 128 bits:
-//   det(r_0, r_i, r_(i+1)) = (f_(i+1) . r_0) (f_i . r_(i+1)) / g.
-double triple_product(const HalfSpace& before, const HalfSpace& between, const std::array<const IntegerVector*, 3>& r) {
-  const IntegerVector whole = cross(before.normal(), between.normal());
-  std::size_t k = 0;
-  while (whole[k] == 0) ++k;
-  const auto divisor = static_cast<double>(whole[k] / (*r[1])[k]);
-  return static_cast<double>(dot(between.normal(), *r[0])) * static_cast<double>(dot(before.normal(), *r[2])) / divisor;
+// With r_i = f_i x f_(i+1), the triple product needs no numbers beyond 128 bits:
+//   det(r_0, r_i, r_(i+1)) = (f_(i+1) . r_0) (f_i . r_(i+1)).
+double triple_product(std::span<const HalfSpace> facets, std::span<const IntegerVector> rays, std::size_t i) {
+  return static_cast<double>(detail::product(facets[i + 1], rays[0])) *
+         static_cast<double>(detail::product(facets[i], rays[i + 1]));
 }
 
 FanTriangle fan_triangle(std::span<const HalfSpace> facets, std::span<const IntegerVector> rays, std::size_t i) {
@@ -60,7 +57,7 @@ FanTriangle fan_triangle(std::span<const HalfSpace> facets, std::span<const Inte
   const Eigen::Vector3d c = real(rays[i + 1]);
   const double lengths = a.norm() * b.norm() * c.norm();
   FanTriangle triangle{a.normalized(), b.normalized(), c.normalized(), 0.0};
-  const double numerator = triple_product(facets[i], facets[i + 1], {&rays[0], &rays[i], &rays[i + 1]}) / lengths;
+  const double numerator = triple_product(facets, rays, i) / lengths;
   const double denominator =
       1.0 + triangle.apex.dot(triangle.from) + triangle.from.dot(triangle.to) + triangle.to.dot(triangle.apex);
   triangle.area = 2.0 * std::atan2(numerator, denominator);
@@ -129,7 +126,7 @@ Eigen::Vector3d Cone::equal_area_point(double u, double v) const {
     return turned(normal, zero, normal.cross(zero), 1.0 - v, 2.0 * kPi * u);
   }
   if (facets_.size() == 2) {
-    const Eigen::Vector3d edge = real(cross(facets_[0].normal(), facets_[1].normal())).normalized();
+    const Eigen::Vector3d edge = real(detail::cross_of_normals(facets_[0], facets_[1])).normalized();
     const Eigen::Vector3d& inward = facets_[0].unit_normal();
     return turned(edge, edge.cross(inward), inward, 1.0 - 2.0 * v, u * lune_angle(facets_[0], facets_[1]));
   }

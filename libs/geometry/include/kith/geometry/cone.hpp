@@ -90,7 +90,7 @@ class Cone {
   void to_triangle(const HalfSpace& half_space, int orientation);
 
   std::vector<HalfSpace> facets_;
-  // Extreme rays of a polygon: rays_[i] lies on facets i and i+1 (cyclic). Empty below 3 facets.
+  // Extreme rays of a polygon: rays_[i] = facets_[i] x facets_[i + 1] (cyclic). Empty below 3 facets.
   std::vector<IntegerVector> rays_;
 };
 
