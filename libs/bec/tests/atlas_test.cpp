@@ -22,10 +22,6 @@ Eigen::Vector3d random_weights(RandomStream& random) {
   return {p[0], p[1], p[2]};
 }
 
-std::vector<HalfSpace> one_step(const Atlas& atlas, DemoIndex demo) {
-  return atlas.constraints().half_spaces(atlas.one_step(demo));
-}
-
 // The facts of the paper's domain.
 
 TEST(ItemDelivery, HasItsPublishedSize) {

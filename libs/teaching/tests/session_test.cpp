@@ -93,7 +93,9 @@ TEST_P(EveryStrategy, LessonsKeepTheirPromises) {
       log_gain += std::log(shown.gain);
       conveyed |= shown.constraints;
     }
-    if (!lesson.repeats) EXPECT_NEAR(lesson.gain, log_gain, 1e-9);
+    if (!lesson.repeats) {
+      EXPECT_NEAR(lesson.gain, log_gain, 1e-9);
+    }
     EXPECT_NEAR(lesson.area_sr, cache_.regions().of(conveyed).area_sr, 1e-12);
     EXPECT_LE(lesson.running_area_sr, lesson.area_sr + 1e-12);
     std::vector<HalfSpace> covered;
@@ -183,7 +185,7 @@ TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
 TEST(Session, AMissingAnswerIsWrongAndShowsNothing) {
   TeachingCache cache{item_delivery().constraints()};
   auto session = make_session(cache, Strategy::kCommon, 1);
-  const auto feedback = session.submit(std::vector{std::vector<Answer>(session.lesson().tests.size())});
+  const auto feedback = session.submit(std::vector<std::vector<Answer>>(1, std::vector<Answer>(session.lesson().tests.size())));
   for (const auto& verdict : feedback.verdicts[0]) {
     EXPECT_FALSE(verdict.correct);
     EXPECT_FALSE(verdict.answered);
@@ -206,7 +208,7 @@ TEST(Session, RefusesAnswersOfTheWrongShapeOrBetterThanOptimal) {
   TeachingCache cache{item_delivery().constraints()};
   auto session = make_session(cache, Strategy::kCommon, 2);
   auto answers = robots_answers(session);
-  EXPECT_THROW(session.submit(std::vector{answers[0]}), std::invalid_argument);
+  EXPECT_THROW(session.submit(std::span{answers}.first(1)), std::invalid_argument);
   auto short_list = answers;
   short_list[1].pop_back();
   EXPECT_THROW(session.submit(short_list), std::invalid_argument);

@@ -14,7 +14,7 @@ namespace kith {
 
 /// How a group is taught; every field is a key of the study file.
 struct TeachingOptions {
-  FilterOptions filter;             ///< particles, eta, resampling threshold of the teacher's beliefs
+  FilterOptions filter{};           ///< particles, eta, resampling threshold of the teacher's beliefs
   std::size_t counterfactuals = 8;  ///< N
   CounterfactualSampling sampling = CounterfactualSampling::kSystematic;
   double assumed_ability = 0.80;  ///< the beta that the teacher ascribes to everybody
