@@ -74,6 +74,13 @@ check_links() {  # relative links in documents lead somewhere
   done | none
 }
 
+check_citations() {  # every [key2024] cited in sources and documents is in docs/references.bib
+  files '*.cpp' '*.hpp' '*.md' '*.toml' | xargs -d '\n' grep -noE '\[[a-z]+(18|19|20)[0-9]{2}[a-z]*' |
+    while IFS=: read -r file line key; do
+      grep -q "{${key#[}," docs/references.bib || echo "$file:$line: ${key#[} is not in docs/references.bib"
+    done | none
+}
+
 check_format() {  # C++ is as clang-format 14 writes it
   if ! command -v clang-format >/dev/null; then
     echo "clang-format is not installed"
