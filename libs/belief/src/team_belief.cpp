@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "kith/belief/consistency.hpp"
@@ -81,10 +82,28 @@ void TeamBelief::for_each_part(Action action) {
   if (joint_) action(*joint_);
 }
 
+// Only a hard likelihood can refuse an update. Then it is tried on a copy, so
+// that a team is never left half updated.
+template <typename Action>
+auto TeamBelief::all_or_nothing(Action action) {
+  if (!options_.likelihood.is_hard()) return action(*this);
+  TeamBelief trial = *this;
+  if constexpr (std::is_void_v<decltype(action(trial))>) {
+    action(trial);
+    *this = std::move(trial);
+  } else {
+    auto result = action(trial);
+    *this = std::move(trial);
+    return result;
+  }
+}
+
 // The joint belief gets one copy per member of the same set, the largest of which is the set itself.
 void TeamBelief::observe_all(std::span<const HalfSpace> half_spaces, std::uint64_t period, std::string_view event) {
-  for_each_part([&](Part& part) {
-    part.belief.observe(half_spaces, options_.likelihood, part.random.split(period).split(event));
+  all_or_nothing([&](TeamBelief& team) {
+    team.for_each_part([&](Part& part) {
+      part.belief.observe(half_spaces, options_.likelihood, part.random.split(period).split(event));
+    });
   });
 }
 
@@ -101,6 +120,11 @@ std::vector<std::size_t> TeamBelief::observe_responses(std::span<const std::vect
   if (responses.size() != num_members()) {
     throw std::invalid_argument("TeamBelief::observe_responses: there must be one list per member");
   }
+  return all_or_nothing([&](TeamBelief& team) { return team.apply_responses(responses, period); });
+}
+
+std::vector<std::size_t> TeamBelief::apply_responses(std::span<const std::vector<HalfSpace>> responses,
+                                                     std::uint64_t period) {
   const auto stream_of = [&](const Part& part) { return part.random.split(period).split("response"); };
   for (std::size_t i = 0; i < members_.size(); ++i) {
     members_[i].belief.observe(responses[i], options_.likelihood, stream_of(members_[i]));

@@ -23,7 +23,8 @@ struct TeamBeliefParts {
 /// somebody knows: union) [jayaraman2024, section III-C].
 ///
 /// Seats do not matter: if the members are permuted together with their streams,
-/// so are the results, bit for bit. A team of one member has one belief, which is
+/// so are the results, bit for bit. An update that throws (a hard likelihood that
+/// excludes every particle of some belief) changes none of the beliefs. A team of one member has one belief, which is
 /// its member, common and joint belief, updated as the member's.
 class TeamBelief {
  public:
@@ -78,8 +79,12 @@ class TeamBelief {
   void observe_all(std::span<const HalfSpace> half_spaces, std::uint64_t period, std::string_view event);
   [[nodiscard]] std::vector<std::size_t> observe_common(std::span<const std::vector<HalfSpace>> responses,
                                                         const RandomStream& random);
+  [[nodiscard]] std::vector<std::size_t> apply_responses(std::span<const std::vector<HalfSpace>> responses,
+                                                         std::uint64_t period);
   template <typename Action>
   void for_each_part(Action action);
+  template <typename Action>
+  auto all_or_nothing(Action action);
 
   Cone prior_;
   Options options_;

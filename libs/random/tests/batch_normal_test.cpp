@@ -1,0 +1,112 @@
+#include "kith/random/batch_normal.hpp"
+
+#include <Random123/philox.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace kith {
+namespace {
+
+// The transform written plainly with the standard library.
+std::vector<double> plain(std::size_t size, RandomStream random) {
+  const std::uint32_t k0 = random();
+  const std::uint32_t k1 = random();
+  const std::size_t pairs = (size + 1) / 2;
+  std::vector<double> out(size);
+  r123::Philox4x32 philox;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const auto word = philox({{static_cast<std::uint32_t>(i / 2), 0, 0, 0}}, {{k0, k1}});
+    const double u = (word[2 * (i % 2)] + 0.5) * 0x1.0p-32;
+    const std::uint32_t w = word[2 * (i % 2) + 1];
+    const double angle =
+        ((w & 0x3FFFFFFFu) + 0.5 - 0x1.0p29) * 0x1.0p-30 * std::numbers::pi / 2 + (w >> 30) * std::numbers::pi / 2;
+    const double radius = std::sqrt(-2.0 * std::log(u));
+    out[i] = radius * std::cos(angle);
+    if (pairs + i < size) out[pairs + i] = radius * std::sin(angle);
+  }
+  return out;
+}
+
+TEST(BatchStandardNormal, IsTheBoxMullerTransformToFullPrecision) {
+  for (const std::size_t size : {0u, 1u, 2u, 3u, 511u, 512u, 513u, 1024u, 2001u, 200'000u}) {
+    const RandomStream random = RandomStream{11}.split(size);
+    RandomStream drawn = random;
+    std::vector<double> out(size);
+    batch_standard_normal(out, drawn);
+    const auto expected = plain(size, random);
+    for (std::size_t i = 0; i < size; ++i) ASSERT_NEAR(out[i], expected[i], 1e-14) << size << ' ' << i;
+  }
+}
+
+TEST(BatchStandardNormal, DependsOnTheStreamAndAdvancesIt) {
+  RandomStream a{3};
+  RandomStream b{3};
+  std::vector<double> first(100), again(100), next(100);
+  batch_standard_normal(first, a);
+  batch_standard_normal(again, b);
+  batch_standard_normal(next, a);
+  EXPECT_EQ(first, again);
+  EXPECT_NE(first, next);
+}
+
+// n = 2 * 10^6. Standard errors of the first four moments of N(0, 1):
+// sqrt(1/n), sqrt(2/n), sqrt(15/n), sqrt(96/n); five of them are the bounds.
+TEST(BatchStandardNormal, HasTheMomentsOfAStandardNormal) {
+  constexpr std::size_t n = 2'000'000;
+  std::vector<double> out(n);
+  RandomStream random{4};
+  batch_standard_normal(out, random);
+  std::vector<double> moment(4, 0.0);
+  for (const double x : out) {
+    moment[0] += x / n;
+    moment[1] += x * x / n;
+    moment[2] += x * x * x / n;
+    moment[3] += x * x * x * x / n;
+  }
+  EXPECT_NEAR(moment[0], 0.0, 5.0 * std::sqrt(1.0 / n));
+  EXPECT_NEAR(moment[1], 1.0, 5.0 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(moment[2], 0.0, 5.0 * std::sqrt(15.0 / n));
+  EXPECT_NEAR(moment[3], 3.0, 5.0 * std::sqrt(96.0 / n));
+}
+
+// Kolmogorov-Smirnov: sqrt(n) D exceeds 2.2 with probability 2 exp(-2 * 2.2^2) = 1.3e-4.
+TEST(BatchStandardNormal, HasTheNormalDistributionFunction) {
+  constexpr std::size_t n = 200'000;
+  std::vector<double> out(n);
+  RandomStream random{5};
+  batch_standard_normal(out, random);
+  std::sort(out.begin(), out.end());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double p = 0.5 * std::erfc(-out[i] / std::numbers::sqrt2);
+    worst = std::max({worst, std::abs(p - static_cast<double>(i) / n), std::abs(p - static_cast<double>(i + 1) / n)});
+  }
+  EXPECT_LT(worst * std::sqrt(static_cast<double>(n)), 2.2);
+}
+
+// The two branches of a pair, and neighbouring pairs, are uncorrelated: 5 / sqrt(n).
+TEST(BatchStandardNormal, HasIndependentBranchesAndNeighbours) {
+  constexpr std::size_t n = 500'000;
+  std::vector<double> out(2 * n);
+  RandomStream random{6};
+  batch_standard_normal(out, random);
+  double branches = 0.0;
+  double squares = 0.0;
+  double neighbours = 0.0;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    branches += out[i] * out[n + i] / n;
+    squares += (out[i] * out[i] - 1.0) * (out[n + i] * out[n + i] - 1.0) / (2.0 * n);
+    neighbours += out[i] * out[i + 1] / n;
+  }
+  const double bound = 5.0 / std::sqrt(static_cast<double>(n));
+  EXPECT_LT(std::abs(branches), bound);
+  EXPECT_LT(std::abs(squares), bound);
+  EXPECT_LT(std::abs(neighbours), bound);
+}
+
+}  // namespace
+}  // namespace kith
