@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks one rule of the repository; run from its root. Exit 0: kept, 1: broken
 # (the places are printed), 77: cannot be checked on this machine.
-set -uo pipefail
+set -u
 export LC_ALL=C
 
 # The files of the repository, those not yet added included, one a line; paths hold no line breaks.
@@ -20,15 +20,17 @@ files() {
 sources() { files '*.cpp' '*.hpp' '*.in' '*.cmake' 'CMakeLists.txt' '*.sh' '*.json' '*.toml'; }
 texts() { files | grep -vE '\.(png|gz|sqlite)$'; }
 
-# Prints what it reads, and fails if that was anything.
-none() { ! grep . ; }
+# grep in the files that it reads the names of, errors included in what it finds.
+search() { xargs -r -d '\n' grep -H "$@" 2>&1; }
+# Prints what it reads, and fails if that was anything. The last command of a rule, so it decides.
+none() { ! grep .; }
 
 check_ascii() {  # sources are ASCII, so that every tool and terminal agrees about columns
-  sources | xargs -d '\n' grep -nP '[^\x00-\x7F]' | none
+  sources | search -nP '[^\x00-\x7F]' | none
 }
 
 check_places() {  # no absolute path of one particular machine
-  texts | xargs -d '\n' grep -nE '(^|[^[:alnum:]_.}*/])/(home|root|work|farm|mnt|media|Users|scratch)/[[:alnum:]_.]' | none
+  texts | search -nE '(^|[^[:alnum:]_.}*/])/(home|root|work|farm|mnt|media|Users|scratch)/[[:alnum:]_.]' | none
 }
 
 check_pragma() {  # every header begins with #pragma once
@@ -62,7 +64,7 @@ check_newline() {  # text files end with a line break, and lines with what one s
     texts | while IFS= read -r file; do
       [[ -s $file && -n $(tail -c 1 "$file") ]] && echo "$file: no line break at the end"
     done
-    files '*.cpp' '*.hpp' '*.cmake' 'CMakeLists.txt' '*.sh' '*.toml' '*.md' | xargs -d '\n' grep -nE '[[:space:]]+$'
+    files '*.cpp' '*.hpp' '*.cmake' 'CMakeLists.txt' '*.sh' '*.toml' '*.md' | search -nE '[[:space:]]+$'
   } | none
 }
 
@@ -75,7 +77,7 @@ check_links() {  # relative links in documents lead somewhere
 }
 
 check_citations() {  # every [key2024] cited in sources and documents is in docs/references.bib
-  files '*.cpp' '*.hpp' '*.md' '*.toml' | xargs -d '\n' grep -noE '\[[a-z]+(18|19|20)[0-9]{2}[a-z]*' |
+  files '*.cpp' '*.hpp' '*.md' '*.toml' | search -noE '\[[a-z]+(18|19|20)[0-9]{2}[a-z]*' |
     while IFS=: read -r file line key; do
       grep -q "{${key#[}," docs/references.bib || echo "$file:$line: ${key#[} is not in docs/references.bib"
     done | none
@@ -90,7 +92,7 @@ check_format() {  # C++ is as clang-format 14 writes it
     echo "clang-format is not version 14, Debian 12's"
     return 77
   fi
-  files '*.cpp' '*.hpp' | xargs -d '\n' clang-format --dry-run --Werror 2>&1
+  files '*.cpp' '*.hpp' | xargs -r -d '\n' clang-format --dry-run --Werror 2>&1 || return 1
 }
 
 rule=${1:-}

@@ -28,9 +28,9 @@ namespace kith::testing {
 
 /// Declares `variable` as the path of a reference file; without the file the
 /// test fails on CI and is skipped, with the reason, elsewhere.
-#define KITH_REQUIRE_GOLDEN(variable, name)                                                    \
-  const auto variable = ::kith::testing::golden_file(name);                                    \
-  if (!variable) {                                                                             \
+#define KITH_REQUIRE_GOLDEN(variable, name)                                                     \
+  const auto variable = ::kith::testing::golden_file(name);                                     \
+  if (!variable) {                                                                              \
     if (::kith::testing::on_ci()) FAIL() << "reference file " << (name) << " is missing on CI"; \
     GTEST_SKIP() << "reference file " << (name) << " is not on this machine (set KITH_GOLDEN)"; \
   }

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Shows that check.sh finds what it looks for: each rule passes on a tidy little
+# tree and fails once that tree breaks it.
+set -u
+check=$(cd "$(dirname "$0")" && pwd)/check.sh
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+cd "$tree" || exit 1
+failures=0
+
+tidy_tree() {
+  rm -rf ./*
+  mkdir -p libs/low/include libs/high docs
+  printf 'add_subdirectory(low)\nadd_subdirectory(high)\n' >libs/CMakeLists.txt
+  printf 'kith_module(low)\n' >libs/low/CMakeLists.txt
+  printf 'kith_module(high DEPENDS kith::low\n  PRIVATE_DEPENDS z)\n' >libs/high/CMakeLists.txt
+  printf '#pragma once\n\n// A claim [known2001, section 2].\nint x();\n' >libs/low/include/x.hpp
+  printf '@misc{known2001,\n}\n' >docs/references.bib
+  printf 'See [this](docs/references.bib) and [that](https://example.org).\n' >README.md
+}
+
+expect() {  # expect EXIT_CODE RULE WHAT
+  bash "$check" "$2" >log 2>&1
+  local got=$?
+  if ((got != $1)); then
+    echo "$2, $3: exit $got, not $1"
+    cat log
+    failures=$((failures + 1))
+  fi
+  rm -f log
+}
+
+breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is appended to the file
+  tidy_tree
+  printf '%b' "$3" >>"$2"
+  expect 1 "$1" "after appending '$3' to $2"
+}
+
+tidy_tree
+for rule in ascii places pragma layers newline links citations; do expect 0 "$rule" 'a tidy tree'; done
+expect 2 nonsense 'an unknown rule'
+breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
+breaks places README.md 'see /home''/somebody/kith\n'
+breaks pragma libs/low/include/y.hpp '// first\n#pragma once\n'
+breaks layers libs/low/CMakeLists.txt 'kith_module(low DEPENDS kith::high)\n'
+breaks layers libs/low/CMakeLists.txt 'kith_module(low PRIVATE_DEPENDS kith::high)\n'
+breaks newline README.md 'no end'
+breaks newline libs/low/include/x.hpp 'int y();  \n'
+breaks links README.md '[gone](docs/gone.md)\n'
+breaks citations libs/low/include/x.hpp '// [unknown1999]\n'
+tidy_tree
+mkdir libs/stray
+expect 1 layers 'a folder that is not in the list'
+if command -v clang-format >/dev/null && clang-format --version | grep -q 'version 14\.'; then
+  tidy_tree
+  expect 0 format 'a tidy tree'
+  breaks format libs/low/include/x.hpp 'int   y( );\n'
+fi
+((failures == 0))
