@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by run.sh and test.sh: installs the Debian packages that are missing,
 # and builds quietly. All messages go to stderr; stdout belongs to kith.
 
