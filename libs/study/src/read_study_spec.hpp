@@ -1,0 +1,23 @@
+#pragma once
+
+#include "kith/domains/domain.hpp"
+#include "kith/study/study_spec.hpp"
+#include "kith/toml/reader.hpp"
+
+namespace kith {
+
+/// The words that study files use, in the order of the enumerations.
+inline const std::vector<std::string> kPairingWords{"replicate", "none"};
+inline const std::vector<std::string> kRecordWords{"team", "period", "particles"};
+inline const std::vector<std::string> kSamplingWords{"systematic", "spread"};
+inline const std::vector<std::string> kLikelihoodWords{"discontinuous", "continuous"};
+inline const std::vector<std::string> kCounterfactualWords{"teacher", "self"};
+inline constexpr const char* kStudySchema = "kith.study/1";
+inline constexpr const char* kConflictRule = "largest-consistent";
+
+/// Reads every key of a study document into a specification; what is wrong goes
+/// to the report, and its key keeps its default. `design.vary` is left alone.
+/// @param domain  may be null, if it could not be read; then priors are not resolved.
+[[nodiscard]] StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, TomlReport& report);
+
+}  // namespace kith

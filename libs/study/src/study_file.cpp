@@ -1,0 +1,243 @@
+#include "kith/study/study_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/toml/document.hpp"
+#include "read_study_spec.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kMaxVariants = 10'000;
+
+// At most one byte more than is parsed, so that too large a file is told from the right size.
+std::optional<std::string> text_of(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (std::filesystem::is_directory(path, failure)) return std::nullopt;
+  std::ifstream file{path, std::ios::binary};
+  if (!file) return std::nullopt;
+  std::string text(kMaxTomlBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) return std::nullopt;
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+// One varied key: its dotted name, and the values it takes.
+struct Factor {
+  std::string key;
+  const TomlArray* values = nullptr;
+};
+
+class StudyParser {
+ public:
+  StudyParser(TomlDocument document, const StudyReadOptions& options)
+      : document_{std::move(document)}, options_{options}, report_{document_} {}
+
+  StudyReading parse() {
+    read_domain_of_study();
+    const auto base = read_study_spec(document_, domain(), report_);
+    const auto factors = read_factors();
+    if (!report_.has_errors()) expand(base, factors);
+    const auto own = report_.diagnostics();
+    reading_.diagnostics.insert(reading_.diagnostics.begin(), own.begin(), own.end());
+    if (has_errors(reading_.diagnostics)) reading_.study.reset();
+    return std::move(reading_);
+  }
+
+ private:
+  [[nodiscard]] const Domain* domain() const { return reading_.domain ? &*reading_.domain : nullptr; }
+
+  void read_domain_of_study() {
+    const auto* value = document_.root.find("domain");
+    if (value == nullptr || value->string() == nullptr) return;  // reported by read_study_spec
+    const auto& name = *value->string();
+    const auto& known = built_in_domains();
+    const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
+    if (built_in != known.end()) {
+      take_domain(std::string{built_in->text}, name);
+      return;
+    }
+    const auto path = value->place().source == 0 ? options_.folder / name : std::filesystem::path{name};
+    if (auto text = text_of(path)) {
+      take_domain(*std::move(text), path.string());
+      return;
+    }
+    std::vector<std::string> names;
+    for (const auto& one : known) names.emplace_back(one.name);
+    report_.error("E0414", value->place(),
+                  "there is no domain '" + name + "': neither built in nor a file that can be read",
+                  suggestion(name, names));
+  }
+
+  void take_domain(std::string text, const std::string& name) {
+    auto parsed = parse_domain(text, name);
+    reading_.domain = std::move(parsed.domain);
+    reading_.domain_text = std::move(text);
+    reading_.diagnostics = std::move(parsed.diagnostics);
+  }
+
+  // --- varied keys -----------------------------------------------------------
+
+  [[nodiscard]] std::vector<Factor> read_factors() {
+    std::vector<Factor> factors;
+    const auto* design = document_.root.find("design");
+    const auto* vary = design != nullptr && design->table() != nullptr ? design->table()->find("vary") : nullptr;
+    const auto* table = vary != nullptr ? read_table(*vary, "'vary'", report_) : nullptr;
+    if (table == nullptr) return factors;
+    std::size_t variants = 1;
+    for (const auto& entry : table->entries()) {
+      if (!may_vary(entry)) continue;
+      const auto* values = entry.value.array();
+      if (values == nullptr || values->empty()) {
+        report_.error("E0416", entry.value.place(), "'" + entry.key + "' needs a list of values",
+                      "write for instance vary = { \"teacher.process_noise\" = [0.1, 0.5] }");
+        continue;
+      }
+      for (auto value = values->begin(); value != values->end(); ++value) {
+        if (std::find(values->begin(), value, *value) != value) {
+          report_.error("E0405", value->place(), to_toml(*value) + " is listed twice");
+        }
+      }
+      warn_of_override(entry);
+      factors.push_back({entry.key, values});
+      variants *= std::min(values->size(), kMaxVariants + 1);
+      if (variants > kMaxVariants) {
+        report_.error("E0417", entry.place,
+                      "more than " + std::to_string(kMaxVariants) + " combinations of varied keys");
+        variants = 1;
+      }
+    }
+    return factors;
+  }
+
+  // What makes up the design itself, or only names things, does not vary within it.
+  [[nodiscard]] bool may_vary(const TomlEntry& entry) {
+    const auto begins = [&](std::string_view start) { return entry.key.rfind(start, 0) == 0; };
+    const bool is_label = entry.key.size() > 6 && entry.key.substr(entry.key.size() - 6) == ".label";
+    if ((begins("learner.") || begins("teacher.") || begins("stop.")) && !is_label) return true;
+    report_.error("E0415", entry.place, "'" + entry.key + "' cannot vary within a study",
+                  "keys of [learner.X], [teacher] and [stop] can, written with dots and in quotes");
+    return false;
+  }
+
+  void warn_of_override(const TomlEntry& entry) {
+    const TomlTable* table = &document_.root;
+    const TomlValue* value = nullptr;
+    for (const auto& key : split(entry.key)) {
+      value = table != nullptr ? table->find(key) : nullptr;
+      table = value != nullptr ? value->table() : nullptr;
+    }
+    if (value != nullptr && value->place().source != 0) {
+      report_.warning("W0403", value->place(), "'" + entry.key + "' varies in this study, so setting it has no effect");
+    }
+  }
+
+  [[nodiscard]] static std::vector<std::string> split(const std::string& dotted) {
+    std::vector<std::string> keys{""};
+    for (const char c : dotted) {
+      if (c == '.') {
+        keys.emplace_back();
+      } else {
+        keys.back() += c;
+      }
+    }
+    return keys;
+  }
+
+  // Every combination, the first factor slowest.
+  void expand(const StudySpec& base, const std::vector<Factor>& factors) {
+    Study study;
+    if (factors.empty()) study.variants.push_back(base);
+    std::vector<std::size_t> position(factors.size(), 0);
+    for (bool more = !factors.empty(); more;) {
+      study.variants.push_back(variant(factors, position));
+      std::size_t i = factors.size();
+      while (i > 0 && ++position[i - 1] == factors[i - 1].values->size()) position[--i] = 0;
+      more = i > 0;
+    }
+    reading_.study = std::move(study);
+  }
+
+  [[nodiscard]] StudySpec variant(const std::vector<Factor>& factors, const std::vector<std::size_t>& position) {
+    auto document = document_;
+    std::vector<FactorSetting> settings;
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+      const auto& value = (*factors[i].values)[position[i]];
+      settings.push_back({factors[i].key, value.string() != nullptr ? *value.string() : to_toml(value)});
+      set(document.root, split(factors[i].key), value);
+    }
+    TomlReport report{document};
+    auto spec = read_study_spec(document, domain(), report);
+    spec.factors = std::move(settings);
+    for (auto& diagnostic : report.diagnostics()) {
+      auto& all = reading_.diagnostics;
+      const bool error = diagnostic.severity == Severity::kError;  // warnings were given for the base
+      const auto errors = static_cast<std::size_t>(std::count_if(
+          all.begin(), all.end(), [](const Diagnostic& one) { return one.severity == Severity::kError; }));
+      if (error && errors < TomlReport::kMaxErrors && std::find(all.begin(), all.end(), diagnostic) == all.end()) {
+        all.push_back(std::move(diagnostic));
+      }
+    }
+    return spec;
+  }
+
+  static void set(TomlTable& root, const std::vector<std::string>& keys, const TomlValue& value) {
+    TomlTable* table = &root;
+    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+      if (table->find(keys[i]) == nullptr)
+        table->append({keys[i], value.place(), TomlValue{TomlTable{}, value.place()}});
+      table = table->find(keys[i])->table();
+      if (table == nullptr) return;  // the reader of the base has said what is wrong
+    }
+    table->set({keys.back(), value.place(), value});
+  }
+
+  TomlDocument document_;
+  const StudyReadOptions& options_;
+  TomlReport report_;
+  StudyReading reading_;
+};
+
+}  // namespace
+
+StudyReading parse_study(std::string_view text, const std::string& name, const StudyReadOptions& options) {
+  auto parsing = parse_toml(text, name);
+  if (!parsing.document) {
+    StudyReading reading;
+    reading.diagnostics = std::move(parsing.diagnostics);
+    return reading;
+  }
+  std::vector<Diagnostic> diagnostics;
+  for (const auto& text_of_override : options.overrides) {
+    auto override = parse_assignment(text_of_override, "--set");
+    if (override.assignment) override.diagnostics = assign(*parsing.document, *override.assignment);
+    diagnostics.insert(diagnostics.end(), override.diagnostics.begin(), override.diagnostics.end());
+  }
+  auto reading = StudyParser{*std::move(parsing.document), options}.parse();
+  reading.diagnostics.insert(reading.diagnostics.end(), diagnostics.begin(), diagnostics.end());
+  if (has_errors(reading.diagnostics)) reading.study.reset();
+  return reading;
+}
+
+StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides) {
+  const auto& known = built_in_studies();
+  const auto built_in =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name_or_path; });
+  if (built_in != known.end()) return parse_study(built_in->text, name_or_path, {overrides, {}});
+  const std::filesystem::path path{name_or_path};
+  const auto text = text_of(path);
+  if (!text) {
+    std::string names;
+    for (const auto& one : known) names += (names.empty() ? "" : ", ") + std::string{one.name};
+    throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "' (built-in studies: " + names + ")"};
+  }
+  return parse_study(*text, name_or_path, {overrides, path.parent_path()});
+}
+
+}  // namespace kith

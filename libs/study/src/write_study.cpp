@@ -1,0 +1,145 @@
+#include <algorithm>
+
+#include "kith/study/study_file.hpp"
+#include "kith/toml/document.hpp"
+#include "read_study_spec.hpp"
+
+namespace kith {
+namespace {
+
+// Collects the keys of one table.
+class TableWriter {
+ public:
+  void add(std::string key, TomlValue value) { table_.append({std::move(key), {}, std::move(value)}); }
+  void add(std::string key, const std::string& value) { add(std::move(key), TomlValue{value}); }
+  void add(std::string key, double value) { add(std::move(key), TomlValue{value}); }
+  void add(std::string key, bool value) { add(std::move(key), TomlValue{value}); }
+  void add_count(std::string key, std::size_t value) {
+    add(std::move(key), TomlValue{static_cast<std::int64_t>(value)});
+  }
+  void add(std::string key, TableWriter table) { add(std::move(key), TomlValue{std::move(table).take()}); }
+  [[nodiscard]] TomlTable take() && { return std::move(table_); }
+
+ private:
+  TomlTable table_;
+};
+
+TomlArray strings(const std::vector<std::string>& values) {
+  TomlArray array;
+  for (const auto& value : values) array.emplace_back(value);
+  return array;
+}
+
+// Numbers and words are told apart by what they look like; labels, which could look like either, do not vary.
+TomlValue value_of(const std::string& setting) {
+  const auto parsed = parse_assignment("x=" + setting, "");
+  return parsed.assignment ? TomlValue{parsed.assignment->value.content()} : TomlValue{setting};
+}
+
+TableWriter vary(const Study& study) {
+  TableWriter table;
+  for (std::size_t i = 0; i < study.variants.front().factors.size(); ++i) {
+    TomlArray values;
+    for (const auto& variant : study.variants) {
+      const auto value = value_of(variant.factors[i].value);
+      if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+    }
+    table.add(study.variants.front().factors[i].key, TomlValue{values});
+  }
+  return table;
+}
+
+TableWriter design(const Study& study) {
+  const auto& spec = study.variants.front();
+  TableWriter table;
+  std::vector<std::string> names;
+  for (const auto strategy : spec.strategies) names.emplace_back(name_of(strategy));
+  table.add("strategies", TomlValue{strings(names)});
+  table.add("compositions", TomlValue{strings(spec.compositions)});
+  table.add("pairing", kPairingWords[static_cast<std::size_t>(spec.pairing)]);
+  if (!spec.factors.empty()) table.add("vary", vary(study));
+  return table;
+}
+
+TableWriter gain(const GainDistribution& distribution) {
+  TableWriter table;
+  if (distribution.half_normal) table.add("half_normal", *distribution.half_normal);
+  if (distribution.value) table.add("value", *distribution.value);
+  return table;
+}
+
+TomlArray prior(const std::vector<HalfSpace>& half_spaces, const Domain& domain) {
+  TomlArray array;
+  for (const auto& half_space : half_spaces) {
+    TableWriter normal;
+    for (std::size_t k = 0; k < domain.num_features(); ++k) {
+      const auto entry = half_space.normal()[k];
+      if (entry != 0) normal.add(domain.feature_names()[k], TomlValue{entry});
+    }
+    array.emplace_back(std::move(normal).take());
+  }
+  return array;
+}
+
+TableWriter learner(const LearnerType& type, const Domain& domain) {
+  const auto& population = type.population;
+  TableWriter table, ability;
+  table.add("label", population.label);
+  table.add("gain_max", population.gain_max);
+  table.add("ordered_gains", population.ordered_gains);
+  table.add("ability_max", population.ability_max);
+  table.add("ability_scale", population.ability_scale);
+  table.add_count("particles", type.filter.particles);
+  table.add("process_noise", type.filter.process_noise);
+  ability.add("mean", population.ability_mean);
+  ability.add("sd", population.ability_sd);
+  ability.add("min", population.ability_min);
+  table.add("ability", ability);
+  table.add("confirm_gain", gain(population.confirm_gain));
+  table.add("correct_gain", gain(population.correct_gain));
+  if (type.prior) table.add("prior", TomlValue{prior(*type.prior, domain)});
+  return table;
+}
+
+TableWriter teacher(const StudySpec& spec) {
+  const auto& options = spec.teaching;
+  TableWriter table;
+  table.add_count("particles", options.filter.particles);
+  table.add_count("counterfactuals", options.counterfactuals);
+  table.add("counterfactual_sampling", kSamplingWords[static_cast<std::size_t>(options.sampling)]);
+  table.add("assumed_ability", options.assumed_ability);
+  table.add("likelihood", kLikelihoodWords[static_cast<std::size_t>(options.likelihood)]);
+  table.add("process_noise", options.filter.process_noise);
+  table.add("response_noise", options.response_noise);
+  table.add("resample_below", options.filter.resample_below);
+  table.add("conflict", std::string{kConflictRule});
+  table.add("reduce_before_update", options.reduce_before_update);
+  table.add("learner_counterfactuals", kCounterfactualWords[spec.learner_counterfactuals_self ? 1 : 0]);
+  return table;
+}
+
+}  // namespace
+
+std::string to_toml(const Study& study, const Domain& domain) {
+  const auto& spec = study.variants.at(0);
+  TableWriter root, learners, stop, record;
+  root.add("schema", std::string{kStudySchema});
+  root.add("id", spec.id);
+  root.add("title", spec.title);
+  root.add("domain", spec.domain);
+  root.add_count("seed", spec.seed);
+  root.add_count("replicates", spec.replicates);
+  root.add("design", design(study));
+  for (const auto& type : spec.learner_types) learners.add(std::string{type.letter}, learner(type, domain));
+  root.add("learner", learners);
+  root.add("teacher", teacher(spec));
+  stop.add_count("max_periods", spec.teaching.max_periods);
+  stop.add_count("consecutive_correct", spec.teaching.consecutive_correct);
+  stop.add_count("duplicate_sets", spec.teaching.duplicate_sets);
+  root.add("stop", stop);
+  record.add("level", kRecordWords[static_cast<std::size_t>(spec.record)]);
+  root.add("record", record);
+  return to_toml(std::move(root).take());
+}
+
+}  // namespace kith
