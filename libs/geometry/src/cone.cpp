@@ -125,34 +125,53 @@ void Cone::to_triangle(const HalfSpace& half_space, int orientation) {
   for (std::size_t i = 0; i < 3; ++i) rays_.push_back(cross_of_normals(facets_[i], facets_[(i + 1) % 3]));
 }
 
+// The rays strictly inside are consecutive (convexity), hence so are the others.
 bool Cone::clip_polygon(const HalfSpace& half_space) {
   const std::size_t n = rays_.size();
-  const auto inside = [&](std::size_t i) { return side(half_space, rays_[i]) > 0; };
-  const auto first_if = [&](std::size_t from, auto claim) {
+  const auto first = [n](std::size_t from, auto claim) {
     while (from < n && !claim(from)) ++from;
     return from;
   };
+  const auto inside = [&](std::size_t i) { return side(half_space, rays_[i]) > 0; };
+  const auto not_inside = [&](std::size_t i) { return side(half_space, rays_[i]) <= 0; };
 
-  const std::size_t cut = first_if(0, [&](std::size_t i) { return side(half_space, rays_[i]) < 0; });
-  if (cut == n) return true;
-  // The rays strictly inside are consecutive (convexity), and `cut` is not one of
-  // them: they start at the first one after it, cyclically.
-  std::size_t begin = first_if(cut + 1, inside);
-  if (begin == n) begin = first_if(0, inside);
-  if (begin == n) return false;
-  if (begin > 0) {
-    const auto shift = static_cast<std::ptrdiff_t>(begin);
-    std::rotate(facets_.begin(), facets_.begin() + shift, facets_.end());
-    std::rotate(rays_.begin(), rays_.begin() + shift, rays_.end());
+  const std::size_t beyond = first(0, [&](std::size_t i) { return side(half_space, rays_[i]) < 0; });
+  if (beyond == n) return true;
+  if (inside(0)) {
+    replace_rays(half_space, first(1, not_inside), first(beyond, inside));
+    return true;
   }
-  const std::size_t kept = first_if(0, [&](std::size_t i) { return !inside(i); });
-  // Facets 0 .. kept still have an end inside; the rest is replaced by the new one.
-  facets_.erase(facets_.begin() + static_cast<std::ptrdiff_t>(kept) + 1, facets_.end());
-  facets_.push_back(half_space);
-  rays_.erase(rays_.begin() + static_cast<std::ptrdiff_t>(kept), rays_.end());
-  rays_.push_back(cross_of_normals(facets_[kept], half_space));
-  rays_.push_back(cross_of_normals(half_space, facets_[0]));
+  const std::size_t begin = first(1, inside);
+  if (begin == n) return false;
+  const std::size_t end = first(begin, not_inside);
+  if (end == n) {
+    replace_rays(half_space, 0, begin);
+    return true;
+  }
+  const auto head = static_cast<std::ptrdiff_t>(begin);
+  facets_.erase(facets_.begin(), facets_.begin() + head);
+  rays_.erase(rays_.begin(), rays_.begin() + head);
+  replace_rays(half_space, end - begin, n - begin);
   return true;
+}
+
+// Replaces the rays begin .. end-1 by the two ends of the new facet, and the
+// facets between them by the new one. Facets `begin` and `end` (cyclic) are cut.
+void Cone::replace_rays(const HalfSpace& half_space, std::size_t begin, std::size_t end) {
+  const IntegerVector entry = cross_of_normals(facets_[begin], half_space);
+  const IntegerVector exit = cross_of_normals(half_space, facets_[end == facets_.size() ? 0 : end]);
+  const auto from = static_cast<std::ptrdiff_t>(begin);
+  const auto to = static_cast<std::ptrdiff_t>(end);
+  rays_[begin] = entry;
+  if (begin + 1 == end) {
+    facets_.insert(facets_.begin() + to, half_space);
+    rays_.insert(rays_.begin() + to, exit);
+    return;
+  }
+  facets_[begin + 1] = half_space;
+  facets_.erase(facets_.begin() + from + 2, facets_.begin() + to);
+  rays_[begin + 1] = exit;
+  rays_.erase(rays_.begin() + from + 2, rays_.begin() + to);
 }
 
 bool Cone::implies(const HalfSpace& half_space) const {

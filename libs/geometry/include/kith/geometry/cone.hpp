@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -87,6 +88,7 @@ class Cone {
  private:
   [[nodiscard]] bool clip_lune(const HalfSpace& half_space);
   [[nodiscard]] bool clip_polygon(const HalfSpace& half_space);
+  void replace_rays(const HalfSpace& half_space, std::size_t begin, std::size_t end);
   void to_triangle(const HalfSpace& half_space, int orientation);
 
   std::vector<HalfSpace> facets_;
