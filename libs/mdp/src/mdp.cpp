@@ -132,14 +132,12 @@ void MdpBuilder::add_choice(StateIndex s, ActionIndex action, std::span<const Tr
 }
 
 std::uint32_t MdpBuilder::row_of(const std::vector<double>& features) {
-  std::vector<double> row = features;
-  for (double& x : row) x += 0.0;  // -0 and 0 are one row
-  const auto [position, is_new] = rows_.try_emplace(row, count32(rows_.size()));
+  const auto [position, is_new] = rows_.try_emplace(features, count32(rows_.size()));  // -0 and 0 are one row
   if (is_new) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      mdp_.feature_table_.push_back(row[k]);
-      mdp_.has_feature_[k] = mdp_.has_feature_[k] || row[k] != 0.0;
-      mdp_.integral_ = mdp_.integral_ && is_small_integer(row[k]);
+    for (std::size_t k = 0; k < features.size(); ++k) {
+      mdp_.feature_table_.push_back(features[k]);
+      mdp_.has_feature_[k] = mdp_.has_feature_[k] || features[k] != 0.0;
+      mdp_.integral_ = mdp_.integral_ && is_small_integer(features[k]);
     }
   }
   return position->second;
