@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kith/core/diagnostic.hpp"
+#include "kith/table/column.hpp"
+
+namespace kith {
+
+/// A value of a table; std::monostate is a missing one.
+using Cell = std::variant<std::monostate, std::string, std::int64_t, double, bool>;
+
+/// One row, in the order of the columns that were asked for.
+struct CsvRow {
+  std::size_t line;             ///< Where the row begins in the file, from 1.
+  std::span<const Cell> cells;  ///< One per column, each missing or of the column's type.
+};
+
+/// Reads a CSV text (RFC 4180, UTF-8 with or without byte order mark, lines
+/// ending in LF or CRLF) that begins with a header. The columns may come in any
+/// order, but must be these. `on_row` gets every row without a fault, in order;
+/// blank lines are skipped.
+///
+/// @param file how diagnostics name the file.
+/// @return everything that is wrong (ids E0501 to E0511, docs/errors-tables.md),
+///         with line, column and a hint, at most 1 000 of them. A fault of the header ends the reading.
+/// @throws std::invalid_argument if there is no column, or names are empty or repeated.
+[[nodiscard]] std::vector<Diagnostic> read_csv(std::string_view text, const std::string& file,
+                                               std::span<const Column> columns,
+                                               const std::function<void(const CsvRow&)>& on_row);
+
+/// The rows of a table, kept.
+struct CsvTable {
+  std::vector<std::vector<Cell>> rows;  ///< Shape [rows][columns].
+  std::vector<std::size_t> lines;       ///< Where each row begins, from 1.
+};
+
+/// The whole file. @throws kith::Error (kInvalidInput) with all diagnostics, or (kIo) if it cannot be read.
+[[nodiscard]] CsvTable read_csv_file(const std::filesystem::path& path, std::span<const Column> columns);
+
+}  // namespace kith

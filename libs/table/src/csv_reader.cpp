@@ -1,0 +1,251 @@
+#include "kith/table/csv_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "check_columns.hpp"
+#include "csv_records.hpp"
+#include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kMaxDiagnostics = 1000;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+// The number of UTF-8 characters.
+std::size_t num_characters(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+}
+
+// The length of the well-formed UTF-8 sequence at the front (Unicode, table 3-7), 0 if there is none.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  if (byte(1) < least || byte(1) > most) return 0;
+  for (std::size_t i = 2; i < length; ++i) {
+    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
+  }
+  return length;
+}
+
+// A cell as messages show it, cut after 40 bytes or a little less. @pre is_text(text).
+std::string in_quotes(std::string_view text) {
+  std::size_t shown = 0;
+  while (shown < text.size() && shown < 37) shown += sequence_length(text.substr(shown));
+  std::string result{'"'};
+  result += text.substr(0, shown);
+  result += shown < text.size() ? "...\"" : "\"";
+  return result;
+}
+
+bool is_text(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = sequence_length(text);
+    if (length == 0 || text.front() == '\0') return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+// What is wrong with a cell.
+struct Fault {
+  std::string id;
+  std::string message;
+  std::string hint;
+};
+
+template <typename Number>
+std::variant<Cell, Fault> parse_number(const std::string& text, const Column& column, const std::string& example) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = end == text.data() + text.size();
+  const std::string message = in_quotes(text) + " in column \"" + column.name + "\" is ";
+  if (error == std::errc::result_out_of_range && whole) {
+    return Fault{"E0510", message + "out of the range of a number", "use a smaller number"};
+  }
+  bool valid = error == std::errc{} && whole;
+  if constexpr (std::is_same_v<Number, double>) valid = valid && !std::isnan(value);
+  if (valid) return Cell{value};
+  std::string hint = "write it like " + example + ", or leave the cell empty if the value is missing";
+  if (text.find(',') != std::string::npos) hint = "use a decimal point, as in " + example;
+  return Fault{"E0506", message + "not of type " + std::string{to_string(column.type)}, hint};
+}
+
+std::variant<Cell, Fault> parse_cell(const std::optional<std::string>& field, const Column& column) {
+  if (!field) {
+    if (!column.required) return Cell{};
+    return Fault{"E0507", "column \"" + column.name + "\" needs a value in every row", "fill the cell"};
+  }
+  if (!is_text(*field)) {
+    return Fault{"E0509", "the cell in column \"" + column.name + "\" is not UTF-8 text", "save the file as UTF-8"};
+  }
+  switch (column.type) {
+    case ColumnType::kText:
+      return Cell{*field};
+    case ColumnType::kInteger:
+      return parse_number<std::int64_t>(*field, column, "42");
+    case ColumnType::kReal:
+      return parse_number<double>(*field, column, "0.5");
+    case ColumnType::kBoolean:
+      if (*field == "true" || *field == "false") return Cell{*field == "true"};
+      return Fault{"E0506", in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
+                   "write true or false"};
+  }
+  return Cell{};
+}
+
+class Reader {
+ public:
+  Reader(const std::string& file, std::span<const Column> columns, const std::function<void(const CsvRow&)>& on_row)
+      : file_{file}, columns_{columns}, on_row_{on_row}, cells_(columns.size()) {}
+
+  std::vector<Diagnostic> read(std::string_view text) {
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    detail::for_each_record(text, [&](const detail::CsvRecord& record) {
+      if (!has_header_) return read_header(record);
+      read_row(record);
+      return diagnostics_.size() < kMaxDiagnostics;
+    });
+    if (!has_header_ && diagnostics_.empty()) {
+      diagnostics_.push_back({.id = "E0501",
+                              .message = "the table is empty; it has not even a header",
+                              .file = file_,
+                              .hint = "begin with a line of column names, such as " + names()});
+    }
+    if (diagnostics_.size() >= kMaxDiagnostics) {
+      diagnostics_.push_back({.id = "E0511", .message = "too many problems; the rest was not read", .file = file_});
+    }
+    return std::move(diagnostics_);
+  }
+
+ private:
+  [[nodiscard]] std::string names() const {
+    std::string list;
+    for (const Column& column : columns_) list += (list.empty() ? "" : ",") + column.name;
+    return list;
+  }
+
+  void report(const detail::CsvRecord& record, std::size_t field, const Fault& fault) {
+    const detail::CsvPlace place = detail::locate(record.text, field);
+    const std::string_view cell = place.line_text.substr(std::min(place.offset, place.line_text.size()), place.length);
+    diagnostics_.push_back({.id = fault.id,
+                            .message = fault.message,
+                            .file = file_,
+                            .line = record.line + place.line,
+                            .column = num_characters(place.line_text.substr(0, place.offset)) + 1,
+                            .length = std::max<std::size_t>(1, num_characters(cell)),
+                            .hint = fault.hint,
+                            .source_line = std::string{place.line_text}});
+  }
+
+  bool report_malformed(const detail::CsvRecord& record) {
+    if (!record.malformed) return false;
+    report(record, 0,
+           {"E0508", "the quotes of this row do not match",
+            "put the whole cell between quotes and write a quote inside it twice"});
+    return true;
+  }
+
+  // Fills source_: where each wanted column is in the file. A fault ends the reading.
+  bool read_header(const detail::CsvRecord& record) {
+    has_header_ = true;
+    if (report_malformed(record)) return false;
+    source_.assign(columns_.size(), record.fields.size());
+    for (std::size_t f = 0; f < record.fields.size(); ++f) {
+      const std::string name = record.fields[f].value_or("");
+      const auto column =
+          std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
+      if (column == columns_.end()) {
+        report_unknown(record, f, name);
+        continue;
+      }
+      auto& source = source_[static_cast<std::size_t>(column - columns_.begin())];
+      if (source != record.fields.size()) {
+        report(record, f, {"E0504", "column " + in_quotes(name) + " is there twice", "remove one of them"});
+      }
+      source = f;
+    }
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (source_[c] != record.fields.size()) continue;
+      report(record, 0, {"E0502", "column \"" + columns_[c].name + "\" is missing", "the columns are " + names()});
+    }
+    num_fields_ = record.fields.size();
+    return diagnostics_.empty();
+  }
+
+  void report_unknown(const detail::CsvRecord& record, std::size_t field, const std::string& name) {
+    if (!is_text(name)) {
+      report(record, field, {"E0509", "the name of a column is not UTF-8 text", "save the file as UTF-8"});
+      return;
+    }
+    std::vector<std::string> known;
+    for (const Column& column : columns_) known.push_back(column.name);
+    const std::string nearest = nearest_word(name, known);
+    report(record, field,
+           {"E0503", "nobody knows a column " + in_quotes(name),
+            nearest.empty() ? "remove it; the columns are " + names() : "did you mean " + nearest + "?"});
+  }
+
+  void read_row(const detail::CsvRecord& record) {
+    if (report_malformed(record)) return;
+    if (record.fields.size() != num_fields_) {
+      report(
+          record, std::min(num_fields_, record.fields.size()),
+          {"E0505",
+           "the row has " + std::to_string(record.fields.size()) + " cells, the header " + std::to_string(num_fields_),
+           "put text with commas between quotes, and keep the commas around empty cells"});
+      return;
+    }
+    const std::size_t before = diagnostics_.size();
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      auto parsed = parse_cell(record.fields[source_[c]], columns_[c]);
+      if (auto* const fault = std::get_if<Fault>(&parsed)) {
+        report(record, source_[c], *fault);
+      } else {
+        cells_[c] = std::move(std::get<Cell>(parsed));
+      }
+    }
+    if (diagnostics_.size() == before) on_row_({record.line, cells_});
+  }
+
+  const std::string& file_;
+  std::span<const Column> columns_;
+  const std::function<void(const CsvRow&)>& on_row_;
+  std::vector<Cell> cells_;
+  std::vector<std::size_t> source_;
+  std::size_t num_fields_ = 0;
+  bool has_header_ = false;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> read_csv(std::string_view text, const std::string& file, std::span<const Column> columns,
+                                 const std::function<void(const CsvRow&)>& on_row) {
+  detail::check_columns(columns, "read_csv");
+  return Reader{file, columns, on_row}.read(text);
+}
+
+CsvTable read_csv_file(const std::filesystem::path& path, std::span<const Column> columns) {
+  const std::string text = read_file(path);
+  CsvTable table;
+  auto diagnostics = read_csv(text, path.string(), columns, [&](const CsvRow& row) {
+    table.rows.emplace_back(row.cells.begin(), row.cells.end());
+    table.lines.push_back(row.line);
+  });
+  if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
+  return table;
+}
+
+}  // namespace kith

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <csv.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kith::detail {
+
+// A record of a CSV text, split by libcsv.
+struct CsvRecord {
+  std::size_t line = 0;                            // where it begins, from 1
+  std::string_view text;                           // all of its lines
+  std::vector<std::optional<std::string>> fields;  // nothing for an empty field without quotes
+  bool malformed = false;                          // quotes that do not match; no fields then
+};
+
+// Where a field begins in the text of its record: lines below the first,
+// the text of that line, the byte in it, and the field's characters.
+struct CsvPlace {
+  std::size_t line = 0;
+  std::string_view line_text;
+  std::size_t offset = 0;
+  std::size_t length = 1;
+};
+[[nodiscard]] CsvPlace locate(std::string_view record, std::size_t field);
+
+// Calls back with every record that is not a blank line; stops when told false.
+void for_each_record(std::string_view text, const std::function<bool(const CsvRecord&)>& on_record);
+
+}  // namespace kith::detail

@@ -1,0 +1,279 @@
+#include "kith/table/csv.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::vector<Column> kColumns{
+    {.name = "name", .type = ColumnType::kText, .description = "", .unit = ""},
+    {.name = "count", .type = ColumnType::kInteger, .description = "", .unit = ""},
+    {.name = "area_sr", .type = ColumnType::kReal, .description = "", .unit = "sr"},
+    {.name = "done", .type = ColumnType::kBoolean, .description = "", .unit = "", .required = true}};
+
+std::string written(const std::vector<Column>& columns, const std::function<void(CsvWriter&)>& rows) {
+  std::string out;
+  CsvWriter writer{columns, [&](std::string_view piece) { out += piece; }};
+  rows(writer);
+  writer.flush();
+  return out;
+}
+
+struct Result {
+  std::vector<std::vector<Cell>> rows;
+  std::vector<std::size_t> lines;
+  std::vector<Diagnostic> diagnostics;
+};
+
+Result parsed(std::string_view text, const std::vector<Column>& columns = kColumns) {
+  Result result;
+  result.diagnostics = read_csv(text, "t.csv", columns, [&](const CsvRow& row) {
+    result.rows.emplace_back(row.cells.begin(), row.cells.end());
+    result.lines.push_back(row.line);
+  });
+  return result;
+}
+
+// id, line, column, length of each.
+std::vector<std::tuple<std::string, std::size_t, std::size_t, std::size_t>> places(const Result& result) {
+  std::vector<std::tuple<std::string, std::size_t, std::size_t, std::size_t>> list;
+  for (const Diagnostic& d : result.diagnostics) list.emplace_back(d.id, d.line, d.column, d.length);
+  return list;
+}
+
+TEST(CsvWriter, WritesAHeaderAndRows) {
+  const std::string out = written(kColumns, [](CsvWriter& writer) {
+    writer.text("joint").integer(-3).real(0.1).boolean(true);
+    writer.end_row();
+    writer.text_or_missing({}).integer(std::optional<std::int64_t>{}).real(std::optional<double>{}).boolean(false);
+    writer.end_row();
+    EXPECT_EQ(writer.num_rows(), 2u);
+  });
+  EXPECT_EQ(out, "name,count,area_sr,done\njoint,-3,0.1,true\n,,,false\n");
+}
+
+TEST(CsvWriter, QuotesWhatWouldNotBeOneCell) {
+  const std::vector<Column> columns{{.name = "a,b"}, {.name = "c"}};
+  const std::string out = written(columns, [](CsvWriter& writer) {
+    writer.text("say \"hi\"").text("two\nlines");
+    writer.end_row();
+    writer.text("").text(" padded");
+    writer.end_row();
+    writer.text("1,0,-4").text("caf\xC3\xA9");
+    writer.end_row();
+  });
+  EXPECT_EQ(out, "\"a,b\",c\n\"say \"\"hi\"\"\",\"two\nlines\"\n\"\",\" padded\"\n\"1,0,-4\",caf\xC3\xA9\n");
+}
+
+TEST(CsvWriter, WritesTheShortestNumbersThatReadBack) {
+  const std::vector<Column> columns{{.name = "x", .type = ColumnType::kReal}};
+  const std::string out = written(columns, [](CsvWriter& writer) {
+    for (const double x : {0.1, 1.0, -0.0, 1e300, 5e-324, 1.0 / 3.0, std::numeric_limits<double>::infinity()}) {
+      writer.real(x).end_row();
+    }
+  });
+  EXPECT_EQ(out, "x\n0.1\n1\n-0\n1e+300\n5e-324\n0.3333333333333333\ninf\n");
+}
+
+TEST(CsvWriter, RefusesCellsThatDoNotFitTheColumns) {
+  CsvWriter writer{kColumns, [](std::string_view) {}};
+  EXPECT_THROW(writer.integer(1), std::invalid_argument);
+  EXPECT_THROW(writer.end_row(), std::invalid_argument);
+  EXPECT_THROW(writer.text(std::string_view{"a\0b", 3}), std::invalid_argument);
+  EXPECT_THROW(writer.text("a").integer(std::uint64_t{1} << 63), std::invalid_argument);
+  writer.integer(7u);
+  EXPECT_THROW(writer.flush(), std::invalid_argument);
+  EXPECT_THROW(writer.real(std::nan("")), std::invalid_argument);
+  writer.missing();
+  EXPECT_THROW(writer.missing(), std::invalid_argument);  // required
+  writer.boolean(true);
+  EXPECT_THROW(writer.boolean(true), std::invalid_argument);
+  EXPECT_THROW(writer.missing(), std::invalid_argument);
+  writer.end_row();
+  CsvWriter single{{{.name = "only"}}, [](std::string_view) {}};
+  EXPECT_THROW(single.missing(), std::invalid_argument);
+}
+
+TEST(CsvWriter, RefusesTablesWithoutProperNames) {
+  const CsvWriter::Sink sink = [](std::string_view) {};
+  EXPECT_THROW((CsvWriter{{}, sink}), std::invalid_argument);
+  EXPECT_THROW((CsvWriter{{{.name = ""}}, sink}), std::invalid_argument);
+  EXPECT_THROW((CsvWriter{{{.name = "a"}, {.name = "a"}}, sink}), std::invalid_argument);
+  EXPECT_THROW((void)parsed("a\n", {}), std::invalid_argument);
+}
+
+TEST(CsvWriter, HandsOverPiecesThatEndWhereRowsDo) {
+  std::vector<std::size_t> pieces;
+  CsvWriter writer{{{.name = "x", .type = ColumnType::kInteger}}, [&](std::string_view piece) {
+                     ASSERT_TRUE(piece.ends_with('\n'));
+                     pieces.push_back(piece.size());
+                   }};
+  for (std::int64_t i = 0; i < 50'000; ++i) writer.integer(i).end_row();
+  writer.flush();
+  writer.flush();
+  ASSERT_EQ(pieces.size(), 5u);  // 288 892 bytes
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) EXPECT_NEAR(static_cast<double>(pieces[i]), 65540.0, 10.0);
+}
+
+// Random cells with everything that needs quoting come back as they were, to the bit.
+TEST(Csv, ReadsBackWhatItWrote) {
+  std::mt19937_64 bits{1};
+  const std::vector<std::string> pieces{"a", "\"", ",", "\n", "\r\n", " ", "\t", "\xE2\x82\xAC", "0", "'", ";"};
+  std::vector<std::vector<Cell>> rows;
+  std::string out;
+  CsvWriter writer{kColumns, [&](std::string_view piece) { out += piece; }};
+  for (int r = 0; r < 3000; ++r) {
+    std::vector<Cell> row(4);
+    std::string text;
+    for (std::uint64_t k = bits() % 6; k > 0; --k) text += pieces[bits() % pieces.size()];
+    double real = 0.0;
+    do {
+      const std::uint64_t pattern = bits();
+      std::memcpy(&real, &pattern, sizeof real);
+    } while (std::isnan(real));
+    if (bits() % 5 != 0) row[0] = text;
+    if (bits() % 5 != 0) row[1] = static_cast<std::int64_t>(bits()) >> (bits() % 64);
+    if (bits() % 5 != 0) row[2] = real;
+    row[3] = bits() % 2 == 0;
+    row[0].index() == 0 ? writer.missing() : writer.text(std::get<std::string>(row[0]));
+    row[1].index() == 0 ? writer.missing() : writer.integer(std::get<std::int64_t>(row[1]));
+    row[2].index() == 0 ? writer.missing() : writer.real(std::get<double>(row[2]));
+    writer.boolean(std::get<bool>(row[3])).end_row();
+    rows.push_back(row);
+  }
+  writer.flush();
+  const Result result = parsed(out);
+  EXPECT_TRUE(result.diagnostics.empty());
+  EXPECT_EQ(result.rows, rows);
+}
+
+TEST(ReadCsv, AcceptsAnyOrderByteOrderMarksCarriageReturnsAndBlankLines) {
+  const Result result = parsed(
+      "\xEF\xBB\xBF"
+      "done,area_sr,name,count\r\n\r\ntrue,0.5,\"\",7\r\n\nfalse,,,");
+  EXPECT_TRUE(result.diagnostics.empty());
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_EQ(result.rows[0], (std::vector<Cell>{std::string{}, std::int64_t{7}, 0.5, true}));
+  EXPECT_EQ(result.rows[1], (std::vector<Cell>{Cell{}, Cell{}, Cell{}, false}));
+  EXPECT_THAT(result.lines, ElementsAre(3u, 5u));
+}
+
+TEST(ReadCsv, KeepsBlanksAndCountsLinesInsideQuotes) {
+  const Result result = parsed("name,count,area_sr,done\n\"a\nb\",1,,true\n x ,2,,true\n");
+  EXPECT_TRUE(result.diagnostics.empty());
+  EXPECT_EQ(result.rows[0][0], Cell{std::string{"a\nb"}});
+  EXPECT_EQ(result.rows[1][0], Cell{std::string{" x "}});
+  EXPECT_THAT(result.lines, ElementsAre(2u, 4u));
+}
+
+TEST(ReadCsv, ReportsEveryProblemOfTheRowsWithItsPlace) {
+  const Result result = parsed(
+      "name,count,area_sr,done\n"
+      "caf\xC3\xA9,x1,\"1,5\",maybe\n"  // three cells of the wrong type; characters are counted, not bytes
+      "a,1,0.5,true\n"
+      "b,1,0.5\n"                      // a cell too few
+      "c,1,0.5,true,,\n"               // two too many
+      "d,99999999999999999999,nan,\n"  // out of range, no number, required
+      "\"e\nf\",1.0,,true\n"           // a place on the second line of a record
+      "\xFF,1,0.5,true\n");
+  using Place = std::tuple<std::string, std::size_t, std::size_t, std::size_t>;
+  EXPECT_THAT(places(result), ElementsAre(Place{"E0506", 2, 6, 2}, Place{"E0506", 2, 9, 5}, Place{"E0506", 2, 15, 5},
+                                          Place{"E0505", 4, 5, 3}, Place{"E0505", 5, 14, 1}, Place{"E0510", 6, 3, 20},
+                                          Place{"E0506", 6, 24, 3}, Place{"E0507", 6, 28, 1}, Place{"E0506", 8, 4, 3},
+                                          Place{"E0509", 9, 1, 1}));
+  EXPECT_THAT(result.lines, ElementsAre(3u));
+  EXPECT_EQ(result.diagnostics[0].source_line, "caf\xC3\xA9,x1,\"1,5\",maybe");
+  EXPECT_EQ(result.diagnostics[0].message, "\"x1\" in column \"count\" is not of type integer");
+  EXPECT_THAT(result.diagnostics[1].hint, HasSubstr("decimal point"));
+  for (const Diagnostic& d : result.diagnostics) {
+    EXPECT_EQ(d.file, "t.csv");
+    EXPECT_EQ(d.severity, Severity::kError);
+    EXPECT_FALSE(d.hint.empty());
+  }
+}
+
+TEST(ReadCsv, ReportsEveryProblemOfTheHeader) {
+  const Result result = parsed("name,cuont,name,done\nrow,1,2,true\n");
+  using Place = std::tuple<std::string, std::size_t, std::size_t, std::size_t>;
+  EXPECT_THAT(places(result), ElementsAre(Place{"E0503", 1, 6, 5}, Place{"E0504", 1, 12, 4}, Place{"E0502", 1, 1, 4},
+                                          Place{"E0502", 1, 1, 4}));
+  EXPECT_EQ(result.diagnostics[0].hint, "did you mean count?");
+  EXPECT_TRUE(result.rows.empty());
+}
+
+TEST(ReadCsv, ReportsBrokenQuotesAndReadsOn) {
+  const Result result =
+      parsed("name,count,area_sr,done\na\"b,1,,true\n\"a\"b,1,,true\nc,1,,true\n\"open,1,,true\nd,1\n");
+  EXPECT_THAT(result.lines, ElementsAre(4u));
+  ASSERT_EQ(result.diagnostics.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(result.diagnostics[i].id, "E0508");
+  EXPECT_EQ(result.diagnostics[0].line, 2u);
+  EXPECT_EQ(result.diagnostics[1].line, 3u);
+  EXPECT_EQ(result.diagnostics[2].line, 5u);
+}
+
+TEST(ReadCsv, ReportsATableWithoutAHeader) {
+  for (const std::string_view text : {"", "\n\n", "\xEF\xBB\xBF"}) {
+    const Result result = parsed(text);
+    ASSERT_EQ(result.diagnostics.size(), 1u);
+    EXPECT_EQ(result.diagnostics[0].id, "E0501");
+    EXPECT_EQ(result.diagnostics[0].line, 0u);
+  }
+}
+
+TEST(ReadCsv, StopsAfterAThousandProblems) {
+  std::string text = "name,count,area_sr,done\n";
+  for (int i = 0; i < 5000; ++i) text += "a,b,c,true\n";
+  const Result result = parsed(text);
+  EXPECT_EQ(result.diagnostics.size(), 1001u);
+  EXPECT_EQ(result.diagnostics.back().id, "E0511");
+}
+
+TEST(ReadCsv, SurvivesRandomBytes) {
+  std::mt19937 bits{2};
+  const std::string alphabet = "a1,.\"\n\r\t\xC3\xA9\xFF-e";
+  std::size_t problems = 0;
+  for (int round = 0; round < 3000; ++round) {
+    std::string text = round % 2 == 0 ? "" : "name,count,area_sr,done\n";
+    for (auto k = bits() % 60; k > 0; --k) text += alphabet[bits() % alphabet.size()];
+    if (round % 7 == 0) text += '\0';
+    const Result result = parsed(text);
+    problems += result.diagnostics.size();
+    for (const Diagnostic& d : result.diagnostics) EXPECT_GE(d.length, 1u);
+  }
+  EXPECT_GT(problems, 3000u);
+}
+
+TEST(ReadCsvFile, ReadsAFileOrThrowsWithAllDiagnostics) {
+  const auto path = std::filesystem::path{::testing::TempDir()} / "kith_read_csv_file.csv";
+  write_file_atomically(path, "name,count,area_sr,done\na,1,2,true\n");
+  const CsvTable table = read_csv_file(path, kColumns);
+  EXPECT_EQ(table.rows.size(), 1u);
+  EXPECT_THAT(table.lines, ElementsAre(2u));
+  write_file_atomically(path, "name,count,area_sr,done\na,x,y,true\n");
+  try {
+    (void)read_csv_file(path, kColumns);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+    EXPECT_EQ(error.diagnostics().size(), 2u);
+    EXPECT_EQ(error.diagnostics()[0].file, path.string());
+  }
+  std::filesystem::remove(path);
+  EXPECT_THROW((void)read_csv_file(path, kColumns), Error);
+}
+
+}  // namespace
+}  // namespace kith
