@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kith/belief/consistency.hpp"
 #include "kith/belief/team_belief.hpp"
 #include "kith/random/distributions.hpp"
 
@@ -30,11 +31,15 @@ void update(benchmark::State& state, double resample_below, double process_noise
   const auto list = half_spaces(static_cast<std::size_t>(state.range(0)));
   const HalfSpaceLikelihood likelihood{0.8};
   const ParticleBelief start{prior(), {.process_noise = process_noise, .resample_below = resample_below}};
+  std::vector<HalfSpace> opposite;
+  for (const HalfSpace& h : list) opposite.push_back(h.opposite());
   ParticleBelief belief = start;
   const RandomStream random{2};
   std::uint64_t n = 0;
   for (auto _ : state) {
-    belief.observe(list, likelihood, random.split(n++));
+    // Contradicting itself, the evidence never lets the belief settle.
+    belief.observe(n % 2 == 0 ? list : opposite, likelihood, random.split(n));
+    ++n;
     benchmark::DoNotOptimize(belief.weights().data());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(belief.size()));
@@ -90,6 +95,29 @@ void BM_MakeACover(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(PriorCover{prior(), 1000});
 }
 BENCHMARK(BM_MakeACover);
+
+// How long does it take to reconcile 30 members with 4 random half-spaces each?
+void BM_ReconcileThirtyMembers(benchmark::State& state) {
+  RandomStream random{3};
+  std::vector<std::vector<HalfSpace>> lists(30);
+  for (auto& list : lists) {
+    while (list.size() < 4) {
+      IntegerVector normal(3);
+      for (std::size_t k = 0; k < 3; ++k) normal[k] = static_cast<std::int64_t>(uniform_index(19, random)) - 9;
+      if (!normal.is_zero()) list.emplace_back(normal);
+    }
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(largest_consistent_subsets(lists, prior()));
+}
+BENCHMARK(BM_ReconcileThirtyMembers)->Unit(benchmark::kMillisecond);
+
+// And three members of whom one contradicts the others?
+void BM_ReconcileThreeMembers(benchmark::State& state) {
+  const auto list = half_spaces(3);
+  const std::vector<std::vector<HalfSpace>> lists{list, {list[0].opposite()}, {list[1]}};
+  for (auto _ : state) benchmark::DoNotOptimize(largest_consistent_subsets(lists, prior()));
+}
+BENCHMARK(BM_ReconcileThreeMembers);
 
 // One period of a team of three: a lesson, answers of which one contradicts the others, and feedback.
 void BM_TeamPeriod(benchmark::State& state) {
