@@ -56,6 +56,7 @@ IntegerVector narrowed(std::array<Int128, 3> v) {
     x = x < 0 ? -x : x;
     while (x != 0) divisor = std::exchange(x, divisor % x);
   }
+  KITH_ASSERT(divisor != 0);  // the extreme rays of a polygon lie on one side of a plane
   IntegerVector result(3);
   for (std::size_t k = 0; k < 3; ++k) {
     const Int128 x = v[k] / divisor;

@@ -32,7 +32,7 @@ struct FanTriangle {
   double area;
 
   // Between nearly antipodal corners the arc is badly determined by the corners, though not by the facets.
-  bool is_long() const { return std::min({apex.dot(from), from.dot(to), to.dot(apex)}) < kLongCosine; }
+  [[nodiscard]] bool is_long() const { return std::min({apex.dot(from), from.dot(to), to.dot(apex)}) < kLongCosine; }
 };
 
 // Girard: the sum of the interior angles less (n - 2) pi. Its error does not
