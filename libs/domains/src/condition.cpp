@@ -135,7 +135,7 @@ class Parser {
 
   std::optional<Atom> deliver(const std::string& name, std::size_t at) {
     const auto found = look_up(name, at, item_names(vocabulary_.world), Atom::Kind::kDeliver, "item");
-    if (found && vocabulary_.complete && !vocabulary_.world.items[found->index].has_destination) {
+    if (found && vocabulary_.world.is_sound && !vocabulary_.world.items[found->index].has_destination) {
       fail(at, name.size(), "item '" + name + "' has no destination on the map");
       return std::nullopt;
     }
@@ -186,7 +186,9 @@ class Parser {
 
   void fail_unknown(std::size_t offset, const std::string& name, const std::string& what,
                     const std::vector<std::string>& known) {
-    if (!failed_ && vocabulary_.complete) {
+    // A broken legend may lack the name; actions and kinds of conditions do not depend on it.
+    const bool certain = vocabulary_.world.legend_is_sound || what == "action" || what == "condition";
+    if (!failed_ && certain) {
       report_.error("E0216", report_.document().inside(value_, offset, name.size()),
                     "condition names an unknown " + what + " '" + name + "'", suggestion(name, known));
     }

@@ -55,8 +55,6 @@ class Condition {
 struct Vocabulary {
   const World& world;
   const std::vector<Action>& actions;
-  // False where the legend is broken: names that it lacks are then not reported.
-  bool complete = true;
 };
 
 // Reads conditions and numbers the atoms that they use.

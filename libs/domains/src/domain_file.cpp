@@ -73,11 +73,10 @@ std::optional<Domain> read_document(const TomlDocument& document, TomlReport& re
   if (id) check_id(file, *id);
   const auto title = file.string("title", Presence::kOptional);
   detail::World world = detail::read_world(file);
-  const bool world_is_complete = !report.has_errors();
-  const detail::Dynamics dynamics = detail::read_dynamics(file, world, world_is_complete);
-  detail::Reward reward = detail::read_reward(file, dynamics.features);
+  const detail::Dynamics dynamics = detail::read_dynamics(file, world);
+  detail::Reward reward = detail::read_reward(file, dynamics);
   file.finish();
-  if (world_is_complete) check_has_goal(world, dynamics, report);
+  if (world.is_sound) check_has_goal(world, dynamics, report);
   if (report.has_errors()) return std::nullopt;
 
   std::vector<DomainMember> members = detail::build_family(world, dynamics, report);

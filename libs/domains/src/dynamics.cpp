@@ -11,12 +11,11 @@ constexpr std::array kMoves{Action::kUp, Action::kDown, Action::kLeft, Action::k
 // Reads the parts of a file that say what the robot can do and what counts.
 class DynamicsReader {
  public:
-  DynamicsReader(TomlReader& file, const World& world, bool world_is_complete)
-      : file_{file}, report_{file.report()}, world_{world}, world_is_complete_{world_is_complete} {}
+  DynamicsReader(TomlReader& file, const World& world) : file_{file}, report_{file.report()}, world_{world} {}
 
   Dynamics read() {
     read_mdp();
-    ConditionReader conditions{{world_, dynamics_.actions, world_is_complete_}, report_};
+    ConditionReader conditions{{world_, dynamics_.actions}, report_};
     read_features(conditions);
     read_rules(conditions);
     dynamics_.atoms = conditions.atoms();
@@ -53,7 +52,7 @@ class DynamicsReader {
       if (std::find(dynamics_.actions.begin(), dynamics_.actions.end(), action) != dynamics_.actions.end()) {
         report_.error("E0222", element.place(), "action '" + *element.string() + "' is listed twice");
       } else if ((action == Action::kPickup || action == Action::kDropoff) && world_.items.empty() &&
-                 world_is_complete_) {
+                 world_.legend_is_sound) {
         report_.error("E0222", element.place(), "there is no item for '" + *element.string() + "'");
       } else {
         dynamics_.actions.push_back(action);
@@ -70,9 +69,14 @@ class DynamicsReader {
 
   void read_features(ConditionReader& conditions) {
     const TomlArray* list = file_.array("feature", Presence::kRequired);
+    dynamics_.features_are_known = list != nullptr && !list->empty();
     if (list == nullptr) return;
     for (const TomlValue& element : *list) {
-      if (read_table(element, "a feature", report_) != nullptr) read_feature(element, conditions);
+      if (read_table(element, "a feature", report_) != nullptr) {
+        read_feature(element, conditions);
+      } else {
+        dynamics_.features_are_known = false;
+      }
     }
     if (list->empty() || list->size() > IntegerVector::kMaxDimension) {
       const TomlPlace place = list->empty() ? file_.content().find("feature")->place() : list->back().place();
@@ -91,11 +95,13 @@ class DynamicsReader {
     }
     feature.exclusive = reader.string("exclusive", Presence::kOptional).value_or("");
     reader.finish();
+    if (feature.name.empty()) dynamics_.features_are_known = false;
     const auto same = std::find_if(dynamics_.features.begin(), dynamics_.features.end(),
                                    [&](const Feature& other) { return other.name == feature.name; });
     if (!feature.name.empty() && same != dynamics_.features.end()) {
       report_.error("E0302", feature.place, "feature '" + feature.name + "' is declared twice",
                     "the first one is at line " + std::to_string(same->place.line));
+      dynamics_.features_are_known = false;
       return;
     }
     dynamics_.features.push_back(std::move(feature));
@@ -122,7 +128,6 @@ class DynamicsReader {
   TomlReader& file_;
   TomlReport& report_;
   const World& world_;
-  bool world_is_complete_;
   Dynamics dynamics_;
 };
 
@@ -134,9 +139,7 @@ std::vector<std::string> Dynamics::feature_names() const {
   return names;
 }
 
-Dynamics read_dynamics(TomlReader& file, const World& world, bool world_is_complete) {
-  return DynamicsReader{file, world, world_is_complete}.read();
-}
+Dynamics read_dynamics(TomlReader& file, const World& world) { return DynamicsReader{file, world}.read(); }
 
 std::uint32_t FeatureTable::row_of(AtomMask mask) {
   const auto [it, is_new] = numbers_.try_emplace(mask, static_cast<std::uint32_t>(rows_.size()));

@@ -24,13 +24,14 @@ struct Dynamics {
   std::vector<Action> actions;  // canonical order
   std::vector<Atom> atoms;
   std::vector<Feature> features;
+  bool features_are_known = true;  // false: the list is broken, so other names may be right
   std::vector<Condition> forbidden;
 
   [[nodiscard]] std::vector<std::string> feature_names() const;
 };
 
 // Reads [mdp], [[feature]] and [[rule]].
-[[nodiscard]] Dynamics read_dynamics(TomlReader& file, const World& world, bool world_is_complete);
+[[nodiscard]] Dynamics read_dynamics(TomlReader& file, const World& world);
 
 // Feature vectors by atom mask: each distinct mask is evaluated once.
 class FeatureTable {

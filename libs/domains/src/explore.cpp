@@ -4,12 +4,6 @@
 #include <array>
 
 namespace kith::detail {
-namespace {
-
-constexpr std::size_t kMaxTableBits = 22;
-
-}  // namespace
-
 Explorer::Explorer(const World& world, const Dynamics& dynamics, FeatureTable& features)
     : world_{world}, dynamics_{dynamics}, features_{features}, layout_{world} {
   for (std::size_t a = 0; a < all_action_names().size(); ++a) {
@@ -25,7 +19,7 @@ Explorer::Explorer(const World& world, const Dynamics& dynamics, FeatureTable& f
     station_leave_atoms_.push_back(atoms_of(Atom::Kind::kLeaveStation, world.station_names, station.name));
     station_enter_atoms_.push_back(atoms_of(Atom::Kind::kEnterStation, world.station_names, station.name));
   }
-  if (layout_.num_bits() <= kMaxTableBits) table_.assign(std::size_t{1} << layout_.num_bits(), kNone);
+  numbers_ = StateNumbers{layout_.num_bits()};
 }
 
 AtomMask Explorer::mask_of(Atom atom) const {
@@ -151,12 +145,12 @@ Explorer::Step Explorer::step(PackedState s, Action action) const {
 }
 
 std::uint32_t Explorer::number_of(PackedState s, Exploration& found) {
-  std::uint32_t& number = table_.empty() ? map_.try_emplace(s, kNone).first->second : table_[s];
-  if (number == kNone) {
-    number = static_cast<std::uint32_t>(found.states.size());
-    found.states.push_back(s);
-    found.terminal.push_back(is_terminal(s));
-  }
+  std::uint32_t& slot = numbers_.slot(s, found.states);
+  if (slot != StateNumbers::kNone) return slot;
+  const auto number = static_cast<std::uint32_t>(found.states.size());
+  slot = number;
+  found.states.push_back(s);
+  found.terminal.push_back(is_terminal(s));
   return number;
 }
 
@@ -177,11 +171,7 @@ Exploration Explorer::explore(std::size_t mdp, std::size_t max_states) {
     found.complete = found.states.size() <= max_states;
   }
   found.first_edge.push_back(static_cast<std::uint32_t>(found.edges.size()));
-  // Leave the table as it was, by the states that were put in.
-  for (const PackedState s : found.states) {
-    if (!table_.empty()) table_[s] = kNone;
-  }
-  map_.clear();
+  numbers_.clear(found.states);
   return found;
 }
 

@@ -2,12 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <unordered_map>
 #include <vector>
 
 #include "dynamics.hpp"
 #include "state_layout.hpp"
+#include "state_numbers.hpp"
 #include "world.hpp"
 
 namespace kith::detail {
@@ -80,10 +79,7 @@ class Explorer {
   std::vector<bool> item_present_;
   bool has_deliveries_ = false;
 
-  // Number of each state found so far: direct look-up while the words are short.
-  std::vector<std::uint32_t> table_;
-  std::unordered_map<PackedState, std::uint32_t> map_;
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  StateNumbers numbers_;  // of the states found so far
 };
 
 }  // namespace kith::detail

@@ -9,7 +9,7 @@
 namespace kith::detail {
 namespace {
 
-constexpr std::size_t kMaxStates = 4'000'000;  // of all MDPs together; about 150 bytes each
+constexpr std::size_t kMaxStates = 2'000'000;  // of all MDPs together; about 250 bytes each
 constexpr std::size_t kMaxCellsTimesMdps = std::size_t{1} << 26;
 
 // The non-terminal states from which some terminal state can be reached.

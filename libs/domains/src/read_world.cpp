@@ -326,10 +326,13 @@ World read_world(TomlReader& file) {
   auto map = file.table("map", Presence::kRequired);
   if (!map) return world;
   TomlReport& report = file.report();
+  const std::size_t errors_before = report.num_errors();
   world.map_place = map->place();
   if (auto legend = map->table("legend", Presence::kRequired)) LegendReader{world, report}.read(legend->content());
+  world.legend_is_sound = report.num_errors() == errors_before;
   if (const TomlValue* rows = map->value("rows", Presence::kRequired)) RowsReader{world, report}.read(*rows);
   map->finish();
+  world.is_sound = report.num_errors() == errors_before;
   return world;
 }
 

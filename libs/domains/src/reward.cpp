@@ -12,10 +12,8 @@ namespace {
 
 class RewardReader {
  public:
-  RewardReader(TomlReader& file, const std::vector<Feature>& features)
-      : file_{file}, report_{file.report()}, features_{features} {
-    for (const Feature& feature : features) names_.push_back(feature.name);
-  }
+  RewardReader(TomlReader& file, const Dynamics& dynamics)
+      : file_{file}, report_{file.report()}, dynamics_{dynamics}, names_{dynamics.feature_names()} {}
 
   Reward read() {
     read_weights();
@@ -93,9 +91,10 @@ class RewardReader {
   std::optional<std::size_t> find_feature(const TomlEntry& entry, const std::string& what) {
     const auto it = std::find(names_.begin(), names_.end(), entry.key);
     if (it != names_.end()) return static_cast<std::size_t>(it - names_.begin());
+    if (!dynamics_.features_are_known) return std::nullopt;
     std::string hint = suggestion(entry.key, names_);
     const std::string nearest = nearest_word(entry.key, names_);
-    for (const Feature& feature : features_) {
+    for (const Feature& feature : dynamics_.features) {
       if (nearest.empty() || feature.name != nearest) continue;
       hint += " (declared at line " + std::to_string(feature.place.line) + ')';
     }
@@ -168,7 +167,7 @@ class RewardReader {
 
   TomlReader& file_;
   TomlReport& report_;
-  const std::vector<Feature>& features_;
+  const Dynamics& dynamics_;
   std::vector<std::string> names_;
   Reward reward_;
   bool prior_clashes_ = false;
@@ -176,8 +175,6 @@ class RewardReader {
 
 }  // namespace
 
-Reward read_reward(TomlReader& file, const std::vector<Feature>& features) {
-  return RewardReader{file, features}.read();
-}
+Reward read_reward(TomlReader& file, const Dynamics& dynamics) { return RewardReader{file, dynamics}.read(); }
 
 }  // namespace kith::detail

@@ -17,6 +17,6 @@ struct Reward {
   std::vector<std::string> words;  // per feature
 };
 
-[[nodiscard]] Reward read_reward(TomlReader& file, const std::vector<Feature>& features);
+[[nodiscard]] Reward read_reward(TomlReader& file, const Dynamics& dynamics);
 
 }  // namespace kith::detail

@@ -70,6 +70,8 @@ struct World {
   TomlPlace map_place;                   // of [map]
   std::vector<TomlPlace> row_places;     // of the strings in rows
   std::optional<std::size_t> some_goal;  // cell of a goal or destination, for messages
+  bool legend_is_sound = false;          // else names may be missing
+  bool is_sound = false;                 // legend and rows
 
   [[nodiscard]] std::size_t num_cells() const { return symbol_of.size(); }
   [[nodiscard]] const SymbolContent& content(std::size_t cell) const { return symbols[symbol_of[cell]].content; }
@@ -99,8 +101,7 @@ struct World {
 // What people call the thing a symbol stands for: its terrain, station, item, ...
 [[nodiscard]] std::string symbol_name(const Symbol& symbol);
 
-// Reads [map] and [map.legend]. Reports everything that is wrong; the result is
-// usable for naming things even then, for exploring only without errors.
+// Reads [map] and [map.legend]. Reports everything that is wrong.
 [[nodiscard]] World read_world(TomlReader& file);
 
 // Where cell `cell` stands in the file.
