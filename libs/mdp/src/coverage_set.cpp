@@ -147,6 +147,7 @@ std::vector<IntegerVector> upper_hull(std::span<const IntegerVector> vectors, co
   HullPruner{region}.merge(set, Counts{}, more);
   std::ranges::sort(set);
   std::vector<IntegerVector> hull;
+  hull.reserve(set.size());
   for (const Counts& v : set) hull.push_back(to_vector(v));
   return hull;
 }
