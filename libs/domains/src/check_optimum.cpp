@@ -42,7 +42,7 @@ class OptimumChecker {
       report_.warning("W0303", reward_.weights_place,
                       "the longest optimal path has " + std::to_string(longest_) + " steps, but max_steps is " +
                           std::to_string(dynamics_.max_steps),
-                      "first in variant: " + variant_text(world_, longest_variant_));
+                      world_.groups.empty() ? "" : "the first: variant " + variant_text(world_, longest_variant_));
     }
     for (std::size_t k = 0; k < occurs_.size(); ++k) {
       if (occurs_[k] || num_failures_ > 0) continue;
@@ -53,8 +53,11 @@ class OptimumChecker {
 
  private:
   void report_cycle(std::size_t num_mdps) {
-    const std::string where = "; in " + std::to_string(num_failures_) + " of " + std::to_string(num_mdps) +
-                              (num_mdps == 1 ? " variant" : " variants") + ", first in: " + failing_variant_;
+    std::string where;
+    if (num_mdps > 1) {
+      where = "; in " + std::to_string(num_failures_) + " of " + std::to_string(num_mdps) +
+              " variants, first in: " + failing_variant_;
+    }
     if (positive_) {
       report_.infeasible("E0321", reward_.weights_place,
                          "the robot can go round in circles for ever-growing reward: " + cycle_text_ + where,

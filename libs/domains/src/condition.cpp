@@ -8,10 +8,6 @@ namespace {
 
 constexpr std::size_t kMaxNesting = 32;
 
-bool is_word_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-}
-
 std::optional<std::size_t> position(const std::vector<std::string>& names, const std::string& name) {
   const auto it = std::find(names.begin(), names.end(), name);
   return it == names.end() ? std::nullopt : std::optional{static_cast<std::size_t>(it - names.begin())};
@@ -162,7 +158,7 @@ class Parser {
 
   std::string word() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && is_word_character(text_[at_])) ++at_;
+    while (at_ < text_.size() && is_name_character(text_[at_])) ++at_;
     return text_.substr(begin, at_ - begin);
   }
 

@@ -103,8 +103,8 @@ class FamilyBuilder {
     for (std::size_t s = 0; s < live.size(); ++s) {
       if (live[s] || found.terminal[s]) continue;
       if (num_dead_++ == 0) {
-        first_dead_ = "robot at " + cell_text(world_, explorer_.layout().robot(found.states[s])) + " in variant " +
-                      variant_text(world_, mdp);
+        first_dead_ = "robot at " + cell_text(world_, explorer_.layout().robot(found.states[s]));
+        if (!world_.groups.empty()) first_dead_ += " in variant " + variant_text(world_, mdp);
       }
     }
   }
@@ -167,16 +167,20 @@ class FamilyBuilder {
   }
 
   void report_failures(std::size_t num_mdps) {
-    const std::string of_all = " of " + std::to_string(num_mdps) + (num_mdps == 1 ? " variant" : " variants");
+    const auto in_some = [&](std::size_t number) {
+      return num_mdps == 1 ? "" : " in " + std::to_string(number) + " of " + std::to_string(num_mdps) + " variants";
+    };
+    const auto first = [&](std::size_t mdp) {
+      return num_mdps == 1 ? "" : "first failing variant: " + variant_text(world_, mdp);
+    };
     if (num_unreachable_ > 0) {
-      report_.infeasible("E0207", goal_place(),
-                         "the goal cannot be reached from the start in " + std::to_string(num_unreachable_) + of_all,
-                         "first failing variant: " + variant_text(world_, *first_unreachable_));
+      report_.infeasible("E0207", goal_place(), "the goal cannot be reached from the start" + in_some(num_unreachable_),
+                         first(*first_unreachable_));
     }
     if (num_finished_ > 0) {
       report_.infeasible("E0221", place_of_cell(world_, world_.start),
-                         "there is nothing to do at the start in " + std::to_string(num_finished_) + of_all,
-                         "first such variant: " + variant_text(world_, *first_finished_));
+                         "there is nothing to do: the start is already the end" + in_some(num_finished_),
+                         first(*first_finished_));
     }
     if (num_dead_ > 0) {
       report_.warning("W0202", world_.map_place,

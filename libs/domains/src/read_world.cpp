@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "world.hpp"
@@ -9,166 +10,6 @@ namespace {
 
 constexpr std::size_t kMaxCells = 1'000'000;
 constexpr std::size_t kMaxGroups = 16;
-
-bool is_name(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
-
-void add_once(std::vector<std::string>& names, const std::string& name) {
-  if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-// Reads the legend: what each symbol stands for.
-class LegendReader {
- public:
-  LegendReader(World& world, TomlReport& report) : world_{world}, report_{report} {}
-
-  void read(const TomlTable& legend) {
-    for (const TomlEntry& entry : legend.entries()) {
-      if (!check_glyph(entry)) continue;
-      Symbol symbol;
-      symbol.glyph = entry.key.front();
-      symbol.place = entry.place;
-      if (entry.value.string() != nullptr) {
-        read_short(entry.value, symbol);
-      } else if (const TomlTable* table = entry.value.table()) {
-        read_long(*table, entry, symbol);
-      } else {
-        report_.error("E0205", entry.value.place(),
-                      std::string{"symbol '"} + symbol.glyph + "' must be a string or a table, not " +
-                          std::string{entry.value.kind_name()});
-      }
-      world_.symbols.push_back(std::move(symbol));
-    }
-    collect_names();
-  }
-
- private:
-  bool check_glyph(const TomlEntry& entry) {
-    const bool printable = entry.key.size() == 1 && entry.key[0] >= 0x20 && entry.key[0] < 0x7F;
-    if (printable && entry.key != "@") return true;
-    report_.error("E0204", entry.place,
-                  "'" + entry.key + "' cannot be a symbol: it must be one printable ASCII character other than '@'",
-                  entry.key == "@" ? "'@' is where the robot is drawn" : "");
-    return false;
-  }
-
-  void read_short(const TomlValue& value, Symbol& symbol) {
-    const std::string& word = *value.string();
-    if (word == "wall") {
-      symbol.content.wall = true;
-    } else if (word != "floor") {
-      const std::string nearest = nearest_word(word, {"wall", "floor"});
-      report_.error(
-          "E0205", value.place(), "a symbol alone can be \"wall\" or \"floor\", not \"" + word + "\"",
-          nearest.empty() ? "for a terrain write { terrain = \"" + word + "\" }" : "did you mean '" + nearest + "'?");
-    }
-  }
-
-  void read_long(const TomlTable& table, const TomlEntry& entry, Symbol& symbol) {
-    TomlReader reader{table, entry.value.place(), std::string{"symbol '"} + symbol.glyph + "'", report_};
-    SymbolContent& content = symbol.content;
-    content.wall = reader.boolean("wall", Presence::kOptional).value_or(false);
-    content.start = reader.boolean("start", Presence::kOptional).value_or(false);
-    content.terrain = name(reader, "terrain");
-    content.station = name(reader, "station");
-    content.item = name(reader, "item");
-    content.destination = name(reader, "destination");
-    if (const auto [set, word] = flag_or_name(reader, "goal"); set) {
-      content.goal = true;
-      content.goal_name = word;
-    }
-    if (const auto [set, word] = flag_or_name(reader, "optional"); set) {
-      symbol.toggles_each_cell = word.empty();
-      symbol.toggle = word;
-    }
-    reader.finish();
-    check(symbol);
-  }
-
-  std::string name(TomlReader& reader, std::string_view key) {
-    const auto text = reader.string(key, Presence::kOptional);
-    if (!text) return "";
-    if (is_name(*text)) return *text;
-    report_bad_name(*reader.content().find(key), *text);
-    return "";
-  }
-
-  // `KEY = true` or `KEY = "NAME"`.
-  std::pair<bool, std::string> flag_or_name(TomlReader& reader, std::string_view key) {
-    const TomlValue* value = reader.value(key, Presence::kOptional);
-    if (value == nullptr) return {false, ""};
-    if (const bool* flag = value->boolean()) return {*flag, ""};
-    if (const std::string* text = value->string()) {
-      if (is_name(*text)) return {true, *text};
-      report_bad_name(*value, *text);
-      return {false, ""};
-    }
-    report_.error("E0108", value->place(),
-                  std::string{key} + " must be true or a name, not " + std::string{value->kind_name()});
-    return {false, ""};
-  }
-
-  void report_bad_name(const TomlValue& value, const std::string& text) {
-    report_.error("E0225", value.place(), "'" + text + "' cannot be a name", "use letters, digits, '_' and '-'");
-  }
-
-  void check(const Symbol& symbol) {
-    const SymbolContent& content = symbol.content;
-    if (content.wall && content.start) {
-      report_.error("E0209", symbol.place, "the robot cannot start on a wall");
-    } else if (content.wall) {
-      SymbolContent rest = content;
-      rest.wall = false;
-      if (!rest.is_floor()) report_.error("E0223", symbol.place, "nothing else can be where a wall is");
-    }
-    if (symbol.is_optional() && content.start) {
-      report_.error("E0213", symbol.place, "the start cannot be optional");
-    } else if (symbol.is_optional() && !content.destination.empty()) {
-      report_.error("E0213", symbol.place, "a destination cannot be optional");
-    } else if (symbol.is_optional() && content.is_floor()) {
-      report_.error("E0213", symbol.place, "there is nothing on the symbol that could be optional");
-    }
-  }
-
-  void collect_names() {
-    for (const Symbol& symbol : world_.symbols) {
-      const SymbolContent& content = symbol.content;
-      add_once(world_.terrain_names, content.terrain);
-      add_once(world_.station_names, content.station);
-      add_once(world_.goal_names, content.goal_name);
-      if (content.item.empty()) continue;
-      const bool known = std::any_of(world_.items.begin(), world_.items.end(),
-                                     [&](const Item& item) { return item.name == content.item; });
-      if (known) {
-        report_.error("E0211", symbol.place, "item '" + content.item + "' has two symbols; an item lies on one cell");
-      } else {
-        world_.items.push_back({content.item, std::nullopt, false});
-      }
-    }
-    for (const Symbol& symbol : world_.symbols) check_references(symbol);
-  }
-
-  void check_references(const Symbol& symbol) {
-    const SymbolContent& content = symbol.content;
-    const auto& stations = world_.station_names;
-    if (!content.terrain.empty() && std::find(stations.begin(), stations.end(), content.terrain) != stations.end()) {
-      report_.error("E0214", symbol.place, "'" + content.terrain + "' is the name of a terrain and of a station",
-                    "leave:" + content.terrain + " could mean either");
-    }
-    std::vector<std::string> items;
-    for (const Item& item : world_.items) items.push_back(item.name);
-    if (!content.destination.empty() && std::find(items.begin(), items.end(), content.destination) == items.end()) {
-      report_.error("E0212", symbol.place, "destination of an unknown item '" + content.destination + "'",
-                    suggestion(content.destination, items));
-    }
-  }
-
-  World& world_;
-  TomlReport& report_;
-};
 
 // Reads the rows and finds what stands where.
 class RowsReader {
@@ -223,14 +64,21 @@ class RowsReader {
         int& symbol = number[static_cast<unsigned char>(text[x])];
         if (symbol == -1) {
           report_.error("E0203", report_.document().inside(row, x),
-                        std::string{"symbol '"} + text[x] + "' is not declared in [map.legend]",
-                        suggestion_for_undeclared());
+                        "symbol " + shown(text[x]) + " is not declared in [map.legend]", suggestion_for_undeclared());
           symbol = -2;  // once per symbol
         }
         world_.symbol_of.push_back(static_cast<std::uint8_t>(std::max(symbol, 0)));
       }
     }
     if (world_.symbols.empty()) world_.symbols.emplace_back();
+  }
+
+  // The character in quotes, or its code if it cannot be seen.
+  static std::string shown(char c) {
+    static constexpr char kHex[] = "0123456789ABCDEF";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7F) return std::string{"'"}.append(1, c).append("'");
+    return std::string{"0x"}.append(1, kHex[byte >> 4U]).append(1, kHex[byte & 0xFU]);
   }
 
   [[nodiscard]] std::string suggestion_for_undeclared() const {
@@ -328,7 +176,7 @@ World read_world(TomlReader& file) {
   TomlReport& report = file.report();
   const std::size_t errors_before = report.num_errors();
   world.map_place = map->place();
-  if (auto legend = map->table("legend", Presence::kRequired)) LegendReader{world, report}.read(legend->content());
+  if (auto legend = map->table("legend", Presence::kRequired)) read_legend(legend->content(), world, report);
   world.legend_is_sound = report.num_errors() == errors_before;
   if (const TomlValue* rows = map->value("rows", Presence::kRequired)) RowsReader{world, report}.read(*rows);
   map->finish();

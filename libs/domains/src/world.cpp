@@ -39,7 +39,7 @@ std::string variant_text(const World& world, std::size_t mdp) {
     if (i > 0) text += ' ';
     text += names[i] + "@{" + lists[i] + '}';
   }
-  return text.empty() ? "the only variant" : text;
+  return text;
 }
 
 TomlPlace place_of_cell(const World& world, std::size_t cell) {

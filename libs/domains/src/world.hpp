@@ -101,6 +101,14 @@ struct World {
 // What people call the thing a symbol stands for: its terrain, station, item, ...
 [[nodiscard]] std::string symbol_name(const Symbol& symbol);
 
+// What names of terrains, stations, items and goals are made of, so that conditions can say them.
+[[nodiscard]] constexpr bool is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+// Reads the symbols of [map.legend] and the names that they declare.
+void read_legend(const TomlTable& legend, World& world, TomlReport& report);
+
 // Reads [map] and [map.legend]. Reports everything that is wrong.
 [[nodiscard]] World read_world(TomlReader& file);
 

@@ -108,6 +108,7 @@ std::vector<Case> cases() {
       {"ragged", {{"[\"S.rG\"]", "[\"S.rG\", \"...\"]"}}, "E0202 6:17", "one length"},
       {"undeclared", {{"S.rG", "S?rG"}}, "E0203 6:11", "'.'"},
       {"undeclared_twice", {{"S.rG", "S??G"}}, "E0203 6:11, W0201 10:1"},
+      {"undeclared_unseen", {{"S.rG", "S\\tG"}}, "E0203 6:9, W0201 10:1", "'.'"},
       {"long_symbol", {{"\"#\"", "\"##\""}}, "E0204 9:1"},
       {"robot_symbol", {{"\"#\"", "\"@\""}}, "E0204 9:1", "robot"},
       {"short_symbol", {{"\"wall\"", "\"wal\""}}, "E0205 9:7", "'wall'"},
