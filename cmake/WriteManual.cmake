@@ -1,0 +1,44 @@
+# cmake -D KITH=<program> -D OUTPUT_DIR=<folder> -P WriteManual.cmake
+#
+# The man page and the completions, from what the program says of itself, so that
+# neither can forget a command or an option.
+function(ask out)
+  execute_process(COMMAND ${KITH} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+# As it is, for troff: neither macros nor escapes.
+function(verbatim out text)
+  string(REPLACE "\\" "\\e" text "${text}")
+  string(REPLACE "-" "\\-" text "${text}")
+  string(REGEX REPLACE "(^|\n)([.'])" "\\1\\\\&\\2" text "${text}")
+  set(${out} ".nf\n${text}.fi\n" PARENT_SCOPE)
+endfunction()
+
+ask(overview --help)
+if(NOT overview MATCHES "commands:\n(([ ]+[a-z]+[^\n]*\n)+)")
+  message(FATAL_ERROR "kith --help lists no commands")
+endif()
+string(REGEX MATCHALL "(^|\n)  [a-z]+" names "${CMAKE_MATCH_1}")
+
+ask(version --version)
+string(REGEX MATCH "[0-9]+\\.[0-9]+\\.[0-9]+" version "${version}")
+verbatim(overview "${overview}")
+set(page ".TH KITH 1 \"\" \"kith ${version}\" \"User Commands\"\n")
+string(APPEND page ".SH NAME\nkith \\- teach a robot's policy to a group of people\n.SH DESCRIPTION\n${overview}")
+foreach(name ${names})
+  string(STRIP "${name}" name)
+  ask(help help ${name})
+  verbatim(help "${help}")
+  string(TOUPPER ${name} heading)
+  string(APPEND page ".SH KITH ${heading}\n${help}")
+endforeach()
+file(WRITE ${OUTPUT_DIR}/kith.1 "${page}")
+
+foreach(shell_and_file "bash kith.bash" "zsh _kith" "fish kith.fish")
+  separate_arguments(shell_and_file)
+  list(GET shell_and_file 0 shell)
+  list(GET shell_and_file 1 file)
+  ask(script completion ${shell})
+  file(WRITE ${OUTPUT_DIR}/${file} "${script}")
+endforeach()
