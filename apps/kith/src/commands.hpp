@@ -1,0 +1,19 @@
+#pragma once
+
+#include "console.hpp"
+#include "options.hpp"
+
+namespace kith::cli {
+
+// One function per command, each in its own file: does it, and returns the exit
+// code. What goes wrong is thrown as kith::Error.
+
+int run_validate(const ValidateOptions& options, Console& console);
+int run_inspect(const InspectOptions& options, Console& console);
+int run_teach(const TeachOptions& options, Console& console);
+int run_study(const StudyOptions& options, Console& console);
+int run_doctor(Console& console);
+int run_completion(const CompletionOptions& options, Console& console);
+int run_version(Console& console);
+
+}  // namespace kith::cli

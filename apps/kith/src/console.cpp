@@ -1,0 +1,112 @@
+#include "console.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "kith/core/error.hpp"
+
+namespace kith::cli {
+namespace {
+
+bool terminal(int fd) {
+  const char* term = std::getenv("TERM");
+  return isatty(fd) == 1 && term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
+// Log lines are best effort: where there is no standard error there is nobody to tell.
+void write_log(const std::string& text) {
+  std::size_t written = 0;
+  while (written < text.size()) {
+    const auto n = ::write(STDERR_FILENO, text.data() + written, text.size() - written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;
+    written += static_cast<std::size_t>(n);
+  }
+}
+
+}  // namespace
+
+bool wants_color(int fd, ColorMode mode) {
+  if (mode != ColorMode::kAuto) return mode == ColorMode::kAlways;
+  const char* no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') && terminal(fd);
+}
+
+Console::Console(const CommonOptions& options)
+    : options_{options},
+      result_has_color_{wants_color(STDOUT_FILENO, options.color)},
+      log_has_color_{wants_color(STDERR_FILENO, options.color)},
+      log_is_terminal_{terminal(STDERR_FILENO)} {}
+
+void Console::print(std::string_view text) {
+  while (!text.empty()) {
+    const auto n = ::write(STDOUT_FILENO, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EPIPE) throw BrokenPipe{};
+    if (n < 0) throw Error{ErrorKind::kIo, std::string{"cannot write to standard output: "} + std::strerror(errno)};
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void Console::log(std::string_view level, std::string_view text) {
+  std::string line{"kith: "};
+  if (!level.empty()) line.append(level).append(": ");
+  write_log(line.append(text).append("\n"));
+}
+
+void Console::info(std::string_view text) {
+  if (!options_.quiet) log("info", text);
+}
+
+void Console::detail(std::string_view text) {
+  if (options_.verbosity > 0 && !options_.quiet) log("debug", text);
+}
+
+void Console::warning(std::string_view text) {
+  if (!options_.quiet) log("warning", text);
+}
+
+void Console::show(const std::vector<Diagnostic>& diagnostics) {
+  std::string text;
+  for (const auto& diagnostic : diagnostics) {
+    if (diagnostic.severity == Severity::kWarning && options_.quiet) continue;
+    auto one = to_text(diagnostic);
+    const std::string word = diagnostic.severity == Severity::kError ? "error" : "warning";
+    const auto at = one.find(word);
+    if (log_has_color_ && at != std::string::npos) {
+      one.replace(at, word.size(), (word == "error" ? "\033[1;31m" : "\033[1;33m") + word + "\033[0m");
+    }
+    text += one;
+  }
+  write_log(text);
+}
+
+std::string Console::styled(std::string_view text, std::string_view code) const {
+  if (!result_has_color_) return std::string{text};
+  return std::string{"\033["}.append(code).append("m").append(text).append("\033[0m");
+}
+
+std::string TextTable::text(const Console& console, bool header) const {
+  std::vector<std::size_t> widths(alignment_.size(), 0);
+  for (const auto& row : rows_) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string all;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    std::string line;
+    for (std::size_t i = 0; i < rows_[r].size(); ++i) {
+      const std::string blank(widths[i] - rows_[r][i].size(), ' ');
+      line += (i > 0 ? "  " : "") + (alignment_[i] == 'r' ? blank + rows_[r][i] : rows_[r][i] + blank);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    all += (header && r == 0 ? console.bold(line) : line) + "\n";
+  }
+  return all;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,95 @@
+#include "help.hpp"
+
+#include <algorithm>
+
+namespace kith::cli {
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() + 2 > width) return text + "\n" + std::string(width, ' ');
+  text.resize(width, ' ');
+  return text;
+}
+
+std::string left_column(const OptionDescription& option) {
+  std::string text = "  " + joined(option.names, ", ");
+  if (!option.positional && !option.value.empty()) text += " " + option.value;
+  return text;
+}
+
+std::string right_column(const OptionDescription& option, std::size_t width) {
+  const std::string next = "\n" + std::string(width, ' ');
+  std::string text = option.description;
+  if (!option.choices.empty()) text += next + "one of: " + joined(option.choices, ", ");
+  std::vector<std::string> facts;
+  if (!option.default_text.empty()) facts.push_back("default: " + option.default_text);
+  if (!option.environment.empty()) facts.push_back("environment: " + option.environment);
+  if (!facts.empty()) text += next + "(" + joined(facts, "; ") + ")";
+  return text;
+}
+
+std::string usage_line(const CommandDescription& command) {
+  std::string text = "usage: kith " + command.name + " [OPTIONS]";
+  for (const auto& option : command.options) {
+    if (!option.positional) continue;
+    const std::string name = option.names.front() + (option.many ? "..." : "");
+    text += option.required ? " " + name : " [" + name + "]";
+  }
+  return text + "\n";
+}
+
+constexpr const char* kExitCodes =
+    "exit codes:\n"
+    "  0 success                          5 input or output failed (disk full, permission)\n"
+    "  1 internal error                   7 verification mismatch\n"
+    "  2 wrong command line               8 another process uses this folder\n"
+    "  3 invalid input file               130, 143 interrupted\n"
+    "  4 valid, but nothing can be done with it\n";
+
+}  // namespace
+
+std::string help_text(const std::vector<CommandDescription>& commands, bool full) {
+  std::string text =
+      "kith: teach a robot's policy to a group of people by demonstration\n\n"
+      "usage: kith COMMAND [OPTIONS] ...\n\ncommands:\n";
+  for (const auto& command : commands) text += padded("  " + command.name, 15) + command.summary + "\n";
+  text +=
+      "\nexamples:\n"
+      "  kith study studies/paper.toml -o results/paper\n"
+      "  kith teach item-delivery --group NNP --strategy joint\n";
+  if (full) {
+    text +=
+        "\nEvery option can also be set in the environment, `--threads 2` as KITH_THREADS=2; the command line\n"
+        "wins over the environment, the environment over the study file. NO_COLOR turns colours off.\n\n";
+    text += kExitCodes;
+  }
+  return text + "\n`kith COMMAND -h` for a command's options, `kith COMMAND --help` for all about it.\n";
+}
+
+std::string help_text(const CommandDescription& command, bool full) {
+  constexpr std::size_t kFullWidth = 28;
+  std::string text = usage_line(command) + "\n" + command.summary + ".\n\nexamples:\n";
+  for (const auto& example : command.examples) text += "  " + example + "\n";
+  text += "\n";
+  bool any_positional = false;
+  for (const bool positional : {true, false}) {
+    if (!positional) text += any_positional ? "\noptions:\n" : "options:\n";
+    for (const auto& option : command.options) {
+      if (option.positional != positional) continue;
+      if (positional && !any_positional) text += "arguments:\n";
+      any_positional = any_positional || positional;
+      text += padded(left_column(option), kFullWidth) + (full ? right_column(option, kFullWidth) : option.description) +
+              "\n";
+    }
+  }
+  if (full) text += std::string{"\n"} + kExitCodes;
+  return text;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,44 @@
+#include "input.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+
+#include "kith/core/error.hpp"
+#include "kith/toml/document.hpp"
+
+namespace kith::cli {
+namespace {
+
+std::string text_of(std::istream& stream, const std::string& name) {
+  std::string text(kMaxTomlBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) throw Error{ErrorKind::kIo, "cannot read " + name};
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+}  // namespace
+
+InputText read_input(const std::string& file) {
+  if (file == "-") return {"<stdin>", text_of(std::cin, "standard input"), {}};
+  std::error_code failure;
+  if (std::filesystem::is_directory(file, failure))
+    throw Error{ErrorKind::kIo, "cannot read " + file + ": it is a folder"};
+  std::ifstream stream{file, std::ios::binary};
+  if (!stream) throw Error{ErrorKind::kIo, "cannot read " + file + ": " + std::strerror(errno)};
+  return {file, text_of(stream, file), std::filesystem::path{file}.parent_path()};
+}
+
+StudyReading study_of(const std::string& name, const std::vector<std::string>& overrides) {
+  auto reading = [&] {
+    if (name != "-") return load_study(name, overrides);
+    const auto input = read_input(name);
+    return parse_study(input.text, input.name, {overrides, {}});
+  }();
+  if (!reading.study) throw Error{reading.diagnostics};
+  return reading;
+}
+
+}  // namespace kith::cli

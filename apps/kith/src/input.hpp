@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "kith/domains/domain.hpp"
+#include "kith/study/study_file.hpp"
+
+namespace kith::cli {
+
+/// A text that the user named.
+struct InputText {
+  std::string name;  ///< For messages.
+  std::string text;
+  std::filesystem::path folder;  ///< Where files that it names are looked for.
+};
+
+/// The file's text, or that of standard input for "-". At most a little more than
+/// a file may have is read. @throws kith::Error (kIo).
+[[nodiscard]] InputText read_input(const std::string& file);
+
+/// The study of a built-in name, a file or "-", with its overrides; warnings are
+/// returned, errors thrown.
+[[nodiscard]] StudyReading study_of(const std::string& name, const std::vector<std::string>& overrides);
+
+}  // namespace kith::cli

@@ -1,0 +1,72 @@
+#include "inspect_json.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "json.hpp"
+
+namespace kith::cli {
+namespace {
+
+Json demo_to_json(const Atlas& atlas, DemoIndex demo) {
+  const auto& domain = atlas.domain();
+  Json actions = Json::array();
+  for (const auto action : atlas.trajectory(demo).actions) actions.push_back(domain.action_names()[action.value()]);
+  const auto& counts = atlas.feature_counts(demo);
+  return {{"start", start_to_json(domain, atlas.id(demo))},
+          {"actions", actions},
+          {"features", to_json(counts)},
+          {"return", domain.weights().return_of(counts)},
+          {"one_step", to_json(atlas.constraints().half_spaces(atlas.one_step(demo)), domain.num_features())},
+          {"unique", atlas.is_unique(demo)}};
+}
+
+Json components_to_json(const Atlas& atlas) {
+  const auto& domain = atlas.domain();
+  Json components = Json::array();
+  for (const auto& component : atlas.knowledge_components()) {
+    Json masked = Json::array();
+    if (component.masked) masked.push_back(domain.feature_names()[*component.masked]);
+    components.push_back(
+        {{"name", component.name},
+         {"masked", masked},
+         {"mdps", std::count(component.uses_mdp.begin(), component.uses_mdp.end(), true)},
+         {"constraints", to_json(atlas.constraints().half_spaces(component.constraints), domain.num_features())},
+         {"area_sr", component.area_sr}});
+  }
+  return components;
+}
+
+}  // namespace
+
+void print_inspection(const Atlas& atlas, const InspectOptions& options, Console& console) {
+  const auto& domain = atlas.domain();
+  const auto d = domain.num_features();
+  const auto& coverage = atlas.coverage();
+  Json document{
+      {"schema", "kith.inspect/1"},
+      {"id", domain.id()},
+      {"title", domain.title()},
+      {"mdps", domain.num_mdps()},
+      {"demonstrations", atlas.num_demos()},
+      {"features", domain.feature_names()},
+      {"actions", domain.action_names()},
+      {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit, d)}}},
+      {"prior", to_json(domain.prior(), d)},
+      {"bec", {{"constraints", to_json(atlas.policy_bec_half_spaces(), d)}, {"area_sr", atlas.policy_bec_area_sr()}}},
+      {"knowledge_components", components_to_json(atlas)},
+      {"mask_counters", atlas.mask_counters()},
+      {"coverage", {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}}},
+      {"policy_cells", atlas.cells().size()}};
+  if (std::find(options.show.begin(), options.show.end(), "demos") != options.show.end()) {
+    Json demos = Json::array();
+    for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
+      const DemoIndex demo{i};
+      if (!options.mdp || atlas.id(demo).mdp.value() == *options.mdp) demos.push_back(demo_to_json(atlas, demo));
+    }
+    document["demos"] = std::move(demos);
+  }
+  console.print_json(document);
+}
+
+}  // namespace kith::cli

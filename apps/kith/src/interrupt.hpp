@@ -1,0 +1,12 @@
+#pragma once
+
+namespace kith::cli {
+
+/// From now on SIGINT and SIGTERM only set a flag (a second one ends the program
+/// at once), and a reader that went away is an error of write().
+void watch_signals();
+
+/// The signal that asked us to stop, or 0.
+[[nodiscard]] int stop_signal() noexcept;
+
+}  // namespace kith::cli

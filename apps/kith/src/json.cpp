@@ -1,0 +1,63 @@
+#include "json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "console.hpp"
+
+namespace kith::cli {
+namespace {
+
+Json to_json(const Cell& cell) { return Json::array({cell.x, cell.y}); }
+
+}  // namespace
+
+void Console::print_json(const Json& document) {
+  // File names may be any bytes; the document is UTF-8 whatever they are.
+  print(document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Json to_json(const Diagnostic& diagnostic) {
+  return {{"id", diagnostic.id},     {"message", diagnostic.message}, {"file", diagnostic.file},
+          {"line", diagnostic.line}, {"column", diagnostic.column},   {"hint", diagnostic.hint}};
+}
+
+Json error_document(const std::vector<Diagnostic>& diagnostics) {
+  Json errors = Json::array();
+  for (const auto& diagnostic : diagnostics) {
+    if (diagnostic.severity == Severity::kError) errors.push_back(to_json(diagnostic));
+  }
+  return {{"schema", "kith.error/1"}, {"errors", errors}};
+}
+
+Json to_json(const IntegerVector& v) {
+  Json array = Json::array();
+  for (const auto entry : v) array.push_back(entry);
+  return array;
+}
+
+Json to_json(const Eigen::Vector3d& v, std::size_t dimension) {
+  Json array = Json::array();
+  for (std::size_t k = 0; k < dimension; ++k) array.push_back(v[static_cast<Eigen::Index>(k)]);
+  return array;
+}
+
+Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension) {
+  Json array = Json::array();
+  for (const auto& half_space : half_spaces) {
+    Json normal = Json::array();
+    for (std::size_t k = 0; k < dimension; ++k) normal.push_back(half_space.normal()[k]);
+    array.push_back(normal);
+  }
+  return array;
+}
+
+Json start_to_json(const Domain& domain, DemoId id) {
+  const auto& state = domain.state(id.mdp, id.start);
+  Json items = Json::array();
+  Json stations = Json::array();
+  for (const auto& item : state.items) items.push_back(to_json(item));
+  for (const auto& station : state.stations) stations.push_back(to_json(station));
+  return {{"robot", to_json(state.robot)}, {"items", items}, {"stations", stations}, {"mdp", id.mdp.value()}};
+}
+
+}  // namespace kith::cli

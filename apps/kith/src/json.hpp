@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <vector>
+
+#include "kith/core/diagnostic.hpp"
+#include "kith/core/integer_vector.hpp"
+#include "kith/domains/domain.hpp"
+#include "kith/geometry/half_space.hpp"
+#include "kith/study/summary.hpp"
+
+namespace kith::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// {"schema": "kith.error/1", "errors": [{id, message, file, line, column, hint}]}
+[[nodiscard]] Json error_document(const std::vector<Diagnostic>& diagnostics);
+/// One of its entries.
+[[nodiscard]] Json to_json(const Diagnostic& diagnostic);
+
+[[nodiscard]] Json to_json(const IntegerVector& v);
+[[nodiscard]] Json to_json(const Eigen::Vector3d& v, std::size_t dimension);
+/// Normals, shape [n, d]: entries beyond the domain's features are left out.
+[[nodiscard]] Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension);
+/// {"robot": [x, y], "items": [...], "stations": [...], "mdp": n}
+[[nodiscard]] Json start_to_json(const Domain& domain, DemoId id);
+
+}  // namespace kith::cli

@@ -1,0 +1,141 @@
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "json.hpp"
+#include "kith/core/error.hpp"
+
+namespace kith::cli {
+namespace {
+
+constexpr int kInternalError = 1;
+constexpr int kBrokenPipeCode = 141;  // 128 + SIGPIPE
+
+int run(const Options& options, Console& console) {
+  switch (options.command) {
+    case Command::kValidate:
+      return run_validate(options.validate, console);
+    case Command::kInspect:
+      return run_inspect(options.inspect, console);
+    case Command::kTeach:
+      return run_teach(options.teach, console);
+    case Command::kStudy:
+      return run_study(options.study, console);
+    case Command::kDoctor:
+      return run_doctor(console);
+    case Command::kCompletion:
+      return run_completion(options.completion, console);
+    case Command::kVersion:
+      return run_version(console);
+  }
+  return kInternalError;
+}
+
+// How errors without a place in a file are named in JSON.
+const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::kUsage:
+      return "usage";
+    case ErrorKind::kInvalidInput:
+      return "invalid-input";
+    case ErrorKind::kInfeasible:
+      return "infeasible";
+    case ErrorKind::kIo:
+      return "io";
+    case ErrorKind::kPartial:
+      return "partial";
+    case ErrorKind::kMismatch:
+      return "mismatch";
+    case ErrorKind::kBusy:
+      return "busy";
+  }
+  return "internal";
+}
+
+// Without a file or a line, the program itself is the place.
+int report(Console& console, std::vector<Diagnostic> diagnostics, int code) {
+  if (console.json()) {
+    console.print_json(error_document(diagnostics));
+  } else {
+    for (auto& diagnostic : diagnostics) {
+      if (diagnostic.file.empty()) {
+        diagnostic.file = "kith";
+        diagnostic.id.clear();
+      }
+    }
+    console.show(diagnostics);
+  }
+  return code;
+}
+
+Diagnostic diagnostic_of(std::string id, std::string message, std::string hint = {}) {
+  Diagnostic diagnostic;
+  diagnostic.id = std::move(id);
+  diagnostic.message = std::move(message);
+  diagnostic.hint = std::move(hint);
+  return diagnostic;
+}
+
+int report(Console& console, const UsageError& error) {
+  auto hint = error.hint;
+  std::string help{"kith "};
+  if (!error.command.empty()) help.append(error.command).append(" ");
+  help.append("-h");
+  hint += (hint.empty() ? "see `" : " (see `") + help + (hint.empty() ? "`" : "`)");
+  return report(console, {diagnostic_of("usage", error.message, hint)}, static_cast<int>(ErrorKind::kUsage));
+}
+
+int report(Console& console, const Error& error) {
+  auto diagnostics = error.diagnostics();
+  if (diagnostics.empty()) diagnostics.push_back(diagnostic_of(name_of(error.kind()), error.what()));
+  return report(console, std::move(diagnostics), error.exit_code());
+}
+
+int guarded(const std::vector<std::string>& arguments, Console& console) try {
+  const auto command_line = parse_command_line(arguments);
+  if (command_line.error) return report(console, *command_line.error);
+  if (command_line.text) {
+    console.print(*command_line.text);
+    return 0;
+  }
+  console = Console{command_line.options->common};
+  return run(*command_line.options, console);
+} catch (const Error& error) {
+  return report(console, error);
+} catch (const BrokenPipe&) {
+  return kBrokenPipeCode;
+} catch (const std::bad_alloc&) {
+  return report(console, {diagnostic_of("internal", "out of memory")}, kInternalError);
+} catch (const std::exception& error) {
+  const std::string message = std::string{"internal error: "} + error.what();
+  return report(console, {diagnostic_of("internal", message, "this is a bug in kith; please report it")},
+                kInternalError);
+}
+
+// Before the command line is understood, all we know is whether "--json" is on it.
+CommonOptions first_guess(const std::vector<std::string>& arguments) {
+  CommonOptions options;
+  for (const auto& argument : arguments) options.json = options.json || argument == "--json";
+  return options;
+}
+
+}  // namespace
+}  // namespace kith::cli
+
+int main(int argc, char** argv) {
+  kith::cli::watch_signals();
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  kith::cli::Console console{kith::cli::first_guess(arguments)};
+  try {
+    return kith::cli::guarded(arguments, console);
+  } catch (...) {  // not even the complaint could be written
+    return static_cast<int>(kith::ErrorKind::kIo);
+  }
+}

@@ -1,0 +1,74 @@
+#include "progress.hpp"
+
+#include <fmt/core.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace kith::cli {
+namespace {
+
+std::size_t terminal_width() {
+  winsize size = {};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 80;
+  return size.ws_col;
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+  const auto all = static_cast<long>(std::ceil(seconds));
+  if (all < 3600) return fmt::format("{}:{:02}", all / 60, all % 60);
+  return fmt::format("{}:{:02}:{:02}", all / 3600, all / 60 % 60, all % 60);
+}
+
+Progress::Progress(ProgressMode mode, const Console& console) : mode_{mode} {
+  if (mode_ == ProgressMode::kAuto) {
+    mode_ = console.log_is_terminal() ? ProgressMode::kBar : ProgressMode::kNone;
+    lines_ = !console.log_is_terminal();
+    if (console.quiet()) {
+      mode_ = ProgressMode::kNone;
+      lines_ = false;
+    }
+  }
+}
+
+Progress::~Progress() { finish(); }
+
+void Progress::update(std::size_t done, std::size_t total) {
+  if (mode_ == ProgressMode::kNone && !lines_) return;
+  const auto now = Clock::now();
+  const auto interval = mode_ == ProgressMode::kBar    ? std::chrono::milliseconds{100}
+                        : mode_ == ProgressMode::kJson ? std::chrono::milliseconds{1000}
+                                                       : std::chrono::milliseconds{10'000};
+  const bool last = done == total && mode_ == ProgressMode::kJson;
+  if (now - last_ < interval && !last) return;
+  last_ = now;
+  const double elapsed = std::max(1e-6, std::chrono::duration<double>(now - start_).count());
+  const double rate = static_cast<double>(done) / elapsed;
+  const double left = rate > 0.0 ? static_cast<double>(total - done) / rate : 0.0;
+  if (mode_ == ProgressMode::kJson) {
+    fmt::print(stderr, "{{\"t\":{:.1f},\"done\":{},\"total\":{},\"failed\":0,\"eta_s\":{:.0f},\"rate\":{:.1f}}}\n",
+               elapsed, done, total, left, rate);
+  } else if (mode_ == ProgressMode::kBar) {
+    const auto text = fmt::format(" {}/{} teams, {:.0f}/s, {} left", done, total, rate, clock_text(left));
+    const std::size_t width = terminal_width();
+    const std::size_t room = width > text.size() + 4 ? std::min<std::size_t>(40, width - text.size() - 4) : 0;
+    const auto full = room * done / std::max<std::size_t>(total, 1);
+    fmt::print(stderr, "\r[{}{}]{}\033[K", std::string(full, '#'), std::string(room - full, '.'), text);
+    drawn_ = true;
+  } else {
+    fmt::print(stderr, "kith: info: {} of {} teams, about {} left\n", done, total, clock_text(left));
+  }
+  std::fflush(stderr);
+}
+
+void Progress::finish() {
+  if (drawn_) fmt::print(stderr, "\r\033[K");
+  drawn_ = false;
+}
+
+}  // namespace kith::cli

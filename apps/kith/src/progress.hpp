@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "console.hpp"
+
+namespace kith::cli {
+
+/// Shows how far a run is, on standard error: a bar with the time left on a terminal,
+/// else a line every 10 seconds; or one JSON object a second.
+class Progress {
+ public:
+  Progress(ProgressMode mode, const Console& console);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(std::size_t done, std::size_t total);
+  /// Removes the bar.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  ProgressMode mode_;
+  bool lines_ = false;  // neither bar nor JSON: a line now and then
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+  bool drawn_ = false;
+};
+
+/// "1:05" or "2:03:04"; for people who wait.
+[[nodiscard]] std::string clock_text(double seconds);
+
+}  // namespace kith::cli

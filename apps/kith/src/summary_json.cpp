@@ -1,0 +1,55 @@
+#include "summary_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "json.hpp"
+
+namespace kith::cli {
+namespace {
+
+Json to_json(const MeanSd& value) { return {{"mean", value.mean}, {"sd", value.sd ? Json(*value.sd) : Json{}}}; }
+
+Json to_json(const CellSummary& cell, const Study& study) {
+  Json json = Json::object();
+  if (cell.strategy) {
+    json["strategy"] = name_of(*cell.strategy);
+    json["composition"] = cell.composition;
+    for (const auto& factor : study.variants.at(cell.variant).factors) json["factors"][factor.key] = factor.value;
+  }
+  json["teams"] = cell.teams;
+  json["completed"] = cell.completed;
+  json["periods"] = to_json(cell.periods);
+  json["knowledge"] = to_json(cell.knowledge);
+  json["area_sr"] = to_json(cell.area_sr);
+  return json;
+}
+
+}  // namespace
+
+void print_summary(const Study& study, const StudySummary& summary, std::size_t teams, double seconds,
+                   Console& console) {
+  Json cells = Json::array();
+  for (const auto& cell : summary.cells) cells.push_back(to_json(cell, study));
+  Json groups = Json::object();
+  if (summary.group) groups["group"] = to_json(*summary.group, study);
+  if (summary.baseline) groups["baseline"] = to_json(*summary.baseline, study);
+  console.print_json(
+      Json{{"schema", "kith.study/1"}, {"cells", cells}, {"groups", groups}, {"teams", teams}, {"seconds", seconds}});
+}
+
+void print_plan(const Study& study, std::size_t teams, Console& console) {
+  const auto& spec = study.variants.front();
+  Json strategies = Json::array();
+  for (const auto strategy : spec.strategies) strategies.push_back(name_of(strategy));
+  console.print_json(Json{{"schema", "kith.study-plan/1"},
+                     {"id", spec.id},
+                     {"domain", spec.domain},
+                     {"seed", spec.seed},
+                     {"variants", study.variants.size()},
+                     {"strategies", strategies},
+                     {"compositions", spec.compositions},
+                     {"replicates", spec.replicates},
+                     {"teams", teams}});
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "console.hpp"
+#include "kith/study/summary.hpp"
+
+namespace kith::cli {
+
+/// Prints the document kith.study/1: what came out per cell, and pooled.
+void print_summary(const Study& study, const StudySummary& summary, std::size_t teams, double seconds,
+                   Console& console);
+
+/// Prints the document kith.study-plan/1: what would be run.
+void print_plan(const Study& study, std::size_t teams, Console& console);
+
+}  // namespace kith::cli

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "input.hpp"
+#include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/study/run_folder.hpp"
+#include "transcript.hpp"
+#include "transcript_json.hpp"
+
+namespace kith::cli {
+namespace {
+
+// One team, and everything needed to teach it.
+struct Assignment {
+  Domain domain;
+  StudySpec spec;
+  TeamAddress address;
+};
+
+[[noreturn]] void usage(const std::string& message) { throw Error{ErrorKind::kUsage, message}; }
+
+Assignment from_run_folder(const TeachOptions& options) {
+  auto reading = read_run_folder(options.from);
+  if (!reading.study) throw Error{reading.diagnostics};
+  const auto addresses = team_addresses(*reading.study);
+  if (options.team > addresses.size()) {
+    usage(fmt::format("there is no team {}: the study has {}", options.team, addresses.size()));
+  }
+  const auto& address = addresses[options.team - 1];
+  return {*std::move(reading.domain), reading.study->variants[address.variant], address};
+}
+
+Assignment from_options(const TeachOptions& options) {
+  if (options.domain.empty()) usage("kith teach needs a DOMAIN, or --from DIR --team N");
+  if (options.group.empty()) usage("kith teach needs --group, the members' learner types, such as NNP");
+  auto reading = study_of(options.study, options.set);
+  auto spec = reading.study->variants.front();
+  for (const char letter : options.group) {
+    bool known = false;
+    std::string letters;
+    for (const auto& type : spec.learner_types) {
+      known = known || type.letter == letter;
+      letters += (letters.empty() ? "" : ", ") + std::string{type.letter};
+    }
+    if (!known) usage(fmt::format("study '{}' has no learner type '{}', only {}", options.study, letter, letters));
+  }
+  constexpr std::size_t kMaxTeamSize = 30;
+  if (options.group.size() > kMaxTeamSize) usage("a group has at most 30 members");
+  const auto strategy = find_strategy(options.strategy).value();
+  spec.domain = options.domain;
+  spec.seed = options.seed;
+  spec.factors.clear();
+  return {load_domain(options.domain), spec, {0, strategy, options.group, 1, 1}};
+}
+
+}  // namespace
+
+int run_teach(const TeachOptions& options, Console& console) {
+  auto assignment = options.from.empty() ? from_options(options) : from_run_folder(options);
+  const Atlas atlas{std::move(assignment.domain)};
+  const auto transcript = transcribe(atlas, assignment.spec, assignment.address);
+  if (console.json()) {
+    print_transcript(atlas, transcript, console);
+  } else {
+    console.print(to_text(atlas, transcript));
+  }
+  return 0;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "picture.hpp"
+#include "transcript.hpp"
+#include "words.hpp"
+
+namespace kith::cli {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+
+// Writes a transcript from top to bottom.
+class TranscriptWriter {
+ public:
+  TranscriptWriter(const Atlas& atlas, const Transcript& transcript)
+      : atlas_{atlas}, domain_{atlas.domain()}, transcript_{transcript} {}
+
+  std::string text() {
+    header();
+    for (const auto& session : transcript_.sessions) write(session);
+    ending();
+    return std::move(out_);
+  }
+
+ private:
+  void line(const std::string& text = "") { out_ += text + "\n"; }
+
+  void header() {
+    const auto& address = transcript_.address;
+    const auto& spec = transcript_.spec;
+    line(fmt::format("{}: teaching {} by strategy {}", domain_.id(), address.composition, name_of(address.strategy)));
+    line(fmt::format("study {}, seed address {}", spec.id, transcript_.record.seed_address));
+    for (const auto& factor : spec.factors) line("  " + factor.key + " = " + factor.value);
+    line();
+    line("What the robot is paid:");
+    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
+      line(fmt::format("  {:<10} {:>6} for {}", domain_.feature_names()[k], domain_.weights().raw[k],
+                       domain_.feature_words(k)));
+    }
+    line("What makes its policy, and is to be learned:");
+    for (const auto& half_space : atlas_.policy_bec_half_spaces()) line("  " + described(domain_, half_space));
+    for (const auto& half_space : domain_.prior()) line("  " + described(domain_, half_space) + " (known to all)");
+    line();
+    line("The learners:");
+    for (const auto& learner : transcript_.record.learners) {
+      const auto& type = learner_type(spec, learner.type);
+      const auto& p = learner.parameters;
+      line(
+          fmt::format("  member {} ({}, {}): ability {:.4f}, gains {:.4f} confirmed and {:.4f} corrected, at most {}, "
+                      "log-odds x {}",
+                      learner.member, learner.type, type.population.label, p.ability, p.confirm_gain, p.correct_gain,
+                      p.ability_max, p.ability_scale));
+    }
+    line(fmt::format(
+        "The teacher takes everybody's ability to be {}, and imagines {} counterfactuals per demonstration.",
+        spec.teaching.assumed_ability, spec.teaching.counterfactuals));
+  }
+
+  void write(const TranscriptSession& session) {
+    members_ = session.members;
+    if (transcript_.sessions.size() > 1) {
+      line();
+      line(std::string(kWidth, '#'));
+      line(fmt::format("Session of member {} alone", session.members.front()));
+    }
+    skipped_until(session, 0,
+                  session.periods.empty() ? session.components.size() : session.periods.front().lesson.component);
+    for (std::size_t i = 0; i < session.periods.size(); ++i) {
+      write(session.periods[i]);
+      const auto next =
+          i + 1 < session.periods.size() ? session.periods[i + 1].lesson.component : session.components.size();
+      skipped_until(session, session.periods[i].lesson.component + 1, next);
+    }
+    line();
+    const auto learned = std::count(session.components.begin(), session.components.end(), ComponentStatus::kLearned);
+    line(fmt::format(
+        "{} after {} periods: {} of {} knowledge components learned",
+        session.status == SessionStatus::kComplete ? "Complete" : "Stopped at the largest number of periods",
+        session.periods.size(), learned, session.components.size()));
+  }
+
+  void skipped_until(const TranscriptSession& session, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < std::min(last, session.components.size()); ++i) {
+      if (session.components[i] != ComponentStatus::kSkipped) continue;
+      line();
+      line(fmt::format("Knowledge component {} is skipped: the belief has all of it already.", i + 1));
+    }
+  }
+
+  void write(const TranscriptPeriod& period) {
+    const auto& lesson = period.lesson;
+    const auto& component = atlas_.knowledge_components()[lesson.component];
+    line();
+    line(std::string(kWidth, '='));
+    line(fmt::format("Period {}: knowledge component {}, {}", lesson.period, lesson.component + 1, component.name));
+    line("  weighs " + weighed(component) +
+         (component.masked ? ", where there is no " + domain_.feature_names()[*component.masked] : ""));
+    reason(lesson);
+    for (std::size_t i = 0; i < lesson.demonstrations.size(); ++i) demonstration(i + 1, lesson.demonstrations[i]);
+    taught(lesson);
+    for (std::size_t t = 0; t < lesson.tests.size(); ++t) test(period, t);
+    beliefs(period);
+    conclusion(period);
+  }
+
+  [[nodiscard]] std::string weighed(const KnowledgeComponent& component) const {
+    std::string text;
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
+      if (!component.masked || *component.masked != k) names.push_back(domain_.feature_words(k));
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      text += (i == 0 ? "" : i + 1 == names.size() ? " against " : ", ") + names[i];
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string name_of_source(SourceBelief source) const {
+    if (source.kind == SourceBelief::Kind::kCommon) return "the common belief: what all members know";
+    if (source.kind == SourceBelief::Kind::kJoint) return "the joint belief: what somebody knows";
+    return fmt::format("the belief about member {}", members_[source.member]);
+  }
+
+  void reason(const Lesson& lesson) {
+    line("  lesson chosen for " + name_of_source(lesson.source));
+    if (lesson.repeats) {
+      line("  no demonstration adds anything to it: the last lesson of this component is shown again");
+    } else {
+      line(fmt::format("  {} distinct counterfactuals among {} people imagined with it", lesson.counterfactuals.size(),
+                       transcript_.spec.teaching.counterfactuals));
+    }
+  }
+
+  void demonstration(std::size_t number, const Demonstration& shown) {
+    const auto id = atlas_.id(shown.demo);
+    const auto path = atlas_.trajectory(shown.demo);
+    const auto& counts = atlas_.feature_counts(shown.demo);
+    line();
+    line(fmt::format("  Demonstration {}: MDP {}, start {}", number, id.mdp.value(), id.start.value()));
+    out_ += beside({start_picture(domain_, id), path_picture(domain_, id, path)}, 4);
+    line("    " + actions_text(domain_, path.actions));
+    line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), domain_.weights().return_of(counts)));
+    line("    conveys to them:");
+    for (const auto& half_space : shown.half_spaces) line("      " + described(domain_, half_space));
+    line(
+        fmt::format("    chosen because it adds {} new constraint{}, the fewest, and leaves 1/{:.3f} of the taught "
+                    "region, the most gain",
+                    shown.num_new, shown.num_new == 1 ? "" : "s", shown.gain));
+  }
+
+  void taught(const Lesson& lesson) {
+    line();
+    line("  The lesson as a whole:");
+    for (const auto& half_space : lesson.taught) line("    " + described(domain_, half_space));
+    line(fmt::format("    area {:.4f} sr; with all that was taught before {:.4f} sr; log gain {:.4f}", lesson.area_sr,
+                     lesson.running_area_sr, lesson.gain));
+    if (lesson.untested > 0) line(fmt::format("    {} of these constraints cannot be tested", lesson.untested));
+  }
+
+  void test(const TranscriptPeriod& period, std::size_t t) {
+    const auto& asked = period.lesson.tests[t];
+    const auto id = atlas_.id(asked.demo);
+    const auto path = atlas_.trajectory(asked.demo);
+    line();
+    line(fmt::format("  Test {}: MDP {}, start {}; what would the robot do?", t + 1, id.mdp.value(), id.start.value()));
+    out_ += beside({start_picture(domain_, id), path_picture(domain_, id, path)}, 4);
+    line("    the robot: " + actions_text(domain_, path.actions) + " (" +
+         counts_text(domain_, atlas_.feature_counts(asked.demo)) + ")");
+    for (const auto& half_space : asked.covered) {
+      line("    tests " + described(domain_, half_space) + (asked.exact ? "" : " (the nearest that can be asked)"));
+    }
+    for (std::size_t i = 0; i < members_.size(); ++i) answer(period, t, i);
+  }
+
+  void answer(const TranscriptPeriod& period, std::size_t t, std::size_t i) {
+    const auto& verdict = period.feedback.verdicts[i][t];
+    const auto& response = period.responses[i];
+    if (t >= response.answers.size() || !response.answers[t]) {
+      line(fmt::format("    member {}: no answer", members_[i]));
+      return;
+    }
+    const auto& counts = *response.answers[t];
+    const auto demo = period.lesson.tests[t].demo;
+    const auto path = response.weights ? path_of_answer(atlas_, demo, counts, *response.weights) : std::nullopt;
+    const auto described_path = path ? actions_text(domain_, path->actions) + " (" + counts_text(domain_, counts) + ")"
+                                     : counts_text(domain_, counts);
+    line(fmt::format("    member {}: {}, {}", members_[i],
+                     verdict.correct ? "right" : fmt::format("wrong, regret {:.4f}", verdict.regret), described_path));
+    for (const auto& half_space : verdict.half_spaces)
+      line("      suggests to the teacher that they think " + described(domain_, half_space));
+  }
+
+  void beliefs(const TranscriptPeriod& period) {
+    line();
+    line("  Beliefs: mass in the policy's class, mass in the lesson's region, effective sample size");
+    line(fmt::format("    {:<22} {:>17} {:>17} {:>15}", "", "class", "lesson", "sample size"));
+    for (std::size_t i = 0; i < period.before.own.size(); ++i)
+      belief_row("own, ", period.before.own[i], period.after.own[i]);
+    for (std::size_t i = 0; i < period.before.teacher.size(); ++i) {
+      belief_row("teacher's, ", period.before.teacher[i], period.after.teacher[i]);
+    }
+  }
+
+  void belief_row(const std::string& kind, const BeliefFigures& before, const BeliefFigures& after) {
+    line(fmt::format("    {:<22} {:>7.4f} -> {:.4f}  {:>7.4f} -> {:.4f} {:>6.0f} -> {:<6.0f}", kind + before.whose,
+                     before.p_bec, after.p_bec, before.p_taught, after.p_taught, before.ess, after.ess));
+    out_.erase(out_.find_last_not_of(" \n") + 1);
+    line();
+  }
+
+  void conclusion(const TranscriptPeriod& period) {
+    line();
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      line(fmt::format("  Member {}: ability {:.4f} -> {:.4f} ({})", members_[i], period.before.abilities[i],
+                       period.after.abilities[i], period.feedback.all_correct[i] ? "all answers right" : "corrected"));
+    }
+    for (const auto member : period.feedback.excluded) {
+      line(fmt::format("  Member {} is left out of the common belief this time: the answers conflict",
+                       members_[member]));
+    }
+    const bool all = std::all_of(period.feedback.all_correct.begin(), period.feedback.all_correct.end(),
+                                 [](bool right) { return right; });
+    const auto& name = atlas_.knowledge_components()[period.lesson.component].name;
+    if (period.feedback.component_learned) {
+      line("  Learned: " + name + ", since everybody answered everything right");
+    } else {
+      line("  " + name + " is not learned yet" +
+           (all ? ": it takes more periods in a row with all answers right" : ""));
+    }
+  }
+
+  void ending() {
+    const auto& record = transcript_.record;
+    line();
+    line(std::string(kWidth, '='));
+    line(fmt::format("In all: {} periods, {} demonstrations, {} tests; {}", record.periods, record.demonstrations,
+                     record.tests, record.completed ? "everything learned or known" : "not everything learned"));
+    for (const auto& learner : record.learners) {
+      line(fmt::format("  member {}: final belief {:.4f} in the policy's class, {} of {} answers right", learner.member,
+                       learner.p_bec, learner.correct, learner.tests));
+    }
+    line(fmt::format("  knowledge of the team: {:.4f}, of the weakest member {:.4f}", record.knowledge,
+                     record.knowledge_min));
+  }
+
+  const Atlas& atlas_;
+  const Domain& domain_;
+  const Transcript& transcript_;
+  std::vector<std::size_t> members_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string to_text(const Atlas& atlas, const Transcript& transcript) {
+  return TranscriptWriter{atlas, transcript}.text();
+}
+
+}  // namespace kith::cli

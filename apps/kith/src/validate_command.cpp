@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "input.hpp"
+#include "json.hpp"
+#include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/study/study_file.hpp"
+#include "kith/toml/document.hpp"
+
+namespace kith::cli {
+namespace {
+
+struct Verdict {
+  std::string kind;  // "domain" or "study"
+  std::string id;
+  std::string content;  // what it holds, for people
+  std::vector<Diagnostic> diagnostics;
+};
+
+Verdict check_domain(const InputText& input) {
+  const auto reading = parse_domain(input.text, input.name);
+  Verdict verdict{"domain", "", "", reading.diagnostics};
+  if (reading.domain) {
+    verdict.id = reading.domain->id();
+    verdict.content = fmt::format("{} MDPs, {} start states", reading.domain->num_mdps(), reading.domain->num_starts());
+  }
+  return verdict;
+}
+
+Verdict check_study(const InputText& input) {
+  const auto reading = parse_study(input.text, input.name, {{}, input.folder});
+  Verdict verdict{"study", "", "", reading.diagnostics};
+  if (reading.study) {
+    verdict.id = reading.study->variants.front().id;
+    verdict.content = fmt::format("{} teams in {}", team_addresses(*reading.study).size(), reading.domain->id());
+  }
+  return verdict;
+}
+
+Verdict check(const std::string& file) {
+  const auto input = read_input(file);
+  const auto parsing = parse_toml(input.text, input.name);
+  if (!parsing.document) return {"", "", "", parsing.diagnostics};
+  const auto* schema = parsing.document->root.find("schema");
+  const std::string name = schema != nullptr && schema->string() != nullptr ? *schema->string() : "";
+  if (name.rfind("kith.domain/", 0) == 0) return check_domain(input);
+  if (name.rfind("kith.study/", 0) == 0) return check_study(input);
+  Diagnostic unknown;
+  unknown.id = "E0400";
+  unknown.file = input.name;
+  if (schema != nullptr) {
+    unknown.line = schema->place().line;
+    unknown.column = schema->place().column;
+    unknown.length = schema->place().length;
+    unknown.source_line = std::string{parsing.document->sources.front().line(unknown.line)};
+  }
+  unknown.message = schema == nullptr ? "key 'schema' is missing, so it is unknown what kind of file this is"
+                                      : "this is neither a domain nor a study file";
+  unknown.hint = "the first key is schema = \"kith.domain/1\" or \"kith.study/1\"";
+  return {"", "", "", {unknown}};
+}
+
+}  // namespace
+
+int run_validate(const ValidateOptions& options, Console& console) {
+  std::vector<Diagnostic> all;
+  Json files = Json::array();
+  std::string text;
+  for (const auto& file : options.files) {
+    auto verdict = check(file);
+    Json warnings = Json::array();
+    for (auto& diagnostic : verdict.diagnostics) {
+      if (options.strict) diagnostic.severity = Severity::kError;
+      if (diagnostic.severity == Severity::kWarning) warnings.push_back(to_json(diagnostic));
+    }
+    files.push_back({{"file", file}, {"kind", verdict.kind}, {"id", verdict.id}, {"warnings", warnings}});
+    if (!has_errors(verdict.diagnostics)) {
+      text += fmt::format("{}: {} '{}' is valid ({})\n", file, verdict.kind, verdict.id, verdict.content);
+    }
+    all.insert(all.end(), verdict.diagnostics.begin(), verdict.diagnostics.end());
+  }
+  if (console.json()) {
+    if (has_errors(all)) throw Error{all};
+    console.print_json(Json{{"schema", "kith.validate/1"}, {"files", files}});
+    return 0;
+  }
+  if (!console.quiet()) console.print(text);
+  if (has_errors(all)) throw Error{all};
+  console.show(all);
+  return 0;
+}
+
+}  // namespace kith::cli

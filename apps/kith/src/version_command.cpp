@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+#include <oneapi/tbb/version.h>
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "json.hpp"
+#include "kith_build_info.hpp"
+#include "libraries.hpp"
+
+namespace kith::cli {
+
+std::vector<Library> library_versions() {
+  return {{"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"oneTBB", TBB_runtime_version()},
+          {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                        NLOHMANN_JSON_VERSION_PATCH)},
+          {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+          {"CLI11", CLI11_VERSION}};
+}
+
+int run_version(Console& console) {
+  using namespace build_info;
+  if (!console.json()) {
+    console.print(
+        fmt::format("kith {} ({}{}, {}, {})\n", kVersion, kGitId, kGitDirty ? ", changed" : "", kCompiler, kBuildType));
+    return 0;
+  }
+  Json libraries = Json::object();
+  for (const auto& library : library_versions()) libraries[library.name] = library.version;
+  console.print_json(Json{{"schema", "kith.version/1"},
+                     {"version", kVersion},
+                     {"git", kGitId},
+                     {"dirty", kGitDirty},
+                     {"compiler", kCompiler},
+                     {"build_type", kBuildType},
+                     {"flags", kFlags},
+                     {"libraries", libraries}});
+  return 0;
+}
+
+}  // namespace kith::cli

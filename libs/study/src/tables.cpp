@@ -1,0 +1,227 @@
+#include "kith/study/tables.hpp"
+
+#include "kith/table/codebook.hpp"
+#include "kith/table/csv_writer.hpp"
+
+namespace kith {
+namespace {
+
+constexpr auto kText = ColumnType::kText;
+constexpr auto kInteger = ColumnType::kInteger;
+constexpr auto kReal = ColumnType::kReal;
+constexpr auto kBoolean = ColumnType::kBoolean;
+
+Column column(std::string name, ColumnType type, std::string description, std::string unit = "") {
+  return {std::move(name), type, std::move(description), std::move(unit), true};
+}
+Column optional_column(std::string name, ColumnType type, std::string description) {
+  return {std::move(name), type, std::move(description), "", false};
+}
+
+using Columns = std::vector<Column>;
+
+// What every table begins with: where a team stands in the design.
+Columns team_keys(const Study& study) {
+  Columns columns{column("strategy", kText, "How the team was taught."),
+                  column("composition", kText, "The members' learner types, one letter each.")};
+  for (const auto& factor : study.variants.front().factors) {
+    columns.push_back(column(factor.key, kText, "Setting of this key of the study file, which varies in the study."));
+  }
+  columns.push_back(column("replicate", kInteger, "Number of the team in its cell, from 1."));
+  columns.push_back(column("team", kInteger, "Number of the team in the study, from 1."));
+  return columns;
+}
+
+Columns operator+(Columns keys, const Columns& rest) {
+  keys.insert(keys.end(), rest.begin(), rest.end());
+  return keys;
+}
+
+Columns team_columns() {
+  return {column("seed_address", kText, "Address of the team's random numbers: seed/composition/replicate."),
+          column("status", kText, "'complete', or 'max_periods' if teaching stopped before all was learned."),
+          column("completed", kBoolean, "Whether every knowledge component was learned or had nothing to teach."),
+          column("periods", kInteger, "Interaction periods; for the baseline the sum over members."),
+          column("demonstrations", kInteger, "Demonstrations shown, in all periods."),
+          column("tests", kInteger, "Tests asked, in all periods; each of them of every member."),
+          column("knowledge", kReal,
+                 "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."),
+          column("knowledge_min", kReal, "The smallest of these masses."),
+          column("kcs_learned", kInteger, "Knowledge components learned; for the baseline the sum over members."),
+          column("kcs_skipped", kInteger, "Knowledge components in which nothing was left to teach."),
+          column("area_sr", kReal, "Mean over periods of the area in periods.csv.", "sr")};
+}
+
+Columns learner_columns() {
+  return {column("member", kInteger, "Number of the member, from 1."),
+          column("type", kText, "Letter of the learner type."),
+          column("ability", kReal, "Ability at the start of every knowledge component."),
+          column("confirm_gain", kReal, "Gain of ability after a period with all answers right."),
+          column("correct_gain", kReal, "Gain of ability after a period with a wrong answer."),
+          column("p_bec", kReal, "Mass of the final belief in the policy's behaviour equivalence class."),
+          column("periods", kInteger, "Periods the member took part in."),
+          column("tests", kInteger, "Tests the member was asked."),
+          column("correct", kInteger, "Tests answered correctly.")};
+}
+
+Columns period_columns() {
+  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
+          column("kc", kInteger, "Number of the knowledge component, from 1."),
+          column("source", kText, "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."),
+          column("demonstrations", kInteger, "Demonstrations shown."),
+          column("area_sr", kReal, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"),
+          column("running_area_sr", kReal, "The same for all that was taught so far.", "sr"),
+          column("tests", kInteger, "Tests asked of every member."),
+          column("all_correct", kBoolean, "Whether every member answered every test correctly."),
+          column("excluded", kInteger, "Members left out of the common belief because their answers conflict."),
+          column("untested", kInteger, "Taught constraints that nothing can test."),
+          column("gain", kReal, "Logarithm of the taught region's area before over after the lesson."),
+          column("p_bec_common", kReal, "Mass of the teacher's common belief in the policy's class, afterwards."),
+          column("p_bec_joint", kReal, "Mass of the teacher's joint belief in the policy's class, afterwards.")};
+}
+
+Columns response_columns() {
+  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
+          column("kc", kInteger, "Number of the knowledge component, from 1."),
+          column("test", kInteger, "Number of the test in the period, from 1."),
+          column("member", kInteger, "Number of the member, from 1."),
+          column("mdp", kInteger, "Number of the MDP of the test, from 0."),
+          column("start", kInteger, "Number of the start state in the MDP, from 0."),
+          column("correct", kBoolean, "Whether the answer is as good as the robot's path."),
+          optional_column("regret", kReal,
+                          "Return of the robot's path minus that of the answer; missing without an answer."),
+          optional_column("answer", kText, "Feature counts of the answer, separated by blanks; missing without one."),
+          column("constraint", kText,
+                 "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'.")};
+}
+
+std::vector<TableDescription> descriptions(const Study& study) {
+  const auto keys = team_keys(study);
+  return {
+      {"teams.csv", "One row per team.", keys + team_columns()},
+      {"learners.csv", "One row per member of a team.", keys + learner_columns()},
+      {"periods.csv", "One row per interaction period; none if only teams are recorded.", keys + period_columns()},
+      {"responses.csv", "One row per member and test; none if only teams are recorded.", keys + response_columns()}};
+}
+
+std::int64_t count(std::size_t n) { return static_cast<std::int64_t>(n); }
+
+std::string blank_separated(const IntegerVector& v) {
+  std::string text;
+  for (const auto entry : v) text += (text.empty() ? "" : " ") + std::to_string(entry);
+  return text;
+}
+
+std::string text_of(const std::vector<HalfSpace>& half_spaces) {
+  std::string text;
+  for (const auto& half_space : half_spaces) text += (text.empty() ? "" : ";") + blank_separated(half_space.normal());
+  return text;
+}
+
+class Tables {
+ public:
+  Tables(const Study& study, const TableSink& sink) : study_{study} {
+    for (auto& table : descriptions(study)) {
+      writers_.emplace_back(std::move(table.columns),
+                            [sink, file = table.file](std::string_view piece) { sink(file, piece); });
+    }
+  }
+
+  void add(const TeamRecord& team) {
+    add_team(team);
+    for (const auto& learner : team.learners) add_learner(team, learner);
+    for (const auto& period : team.period_records) add_period(team, period);
+    for (const auto& response : team.responses) add_response(team, response);
+  }
+
+  void flush() {
+    for (auto& writer : writers_) writer.flush();
+  }
+
+ private:
+  CsvWriter& begin_row(std::size_t table, const TeamAddress& address) {
+    auto& writer = writers_[table];
+    writer.text(name_of(address.strategy)).text(std::string_view{address.composition});
+    for (const auto& factor : study_.variants.at(address.variant).factors) writer.text(std::string_view{factor.value});
+    return writer.integer(count(address.replicate)).integer(count(address.team));
+  }
+
+  void add_team(const TeamRecord& team) {
+    begin_row(0, team.address)
+        .text(std::string_view{team.seed_address})
+        .text(std::string_view{team.completed ? "complete" : "max_periods"})
+        .boolean(team.completed)
+        .integer(count(team.periods))
+        .integer(count(team.demonstrations))
+        .integer(count(team.tests))
+        .real(team.knowledge)
+        .real(team.knowledge_min)
+        .integer(count(team.components_learned))
+        .integer(count(team.components_skipped))
+        .real(team.area_sr)
+        .end_row();
+  }
+
+  void add_learner(const TeamRecord& team, const LearnerRecord& learner) {
+    begin_row(1, team.address)
+        .integer(count(learner.member))
+        .text(std::string_view{&learner.type, 1})
+        .real(learner.parameters.ability)
+        .real(learner.parameters.confirm_gain)
+        .real(learner.parameters.correct_gain)
+        .real(learner.p_bec)
+        .integer(count(learner.periods))
+        .integer(count(learner.tests))
+        .integer(count(learner.correct))
+        .end_row();
+  }
+
+  void add_period(const TeamRecord& team, const PeriodRecord& period) {
+    begin_row(2, team.address)
+        .integer(count(period.period))
+        .integer(count(period.component))
+        .text(std::string_view{period.source})
+        .integer(count(period.demonstrations))
+        .real(period.area_sr)
+        .real(period.running_area_sr)
+        .integer(count(period.tests))
+        .boolean(period.all_correct)
+        .integer(count(period.excluded))
+        .integer(count(period.untested))
+        .real(period.gain)
+        .real(period.p_bec_common)
+        .real(period.p_bec_joint)
+        .end_row();
+  }
+
+  void add_response(const TeamRecord& team, const ResponseRecord& response) {
+    const auto answer = response.answer ? std::optional{blank_separated(*response.answer)} : std::nullopt;
+    begin_row(3, team.address)
+        .integer(count(response.period))
+        .integer(count(response.component))
+        .integer(count(response.test))
+        .integer(count(response.member))
+        .integer(count(response.mdp))
+        .integer(count(response.start))
+        .boolean(response.correct)
+        .real(response.regret)
+        .text_or_missing(answer)
+        .text(std::string_view{text_of(response.constraints)})
+        .end_row();
+  }
+
+  const Study& study_;
+  std::vector<CsvWriter> writers_;  // in the order of descriptions()
+};
+
+}  // namespace
+
+void write_study_tables(const Study& study, std::span<const TeamRecord> teams, const TableSink& sink) {
+  Tables tables{study, sink};
+  for (const auto& team : teams) tables.add(team);
+  tables.flush();
+}
+
+std::string study_codebook(const Study& study) { return codebook(descriptions(study)); }
+
+}  // namespace kith
