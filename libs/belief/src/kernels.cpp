@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "kith/core/vector_clones.hpp"
+
 namespace kith::detail {
 namespace {
 
@@ -93,7 +95,8 @@ std::vector<Plane> planes_of(std::span<const HalfSpace> half_spaces, const HalfS
   return planes;
 }
 
-void log_relative_products(const Points& points, std::span<const Plane> planes, std::span<double> out) {
+KITH_VECTOR_CLONES void log_relative_products(const Points& points, std::span<const Plane> planes,
+                                              std::span<double> out) {
   const std::size_t n = points.size();
   const double* const x = points.x.data();
   const double* const y = points.y.data();
@@ -110,7 +113,7 @@ void log_relative_products(const Points& points, std::span<const Plane> planes, 
   }
 }
 
-double exp_below(std::span<const double> in, double shift, std::span<double> out) {
+KITH_VECTOR_CLONES double exp_below(std::span<const double> in, double shift, std::span<double> out) {
   const std::size_t n = in.size();
   const double* const from = in.data();
   double* const to = out.data();
@@ -139,7 +142,7 @@ double largest(std::span<const double> values) {
   return *std::max_element(lane.begin(), lane.end());
 }
 
-Eigen::Vector3d weighted_sum(const Points& points, std::span<const double> weights) {
+KITH_VECTOR_CLONES Eigen::Vector3d weighted_sum(const Points& points, std::span<const double> weights) {
   const double* const w = weights.data();
   const auto along = [&](std::span<const double> axis) {
     const double* const c = axis.data();
@@ -148,11 +151,15 @@ Eigen::Vector3d weighted_sum(const Points& points, std::span<const double> weigh
   return {along(points.x), along(points.y), along(points.z)};
 }
 
-double weighted_square_angles(const Points& points, std::span<const double> weights, const Eigen::Vector3d& centre) {
+KITH_VECTOR_CLONES double weighted_square_angles(const Points& points, std::span<const double> weights,
+                                                 const Eigen::Vector3d& centre) {
   const double cx = centre.x();
   const double cy = centre.y();
   const double cz = centre.z();
+  std::array<double, kBlock> half_chord;  // sin^2(angle / 2), from the chord: accurate for small angles
   std::array<double, kBlock> square;
+  double* const v = half_chord.data();
+  double* const out = square.data();
   double total = 0.0;
   for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
     const std::size_t n = std::min(kBlock, points.size() - begin);
@@ -160,23 +167,23 @@ double weighted_square_angles(const Points& points, std::span<const double> weig
     const double* const y = points.y.data() + begin;
     const double* const z = points.z.data() + begin;
     const double* const w = weights.data() + begin;
-    double* const out = square.data();
     for (std::size_t i = 0; i < n; ++i) {
-      // v = sin^2(angle / 2) from the chord, which is accurate for small angles.
-      const double v = 0.25 * ((x[i] - cx) * (x[i] - cx) + (y[i] - cy) * (y[i] - cy) + (z[i] - cz) * (z[i] - cz));
-      const double rest = 1.0 - v;
-      const bool wide = v > 0.5;
-      const double folded = wide ? (rest < 0.0 ? 0.0 : rest) : v;
-      const double half_square = folded * square_arcsine_ratio(folded);
-      const double supplement = std::numbers::pi - 2.0 * std::sqrt(half_square);
-      out[i] = wide ? supplement * supplement : 4.0 * half_square;
+      v[i] = 0.25 * ((x[i] - cx) * (x[i] - cx) + (y[i] - cy) * (y[i] - cy) + (z[i] - cz) * (z[i] - cz));
+      out[i] = 4.0 * v[i] * square_arcsine_ratio(v[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {  // angles beyond a right angle, which are few: from the supplement
+      if (!(v[i] > 0.5)) continue;
+      const double rest = std::max(0.0, 1.0 - v[i]);
+      const double angle = std::numbers::pi - 2.0 * std::sqrt(rest * square_arcsine_ratio(rest));
+      out[i] = angle * angle;
     }
     total += lane_sum(n, [out, w](std::size_t i) { return w[i] * out[i]; });
   }
   return total;
 }
 
-double weight_inside(const Points& points, std::span<const double> weights, std::span<const HalfSpace> half_spaces) {
+KITH_VECTOR_CLONES double weight_inside(const Points& points, std::span<const double> weights,
+                                        std::span<const HalfSpace> half_spaces) {
   std::array<double, kBlock> inside;
   double total = 0.0;
   for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,24 @@ struct Plane {
 // out[i] = the exponent of point i, summed over the planes: the log of the
 // product of relative likelihoods.
 void log_relative_products(const Points& points, std::span<const Plane> planes, std::span<double> out);
+
+// The small loops of the filter: without the checks of operator[].
+inline void add(std::span<const double> term, std::span<double> sum) {
+  const double* const from = term.data();
+  double* const to = sum.data();
+  for (std::size_t i = 0; i < sum.size(); ++i) to[i] += from[i];
+}
+inline void raise(std::span<const double> to_at_least, std::span<double> values) {
+  const double* const from = to_at_least.data();
+  double* const to = values.data();
+  for (std::size_t i = 0; i < values.size(); ++i) to[i] = from[i] > to[i] ? from[i] : to[i];
+}
+inline void gather(std::span<const double> values, std::span<const std::uint32_t> index, std::span<double> out) {
+  const double* const from = values.data();
+  const std::uint32_t* const at = index.data();
+  double* const to = out.data();
+  for (std::size_t i = 0; i < out.size(); ++i) to[i] = from[at[i]];
+}
 
 // out[i] = exp(in[i] - shift) for in[i] <= shift, with 0 below exp(-708);
 // relative error below 1e-15. Returns the sum.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kernels.hpp"
+#include "kith/core/vector_clones.hpp"
 #include "kith/random/batch_normal.hpp"
 #include "kith/random/distributions.hpp"
 
@@ -47,11 +48,16 @@ struct Moves {
 
 // Series of cos(sqrt q) and sin(sqrt q) / sqrt q, accurate to 3e-16 for q <= 1;
 // longer steps are mended afterwards.
-void move_block(const MutablePoints& points, std::size_t begin, std::size_t n, double angle, const double* along,
-                const double* across, Moves& out) {
+KITH_VECTOR_CLONES void move_block(const MutablePoints& points, std::size_t begin, std::size_t n, double angle,
+                                   const double* along, const double* across, Moves& out) {
   const double* const px = points.x.data() + begin;
   const double* const py = points.y.data() + begin;
   const double* const pz = points.z.data() + begin;
+  double* const to_x = out.x.data();
+  double* const to_y = out.y.data();
+  double* const to_z = out.z.data();
+  double* const square = out.square.data();
+  KITH_INDEPENDENT_LOOP
   for (std::size_t i = 0; i < n; ++i) {
     const double s = angle * along[i];
     const double t = angle * across[i];
@@ -77,7 +83,7 @@ void move_block(const MutablePoints& points, std::size_t begin, std::size_t n, d
     const double x = px[i];
     const double y = py[i];
     const double z = pz[i];
-    const double sign = std::copysign(1.0, z);
+    const double sign = z < 0.0 ? -1.0 : 1.0;
     const double a = -1.0 / (sign + z);
     const double b = x * y * a;
     const double mx = c * x + f * ((1.0 + sign * x * x * a) * s + b * t);
@@ -85,23 +91,28 @@ void move_block(const MutablePoints& points, std::size_t begin, std::size_t n, d
     const double mz = c * z - f * (sign * x * s + y * t);
     // One step of Newton's iteration for 1 / |m| keeps rounding from building up over many moves.
     const double scale = 1.5 - 0.5 * (mx * mx + my * my + mz * mz);
-    out.x[i] = mx * scale;
-    out.y[i] = my * scale;
-    out.z[i] = mz * scale;
-    out.square[i] = q;
+    to_x[i] = mx * scale;
+    to_y[i] = my * scale;
+    to_z[i] = mz * scale;
+    square[i] = q;
   }
 }
 
 // The smallest margin of each proposed point over the normals.
-void least_margins(const Moves& moves, std::size_t n, std::span<const Eigen::Vector3d> normals, Block& margin) {
+KITH_VECTOR_CLONES void least_margins(const Moves& moves, std::size_t n, std::span<const Eigen::Vector3d> normals,
+                                      Block& margin) {
   std::fill_n(margin.begin(), n, 1.0);
+  const double* const x = moves.x.data();
+  const double* const y = moves.y.data();
+  const double* const z = moves.z.data();
+  double* const least = margin.data();
   for (const Eigen::Vector3d& u : normals) {
     const double ux = u.x();
     const double uy = u.y();
     const double uz = u.z();
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = ux * moves.x[i] + uy * moves.y[i] + uz * moves.z[i];
-      margin[i] = t < margin[i] ? t : margin[i];
+      const double t = ux * x[i] + uy * y[i] + uz * z[i];
+      least[i] = t < least[i] ? t : least[i];
     }
   }
 }

@@ -68,14 +68,14 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
     detail::log_relative_products({x_, y_, z_}, detail::planes_of(alternatives[a], likelihood),
                                   a == 0 ? best : factors);
     if (a == 0) continue;
-    for (std::size_t i = 0; i < best.size(); ++i) best[i] = factors[i] > best[i] ? factors[i] : best[i];
+    detail::raise(factors, best);
   }
   reweigh(std::move(best), random);
 }
 
 // `factors` becomes the new log weights; nothing else changes before it is sure that some particle remains.
 void ParticleBelief::reweigh(std::vector<double> factors, RandomStream random) {
-  for (std::size_t i = 0; i < factors.size(); ++i) factors[i] += log_weights_[i];
+  detail::add(log_weights_, factors);
   const double top = detail::largest(factors);
   if (!(top > -std::numeric_limits<double>::infinity())) {
     throw Error{ErrorKind::kInfeasible,
@@ -101,7 +101,7 @@ void ParticleBelief::resample(RandomStream& random) {
   const auto index = detail::systematic_indices(weights_, size(), uniform01(random));
   std::vector<double> drawn(size());
   for (auto* axis : {&x_, &y_, &z_}) {
-    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = (*axis)[index[i]];
+    detail::gather(*axis, index, drawn);
     axis->swap(drawn);
   }
   std::fill(log_weights_.begin(), log_weights_.end(), 0.0);
@@ -128,7 +128,7 @@ double ParticleBelief::log_evidence(std::span<const HalfSpace> half_spaces,
   const double near = static_cast<double>(half_spaces.size()) * likelihood.log_density(0.0);
   std::vector<double> factors(size());
   detail::log_relative_products({x_, y_, z_}, detail::planes_of(half_spaces, likelihood), factors);
-  for (std::size_t i = 0; i < factors.size(); ++i) factors[i] += log_weights_[i];
+  detail::add(log_weights_, factors);
   const double top = detail::largest(factors);
   if (!(top > -std::numeric_limits<double>::infinity())) return top;
   const double sum = detail::exp_below(factors, top, factors);

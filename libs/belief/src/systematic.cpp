@@ -1,39 +1,68 @@
 #include "systematic.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "kith/belief/particle_belief.hpp"
+#include "kith/core/vector_clones.hpp"
 
 namespace kith {
 namespace detail {
+namespace {
+
+// k + u < scale C has ceil(scale C - u) solutions k >= 0, of which `most` count.
+KITH_VECTOR_CLONES void count_below(std::span<const double> cumulative, double scale, double u, double most,
+                                    std::span<std::uint32_t> ends) {
+  const double* const c = cumulative.data();
+  std::uint32_t* const out = ends.data();
+  for (std::size_t i = 0; i < cumulative.size(); ++i) {
+    const double below = std::ceil(c[i] * scale - u);
+    out[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(below < most ? below : most));
+  }
+}
+
+// below[i] = weights[0] + ... + weights[i], four at a time to shorten the chain of
+// additions; returns the sum. On its own, so that the running sum stays in a register.
+[[gnu::noinline]] double cumulate(std::span<const double> weights, std::span<double> below) {
+  const double* const w = weights.data();
+  double* const out = below.data();
+  double sum = 0.0;
+  std::size_t i = 0;
+  for (; i + 4 <= weights.size(); i += 4) {
+    const double two = w[i] + w[i + 1];
+    const double three = two + w[i + 2];
+    const double four = two + (w[i + 2] + w[i + 3]);
+    out[i] = sum + w[i];
+    out[i + 1] = sum + two;
+    out[i + 2] = sum + three;
+    out[i + 3] = sum = sum + four;
+  }
+  for (; i < weights.size(); ++i) out[i] = sum += w[i];
+  return sum;
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> systematic_ends(std::span<const double> weights, std::size_t n, double u) {
   if (!(u >= 0.0 && u < 1.0)) throw std::invalid_argument("systematic_counts: the offset must lie in [0, 1)");
   if (n > std::numeric_limits<std::int32_t>::max()) throw std::invalid_argument("systematic_counts: too many draws");
+  const double* const weight = weights.data();
+  std::uint64_t signs = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) signs |= std::bit_cast<std::uint64_t>(weight[i]);
+  const bool negative =
+      (signs >> 63) != 0 && std::any_of(weights.begin(), weights.end(), [](double w) { return w < 0.0; });
   std::vector<double> cumulative(weights.size());
-  double sum = 0.0;
-  std::size_t last = 0;
-  bool negative = false;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    negative |= weights[i] < 0.0;
-    sum += weights[i];
-    cumulative[i] = sum;
-    last = weights[i] > 0.0 ? i : last;
-  }
+  const double sum = cumulate(weights, cumulative);
   if (negative || !(sum > 0.0 && std::isfinite(sum))) {
     throw std::invalid_argument("systematic_counts: the weights must be >= 0 with a positive, finite sum");
   }
-  const auto count = static_cast<double>(n);
-  const double scale = count / sum;
+  std::size_t last = weights.size() - 1;
+  while (weight[last] == 0.0) --last;
   std::vector<std::uint32_t> ends(weights.size());
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    // k + u < n C has ceil(n C - u) solutions k >= 0.
-    const double below = std::ceil(cumulative[i] * scale - u);
-    ends[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(below < count ? below : count));
-  }
+  count_below(cumulative, static_cast<double>(n) / sum, u, static_cast<double>(n), ends);
   std::fill(ends.begin() + static_cast<std::ptrdiff_t>(last), ends.end(), static_cast<std::uint32_t>(n));
   return ends;
 }
@@ -44,12 +73,15 @@ std::vector<std::uint32_t> systematic_indices(std::span<const double> weights, s
   // place only the last has draws. A running maximum fills the rest.
   std::vector<std::uint32_t> index(n + 1, 0);
   std::uint32_t begin = 0;
+  std::uint32_t* const at = index.data();  // unchecked, for speed
+  const std::uint32_t* const end = ends.data();
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    index[begin] = static_cast<std::uint32_t>(i);
-    begin = ends[i];
+    at[begin] = static_cast<std::uint32_t>(i);
+    begin = end[i];
   }
   index.pop_back();
-  for (std::size_t k = 1; k < n; ++k) index[k] = std::max(index[k], index[k - 1]);
+  std::uint32_t current = 0;
+  for (std::size_t k = 0; k < n; ++k) at[k] = current = std::max(at[k], current);
   return index;
 }
 

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "kith/core/vector_clones.hpp"
+
 namespace kith {
 namespace {
 
@@ -36,7 +38,7 @@ void fill_words(std::uint64_t first, const r123::Philox4x32::key_type& key, Word
 
 // sqrt(-2 ln u) at u = (word + 1/2) / 2^32. With u = 2^e m and sqrt(1/2) <= m < sqrt(2),
 // ln m = 2 artanh(s) for s = (m - 1) / (m + 1), |s| < 0.172.
-void radii(const Words& words, Doubles& out) noexcept {
+KITH_VECTOR_CLONES void radii(const Words& words, Doubles& out) noexcept {
   for (std::size_t i = 0; i < kBlock; ++i) {
     const double u = (to_double(words[i]) + 0.5) * 0x1.0p-32;
     // Subtracting the bits of sqrt(1/2) makes the exponent field count from there.
@@ -63,7 +65,7 @@ void radii(const Words& words, Doubles& out) noexcept {
 
 // cos and sin of an angle that is uniform on the circle: the upper two bits choose
 // the quadrant, the rest an angle a in (-pi/4, pi/4) about its axis.
-void directions(const Words& words, Doubles& cosine, Doubles& sine) noexcept {
+KITH_VECTOR_CLONES void directions(const Words& words, Doubles& cosine, Doubles& sine) noexcept {
   for (std::size_t i = 0; i < kBlock; ++i) {
     const double a = (to_double(words[i] & 0x3FFFFFFFu) + (0.5 - 0x1.0p29)) * (0.5 * std::numbers::pi * 0x1.0p-30);
     const double q = a * a;
