@@ -154,7 +154,7 @@ class Inspection {
       out_ += fmt::format("  start {}: {} ({}, return {:.4f}{})\n", i, actions_text(domain_, path.actions),
                           counts_text(domain_, counts), domain_.weights().return_of(counts),
                           atlas_.is_unique(demo) ? "" : ", not the only best path");
-      out_ += beside({start_picture(domain_, atlas_.id(demo)), path_picture(domain_, atlas_.id(demo), path)}, 4);
+      out_ += start_and_path(domain_, atlas_.id(demo), path, 4);
       constraints(atlas_.constraints().half_spaces(atlas_.one_step(demo)), "    ");
     }
     note_cut(n);
@@ -169,7 +169,7 @@ class Inspection {
       if (tests.empty()) continue;
       const auto id = atlas_.id(tests.front());
       out_ += fmt::format("    for instance MDP {}, start {}\n", id.mdp.value(), id.start.value());
-      out_ += beside({start_picture(domain_, id), path_picture(domain_, id, atlas_.trajectory(tests.front()))}, 4);
+      out_ += start_and_path(domain_, id, atlas_.trajectory(tests.front()), 4);
     }
   }
 

@@ -30,16 +30,31 @@ GridState moved(GridState state, const Cell& cell) {
 
 Picture start_picture(const Domain& domain, DemoId id) { return domain.draw(id.mdp, id.start); }
 
-Picture path_picture(const Domain& domain, DemoId id, const Trajectory& path) {
-  auto picture = start_picture(domain, id);
-  at(picture, domain.state(id.mdp, path.states.back()).robot) = 'o';
+std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajectory& path) {
+  const auto robot = [&](std::size_t i) { return domain.state(id.mdp, path.states[i]).robot; };
+  std::vector<Picture> legs;
+  Picture leg;
+  std::size_t moves = 0;
   for (std::size_t i = 0; i < path.actions.size(); ++i) {
-    const auto& here = domain.state(id.mdp, path.states[i]).robot;
-    const auto& next = domain.state(id.mdp, path.states[i + 1]).robot;
-    const bool ends_here = domain.state(id.mdp, path.states.back()).robot == here;
-    if (here != next && !ends_here) at(picture, here) = arrow_of(domain.action_names()[path.actions[i].value()]);
+    if (leg.empty()) leg = start_picture(domain, DemoId{id.mdp, path.states[i]});
+    if (robot(i) != robot(i + 1)) {
+      at(leg, robot(i)) = arrow_of(domain.action_names()[path.actions[i].value()]);
+      ++moves;
+    }
+    const bool ends = robot(i) == robot(i + 1) || i + 1 == path.actions.size();
+    if (!ends) continue;
+    at(leg, robot(i + 1)) = 'o';
+    if (moves > 0) legs.push_back(std::move(leg));
+    leg.clear();
+    moves = 0;
   }
-  return picture;
+  return legs;
+}
+
+std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
+  std::vector<Picture> pictures{start_picture(domain, id)};
+  for (auto& leg : path_pictures(domain, id, path)) pictures.push_back(std::move(leg));
+  return beside(pictures, indent);
 }
 
 Picture policy_picture(const Atlas& atlas, MdpIndex m, const GridState& configuration) {

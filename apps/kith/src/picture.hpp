@@ -12,9 +12,11 @@ using Picture = std::vector<std::string>;
 
 /// The map in the state in which a demonstration starts.
 [[nodiscard]] Picture start_picture(const Domain& domain, DemoId id);
-/// A path drawn on the map: at every cell the last move that leaves it (^ v < >), other actions by their first letter,
-/// and 'o' where the robot ends. What nobody walks over is as in the start picture.
-[[nodiscard]] Picture path_picture(const Domain& domain, DemoId id, const Trajectory& path);
+/// A path drawn on the map, one picture per leg: a leg ends with an action that does not move the robot (a pick-up).
+/// Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends.
+[[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajectory& path);
+/// The start picture with the legs of the path beside it, each row indented.
+[[nodiscard]] std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
 /// What the robot does wherever it stands, while items and stations are as in `configuration`.
 [[nodiscard]] Picture policy_picture(const Atlas& atlas, MdpIndex m, const GridState& configuration);
 /// Pictures beside each other, each row indented.

@@ -139,7 +139,7 @@ class TranscriptWriter {
     const auto& counts = atlas_.feature_counts(shown.demo);
     line();
     line(fmt::format("  Demonstration {}: MDP {}, start {}", number, id.mdp.value(), id.start.value()));
-    out_ += beside({start_picture(domain_, id), path_picture(domain_, id, path)}, 4);
+    out_ += start_and_path(domain_, id, path, 4);
     line("    " + actions_text(domain_, path.actions));
     line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), domain_.weights().return_of(counts)));
     line("    conveys to them:");
@@ -165,7 +165,7 @@ class TranscriptWriter {
     const auto path = atlas_.trajectory(asked.demo);
     line();
     line(fmt::format("  Test {}: MDP {}, start {}; what would the robot do?", t + 1, id.mdp.value(), id.start.value()));
-    out_ += beside({start_picture(domain_, id), path_picture(domain_, id, path)}, 4);
+    out_ += start_and_path(domain_, id, path, 4);
     line("    the robot: " + actions_text(domain_, path.actions) + " (" +
          counts_text(domain_, atlas_.feature_counts(asked.demo)) + ")");
     for (const auto& half_space : asked.covered) {
