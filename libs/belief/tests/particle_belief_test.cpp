@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "kith/core/error.hpp"
@@ -13,74 +15,11 @@ namespace kith {
 namespace {
 
 using kith::testing::lower_hemisphere;
-using kith::testing::random_half_space;
 using kith::testing::random_list;
 
 constexpr FilterOptions kWeighOnly{.particles = 1000, .process_noise = 0.0, .resample_below = 0.0};
 
 double total(std::span<const double> weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
-
-// ---- systematic resampling
-
-TEST(SystematicCounts, AreWithinOneOfTheExpectation) {
-  RandomStream random{1};
-  for (int round = 0; round < 300; ++round) {
-    const std::size_t size = 1 + uniform_index(60, random);
-    const std::size_t n = uniform_index(200, random);
-    std::vector<double> weights;
-    for (std::size_t i = 0; i < size; ++i) {
-      const double w = std::exp(-20.0 * uniform01(random));
-      weights.push_back(uniform01(random) < 0.3 && i + 1 < size ? 0.0 : w);
-    }
-    const double sum = total(weights);
-    const auto counts = systematic_counts(weights, n, uniform01(random));
-    ASSERT_EQ(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), n);
-    for (std::size_t i = 0; i < size; ++i) {
-      const double expected = static_cast<double>(n) * weights[i] / sum;
-      ASSERT_LT(std::abs(static_cast<double>(counts[i]) - expected), 1.0 + 1e-9);
-      if (weights[i] == 0.0) {
-        ASSERT_EQ(counts[i], 0u);
-      }
-    }
-  }
-}
-
-TEST(SystematicCounts, MatchAHandComputedTable) {
-  const std::vector<double> weights{0.5, 0.25, 0.0, 0.25};
-  EXPECT_EQ(systematic_counts(weights, 4, 0.5), (std::vector<std::size_t>{2, 1, 0, 1}));
-  EXPECT_EQ(systematic_counts(weights, 3, 0.0), (std::vector<std::size_t>{2, 1, 0, 0}));   // 0, 1/3, 2/3
-  EXPECT_EQ(systematic_counts(weights, 3, 0.75), (std::vector<std::size_t>{1, 1, 0, 1}));  // 1/4, 7/12, 11/12
-  EXPECT_EQ(systematic_counts(weights, 0, 0.5), (std::vector<std::size_t>{0, 0, 0, 0}));
-}
-
-TEST(SystematicCounts, NeverDrawWhatHasNoWeightWhateverRoundingSays) {
-  std::vector<double> weights(1000, 0.1);
-  weights.push_back(0.0);
-  for (const double u : {0.0, 0x1.0p-53, 0.5, 1.0 - 0x1.0p-53}) {
-    const auto counts = systematic_counts(weights, 1000, u);
-    EXPECT_EQ(counts.back(), 0u);
-    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), 1000u);
-  }
-}
-
-// Over a uniform offset the expected count is n p_i. 4 000 offsets on a regular grid integrate it to 1/4000.
-TEST(SystematicCounts, AreUnbiasedOverTheOffset) {
-  const std::vector<double> weights{0.37, 0.01, 0.3, 0.02, 0.3};
-  std::vector<double> mean(weights.size(), 0.0);
-  for (int k = 0; k < 4000; ++k) {
-    const auto counts = systematic_counts(weights, 7, (k + 0.5) / 4000.0);
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += static_cast<double>(counts[i]) / 4000.0;
-  }
-  for (std::size_t i = 0; i < mean.size(); ++i) EXPECT_NEAR(mean[i], 7.0 * weights[i], 1.0 / 2000.0);
-}
-
-TEST(SystematicCounts, RefuseWhatIsNoDistribution) {
-  EXPECT_THROW((void)systematic_counts(std::vector{0.0, 0.0}, 3, 0.5), std::invalid_argument);
-  EXPECT_THROW((void)systematic_counts(std::vector{1.0, -0.5}, 3, 0.5), std::invalid_argument);
-  EXPECT_THROW((void)systematic_counts(std::vector{1.0, std::nan("")}, 3, 0.5), std::invalid_argument);
-  EXPECT_THROW((void)systematic_counts(std::vector<double>{}, 3, 0.5), std::invalid_argument);
-  EXPECT_THROW((void)systematic_counts(std::vector{1.0}, 3, 1.0), std::invalid_argument);
-}
 
 TEST(ParticleBelief, DrawsAsManyAsAskedFrom) {
   ParticleBelief belief{lower_hemisphere(), kWeighOnly};
@@ -324,108 +263,6 @@ TEST(ParticleBelief, HasAMeanAndASpread) {
   EXPECT_LT((belief.mean_direction() - Eigen::Vector3d{0, 0, -1}).norm(), 1e-3);
   // On a hemisphere E angle^2 = integral of a^2 sin a over [0, pi/2] = pi - 2.
   EXPECT_NEAR(belief.spread(), std::sqrt(std::numbers::pi - 2.0), 1e-4);
-}
-
-// ---- resampling and noise
-
-TEST(ParticleBelief, ResamplesExactlyBelowTheThreshold) {
-  RandomStream random{16};
-  for (const double threshold : {0.0, 0.3, 0.5, 0.8}) {
-    ParticleBelief belief{lower_hemisphere(), {.process_noise = 0.1, .resample_below = threshold}};
-    for (int update = 0; update < 30; ++update) {
-      const auto list = random_list(2, random);
-      const std::size_t before = belief.num_resamplings();
-      std::vector<double> weights(belief.weights().begin(), belief.weights().end());
-      for (std::size_t i = 0; i < weights.size(); ++i) {
-        for (const HalfSpace& h : list) weights[i] *= HalfSpaceLikelihood{0.9}.density(h.margin(belief.point(i)));
-      }
-      double squares = 0.0;
-      for (const double w : weights) squares += w * w;
-      const double effective = total(weights) * total(weights) / squares;
-      belief.observe(list, HalfSpaceLikelihood{0.9}, random.split(static_cast<std::uint64_t>(update)));
-      const bool resampled = belief.num_resamplings() > before;
-      EXPECT_EQ(resampled, effective < threshold * 1000.0);
-      EXPECT_GE(belief.effective_sample_size(), std::max(1.0, threshold * 1000.0) * (1.0 - 1e-12));
-      EXPECT_LE(belief.effective_sample_size(), 1000.0);
-    }
-  }
-}
-
-TEST(ParticleBelief, NeverCrossesThePrior) {
-  RandomStream random{17};
-  std::size_t num_resamplings = 0;
-  for (int round = 0; round < 12; ++round) {
-    std::optional<Cone> prior = lower_hemisphere();
-    for (int clip = 0; clip < round % 4; ++clip) {
-      if (const auto smaller = prior->clipped(random_half_space(random))) prior = smaller;
-    }
-    ParticleBelief belief{*prior, {.particles = 300, .process_noise = round % 2 == 0 ? 0.3 : 3.0}};
-    for (std::uint64_t update = 0; update < 40; ++update) {
-      belief.observe(random_list(2, random), HalfSpaceLikelihood{0.9}, random.split(update));
-      belief.diffuse(update % 5 == 0 ? 1.0 : 0.05, random.split(1000 + update));
-    }
-    for (std::size_t i = 0; i < belief.size(); ++i) {
-      ASSERT_TRUE(prior->contains(belief.point(i)));
-      ASSERT_NEAR(belief.point(i).norm(), 1.0, 1e-14);
-    }
-    num_resamplings += belief.num_resamplings();
-  }
-  EXPECT_GT(num_resamplings, 100u);
-}
-
-TEST(ParticleBelief, KeepsTheWeightsWhileItDiffuses) {
-  RandomStream random{18};
-  ParticleBelief belief{lower_hemisphere(), kWeighOnly};
-  belief.observe(random_list(3, random), HalfSpaceLikelihood{0.9}, random);
-  const ParticleBelief before = belief;
-  belief.diffuse(0.0, RandomStream{1});
-  EXPECT_EQ(belief, before);
-  belief.diffuse(0.05, RandomStream{1});
-  EXPECT_TRUE(std::equal(before.weights().begin(), before.weights().end(), belief.weights().begin()));
-  EXPECT_NE(belief, before);
-}
-
-// The bandwidth is a s M^(-1/6). All weight on one spot of a tiny spread gives a
-// tiny kernel, a flat belief a wide one: the displacement of the survivors shows
-// it. E r^2 = 2 h^2; with 4 000 points 5 standard errors are 8 %.
-TEST(ParticleBelief, MovesByTheStatedBandwidth) {
-  constexpr std::size_t n = 4000;
-  const HalfSpaceLikelihood likelihood{0.95};
-  const std::vector list{HalfSpace{{1, 0, 0}}, HalfSpace{{0, 1, 0}}, HalfSpace{{2, 1, 1}}};
-  for (const double a : {0.1, 0.4}) {
-    const FilterOptions moving{.particles = n, .process_noise = a, .resample_below = 1.0};
-    FilterOptions still = moving;
-    still.process_noise = 0.0;
-    FilterOptions weighing = still;
-    weighing.resample_below = 0.0;
-    const PriorCover cover{Cone{}, n};
-    ParticleBelief moved{cover, moving};
-    ParticleBelief kept{cover, still};
-    ParticleBelief weighed{cover, weighing};
-    for (auto* belief : {&moved, &kept, &weighed}) belief->observe(list, likelihood, RandomStream{19});
-    const double bandwidth = a * weighed.spread() * std::pow(static_cast<double>(n), -1.0 / 6.0);
-    double second = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double r = 2.0 * std::asin(std::min(1.0, 0.5 * (moved.point(i) - kept.point(i)).norm()));
-      second += r * r / static_cast<double>(n);
-    }
-    EXPECT_NEAR(second / (2.0 * bandwidth * bandwidth), 1.0, 0.08);
-  }
-}
-
-TEST(ParticleBelief, DependsOnItsArgumentsAndTheStreamOnly) {
-  RandomStream random{20};
-  const auto list = random_list(4, random);
-  ParticleBelief a{lower_hemisphere(), {}};
-  ParticleBelief b = a;
-  ParticleBelief c = a;
-  for (std::uint64_t update = 0; update < 5; ++update) {
-    a.observe(list, HalfSpaceLikelihood{0.95}, RandomStream{update});
-    b.observe(list, HalfSpaceLikelihood{0.95}, RandomStream{update});
-    c.observe(list, HalfSpaceLikelihood{0.95}, RandomStream{update + 100});
-  }
-  EXPECT_EQ(a, b);
-  EXPECT_NE(a, c);
 }
 
 }  // namespace
