@@ -65,44 +65,50 @@ struct Fault {
   std::string hint;
 };
 
+struct Parsed {
+  Cell cell = {};
+  std::optional<Fault> fault = {};
+};
+
 template <typename Number>
-std::variant<Cell, Fault> parse_number(const std::string& text, const Column& column, const std::string& example) {
+Parsed parse_number(const std::string& text, const Column& column, const std::string& example) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = end == text.data() + text.size();
   const std::string message = in_quotes(text) + " in column \"" + column.name + "\" is ";
   if (error == std::errc::result_out_of_range && whole) {
-    return Fault{"E0510", message + "out of the range of a number", "use a smaller number"};
+    return {.fault = Fault{"E0510", message + "out of the range of a number", "use a smaller number"}};
   }
   bool valid = error == std::errc{} && whole;
   if constexpr (std::is_same_v<Number, double>) valid = valid && !std::isnan(value);
-  if (valid) return Cell{value};
+  if (valid) return {.cell = value};
   std::string hint = "write it like " + example + ", or leave the cell empty if the value is missing";
   if (text.find(',') != std::string::npos) hint = "use a decimal point, as in " + example;
-  return Fault{"E0506", message + "not of type " + std::string{to_string(column.type)}, hint};
+  return {.fault = Fault{"E0506", message + "not of type " + std::string{to_string(column.type)}, hint}};
 }
 
-std::variant<Cell, Fault> parse_cell(const std::optional<std::string>& field, const Column& column) {
+Parsed parse_cell(const std::optional<std::string>& field, const Column& column) {
   if (!field) {
-    if (!column.required) return Cell{};
-    return Fault{"E0507", "column \"" + column.name + "\" needs a value in every row", "fill the cell"};
+    if (!column.required) return {};
+    return {.fault = Fault{"E0507", "column \"" + column.name + "\" needs a value in every row", "fill the cell"}};
   }
   if (!is_text(*field)) {
-    return Fault{"E0509", "the cell in column \"" + column.name + "\" is not UTF-8 text", "save the file as UTF-8"};
+    return {.fault = Fault{"E0509", "the cell in column \"" + column.name + "\" is not UTF-8 text",
+                           "save the file as UTF-8"}};
   }
   switch (column.type) {
     case ColumnType::kText:
-      return Cell{*field};
+      return {.cell = *field};
     case ColumnType::kInteger:
       return parse_number<std::int64_t>(*field, column, "42");
     case ColumnType::kReal:
       return parse_number<double>(*field, column, "0.5");
     case ColumnType::kBoolean:
-      if (*field == "true" || *field == "false") return Cell{*field == "true"};
-      return Fault{"E0506", in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
-                   "write true or false"};
+      if (*field == "true" || *field == "false") return {.cell = *field == "true"};
+      return {.fault = Fault{"E0506", in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
+                             "write true or false"}};
   }
-  return Cell{};
+  return {};
 }
 
 class Reader {
@@ -209,11 +215,11 @@ class Reader {
     }
     const std::size_t before = diagnostics_.size();
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      auto parsed = parse_cell(record.fields[source_[c]], columns_[c]);
-      if (auto* const fault = std::get_if<Fault>(&parsed)) {
-        report(record, source_[c], *fault);
+      Parsed parsed = parse_cell(record.fields[source_[c]], columns_[c]);
+      if (parsed.fault) {
+        report(record, source_[c], *parsed.fault);
       } else {
-        cells_[c] = std::move(std::get<Cell>(parsed));
+        cells_[c] = std::move(parsed.cell);
       }
     }
     if (diagnostics_.size() == before) on_row_({record.line, cells_});
