@@ -51,7 +51,7 @@ Verdict check(const std::string& file) {
   if (name.rfind("kith.domain/", 0) == 0) return check_domain(input);
   if (name.rfind("kith.study/", 0) == 0) return check_study(input);
   Diagnostic unknown;
-  unknown.id = "E0400";
+  unknown.id = "E0106";
   unknown.file = input.name;
   if (schema != nullptr) {
     unknown.line = schema->place().line;

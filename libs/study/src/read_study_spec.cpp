@@ -42,18 +42,18 @@ class SpecReader {
  private:
   void read_top() {
     if (const auto schema = root_.string("schema", Presence::kRequired); schema && *schema != kStudySchema) {
-      report_.error("E0401", root_.value("schema", Presence::kOptional)->place(),
+      report_.error("E0106", root_.value("schema", Presence::kOptional)->place(),
                     "schema '" + *schema + "' is not a study file of this version",
                     std::string{"write schema = \""} + kStudySchema + "\"");
     }
     if (const auto id = root_.string("id", Presence::kRequired)) {
       spec_.id = *id;
       const bool plain = !id->empty() && std::all_of(id->begin(), id->end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
       });
       if (!plain) {
-        report_.error("E0402", root_.value("id", Presence::kOptional)->place(), "id '" + *id + "' cannot be a name",
-                      "use letters, digits, '-' and '_'");
+        report_.error("E0115", root_.value("id", Presence::kOptional)->place(), "id '" + *id + "' cannot be a name",
+                      "use lower-case letters, digits and '-'");
       }
     }
     set_if(spec_.title, root_.string("title", Presence::kOptional));
@@ -84,7 +84,7 @@ class SpecReader {
     const auto* list = table.array(key, Presence::kRequired);
     if (list == nullptr || !table.strings(key, Presence::kRequired)) return nullptr;
     if (list->empty()) {
-      report_.error("E0403", table.value(key, Presence::kOptional)->place(), in_quotes(key) + " is empty");
+      report_.error("E0401", table.value(key, Presence::kOptional)->place(), in_quotes(key) + " is empty");
     }
     return list;
   }
@@ -98,9 +98,9 @@ class SpecReader {
       const auto& name = *element.string();
       const auto strategy = find_strategy(name);
       if (!strategy) {
-        report_.error("E0404", element.place(), "there is no strategy '" + name + "'", suggestion(name, names));
+        report_.error("E0402", element.place(), "there is no strategy '" + name + "'", suggestion(name, names));
       } else if (std::find(spec_.strategies.begin(), spec_.strategies.end(), *strategy) != spec_.strategies.end()) {
-        report_.error("E0405", element.place(), "strategy '" + name + "' is listed twice");
+        report_.error("E0403", element.place(), "strategy '" + name + "' is listed twice");
       } else {
         spec_.strategies.push_back(*strategy);
       }
@@ -115,10 +115,10 @@ class SpecReader {
       const auto& composition = *element.string();
       used.insert(composition.begin(), composition.end());
       if (composition.empty() || composition.size() > kMaxTeamSize) {
-        report_.error("E0406", element.place(),
+        report_.error("E0404", element.place(),
                       "a composition has 1 to " + std::to_string(kMaxTeamSize) + " letters, one per member");
       } else if (std::count(spec_.compositions.begin(), spec_.compositions.end(), composition) > 0) {
-        report_.error("E0405", element.place(), "composition '" + composition + "' is listed twice");
+        report_.error("E0403", element.place(), "composition '" + composition + "' is listed twice");
       } else {
         check_letters(element, composition);
         spec_.compositions.push_back(composition);
@@ -141,7 +141,7 @@ class SpecReader {
       if (std::count(known.begin(), known.end(), letter) > 0 || composition.find(composition[i]) < i) continue;
       std::string list;
       for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
-      report_.error("E0407", report_.document().inside(element, i), "there is no learner type '" + letter + "'",
+      report_.error("E0405", report_.document().inside(element, i), "there is no learner type '" + letter + "'",
                     (list.empty() ? "" : "declared: " + list + "; ") + "add a table [learner." + letter + "]");
     }
   }
@@ -156,7 +156,7 @@ class SpecReader {
       const bool is_letter = (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z');
       learners->know(entry.key);
       if (entry.key.size() != 1 || !is_letter) {
-        report_.error("E0408", entry.place, "learner type '" + entry.key + "' is not one letter",
+        report_.error("E0406", entry.place, "learner type '" + entry.key + "' is not one letter",
                       "a composition such as \"NNP\" has one letter per member");
         continue;
       }
@@ -193,7 +193,7 @@ class SpecReader {
     set_if(population.ability_sd, ability.real("sd", Presence::kRequired, {0.0, 1.0}));
     set_if(population.ability_min, ability.real("min", Presence::kOptional, {0.5, 1.0, false, true}));
     if (population.ability_min >= population.ability_max) {
-      report_.error("E0410", ability.place(), "no ability lies between min and ability_max",
+      report_.error("E0408", ability.place(), "no ability lies between min and ability_max",
                     "ability.min must be less than ability_max");
     }
     ability.finish();
@@ -207,7 +207,7 @@ class SpecReader {
     gain.value = reader->real("value", Presence::kOptional, {0.0, 1.0});
     reader->finish();
     if (reader->has("half_normal") == reader->has("value")) {
-      report_.error("E0409", reader->place(), in_quotes(key) + " needs either half_normal or value",
+      report_.error("E0407", reader->place(), in_quotes(key) + " needs either half_normal or value",
                     "write " + std::string{key} + " = { half_normal = 0.05 } or { value = 0.05 }");
     }
   }
@@ -219,7 +219,7 @@ class SpecReader {
       const RandomStream random{0};
       for (std::uint64_t i = 0; i < kTries; ++i) (void)draw_learner(population, random.split(i));
     } catch (const Error&) {
-      report_.infeasible("E0411", table.place(), "hardly any learner meets the limits of " + table.name(),
+      report_.infeasible("E0409", table.place(), "hardly any learner meets the limits of " + table.name(),
                          "gains must be below gain_max and, unless ordered_gains = false, confirm_gain below "
                          "correct_gain; abilities between ability.min and ability_max");
     }
@@ -242,13 +242,13 @@ class SpecReader {
     const auto place = table.value("prior", Presence::kOptional)->place();
     for (std::size_t i = 0; i < half_spaces.size(); ++i) {
       if (!half_spaces[i].contains(domain_->weights().integer)) {
-        report_.infeasible("E0413", list[i].place(), "this prior does not hold at the robot's weights",
+        report_.infeasible("E0411", list[i].place(), "this prior does not hold at the robot's weights",
                            "learners who start from it could never learn the policy");
         return;
       }
     }
     if (!has_interior(half_spaces)) {
-      report_.infeasible("E0413", place, "no weights satisfy all of 'prior'");
+      report_.infeasible("E0411", place, "no weights satisfy all of 'prior'");
       return;
     }
     type.prior = std::move(half_spaces);
@@ -262,14 +262,14 @@ class SpecReader {
       const auto feature = std::find(features.begin(), features.end(), entry.key);
       const auto value = read_integer(entry.value, "'" + entry.key + "'", {-1000, 1000}, report_);
       if (feature == features.end()) {
-        report_.error("E0412", entry.place, "prior names an unknown feature '" + entry.key + "'",
+        report_.error("E0410", entry.place, "prior names an unknown feature '" + entry.key + "'",
                       suggestion(entry.key, features));
       }
       good = good && value && feature != features.end();
       if (good) normal[static_cast<std::size_t>(feature - features.begin())] = *value;
     }
     if (good && normal.is_zero()) {
-      report_.error("E0412", element.place(), "this prior says nothing", "write for instance { step = -1 }");
+      report_.error("E0410", element.place(), "this prior says nothing", "write for instance { step = -1 }");
       good = false;
     }
     return good ? std::optional{normal} : std::nullopt;
@@ -305,6 +305,10 @@ class SpecReader {
 
   void read_record(TomlReader& record) {
     set_if(spec_.record, record.word("level", Presence::kOptional, kRecordWords));
+    if (spec_.record == RecordLevel::kParticles) {
+      report_.warning("W0404", record.value("level", Presence::kOptional)->place(),
+                      "no table holds particles, so this records the same as \"period\"");
+    }
     record.finish();
   }
 

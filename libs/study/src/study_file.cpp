@@ -70,7 +70,7 @@ class StudyParser {
     }
     std::vector<std::string> names;
     for (const auto& one : known) names.emplace_back(one.name);
-    report_.error("E0414", value->place(),
+    report_.error("E0116", value->place(),
                   "there is no domain '" + name + "': neither built in nor a file that can be read",
                   suggestion(name, names));
   }
@@ -95,20 +95,20 @@ class StudyParser {
       if (!may_vary(entry)) continue;
       const auto* values = entry.value.array();
       if (values == nullptr || values->empty()) {
-        report_.error("E0416", entry.value.place(), "'" + entry.key + "' needs a list of values",
+        report_.error("E0413", entry.value.place(), "'" + entry.key + "' needs a list of values",
                       "write for instance vary = { \"teacher.process_noise\" = [0.1, 0.5] }");
         continue;
       }
       for (auto value = values->begin(); value != values->end(); ++value) {
         if (std::find(values->begin(), value, *value) != value) {
-          report_.error("E0405", value->place(), to_toml(*value) + " is listed twice");
+          report_.error("E0403", value->place(), to_toml(*value) + " is listed twice");
         }
       }
       warn_of_override(entry);
       factors.push_back({entry.key, values});
       variants *= std::min(values->size(), kMaxVariants + 1);
       if (variants > kMaxVariants) {
-        report_.error("E0417", entry.place,
+        report_.error("E0414", entry.place,
                       "more than " + std::to_string(kMaxVariants) + " combinations of varied keys");
         variants = 1;
       }
@@ -121,7 +121,7 @@ class StudyParser {
     const auto begins = [&](std::string_view start) { return entry.key.rfind(start, 0) == 0; };
     const bool is_label = entry.key.size() > 6 && entry.key.substr(entry.key.size() - 6) == ".label";
     if ((begins("learner.") || begins("teacher.") || begins("stop.")) && !is_label) return true;
-    report_.error("E0415", entry.place, "'" + entry.key + "' cannot vary within a study",
+    report_.error("E0412", entry.place, "'" + entry.key + "' cannot vary within a study",
                   "keys of [learner.X], [teacher] and [stop] can, written with dots and in quotes");
     return false;
   }

@@ -1,0 +1,258 @@
+#include "kith/study/study_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "kith/core/error.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kStudy = R"(schema = "kith.study/1"
+id = "tiny"
+domain = "item-delivery"
+seed = 7
+replicates = 2
+[design]
+strategies = ["common", "baseline"]
+compositions = ["NN", "N"]
+[learner.N]
+ability = { mean = 0.7, sd = 0.03 }
+confirm_gain = { half_normal = 0.03 }
+correct_gain = { value = 0.05 }
+)";
+
+// The study with one piece of its text replaced.
+std::string study_with(const std::string& old, const std::string& replacement) {
+  std::string text = kStudy;
+  const auto at = text.find(old);
+  if (at == std::string::npos) throw std::logic_error{"the study does not contain " + old};
+  return text.replace(at, old.size(), replacement);
+}
+
+std::vector<std::string> ids(const StudyReading& reading) {
+  std::vector<std::string> result;
+  for (const auto& diagnostic : reading.diagnostics) result.push_back(diagnostic.id);
+  return result;
+}
+
+StudyReading parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_study(text, "study.toml", {overrides, {}});
+}
+
+TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
+  const auto reading = parse(kStudy);
+  ASSERT_TRUE(reading.study) << reading.diagnostics.size();
+  EXPECT_THAT(reading.diagnostics, IsEmpty());
+  ASSERT_EQ(reading.study->variants.size(), 1u);
+  const auto& spec = reading.study->variants.front();
+  EXPECT_EQ(spec.seed, 7u);
+  EXPECT_EQ(spec.pairing, Pairing::kReplicate);
+  EXPECT_EQ(spec.record, RecordLevel::kPeriod);
+  EXPECT_EQ(spec.teaching.filter.particles, 1000u);
+  EXPECT_EQ(spec.teaching.counterfactuals, 8u);
+  EXPECT_EQ(spec.teaching.assumed_ability, 0.80);
+  EXPECT_EQ(spec.teaching.filter.process_noise, 0.1);
+  EXPECT_EQ(spec.teaching.response_noise, 0.05);
+  EXPECT_EQ(spec.teaching.filter.resample_below, 0.5);
+  EXPECT_EQ(spec.teaching.max_periods, 50u);
+  const auto& novice = learner_type(spec, 'N');
+  EXPECT_EQ(novice.population.ability_min, 0.6);
+  EXPECT_EQ(novice.population.ability_max, 0.95);
+  EXPECT_EQ(novice.population.ability_scale, 1.0);
+  EXPECT_EQ(novice.population.gain_max, 0.08);
+  EXPECT_EQ(novice.population.confirm_gain.half_normal, 0.03);
+  EXPECT_EQ(novice.population.correct_gain.value, 0.05);
+  EXPECT_FALSE(novice.prior);
+}
+
+TEST(StudyFile, ReadsTheBuiltInStudiesWithoutAComplaint) {
+  for (const auto& study : built_in_studies()) {
+    const auto reading = load_study(std::string{study.name});
+    ASSERT_TRUE(reading.study) << study.name;
+    EXPECT_THAT(reading.diagnostics, IsEmpty()) << study.name;
+  }
+  const auto paper = load_study("paper");
+  EXPECT_EQ(team_addresses(*paper.study).size(), 300u);
+  EXPECT_EQ(learner_type(paper.study->variants.front(), 'P').population.ability_scale, 0.9);
+}
+
+struct Mistake {
+  const char* id;
+  const char* old;
+  const char* replacement;
+  std::size_t line;
+};
+
+class StudyFileMistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(StudyFileMistakes, AreReportedWithTheirPlace) {
+  const auto& mistake = GetParam();
+  const auto reading = parse(study_with(mistake.old, mistake.replacement));
+  const auto found = std::find_if(reading.diagnostics.begin(), reading.diagnostics.end(),
+                                  [&](const Diagnostic& diagnostic) { return diagnostic.id == mistake.id; });
+  ASSERT_NE(found, reading.diagnostics.end()) << ::testing::PrintToString(ids(reading));
+  EXPECT_EQ(found->line, mistake.line) << to_text(*found);
+  EXPECT_EQ(found->file, "study.toml");
+  EXPECT_EQ(reading.study.has_value(), mistake.id[0] == 'W');
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, StudyFileMistakes,
+    testing::Values(
+        Mistake{"E0101", "seed = 7", "seed = ", 4}, Mistake{"E0106", "kith.study/1", "kith.study/9", 1},
+        Mistake{"E0115", "\"tiny\"", "\"Tiny Study\"", 2}, Mistake{"E0116", "\"item-delivery\"", "\"item-delivry\"", 3},
+        Mistake{"E0107", "replicates", "replicats", 5}, Mistake{"E0108", "seed = 7", "seed = 7.5", 4},
+        Mistake{"E0109", "correct_gain", "gain_max = 0.07 #", 9},
+        Mistake{"E0110", "replicates = 2", "replicates = 0", 5}, Mistake{"E0110", "mean = 0.7", "mean = 1.7", 10},
+        Mistake{"E0112", "[design]", "record.level = \"all\"\n[design]", 6},
+        Mistake{"E0401", "[\"common\", \"baseline\"]", "[]", 7}, Mistake{"E0402", "\"common\"", "\"comon\"", 7},
+        Mistake{"E0403", "\"baseline\"", "\"common\"", 7}, Mistake{"E0403", "\"N\"]", "\"NN\"]", 8},
+        Mistake{"E0404", "\"N\"]", "\"\"]", 8}, Mistake{"E0405", "\"N\"]", "\"NX\"]", 8},
+        Mistake{"E0406", "learner.N", "learner.Nov", 9}, Mistake{"E0407", "{ half_normal = 0.03 }", "{}", 11},
+        Mistake{"E0407", "{ value = 0.05 }", "{ value = 0.05, half_normal = 0.1 }", 12},
+        Mistake{"E0408", "sd = 0.03", "sd = 0.03, min = 0.96", 10}, Mistake{"E0409", "value = 0.05", "value = 0.0", 9},
+        Mistake{"E0410", "correct_gain", "prior = [{ stpe = -1 }]\ncorrect_gain", 12},
+        Mistake{"E0410", "correct_gain", "prior = [{ step = 0 }]\ncorrect_gain", 12},
+        Mistake{"E0411", "correct_gain", "prior = [{ step = 1 }]\ncorrect_gain", 12},
+        Mistake{"E0412", "[learner.N]", "vary = { seed = [1, 2] }\n[learner.N]", 9},
+        Mistake{"E0412", "[learner.N]", "vary = { \"learner.N.label\" = [\"a\"] }\n[learner.N]", 9},
+        Mistake{"E0413", "[learner.N]", "vary = { \"stop.max_periods\" = 3 }\n[learner.N]", 9},
+        Mistake{"E0403", "[learner.N]", "vary = { \"stop.max_periods\" = [3, 3] }\n[learner.N]", 9},
+        Mistake{"E0110", "[learner.N]", "vary = { \"stop.max_periods\" = [3, 0] }\n[learner.N]", 9},
+        Mistake{"E0107", "[learner.N]", "vary = { \"stop.max_perids\" = [3, 4] }\n[learner.N]", 9},
+        Mistake{"W0401", "[learner.N]",
+                "[learner.P]\nability = { mean = 0.8, sd = 0.02 }\nconfirm_gain = { value = 0.01 }\n"
+                "correct_gain = { value = 0.02 }\n[learner.N]",
+                9},
+        Mistake{"W0402", "replicates = 2", "replicates = 1", 5},
+        Mistake{"W0404", "[design]", "record.level = \"particles\"\n[design]", 6}));
+
+TEST(StudyFile, RefusesMoreCombinationsThanAnybodyWants) {
+  std::string vary = "vary = { ";
+  for (const std::string key : {"counterfactuals", "particles", "process_noise", "response_noise", "resample_below"}) {
+    vary += (key == "counterfactuals" ? "\"teacher." : ", \"teacher.") + key + "\" = [1, 2, 3, 4, 5, 6, 7]";
+  }
+  EXPECT_THAT(ids(parse(study_with("[learner.N]", vary + " }\n[learner.N]"))), ::testing::Contains("E0414"));
+}
+
+TEST(StudyFile, ReportsAllMistakesAtOnce) {
+  const auto reading = parse(R"(schema = "kith.study/1"
+id = "x"
+domain = "item-delivery"
+seed = -1
+[design]
+strategies = ["joined"]
+compositions = ["Q"]
+[learner.N]
+ability = { mean = 0.7 }
+[teacher]
+particels = 5
+)");
+  EXPECT_THAT(ids(reading), ElementsAre("E0110", "E0402", "E0405", "E0109", "E0109", "W0401", "E0109", "E0107"));
+}
+
+TEST(StudyFile, SuggestsTheNearestWord) {
+  const auto reading = parse(study_with("\"common\"", "\"comon\""));
+  ASSERT_EQ(reading.diagnostics.size(), 1u);
+  EXPECT_EQ(reading.diagnostics.front().hint, "did you mean 'common'?");
+}
+
+TEST(StudyFile, PointsAtTheLetterThatNamesNobody) {
+  const auto reading = parse(study_with("\"NN\"", "\"NX\""));
+  ASSERT_EQ(reading.diagnostics.size(), 1u);
+  EXPECT_EQ(reading.diagnostics.front().column, 19u);  // compositions = ["NX"
+}
+
+TEST(StudyFile, TakesOverridesInOrder) {
+  const auto reading = parse(kStudy, {"seed=8", "teacher.process_noise=0.5", "seed=9"});
+  ASSERT_TRUE(reading.study);
+  EXPECT_EQ(reading.study->variants.front().seed, 9u);
+  EXPECT_EQ(reading.study->variants.front().teaching.filter.process_noise, 0.5);
+}
+
+TEST(StudyFile, ChecksOverridesLikeTheFile) {
+  EXPECT_THAT(ids(parse(kStudy, {"seed"})), ElementsAre("E0113"));
+  EXPECT_THAT(ids(parse(kStudy, {"seed.x=1"})), ElementsAre("E0114"));
+  const auto wrong_type = parse(kStudy, {"seed=\"8\""});
+  ASSERT_THAT(ids(wrong_type), ElementsAre("E0108"));
+  EXPECT_EQ(wrong_type.diagnostics.front().file, "--set");
+  EXPECT_THAT(ids(parse(kStudy, {"teacher.particels=8"})), ElementsAre("E0107"));
+}
+
+TEST(StudyFile, ExpandsVariedKeysWithTheFirstSlowest) {
+  const auto text = study_with("[learner.N]",
+                               "vary = { \"stop.max_periods\" = [3, 4], \"teacher.counterfactual_sampling\" = "
+                               "[\"systematic\", \"spread\"] }\n[learner.N]");
+  const auto reading = parse(text);
+  ASSERT_TRUE(reading.study);
+  const auto& variants = reading.study->variants;
+  ASSERT_EQ(variants.size(), 4u);
+  EXPECT_EQ(variants[1].teaching.max_periods, 3u);
+  EXPECT_EQ(variants[1].teaching.sampling, CounterfactualSampling::kSpread);
+  EXPECT_EQ(variants[2].teaching.max_periods, 4u);
+  EXPECT_THAT(variants[2].factors, ElementsAre(FactorSetting{"stop.max_periods", "4"},
+                                               FactorSetting{"teacher.counterfactual_sampling", "systematic"}));
+  EXPECT_EQ(team_addresses(*reading.study).size(), 4u * 2 * 2 * 2);
+}
+
+TEST(StudyFile, WarnsOfAnOverrideThatVariesAnyway) {
+  const auto text = study_with("[learner.N]", "vary = { \"stop.max_periods\" = [3, 4] }\n[learner.N]");
+  EXPECT_THAT(ids(parse(text, {"stop.max_periods=9"})), ElementsAre("W0403"));
+}
+
+TEST(StudyFile, WritesWhatReadsBackTheSame) {
+  const auto varied =
+      study_with("[learner.N]",
+                 "vary = { \"stop.max_periods\" = [3, 4], \"teacher.likelihood\" = [\"continuous\"] }\n[learner.N]\n"
+                 "prior = [{ step = -1 }, { rubble = -2, step = -3 }]\nability_scale = 0.1234567890123456789");
+  for (const auto& text : {std::string{kStudy}, varied, std::string{built_in_studies().front().text}}) {
+    const auto first = parse(text);
+    ASSERT_TRUE(first.study) << ::testing::PrintToString(ids(first));
+    const auto written = to_toml(*first.study, *first.domain);
+    const auto second = parse(written);
+    ASSERT_TRUE(second.study) << written << ::testing::PrintToString(ids(second));
+    EXPECT_EQ(to_toml(*second.study, *second.domain), written);
+    ASSERT_EQ(second.study->variants.size(), first.study->variants.size());
+    for (std::size_t i = 0; i < first.study->variants.size(); ++i) {
+      EXPECT_EQ(second.study->variants[i].factors, first.study->variants[i].factors);
+      EXPECT_EQ(second.study->variants[i].teaching.max_periods, first.study->variants[i].teaching.max_periods);
+      EXPECT_EQ(second.study->variants[i].learner_types.front().prior,
+                first.study->variants[i].learner_types.front().prior);
+    }
+  }
+}
+
+TEST(StudyFile, FindsADomainFileBesideTheStudy) {
+  const auto folder = std::filesystem::path{testing::TempDir()} / "kith study file test";
+  std::filesystem::create_directories(folder);
+  const auto built_in = load_study("quick");
+  std::ofstream{folder / "world.toml"} << built_in.domain_text;
+  std::ofstream{folder / "study.toml"} << study_with("\"item-delivery\"", "\"world.toml\"");
+  const auto reading = load_study((folder / "study.toml").string());
+  ASSERT_TRUE(reading.study);
+  EXPECT_EQ(reading.domain->num_mdps(), 64u);
+  EXPECT_EQ(reading.domain_text, built_in.domain_text);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(StudyFile, CannotReadAFileThatDoesNotExist) {
+  try {
+    (void)load_study("no-such-study.toml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kIo);
+    EXPECT_THAT(error.what(), HasSubstr("paper, quick"));
+  }
+}
+
+}  // namespace
+}  // namespace kith
