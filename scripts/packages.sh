@@ -7,7 +7,8 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 
 packages_to_build=(
   g++ cmake ninja-build
-  libeigen3-dev librandom123-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev libssl-dev
+  libeigen3-dev librandom123-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
+  libssl-dev
 )
 packages_to_test=(libgtest-dev libgmock-dev)
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev libbenchmark-dev)
@@ -92,23 +93,31 @@ configure_and_build() {
   fi
   grep -A 8 'CMake Warning' "$log" >&2
   rm -f "$log"
-  if [[ -t 2 ]]; then
-    NINJA_STATUS="[$preset %f/%t] " cmake --build --preset "$preset" --target "$@" >&2
-  else
-    NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" --target "$@" 2>&1 | some_progress "$preset" >&2
-  fi || die "building build/$preset failed"
+  NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" --target "$@" 2>&1 | some_progress "$preset" >&2 ||
+    die "building build/$preset failed"
 }
 
-# From ninja's "[done/total] ..." lines only every tenth part and the last; all other lines.
+# From ninja's "[done/total] ..." lines every tenth part, on a terminal a counter; all other lines as they are.
+# Looking whether anything has to be done takes a few steps itself, which nobody needs to see.
 some_progress() {
-  awk -v preset="$1" '
-    /^\[[0-9]+\/[0-9]+\] / {
-      split(substr($1, 2), part, /[\/\]]/)
-      tenth = int(10 * part[1] / part[2])
-      if (tenth != shown || part[2] != total) printf "[%s %d/%d]\n", preset, part[1], part[2]
-      shown = tenth; total = part[2]; next
-    }
-    /^ninja: no work to do/ { next }
-    { print }
-    { fflush() }'
+  local line done total tenth shown='' counting=0
+  while IFS= read -r line; do
+    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\  ]]; then
+      done=${BASH_REMATCH[1]} total=${BASH_REMATCH[2]}
+      if ((total <= 10)); then continue; fi
+      tenth=$((10 * done / total))/$total
+      if [[ -t 2 ]]; then
+        printf '\r[%s %d/%d] ' "$1" "$done" "$total"
+        counting=1
+      elif [[ $tenth != "$shown" ]]; then
+        printf '[%s %d/%d]\n' "$1" "$done" "$total"
+      fi
+      shown=$tenth
+    elif [[ $line != 'ninja: no work to do.' ]]; then
+      if ((counting)); then printf '\n'; fi
+      counting=0
+      printf '%s\n' "$line"
+    fi
+  done
+  if ((counting)); then printf '\n'; fi
 }
