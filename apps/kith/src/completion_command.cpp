@@ -104,9 +104,10 @@ std::string zsh_completion(const std::vector<CommandDescription>& commands) {
     return text;
   };
   const auto action = [](const OptionDescription& option) -> std::string {
-    if (option.value == "DIR") return "_files -/";
-    if (takes_files(option)) return "_files";
-    return option.choices.empty() ? " " : "(" + joined(option.choices) + ")";
+    const std::string files = option.value == "DIR" ? "_files -/" : takes_files(option) ? "_files" : "";
+    const auto words = joined(words_of(option));
+    if (files.empty()) return words.empty() ? " " : "(" + words + ")";
+    return words.empty() ? files : "{compadd -- " + words + "; " + files + "}";
   };
   std::string list, cases;
   for (const auto& command : commands) {
@@ -114,7 +115,8 @@ std::string zsh_completion(const std::vector<CommandDescription>& commands) {
     cases += "    " + command.name + ")\n      _arguments";
     for (const auto& option : command.options) {
       if (option.positional) {
-        cases += " \\\n        " + single_quoted((option.many ? "*:" : ":") + plain(option.value) + ":" + action(option));
+        cases +=
+            " \\\n        " + single_quoted((option.many ? "*:" : ":") + plain(option.value) + ":" + action(option));
         continue;
       }
       for (const auto& name : option.names) {
@@ -147,7 +149,8 @@ std::string zsh_completion(const std::vector<CommandDescription>& commands) {
 std::string fish_completion(const std::vector<CommandDescription>& commands) {
   std::string text = "# fish completion for kith\ncomplete -c kith -f\n";
   for (const auto& command : commands) {
-    text += "complete -c kith -n __fish_use_subcommand -a " + command.name + " -d " + single_quoted(command.summary) + "\n";
+    text +=
+        "complete -c kith -n __fish_use_subcommand -a " + command.name + " -d " + single_quoted(command.summary) + "\n";
     const std::string here = "complete -c kith -n '__fish_seen_subcommand_from " + command.name + "'";
     for (const auto& option : command.options) {
       std::string line = here;

@@ -140,7 +140,8 @@ class Inspection {
               (state.carried[i] ? "carrying " + name
                                 : fmt::format("{} at ({},{})", name, state.items[i].x, state.items[i].y));
     }
-    return text + fmt::format("{}{} station{} left", text.empty() ? "" : ", ", state.stations.size(), state.stations.size() == 1 ? "" : "s");
+    return text + fmt::format("{}{} station{} left", text.empty() ? "" : ", ", state.stations.size(),
+                              state.stations.size() == 1 ? "" : "s");
   }
 
   void demos() {

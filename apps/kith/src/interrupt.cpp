@@ -11,6 +11,12 @@ extern "C" void on_signal(int number) { received = number; }
 
 }  // namespace
 
+void ignore_broken_pipes() {
+  struct sigaction ignore = {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &ignore, nullptr);
+}
+
 void watch_signals() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
@@ -18,9 +24,6 @@ void watch_signals() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  struct sigaction ignore = {};
-  ignore.sa_handler = SIG_IGN;
-  sigaction(SIGPIPE, &ignore, nullptr);
 }
 
 int stop_signal() noexcept { return received; }

@@ -130,7 +130,7 @@ CommonOptions first_guess(const std::vector<std::string>& arguments) {
 }  // namespace kith::cli
 
 int main(int argc, char** argv) {
-  kith::cli::watch_signals();
+  kith::cli::ignore_broken_pipes();
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   kith::cli::Console console{kith::cli::first_guess(arguments)};
   try {

@@ -136,6 +136,7 @@ int run_study(const StudyOptions& options, Console& console) {
   if (options.dry_run) return dry_run(study, addresses.size(), console);
   if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith study needs -o DIR, the folder for the results"};
 
+  watch_signals();
   RunFolder folder{options.out, freeze(reading), options.yes};
   facts.domain = study.variants.front().domain;
   facts.threads = options.threads;

@@ -42,14 +42,14 @@ void print_plan(const Study& study, std::size_t teams, Console& console) {
   Json strategies = Json::array();
   for (const auto strategy : spec.strategies) strategies.push_back(name_of(strategy));
   console.print_json(Json{{"schema", "kith.study-plan/1"},
-                     {"id", spec.id},
-                     {"domain", spec.domain},
-                     {"seed", spec.seed},
-                     {"variants", study.variants.size()},
-                     {"strategies", strategies},
-                     {"compositions", spec.compositions},
-                     {"replicates", spec.replicates},
-                     {"teams", teams}});
+                          {"id", spec.id},
+                          {"domain", spec.domain},
+                          {"seed", spec.seed},
+                          {"variants", study.variants.size()},
+                          {"strategies", strategies},
+                          {"compositions", spec.compositions},
+                          {"replicates", spec.replicates},
+                          {"teams", teams}});
 }
 
 }  // namespace kith::cli

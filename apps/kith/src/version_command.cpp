@@ -30,13 +30,13 @@ int run_version(Console& console) {
   Json libraries = Json::object();
   for (const auto& library : library_versions()) libraries[library.name] = library.version;
   console.print_json(Json{{"schema", "kith.version/1"},
-                     {"version", kVersion},
-                     {"git", kGitId},
-                     {"dirty", kGitDirty},
-                     {"compiler", kCompiler},
-                     {"build_type", kBuildType},
-                     {"flags", kFlags},
-                     {"libraries", libraries}});
+                          {"version", kVersion},
+                          {"git", kGitId},
+                          {"dirty", kGitDirty},
+                          {"compiler", kCompiler},
+                          {"build_type", kBuildType},
+                          {"flags", kFlags},
+                          {"libraries", libraries}});
   return 0;
 }
 

@@ -1,0 +1,249 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+const std::vector<std::string> kCommands{"validate", "inspect", "teach", "study", "doctor", "completion", "version"};
+
+TEST(CommandLine, HasShortAndFullHelpForEveryCommand) {
+  for (const auto& command : kCommands) {
+    const auto brief = run_kith({command, "-h"});
+    const auto full = run_kith({command, "--help"});
+    EXPECT_EQ(brief.code, 0) << command;
+    EXPECT_EQ(full.code, 0) << command;
+    EXPECT_THAT(brief.out,
+                AllOf(StartsWith("usage: kith " + command), HasSubstr("examples:\n"), Not(HasSubstr("KITH_"))))
+        << command;
+    EXPECT_THAT(full.out, AllOf(HasSubstr("environment: KITH_JSON"), HasSubstr("exit codes:"))) << command;
+    EXPECT_EQ(run_kith({"help", command}).out, full.out) << command;
+  }
+  const auto all = run_kith({"--help"});
+  for (const auto& command : kCommands) EXPECT_THAT(all.out, HasSubstr("\n  " + command + " "));
+}
+
+TEST(CommandLine, SuggestsTheNearestCommandAndOption) {
+  const auto command = run_kith({"studdy"});
+  EXPECT_EQ(command.code, 2);
+  EXPECT_THAT(command.err,
+              AllOf(HasSubstr("kith: error: unknown command 'studdy'"), HasSubstr("did you mean 'study'?")));
+  const auto option = run_kith({"study", "quick", "--sede", "3"});
+  EXPECT_EQ(option.code, 2);
+  EXPECT_THAT(option.err, AllOf(HasSubstr("unknown option '--sede'"), HasSubstr("did you mean '--seed'?")));
+  const auto with_value = run_kith({"study", "quick", "--thread=3"});
+  EXPECT_THAT(with_value.err, AllOf(HasSubstr("unknown option '--thread'"), HasSubstr("'--threads'")));
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotUnderstandWithTwo) {
+  const std::vector<std::vector<std::string>> wrong{
+      {"--nonsense"},
+      {"inspect"},
+      {"inspect", "item-delivery", "surplus"},
+      {"inspect", "item-delivery", "--show", "nothing"},
+      {"inspect", "item-delivery", "--mdp", "64"},
+      {"inspect", "item-delivery", "--mdp", "many"},
+      {"teach"},
+      {"teach", "item-delivery"},
+      {"teach", "item-delivery", "--group", "NX"},
+      {"teach", "item-delivery", "--group", "N", "--strategy", "comon"},
+      {"teach", "--from", "x"},
+      {"study", "quick"},
+      {"study", "quick", "-o", "x", "-j", "0"},
+      {"completion", "tcsh"},
+  };
+  for (const auto& arguments : wrong) {
+    const auto ran = run_kith(arguments);
+    EXPECT_EQ(ran.code, 2) << ::testing::PrintToString(arguments) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("error")) << ::testing::PrintToString(arguments);
+    EXPECT_THAT(ran.out, IsEmpty()) << ::testing::PrintToString(arguments);
+  }
+}
+
+TEST(CommandLine, FailsInJsonWithTheSameCode) {
+  const Scratch scratch;
+  std::ofstream{scratch / "bad.toml"} << "schema = \"kith.study/1\"\n";
+  std::ofstream{scratch / "stuck.toml"}
+      << "schema = \"kith.domain/1\"\nid = \"stuck\"\n[map]\nrows = [\"S#G\"]\n[map.legend]\n"
+         "\"S\" = { start = true }\n\"#\" = \"wall\"\n\"G\" = { goal = true }\n"
+         "[[feature]]\nname = \"step\"\nwhen = \"action\"\n[reward]\nweights = { step = -1.0 }\n";
+  const std::vector<std::pair<std::vector<std::string>, int>> failures{
+      {{"studdy"}, 2},
+      {{"study", "quick", "--sede"}, 2},
+      {{"validate", scratch / "bad.toml"}, 3},
+      {{"study", scratch / "bad.toml", "-o", scratch / "run"}, 3},
+      {{"validate", scratch / "stuck.toml"}, 4},
+      {{"validate", scratch / "absent.toml"}, 5},
+      {{"teach", "--from", scratch / "absent", "--team", "1"}, 5},
+  };
+  for (const auto& [arguments, code] : failures) {
+    auto with_json = arguments;
+    with_json.emplace_back("--json");
+    EXPECT_EQ(run_kith(arguments).code, code) << ::testing::PrintToString(arguments);
+    const auto ran = run_kith(with_json);
+    EXPECT_EQ(ran.code, code) << ::testing::PrintToString(arguments);
+    const auto document = Json::parse(ran.out);
+    EXPECT_EQ(document.at("schema"), "kith.error/1");
+    ASSERT_FALSE(document.at("errors").empty());
+    for (const auto* key : {"id", "message", "file", "line", "column", "hint"}) {
+      EXPECT_TRUE(document["errors"][0].contains(key)) << key;
+    }
+  }
+}
+
+TEST(CommandLine, TakesOptionsFromTheEnvironmentUnlessGiven) {
+  const RunWith seed{{{"KITH_SEED", "5"}, {"KITH_JSON", "1"}}, "", ""};
+  const auto from_environment = run_kith({"study", "quick", "--dry-run"}, seed);
+  EXPECT_EQ(Json::parse(from_environment.out).at("seed"), 5) << from_environment.err;
+  EXPECT_EQ(Json::parse(run_kith({"study", "quick", "--dry-run", "--seed", "6"}, seed).out).at("seed"), 6);
+}
+
+TEST(CommandLine, ColoursOnlyWhenAsked) {
+  EXPECT_THAT(run_kith({"inspect", "item-delivery"}).out, Not(HasSubstr("\033[")));
+  EXPECT_THAT(run_kith({"inspect", "item-delivery", "--color", "always"}).out, HasSubstr("\033[1m"));
+}
+
+TEST(CommandLine, SaysWhenStandardOutputIsFull) {
+  const auto ran = run_kith({"inspect", "item-delivery"}, {{}, "", "/dev/full"});
+  EXPECT_EQ(ran.code, 5);
+  EXPECT_THAT(ran.err, HasSubstr("cannot write to standard output"));
+}
+
+TEST(CommandLine, EndsQuietlyWhenItsReaderGoesAway) {
+  const Scratch scratch;
+  std::ofstream{scratch / "script"} << "{ '" << KITH_PROGRAM << "' inspect item-delivery --json --show demos 2>'"
+                                    << scratch / "err"
+                                    << "'; echo $? >'" << scratch / "code"
+                                    << "'; } | head -c 10 >/dev/null\n";
+  ASSERT_EQ(std::system(("bash '" + scratch / "script" + "'").c_str()), 0);
+  EXPECT_EQ(text_of(scratch / "code"), "141\n");
+  EXPECT_EQ(text_of(scratch / "err"), "");
+}
+
+TEST(Version, NamesTheBuildInTextAndJson) {
+  const auto text = run_kith({"--version"});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_THAT(text.out, StartsWith("kith "));
+  const auto document = Json::parse(run_kith({"--version", "--json"}).out);
+  EXPECT_EQ(document.at("schema"), "kith.version/1");
+  for (const auto* key : {"version", "git", "dirty", "compiler", "build_type", "flags", "libraries"}) {
+    EXPECT_TRUE(document.contains(key)) << key;
+  }
+}
+
+TEST(Completion, WritesScriptsThatMentionEverything) {
+  const Scratch scratch;
+  for (const std::string shell : {"bash", "zsh", "fish"}) {
+    const auto ran = run_kith({"completion", shell});
+    ASSERT_EQ(ran.code, 0);
+    for (const auto& command : kCommands) EXPECT_THAT(ran.out, HasSubstr(command)) << shell;
+    EXPECT_THAT(ran.out, AllOf(HasSubstr("strategy"), HasSubstr("individual-low"), HasSubstr("item-delivery")))
+        << shell;
+    std::ofstream{scratch / shell} << ran.out;
+  }
+  EXPECT_EQ(std::system(("bash -n '" + scratch / "bash" + "'").c_str()), 0);
+  EXPECT_EQ(std::system(("! command -v zsh >/dev/null || zsh -n '" + scratch / "zsh" + "'").c_str()), 0);
+  EXPECT_EQ(std::system(("! command -v fish >/dev/null || fish -n '" + scratch / "fish" + "'").c_str()), 0);
+}
+
+// As the shell would call it: `kith study --pro<TAB>`.
+TEST(Completion, CompletesInBash) {
+  const Scratch scratch;
+  std::ofstream{scratch / "kith"} << run_kith({"completion", "bash"}).out;
+  std::ofstream{scratch / "try"}
+      << ". '" + scratch / "kith" +
+             "'\n"
+             "compopt() { :; }\n"
+             "try() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _kith; echo \"${COMPREPLY[*]}\"; }\n"
+             "try kith stu\ntry kith study --pro\ntry kith study --progress j\ntry kith teach --strategy jo\n";
+  ASSERT_EQ(std::system(("bash '" + scratch / "try" + "' >'" + scratch / "out" + "'").c_str()), 0);
+  EXPECT_EQ(text_of(scratch / "out"), "study\n--progress\njson\njoint\n");
+}
+
+TEST(Doctor, FindsThisMachineHealthy) {
+  const auto ran = run_kith({"doctor"});
+  EXPECT_EQ(ran.code, 0) << ran.out;
+  EXPECT_THAT(ran.out, HasSubstr("self-test"));
+  const auto document = Json::parse(run_kith({"doctor", "--json"}).out);
+  EXPECT_EQ(document.at("schema"), "kith.doctor/1");
+  EXPECT_EQ(document.at("healthy"), true);
+}
+
+TEST(Validate, AcceptsStudiesAndDomains) {
+  const std::string root = KITH_SOURCE_DIR;
+  const auto ran = run_kith({"validate", root + "/studies/paper.toml", root + "/domains/item_delivery.toml"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("study 'paper' is valid (300 teams"), HasSubstr("64 MDPs, 9312 start states")));
+}
+
+TEST(Validate, ReadsStandardInput) {
+  const auto ran = run_kith({"validate", "-"}, {{}, "schema = \"kith.unknown/1\"\n", ""});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("<stdin>:1:10: error[E0106]"));
+}
+
+TEST(Validate, LetsWarningsCountOnDemand) {
+  const auto study = text_of(std::string{KITH_SOURCE_DIR} + "/studies/quick.toml");
+  const auto lonely = study +
+                      "[learner.Z]\nability = { mean = 0.8, sd = 0.02 }\nconfirm_gain = { value = 0.01 }\ncorrect_gain "
+                      "= { value = 0.02 }\n";
+  const auto lenient = run_kith({"validate", "-"}, {{}, lonely, ""});
+  EXPECT_EQ(lenient.code, 0);
+  EXPECT_THAT(lenient.err, HasSubstr("warning[W0401]"));
+  const auto strict = run_kith({"validate", "--strict", "-"}, {{}, lonely, ""});
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_THAT(strict.err, HasSubstr("error[W0401]"));
+}
+
+// The published facts of item delivery [jayaraman2024], as others will read them.
+TEST(Inspect, PrintsTheKnownFactsOfItemDelivery) {
+  const auto document = Json::parse(run_kith({"inspect", "item-delivery", "--json"}).out);
+  EXPECT_EQ(document.at("mdps"), 64);
+  EXPECT_EQ(document.at("demonstrations"), 9312);
+  EXPECT_EQ(document.at("weights").at("raw"), Json({-3.0, 3.5, -1.0}));
+  EXPECT_EQ(document.at("bec").at("constraints"), Json({{-1, 0, 2}, {0, -1, -4}, {1, 1, 0}}));
+  EXPECT_NEAR(document.at("bec").at("area_sr"), 0.0261, 0.0001);
+  ASSERT_EQ(document.at("knowledge_components").size(), 3u);
+  EXPECT_EQ(document["knowledge_components"][0].at("masked"), Json({"recharge"}));
+  EXPECT_EQ(document["knowledge_components"][2].at("masked"), Json::array());
+  EXPECT_NEAR(document["knowledge_components"][0].at("area_sr"), 0.4373, 0.0001);
+  EXPECT_EQ(document.at("coverage").at("vertices"), 19324);
+  EXPECT_EQ(document.at("coverage").at("max"), 7);
+  EXPECT_EQ(document.at("mask_counters").size(), 3u);
+  EXPECT_FALSE(document.contains("demos"));
+}
+
+TEST(Inspect, ListsDemonstrationsOnDemand) {
+  const auto document = Json::parse(run_kith({"inspect", "item-delivery", "--json", "--show", "demos"}).out);
+  ASSERT_EQ(document.at("demos").size(), 9312u);
+  const auto& demo = document["demos"][0];
+  for (const auto* key : {"robot", "items", "stations", "mdp"}) EXPECT_TRUE(demo.at("start").contains(key)) << key;
+  EXPECT_EQ(demo.at("features").size(), 3u);
+  EXPECT_TRUE(demo.at("unique").is_boolean());
+  EXPECT_TRUE(demo.at("one_step").is_array());
+}
+
+TEST(Inspect, ShowsEveryPart) {
+  for (const std::string part : {"map", "policy", "bec", "kc", "demos", "tests", "counterfactuals"}) {
+    const auto ran = run_kith({"inspect", "item-delivery", "--show", part});
+    EXPECT_EQ(ran.code, 0) << part << ran.err;
+    EXPECT_GT(ran.out.size(), 150u) << part;
+  }
+  const auto some = run_kith({"inspect", "item-delivery", "--show", "map,demos"}).out;
+  EXPECT_THAT(some, HasSubstr("--all shows them"));
+  EXPECT_GT(run_kith({"inspect", "item-delivery", "--show", "map,demos", "--all"}).out.size(), 3 * some.size());
+}
+
+}  // namespace
+}  // namespace kith::testing

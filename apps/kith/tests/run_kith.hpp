@@ -1,0 +1,94 @@
+#pragma once
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace kith::testing {
+
+/// What a run of the program came to.
+struct Ran {
+  int code = -1;  ///< Exit code; 128 + signal if one ended it.
+  std::string out, err;
+};
+
+/// How to run it.
+struct RunWith {
+  std::vector<std::pair<std::string, std::string>> environment{};
+  std::string input{};
+  std::string out_to{};  ///< A file for standard output, such as "/dev/full".
+};
+
+[[nodiscard]] inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file{path, std::ios::binary};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+/// A folder of its own, removed at the end.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "kith-test-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Scratch() { std::filesystem::remove_all(path_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] std::string operator/(std::string_view name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Starts the program without a shell; the caller waits for the process.
+[[nodiscard]] inline pid_t start_kith(const std::vector<std::string>& arguments, const RunWith& with,
+                                      const std::string& in, const std::string& out, const std::string& err) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  const auto redirect = [](const std::string& file, int flags, int descriptor) {
+    const int opened = open(file.c_str(), flags, 0600);
+    if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
+  };
+  redirect(in, O_RDONLY, STDIN_FILENO);
+  redirect(out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+  redirect(err, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+  for (const auto& [name, value] : with.environment) setenv(name.c_str(), value.c_str(), 1);
+  std::vector<std::string> words{KITH_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execv(KITH_PROGRAM, argv.data());
+  _exit(127);
+}
+
+[[nodiscard]] inline int exit_code_of(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Runs the program and returns all that it said.
+[[nodiscard]] inline Ran run_kith(const std::vector<std::string>& arguments, const RunWith& with = {}) {
+  const Scratch scratch;
+  std::ofstream{scratch / "in"} << with.input;
+  const auto out = with.out_to.empty() ? scratch / "out" : with.out_to;
+  Ran ran;
+  ran.code = exit_code_of(start_kith(arguments, with, scratch / "in", out, scratch / "err"));
+  if (with.out_to.empty()) ran.out = text_of(out);
+  ran.err = text_of(scratch / "err");
+  return ran;
+}
+
+}  // namespace kith::testing

@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Json = nlohmann::json;
+
+std::map<std::string, std::string> tables_in(const std::filesystem::path& run) {
+  std::map<std::string, std::string> tables;
+  for (const auto& entry : std::filesystem::directory_iterator{run / "tables"}) {
+    tables[entry.path().filename().string()] = text_of(entry.path());
+  }
+  return tables;
+}
+
+TEST(StudyCommand, PrintsATableAndSaysWhereTheTablesAre) {
+  const Scratch scratch;
+  const auto ran = run_kith({"study", "quick", "-o", scratch / "run"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("strategy"), HasSubstr("baseline"), HasSubstr("all groups"), HasSubstr("all baseline")));
+  EXPECT_THAT(ran.err, HasSubstr("6 teams in"));
+  EXPECT_EQ(tables_in(scratch / "run").size(), 5u);
+}
+
+TEST(StudyCommand, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const Scratch scratch;
+  for (const std::string threads : {"1", "2", "7"}) {
+    ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / threads, "-j", threads, "-q"}).code, 0);
+  }
+  EXPECT_EQ(tables_in(scratch / "1"), tables_in(scratch / "2"));
+  EXPECT_EQ(tables_in(scratch / "1"), tables_in(scratch / "7"));
+}
+
+TEST(StudyCommand, GivesOtherTeamsForAnotherSeed) {
+  const Scratch scratch;
+  ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "a"}).code, 0);
+  ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "b", "--seed", "2"}).code, 0);
+  ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "c", "--set", "seed=2"}).code, 0);
+  EXPECT_NE(tables_in(scratch / "a").at("learners.csv"), tables_in(scratch / "b").at("learners.csv"));
+  EXPECT_EQ(tables_in(scratch / "b"), tables_in(scratch / "c"));
+}
+
+TEST(StudyCommand, RunsAgainFromItsFrozenInputs) {
+  const Scratch scratch;
+  ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "a", "--set", "replicates=2"}).code, 0);
+  const auto again = run_kith({"study", scratch / "a/inputs/study.toml", "-o", scratch / "b"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(tables_in(scratch / "a"), tables_in(scratch / "b"));
+}
+
+TEST(StudyCommand, KeepsTheResultsOfAnotherStudyUnlessTold) {
+  const Scratch scratch;
+  ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "run"}).code, 0);
+  const auto before = tables_in(scratch / "run");
+  EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "run"}).code, 0);
+  EXPECT_EQ(tables_in(scratch / "run"), before);
+  const auto refused = run_kith({"study", "quick", "-o", scratch / "run", "--seed", "2"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--yes"));
+  EXPECT_EQ(tables_in(scratch / "run"), before);
+  EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "run", "--seed", "2", "--yes"}).code, 0);
+  EXPECT_NE(tables_in(scratch / "run"), before);
+}
+
+TEST(StudyCommand, CannotWriteBelowAFile) {
+  const Scratch scratch;
+  std::ofstream{scratch / "file"} << "x";
+  const auto ran = run_kith({"study", "quick", "-o", scratch / "file/run"});
+  EXPECT_EQ(ran.code, 5);
+  EXPECT_THAT(ran.err, HasSubstr("file/run"));
+}
+
+TEST(StudyCommand, SummarizesInJson) {
+  const Scratch scratch;
+  const auto document = Json::parse(run_kith({"study", "quick", "-o", scratch / "run", "--json"}).out);
+  EXPECT_EQ(document.at("schema"), "kith.study/1");
+  EXPECT_EQ(document.at("teams"), 6);
+  EXPECT_TRUE(document.at("seconds").is_number());
+  ASSERT_EQ(document.at("cells").size(), 2u);
+  for (const auto* key : {"strategy", "composition", "teams", "completed", "periods", "knowledge", "area_sr"}) {
+    EXPECT_TRUE(document["cells"][0].contains(key)) << key;
+  }
+  for (const auto* group : {"group", "baseline"}) {
+    const auto& pooled = document.at("groups").at(group);
+    EXPECT_EQ(pooled.at("teams"), 3);
+    EXPECT_TRUE(pooled.at("periods").at("sd").is_number());
+  }
+}
+
+TEST(StudyCommand, ShowsVariedKeysAsColumns) {
+  const Scratch scratch;
+  const auto ran = run_kith({"study", "quick", "-o", scratch / "run", "--set",
+                             "design.vary={\"stop.max_periods\"=[1,2]}", "--set", "replicates=1", "-q"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("stop.max_periods"));
+  EXPECT_THAT(tables_in(scratch / "run").at("teams.csv"), HasSubstr("composition,stop.max_periods,replicate,team"));
+}
+
+TEST(StudyCommand, RunsNothingWhenDry) {
+  const Scratch scratch;
+  const auto ran = run_kith({"study", "paper", "-o", scratch / "run", "--dry-run"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.out, HasSubstr("300 teams"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
+}
+
+TEST(StudyCommand, ReportsProgressAsJsonLines) {
+  const Scratch scratch;
+  const auto ran = run_kith({"study", "quick", "-o", scratch / "run", "--progress", "json", "-q"});
+  ASSERT_EQ(ran.code, 0);
+  const auto last = Json::parse(ran.err.substr(ran.err.find('{')));
+  EXPECT_EQ(last.at("done"), 6);
+  EXPECT_EQ(last.at("total"), 6);
+}
+
+// A study that would take minutes is stopped while it runs.
+TEST(StudyCommand, StopsCleanlyWhenInterrupted) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Scratch scratch;
+    std::ofstream{scratch / "in"} << "";
+    const auto child =
+        start_kith({"study", "quick", "-o", scratch / "run", "--set", "replicates=100000", "--progress", "json"}, {},
+                   scratch / "in", scratch / "out", scratch / "err");
+    for (int i = 0; i < 1000 && text_of(scratch / "err").find("\"done\"") == std::string::npos; ++i) usleep(10'000);
+    kill(child, signal);
+    EXPECT_EQ(exit_code_of(child), 128 + signal);
+    EXPECT_THAT(text_of(scratch / "err"), HasSubstr("interrupted after"));
+    EXPECT_THAT(text_of(scratch / "out"), IsEmpty());
+    EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
+  }
+}
+
+TEST(TeachCommand, IsDeterministicAndFollowsTheSeed) {
+  const std::vector<std::string> arguments{"teach", "item-delivery", "--group", "NP", "--strategy", "joint", "--seed"};
+  const auto with_seed = [&](const std::string& seed) {
+    auto all = arguments;
+    all.push_back(seed);
+    return run_kith(all);
+  };
+  const auto first = with_seed("3");
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(first.out, with_seed("3").out);
+  EXPECT_NE(first.out, with_seed("4").out);
+}
+
+TEST(TeachCommand, ReplaysATeamOfAStudy) {
+  const Scratch scratch;
+  ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "run"}).code, 0);
+  // Teams 1 to 3 are taught alone, 4 to 6 together.
+  for (const std::string team : {"2", "5"}) {
+    const auto document = Json::parse(run_kith({"teach", "--from", scratch / "run", "--team", team, "--json"}).out);
+    EXPECT_EQ(document.at("schema"), "kith.teach/1");
+    EXPECT_EQ(document.at("sessions").size(), team == "2" ? 2u : 1u);
+    // The row of the same team says the same.
+    const auto row = "," + team + "," + document.at("seed_address").get<std::string>() + ",complete,true," +
+                     document.at("periods").dump() + "," + document.at("demonstrations").dump() + "," +
+                     document.at("tests").dump() + "," + document.at("knowledge").dump() + ",";
+    EXPECT_THAT(tables_in(scratch / "run").at("teams.csv"), HasSubstr(row));
+  }
+  EXPECT_EQ(run_kith({"teach", "--from", scratch / "run", "--team", "7"}).code, 2);
+}
+
+}  // namespace
+}  // namespace kith::testing
