@@ -6,6 +6,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "commands.hpp"
 #include "input.hpp"
@@ -139,7 +140,7 @@ int run_study(const StudyOptions& options, Console& console) {
   watch_signals();
   RunFolder folder{options.out, freeze(reading), options.yes};
   facts.domain = study.variants.front().domain;
-  facts.threads = options.threads;
+  facts.threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
   note(fmt::format("study {}: {} teams in {}", study.variants.front().id, addresses.size(), facts.domain));
   facts.timings.emplace_back("read", seconds_since(begin));
 

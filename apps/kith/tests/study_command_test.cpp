@@ -126,7 +126,7 @@ TEST(StudyCommand, ReportsProgressAsJsonLines) {
 
 // A study that would take minutes is stopped while it runs.
 TEST(StudyCommand, StopsCleanlyWhenInterrupted) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Scratch scratch;
     std::ofstream{scratch / "in"} << "";
     const auto child =
