@@ -6,8 +6,8 @@
 #include <set>
 
 #include "kith/core/error.hpp"
-#include "kith/geometry/cone.hpp"
 #include "kith/random/stream.hpp"
+#include "read_prior.hpp"
 
 namespace kith {
 namespace {
@@ -182,7 +182,9 @@ class SpecReader {
     set_if(population.ability_scale, table.real("ability_scale", Presence::kOptional, {0.0, 5.0, true, false}));
     set_if(type.filter.particles, table.integer("particles", Presence::kOptional, {1, kMaxParticles}));
     set_if(type.filter.process_noise, table.real("process_noise", Presence::kOptional, {0.0, 10.0}));
-    if (const auto* prior = table.array("prior", Presence::kOptional)) read_prior(table, *prior, type);
+    if (const auto* prior = table.array("prior", Presence::kOptional)) {
+      type.prior = read_prior(*prior, table.value("prior", Presence::kOptional)->place(), domain_, report_);
+    }
     table.finish();
     if (report_.num_errors() == errors) check_that_people_exist(table, population);
     return type;
@@ -223,56 +225,6 @@ class SpecReader {
                          "gains must be below gain_max and, unless ordered_gains = false, confirm_gain below "
                          "correct_gain; abilities between ability.min and ability_max");
     }
-  }
-
-  void read_prior(TomlReader& table, const TomlArray& list, LearnerType& type) {
-    std::vector<HalfSpace> half_spaces;
-    bool readable = domain_ != nullptr;
-    for (const auto& element : list) {
-      const auto* names = read_table(element, "every element of 'prior'", report_);
-      if (names == nullptr || domain_ == nullptr) {
-        readable = false;
-        continue;
-      }
-      const auto normal = read_normal(element, *names);
-      if (normal) half_spaces.emplace_back(*normal);
-      readable = readable && normal.has_value();
-    }
-    if (!readable) return;
-    const auto place = table.value("prior", Presence::kOptional)->place();
-    for (std::size_t i = 0; i < half_spaces.size(); ++i) {
-      if (!half_spaces[i].contains(domain_->weights().integer)) {
-        report_.infeasible("E0411", list[i].place(), "this prior does not hold at the robot's weights",
-                           "learners who start from it could never learn the policy");
-        return;
-      }
-    }
-    if (!has_interior(half_spaces)) {
-      report_.infeasible("E0411", place, "no weights satisfy all of 'prior'");
-      return;
-    }
-    type.prior = std::move(half_spaces);
-  }
-
-  [[nodiscard]] std::optional<IntegerVector> read_normal(const TomlValue& element, const TomlTable& names) {
-    const auto& features = domain_->feature_names();
-    IntegerVector normal(3);
-    bool good = features.size() <= normal.size();
-    for (const auto& entry : names.entries()) {
-      const auto feature = std::find(features.begin(), features.end(), entry.key);
-      const auto value = read_integer(entry.value, "'" + entry.key + "'", {-1000, 1000}, report_);
-      if (feature == features.end()) {
-        report_.error("E0410", entry.place, "prior names an unknown feature '" + entry.key + "'",
-                      suggestion(entry.key, features));
-      }
-      good = good && value && feature != features.end();
-      if (good) normal[static_cast<std::size_t>(feature - features.begin())] = *value;
-    }
-    if (good && normal.is_zero()) {
-      report_.error("E0410", element.place(), "this prior says nothing", "write for instance { step = -1 }");
-      good = false;
-    }
-    return good ? std::optional{normal} : std::nullopt;
   }
 
   // --- the rest --------------------------------------------------------------
