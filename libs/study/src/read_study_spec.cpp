@@ -257,10 +257,6 @@ class SpecReader {
 
   void read_record(TomlReader& record) {
     set_if(spec_.record, record.word("level", Presence::kOptional, kRecordWords));
-    if (spec_.record == RecordLevel::kParticles) {
-      report_.warning("W0404", record.value("level", Presence::kOptional)->place(),
-                      "no table holds particles, so this records the same as \"period\"");
-    }
     record.finish();
   }
 

@@ -95,13 +95,28 @@ Columns response_columns() {
                  "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'.")};
 }
 
+Columns particle_columns() {
+  return {column("period", kInteger, "Number of the period at whose end the belief was this."),
+          column("belief", kText,
+                 "Whose: 'own N' (of member N), 'teacher N' (the teacher's about member N), 'common' or 'joint'."),
+          column("particle", kInteger, "Number of the particle, from 1."),
+          column("x", kReal, "First entry of a direction of reward weights, at length 1."),
+          column("y", kReal, "Second entry."),
+          column("z", kReal, "Third entry."),
+          column("weight", kReal, "Weight of the particle; those of a belief sum to 1.")};
+}
+
 std::vector<TableDescription> descriptions(const Study& study) {
   const auto keys = team_keys(study);
-  return {
+  std::vector<TableDescription> tables{
       {"teams.csv", "One row per team.", keys + team_columns()},
       {"learners.csv", "One row per member of a team.", keys + learner_columns()},
       {"periods.csv", "One row per interaction period; none if only teams are recorded.", keys + period_columns()},
       {"responses.csv", "One row per member and test; none if only teams are recorded.", keys + response_columns()}};
+  if (study.variants.front().record == RecordLevel::kParticles) {
+    tables.push_back({"particles.csv", "One row per particle, belief and period.", keys + particle_columns()});
+  }
+  return tables;
 }
 
 std::int64_t count(std::size_t n) { return static_cast<std::int64_t>(n); }
@@ -132,6 +147,7 @@ class Tables {
     for (const auto& learner : team.learners) add_learner(team, learner);
     for (const auto& period : team.period_records) add_period(team, period);
     for (const auto& response : team.responses) add_response(team, response);
+    for (const auto& belief : team.beliefs) add_belief(team, belief);
   }
 
   void flush() {
@@ -208,6 +224,20 @@ class Tables {
         .text_or_missing(answer)
         .text(std::string_view{text_of(response.constraints)})
         .end_row();
+  }
+
+  void add_belief(const TeamRecord& team, const BeliefSnapshot& belief) {
+    for (std::size_t i = 0; i < belief.weights.size(); ++i) {
+      begin_row(4, team.address)
+          .integer(count(belief.period))
+          .text(std::string_view{belief.belief})
+          .integer(count(i + 1))
+          .real(belief.x[i])
+          .real(belief.y[i])
+          .real(belief.z[i])
+          .real(belief.weights[i])
+          .end_row();
+    }
   }
 
   const Study& study_;

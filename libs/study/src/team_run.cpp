@@ -24,7 +24,7 @@ class TeamRun {
     record_.address = address;
     record_.seed_address = readable_address(spec, address);
     options_ = spec.teaching;
-    const bool everything = observer != nullptr;
+    const bool everything = observer != nullptr || spec.record == RecordLevel::kParticles;
     const bool periods = everything || spec.record != RecordLevel::kTeam;
     options_.also_record.members |= everything;
     options_.also_record.common |= periods;
@@ -133,6 +133,7 @@ class TeamRun {
       for (const auto& verdict : feedback.verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
     }
     write_down(session, lesson, answers, feedback, rows, member);
+    if (spec_.record == RecordLevel::kParticles) write_beliefs(session, lesson.period, learners, rows);
     if (observer_ != nullptr) observer_->on_feedback(session, lesson, responses, feedback, learners);
   }
 
@@ -192,6 +193,23 @@ class TeamRun {
                                      .constraints = verdict.half_spaces});
       }
     }
+  }
+
+  void write_beliefs(const Session& session, std::size_t period, const std::vector<SimulatedLearner>& learners,
+                     const std::vector<LearnerRecord>& rows) {
+    const auto keep = [&](std::string name, const ParticleBelief& belief) {
+      const auto copy = [](std::span<const double> values) {
+        return std::vector<double>{values.begin(), values.end()};
+      };
+      record_.beliefs.push_back(
+          {period, std::move(name), copy(belief.x()), copy(belief.y()), copy(belief.z()), copy(belief.weights())});
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      keep("own " + std::to_string(rows[i].member), learners[i].belief());
+      keep("teacher " + std::to_string(rows[i].member), session.belief().member(i));
+    }
+    keep("common", session.belief().common());
+    keep("joint", session.belief().joint());
   }
 
   // In the baseline the only member's seat is 0, whoever sits there.

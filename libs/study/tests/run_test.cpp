@@ -113,6 +113,33 @@ TEST(RunTeams, TheBaselineSumsPeriodsOverItsMembers) {
   }
 }
 
+TEST(RunTeams, RecordsEveryBeliefAtTheEndOfEveryPeriodWhenAskedTo) {
+  auto spec = paper(1);
+  spec.strategies = {Strategy::kCommon};
+  spec.compositions = {"NP"};
+  const Study plain{{spec}};
+  const auto without = run_teams(item_delivery(), plain, team_addresses(plain)).teams.front();
+  EXPECT_TRUE(without.beliefs.empty());
+  spec.record = RecordLevel::kParticles;
+  const Study study{{spec}};
+  const auto team = run_teams(item_delivery(), study, team_addresses(study)).teams.front();
+  expect_equal(team, without);                       // looking changes nothing
+  ASSERT_EQ(team.beliefs.size(), team.periods * 6);  // own and teacher's of two members, common, joint
+  const auto& bec = item_delivery().policy_bec_half_spaces();
+  for (const auto& belief : team.beliefs) {
+    ASSERT_EQ(belief.weights.size(), 1000u);
+    double in_bec = 0.0;
+    for (std::size_t i = 0; i < belief.weights.size(); ++i) {
+      const Eigen::Vector3d w{belief.x[i], belief.y[i], belief.z[i]};
+      if (std::all_of(bec.begin(), bec.end(), [&](const HalfSpace& h) { return h.contains(w); }))
+        in_bec += belief.weights[i];
+    }
+    if (belief.belief == "common") {
+      EXPECT_NEAR(in_bec, team.period_records[belief.period - 1].p_bec_common, 1e-12);
+    }
+  }
+}
+
 TEST(RunTeams, StopsWhenAskedTo) {
   const Study study{{paper(2)}};
   const auto result = run_teams(item_delivery(), study, team_addresses(study),

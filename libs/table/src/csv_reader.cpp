@@ -66,7 +66,7 @@ struct Fault {
 };
 
 struct Parsed {
-  Cell cell = {};
+  TableCell cell = {};
   std::optional<Fault> fault = {};
 };
 
@@ -228,7 +228,7 @@ class Reader {
   const std::string& file_;
   std::span<const Column> columns_;
   const std::function<void(const CsvRow&)>& on_row_;
-  std::vector<Cell> cells_;
+  std::vector<TableCell> cells_;
   std::vector<std::size_t> source_;
   std::size_t num_fields_ = 0;
   bool has_header_ = false;

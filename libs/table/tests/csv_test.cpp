@@ -32,7 +32,7 @@ std::string written(const std::vector<Column>& columns, const std::function<void
 }
 
 struct Result {
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::vector<TableCell>> rows;
   std::vector<std::size_t> lines;
   std::vector<Diagnostic> diagnostics;
 };
@@ -131,11 +131,11 @@ TEST(CsvWriter, HandsOverPiecesThatEndWhereRowsDo) {
 TEST(Csv, ReadsBackWhatItWrote) {
   std::mt19937_64 bits{1};
   const std::vector<std::string> pieces{"a", "\"", ",", "\n", "\r\n", " ", "\t", "\xE2\x82\xAC", "0", "'", ";"};
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::vector<TableCell>> rows;
   std::string out;
   CsvWriter writer{kColumns, [&](std::string_view piece) { out += piece; }};
   for (int r = 0; r < 3000; ++r) {
-    std::vector<Cell> row(4);
+    std::vector<TableCell> row(4);
     std::string text;
     for (std::uint64_t k = bits() % 6; k > 0; --k) text += pieces[bits() % pieces.size()];
     double real = 0.0;
@@ -165,16 +165,16 @@ TEST(ReadCsv, AcceptsAnyOrderByteOrderMarksCarriageReturnsAndBlankLines) {
       "done,area_sr,name,count\r\n\r\ntrue,0.5,\"\",7\r\n\nfalse,,,");
   EXPECT_TRUE(result.diagnostics.empty());
   ASSERT_EQ(result.rows.size(), 2u);
-  EXPECT_EQ(result.rows[0], (std::vector<Cell>{std::string{}, std::int64_t{7}, 0.5, true}));
-  EXPECT_EQ(result.rows[1], (std::vector<Cell>{Cell{}, Cell{}, Cell{}, false}));
+  EXPECT_EQ(result.rows[0], (std::vector<TableCell>{std::string{}, std::int64_t{7}, 0.5, true}));
+  EXPECT_EQ(result.rows[1], (std::vector<TableCell>{TableCell{}, TableCell{}, TableCell{}, false}));
   EXPECT_THAT(result.lines, ElementsAre(3u, 5u));
 }
 
 TEST(ReadCsv, KeepsBlanksAndCountsLinesInsideQuotes) {
   const Result result = parsed("name,count,area_sr,done\n\"a\nb\",1,,true\n x ,2,,true\n");
   EXPECT_TRUE(result.diagnostics.empty());
-  EXPECT_EQ(result.rows[0][0], Cell{std::string{"a\nb"}});
-  EXPECT_EQ(result.rows[1][0], Cell{std::string{" x "}});
+  EXPECT_EQ(result.rows[0][0], TableCell{std::string{"a\nb"}});
+  EXPECT_EQ(result.rows[1][0], TableCell{std::string{" x "}});
   EXPECT_THAT(result.lines, ElementsAre(2u, 4u));
 }
 

@@ -185,7 +185,8 @@ TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
 TEST(Session, AMissingAnswerIsWrongAndShowsNothing) {
   TeachingCache cache{item_delivery().constraints()};
   auto session = make_session(cache, Strategy::kCommon, 1);
-  const auto feedback = session.submit(std::vector<std::vector<Answer>>(1, std::vector<Answer>(session.lesson().tests.size())));
+  const auto feedback =
+      session.submit(std::vector<std::vector<Answer>>(1, std::vector<Answer>(session.lesson().tests.size())));
   for (const auto& verdict : feedback.verdicts[0]) {
     EXPECT_FALSE(verdict.correct);
     EXPECT_FALSE(verdict.answered);

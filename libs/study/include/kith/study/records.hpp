@@ -51,6 +51,14 @@ struct PeriodRecord {
   double p_bec_joint = 0.0;
 };
 
+/// One belief at the end of a period: the rows of particles.csv.
+struct BeliefSnapshot {
+  std::size_t period = 0;
+  std::string belief;           ///< "own N", "teacher N" (member N, 1-based), "common" or "joint".
+  std::vector<double> x, y, z;  ///< Points of the unit sphere: directions of reward weights.
+  std::vector<double> weights;  ///< Sum to 1.
+};
+
 /// A row of learners.csv.
 struct LearnerRecord {
   std::size_t member = 0;  ///< 1-based
@@ -77,6 +85,7 @@ struct TeamRecord {
   double area_sr = 0.0;  ///< Mean over periods of PeriodRecord::area_sr; 0 without periods.
   std::vector<LearnerRecord> learners;
   std::vector<PeriodRecord> period_records;  ///< Empty at RecordLevel::kTeam.
+  std::vector<BeliefSnapshot> beliefs;       ///< Empty unless RecordLevel::kParticles.
   std::vector<ResponseRecord> responses;     ///< Empty at RecordLevel::kTeam.
 };
 

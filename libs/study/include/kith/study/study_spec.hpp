@@ -26,7 +26,11 @@ enum class Pairing {
 };
 
 /// How much of every team is written down.
-enum class RecordLevel { kTeam, kPeriod, kParticles };
+enum class RecordLevel {
+  kTeam,       ///< Teams and learners.
+  kPeriod,     ///< Also periods and responses.
+  kParticles,  ///< Also every belief at the end of every period: some 8 000 rows a period for a team of three.
+};
 
 /// One setting of the varied keys of a design, such as {"teacher.process_noise", "0.5"}.
 struct FactorSetting {

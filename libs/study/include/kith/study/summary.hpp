@@ -18,8 +18,8 @@ struct MeanSd {
 /// What the teams of one cell, or of several pooled, came to.
 struct CellSummary {
   std::size_t variant = 0;
-  std::optional<Strategy> strategy;   ///< Missing when pooled.
-  std::string composition;            ///< Empty when pooled.
+  std::optional<Strategy> strategy;  ///< Missing when pooled.
+  std::string composition;           ///< Empty when pooled.
   std::size_t teams = 0;
   std::size_t completed = 0;
   MeanSd periods;
@@ -30,7 +30,7 @@ struct CellSummary {
 /// Per cell in the order of the tables, and pooled over the group strategies and over the baseline.
 struct StudySummary {
   std::vector<CellSummary> cells;
-  std::optional<CellSummary> group;      ///< All strategies but the baseline; missing if there is none.
+  std::optional<CellSummary> group;  ///< All strategies but the baseline; missing if there is none.
   std::optional<CellSummary> baseline;
 };
 [[nodiscard]] StudySummary summarize(std::span<const TeamRecord> teams);

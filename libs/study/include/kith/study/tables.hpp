@@ -13,13 +13,14 @@ namespace kith {
 /// Takes the next piece of the file of that name ("teams.csv").
 using TableSink = std::function<void(std::string_view file, std::string_view piece)>;
 
-/// Writes teams, learners, periods and responses.csv, team by team in the given
+/// Writes teams, learners, periods and responses.csv, and particles.csv if the
+/// study records particles, team by team in the given
 /// order, in pieces that end where rows do. Each file gets at least its header.
 /// The study's varied keys are columns right behind the composition. The
 /// bytes depend on the study and its teams only.
 void write_study_tables(const Study& study, std::span<const TeamRecord> teams, const TableSink& sink);
 
-/// The document that describes every column of the four tables (codebook.json).
+/// The document that describes every column of these tables (codebook.json).
 [[nodiscard]] std::string study_codebook(const Study& study);
 
 }  // namespace kith

@@ -16,12 +16,12 @@
 namespace kith {
 
 /// A value of a table; std::monostate is a missing one.
-using Cell = std::variant<std::monostate, std::string, std::int64_t, double, bool>;
+using TableCell = std::variant<std::monostate, std::string, std::int64_t, double, bool>;
 
 /// One row, in the order of the columns that were asked for.
 struct CsvRow {
-  std::size_t line;             ///< Where the row begins in the file, from 1.
-  std::span<const Cell> cells;  ///< One per column, each missing or of the column's type.
+  std::size_t line;                  ///< Where the row begins in the file, from 1.
+  std::span<const TableCell> cells;  ///< One per column, each missing or of the column's type.
 };
 
 /// Reads a CSV text (RFC 4180, UTF-8 with or without byte order mark, lines
@@ -39,8 +39,8 @@ struct CsvRow {
 
 /// The rows of a table, kept.
 struct CsvTable {
-  std::vector<std::vector<Cell>> rows;  ///< Shape [rows][columns].
-  std::vector<std::size_t> lines;       ///< Where each row begins, from 1.
+  std::vector<std::vector<TableCell>> rows;  ///< Shape [rows][columns].
+  std::vector<std::size_t> lines;            ///< Where each row begins, from 1.
 };
 
 /// The whole file. @throws kith::Error (kInvalidInput) with all diagnostics, or (kIo) if it cannot be read.
