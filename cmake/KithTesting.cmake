@@ -9,16 +9,26 @@ target_compile_definitions(kith_testing INTERFACE KITH_SOURCE_DIR="${PROJECT_SOU
 # kith_test_program(<name> SOURCES a_test.cpp ... [DEPENDS lib ...])
 #
 # The program kith_<name>_tests; its tests appear in ctest as <name>.Suite.Test
-# with the label <name>. Suites whose name contains "Slow" also have the label
-# `slow`, which the normal run of the tests leaves out.
+# with the label <name>. Suites whose name contains "Slow" have the label `slow`
+# instead, which the normal run of the tests leaves out. Under sanitizers a
+# program is one test: starting it anew for each of its tests, which then make
+# the same atlas again, took longer than the tests.
 function(kith_test_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
   set(program kith_${name}_tests)
   add_executable(${program} ${arg_SOURCES})
   target_link_libraries(${program} PRIVATE kith_build kith_testing ${arg_DEPENDS})
-  set(discovery TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST)
-  gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_quick TEST_FILTER "-*Slow*"
-    PROPERTIES LABELS "${name}" TIMEOUT 120)
-  gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_slow TEST_FILTER "*Slow*"
-    PROPERTIES LABELS "${name}\\;slow" TIMEOUT 1800)
+  set(slow_suites "*Slow*.*")
+  if(KITH_SANITIZE)
+    add_test(NAME ${name} COMMAND ${program} --gtest_brief=1 --gtest_filter=-${slow_suites})
+    add_test(NAME ${name}.slow COMMAND ${program} --gtest_brief=1 --gtest_filter=${slow_suites})
+    set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 1200)
+    set_tests_properties(${name}.slow PROPERTIES LABELS slow TIMEOUT 7200)
+    return()
+  endif()
+  set(discovery TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES)
+  gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_quick TEST_FILTER "-${slow_suites}"
+    PROPERTIES LABELS ${name} TIMEOUT 120)
+  gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_slow TEST_FILTER "${slow_suites}"
+    PROPERTIES LABELS slow TIMEOUT 1800)
 endfunction()
