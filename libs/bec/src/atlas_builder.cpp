@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
 #include "one_step.hpp"
 
@@ -12,6 +13,8 @@ namespace kith {
 void AtlasBuilder::build() {
   check_domain();
   plan();
+  find_indifference();
+  reduce_one_step();
   number_constraints();
   make_one_step_sets();
   make_policy_bec();
@@ -56,8 +59,8 @@ void AtlasBuilder::plan() {
       atlas_.demos_.push_back(std::move(demo));
     }
     describe_paths(m, *plan.solution);
-    reduce_one_step(m, *plan.solution);
-    find_hulls(m, *plan.solution);
+    collect_one_step(m, *plan.solution);
+    find_hulls(m);
     atlas_.canonical_choices_.push_back(plan.solution->canonical_choice);
   }
 }
@@ -92,31 +95,63 @@ void AtlasBuilder::describe_paths(MdpIndex m, const ExactSolution& robot) {
   }
 }
 
-void AtlasBuilder::reduce_one_step(MdpIndex m, const ExactSolution& robot) {
+void AtlasBuilder::collect_one_step(MdpIndex m, const ExactSolution& robot) {
   const auto& mdp = atlas_.domain_.mdp(m);
   raw_sets_.resize(atlas_.demos_.size());
   for (const auto s : successors_first(mdp, robot)) {
-    auto& here = demo(m, s);
+    const auto& here = demo(m, s);
     auto set = deviations(mdp, robot, s, raw_);
     if (here.next != Atlas::kTerminal) set.insert(set.end(), raw_sets_[here.next].begin(), raw_sets_[here.next].end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
-    std::vector<std::int64_t> key;
-    for (const auto c : set) key.push_back(static_cast<std::int64_t>(c.value()));
-    const auto [place, is_new] =
-        minimal_set_of_.try_emplace(std::move(key), static_cast<std::uint32_t>(minimal_sets_.size()));
-    if (is_new) {
-      std::vector<HalfSpace> half_spaces;
-      for (const auto c : set) half_spaces.push_back(raw_[c]);
-      // Without interior (w* on its own boundary, both sides demonstrated) nothing may be dropped.
-      minimal_sets_.push_back(minimal_set(half_spaces).value_or(half_spaces));
-    }
-    here.one_step = place->second;
     raw_sets_[atlas_.first_demo_[m.value()] + s.value()] = std::move(set);
   }
 }
 
-void AtlasBuilder::find_hulls(MdpIndex m, const ExactSolution&) {
+// Where paths with different feature counts are equally good, the comparison of
+// the two holds with equality at the robot's weights. As long as such
+// half-spaces leave a region they are taken as shown. When the robot's choices
+// among equals contradict each other, it is indifferent: these comparisons say
+// nothing about its reward, and none of them counts.
+void AtlasBuilder::find_indifference() {
+  const auto& weights = atlas_.domain_.weights().integer;
+  std::vector<HalfSpace> ties;
+  const auto collect = [&](const HalfSpace& half_space) {
+    if (sign_of_dot(half_space.normal(), weights) == 0) ties.push_back(half_space);
+  };
+  for (ConstraintIndex c{0}; c.value() < raw_.size(); ++c) collect(raw_[c]);
+  for (const auto& hull : atlas_.hulls_) {
+    for (const auto& loss : hull.losses) {
+      if (!loss.is_zero()) collect(HalfSpace{loss});
+    }
+  }
+  indifferent_ = !has_interior(ties);
+}
+
+bool AtlasBuilder::counts(const HalfSpace& half_space) const {
+  return !indifferent_ || sign_of_dot(half_space.normal(), atlas_.domain_.weights().integer) != 0;
+}
+
+void AtlasBuilder::reduce_one_step() {
+  IntsMap<std::uint32_t> known;
+  for (std::size_t i = 0; i < atlas_.demos_.size(); ++i) {
+    std::vector<std::int64_t> key;
+    for (const auto c : raw_sets_[i]) key.push_back(static_cast<std::int64_t>(c.value()));
+    const auto [place, is_new] = known.try_emplace(std::move(key), static_cast<std::uint32_t>(minimal_sets_.size()));
+    if (is_new) {
+      std::vector<HalfSpace> half_spaces;
+      for (const auto c : raw_sets_[i]) {
+        if (counts(raw_[c])) half_spaces.push_back(raw_[c]);
+      }
+      auto reduced = minimal_set(half_spaces);
+      KITH_ASSERT(reduced.has_value());  // weights beside the robot's satisfy all that counts
+      minimal_sets_.push_back(std::move(*reduced));
+    }
+    atlas_.demos_[i].one_step = place->second;
+  }
+}
+
+void AtlasBuilder::find_hulls(MdpIndex m) {
   const auto& mdp = atlas_.domain_.mdp(m);
   const auto coverage = coverage_sets(mdp);
   for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
@@ -158,7 +193,8 @@ void AtlasBuilder::number_constraints() {
   for (const auto& hull : atlas_.hulls_) {
     auto& row = atlas_.hull_constraints_.emplace_back();
     for (const auto& loss : hull.losses) {
-      row.push_back(loss.is_zero() ? -1 : static_cast<std::int32_t>(table.add(HalfSpace{loss}).value()));
+      const bool tells = !loss.is_zero() && counts(HalfSpace{loss});
+      row.push_back(tells ? static_cast<std::int32_t>(table.add(HalfSpace{loss}).value()) : -1);
     }
   }
 }
@@ -238,7 +274,7 @@ void AtlasBuilder::make_facets() {
     auto facets = atlas_.no_constraints();
     std::optional<Cone> cell = hull.finite_region;
     for (const auto& loss : hull.losses) {
-      if (cell && !loss.is_zero()) cell = cell->clipped(HalfSpace{loss});
+      if (cell && !loss.is_zero() && counts(HalfSpace{loss})) cell = cell->clipped(HalfSpace{loss});
     }
     if (cell) {
       const auto outer = hull.finite_region.facets();

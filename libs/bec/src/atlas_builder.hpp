@@ -20,8 +20,11 @@ class AtlasBuilder {
   void check_domain() const;
   void plan();
   void describe_paths(MdpIndex m, const ExactSolution& robot);
-  void reduce_one_step(MdpIndex m, const ExactSolution& robot);
-  void find_hulls(MdpIndex m, const ExactSolution& robot);
+  void collect_one_step(MdpIndex m, const ExactSolution& robot);
+  void find_indifference();
+  [[nodiscard]] bool counts(const HalfSpace& half_space) const;
+  void reduce_one_step();
+  void find_hulls(MdpIndex m);
   void intern_hull(Atlas::Demo& demo, const CoverageSets& coverage);
   void number_constraints();
   void make_one_step_sets();
@@ -52,9 +55,9 @@ class AtlasBuilder {
   Atlas& atlas_;
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.
   ConstraintTable raw_;
+  bool indifferent_ = false;  // constraints that hold with equality at the robot's weights do not count
   std::vector<std::vector<ConstraintIndex>> raw_sets_;  // per demonstration: all along the path, sorted
   std::vector<std::vector<HalfSpace>> minimal_sets_;    // distinct minimal sets
-  IntsMap<std::uint32_t> minimal_set_of_;               // raw set -> position in minimal_sets_
   IntsMap<std::uint32_t> pictures_;
   IntsMap<std::uint32_t> trajectory_classes_;
   IntsMap<std::size_t> hull_index_;

@@ -27,6 +27,11 @@ using DemoClassIndex = Index<struct DemoClassTag>;
 /// the policy cell of every weight, so that "what would this person expect the
 /// robot to do?" is a look-up.
 ///
+/// Comparisons of equally good paths with different feature counts hold with
+/// equality at the robot's weights. If all of them together leave a region they
+/// count like any other constraint; if the robot's choices contradict each
+/// other, it is indifferent and none of them counts.
+///
 /// Immutable after construction and safe to share between threads.
 class Atlas {
  public:
