@@ -9,6 +9,9 @@
 namespace kith::detail {
 namespace {
 
+// Regions of weights, and with them teaching, exist in three dimensions.
+constexpr std::size_t kFeaturesWithRegions = 3;
+
 // Plans every MDP under the robot's weights and looks at the result.
 class OptimumChecker {
  public:
@@ -36,13 +39,19 @@ class OptimumChecker {
       report_.warning(
           "W0302", reward_.weights_place,
           "from " + std::to_string(num_ties_) + " states there are equally good paths that differ in what they count",
-          "the weights lie on the edge of what demonstrations can teach");
+          "the robot is indifferent between them: both are accepted, and neither is taught as the better one");
     }
     if (longest_ > dynamics_.max_steps) {
       report_.warning("W0303", reward_.weights_place,
                       "the longest optimal path has " + std::to_string(longest_) + " steps, but max_steps is " +
                           std::to_string(dynamics_.max_steps),
                       world_.groups.empty() ? "" : "the first: variant " + variant_text(world_, longest_variant_));
+    }
+    if (dynamics_.features.size() != kFeaturesWithRegions) {
+      report_.warning(
+          "W0304", dynamics_.features.back().place,
+          std::to_string(dynamics_.features.size()) + " features: planning and inspection work, teaching does not",
+          "regions of weights are computed for exactly 3 features");
     }
     for (std::size_t k = 0; k < occurs_.size(); ++k) {
       if (occurs_[k] || num_failures_ > 0) continue;
