@@ -122,12 +122,12 @@ TEST(Atlas, ClassesPartitionTheDemonstrations) {
 }
 
 // A learner's answer by look-up is the best of the coverage set under the
-// weights, for 1 000 random weights x all starts; weights outside the finite
+// weights, for 100 random weights x all starts; weights outside the finite
 // region have no answer.
 TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
   const auto& atlas = item_delivery();
   RandomStream random{20240617};
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 100; ++i) {
     auto w = random_weights(random);
     if (i % 2 == 0) w.z() = -std::abs(w.z());  // half of them where optima are finite
     const auto cell = atlas.cells().locate(w);
@@ -144,28 +144,35 @@ TEST(Atlas, AnswersAreTheBestOfTheCoverageSet) {
 }
 
 // The hull maximum is the value that planning finds, wherever the optimum is
-// finite: 1 000 random weights x every MDP x all starts.
-TEST(AtlasSlow, HullMaximumEqualsPlanningForEveryWeightMdpAndStart) {
+// finite, in every MDP from every start. Returns how many MDPs had one.
+std::size_t expect_hull_maximum_is_planned(int num_weights) {
   const auto& atlas = item_delivery();
   RandomStream random{77};
   std::size_t finite = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < num_weights; ++i) {
     const auto w = random_weights(random);
     const std::array<double, 3> x{w.x(), w.y(), w.z()};
     for (MdpIndex m{0}; m.value() < atlas.domain().num_mdps(); ++m) {
       const auto solution = plan(atlas.domain().mdp(m), x);
-      const bool covered = atlas.finite_region(atlas.index({m, StateIndex{0}})).contains(w);
-      ASSERT_EQ(solution.has_value(), covered);
+      EXPECT_EQ(solution.has_value(), atlas.finite_region(atlas.index({m, StateIndex{0}})).contains(w));
       if (!solution) continue;
       ++finite;
+      double largest_error = 0.0;
       for (StateIndex s{0}; s.value() < atlas.domain().mdp(m).num_states(); ++s) {
         double best = -std::numeric_limits<double>::infinity();
         for (const auto& vertex : atlas.coverage_set(atlas.index({m, s}))) best = std::max(best, dot(vertex, x));
-        ASSERT_NEAR(solution->values[s.value()], best, 1e-9);
+        largest_error = std::max(largest_error, std::abs(solution->values[s.value()] - best));
       }
+      EXPECT_LE(largest_error, 1e-9);
     }
   }
-  EXPECT_GT(finite, 10'000u);
+  return finite;
+}
+
+TEST(Atlas, HullMaximumEqualsPlanning) { EXPECT_GT(expect_hull_maximum_is_planned(50), 500u); }
+
+TEST(AtlasSlow, HullMaximumEqualsPlanningForAThousandWeights) {
+  EXPECT_GT(expect_hull_maximum_is_planned(1000), 10'000u);
 }
 
 // What a demonstration conveys to one belief, by look-up, against planning for
