@@ -41,11 +41,7 @@ class SpecReader {
 
  private:
   void read_top() {
-    if (const auto schema = root_.string("schema", Presence::kRequired); schema && *schema != kStudySchema) {
-      report_.error("E0106", root_.value("schema", Presence::kOptional)->place(),
-                    "schema '" + *schema + "' is not a study file of this version",
-                    std::string{"write schema = \""} + kStudySchema + "\"");
-    }
+    (void)root_.string("schema", Presence::kRequired);  // which one it is was checked before
     if (const auto id = root_.string("id", Presence::kRequired)) {
       spec_.id = *id;
       const bool plain = !id->empty() && std::all_of(id->begin(), id->end(), [](char c) {

@@ -1,16 +1,12 @@
 #include "kith/study/study.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <atomic>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "kith/study/team_run.hpp"
+#include "parallel_loop.hpp"
 
 namespace kith {
 
@@ -41,22 +37,15 @@ RunResult run_teams(const Atlas& atlas, const Study& study, std::span<const Team
     const std::lock_guard lock{progress};
     if (!options.on_progress(finished, addresses.size())) stopped = true;
   };
-  // One cache per thread; it changes the speed, never a result.
-  tbb::enumerable_thread_specific<TeachingCache> caches{[&] { return TeachingCache{atlas.constraints()}; }};
-  const auto threads = options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads);
-  const tbb::global_control limit{
-      tbb::global_control::max_allowed_parallelism,
-      options.threads == 0 ? static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) : options.threads};
-  tbb::task_arena arena{threads};
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>{0, addresses.size(), 1}, [&](const tbb::blocked_range<std::size_t>& range) {
-          for (auto i = range.begin(); i != range.end(); ++i) {
-            if (stopped) return;
-            slots[i] = run_team(atlas, caches.local(), study.variants[addresses[i].variant], addresses[i]);
-            report();
-          }
-        });
+  const auto num_workers = options.threads == 0 ? default_num_workers() : options.threads;
+  // One cache per worker; it changes the speed, never a result.
+  std::vector<std::optional<TeachingCache>> caches(num_workers);
+  parallel_loop(addresses.size(), num_workers, [&](std::size_t worker, std::size_t i) {
+    if (stopped) return;
+    auto& cache = caches[worker];
+    if (!cache) cache.emplace(atlas.constraints());
+    slots[i] = run_team(atlas, *cache, study.variants[addresses[i].variant], addresses[i]);
+    report();
   });
 
   RunResult result;

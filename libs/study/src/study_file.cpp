@@ -206,11 +206,36 @@ class StudyParser {
 
 }  // namespace
 
+namespace {
+
+// Of a file of another kind only that is worth saying.
+std::optional<Diagnostic> other_kind(const TomlDocument& document) {
+  const auto* schema = document.root.find("schema");
+  if (schema == nullptr || schema->string() == nullptr || *schema->string() == kStudySchema) return std::nullopt;
+  TomlReport report{document};
+  const auto& name = *schema->string();
+  const bool is_domain = name.rfind("kith.domain/", 0) == 0;
+  const auto hint = is_domain ? "name a study; its key 'domain' names this file"
+                              : std::string{"write schema = \""} + kStudySchema + "\"";
+  report.error(
+      "E0106", schema->place(),
+      is_domain ? "this is a domain file, not a study" : "schema '" + name + "' is not a study file of this version",
+      hint);
+  return report.diagnostics().front();
+}
+
+}  // namespace
+
 StudyReading parse_study(std::string_view text, const std::string& name, const StudyReadOptions& options) {
   auto parsing = parse_toml(text, name);
   if (!parsing.document) {
     StudyReading reading;
     reading.diagnostics = std::move(parsing.diagnostics);
+    return reading;
+  }
+  if (auto other = other_kind(*parsing.document)) {
+    StudyReading reading;
+    reading.diagnostics.push_back(*std::move(other));
     return reading;
   }
   std::vector<Diagnostic> diagnostics;
@@ -231,12 +256,19 @@ StudyReading load_study(const std::string& name_or_path, const std::vector<std::
       std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name_or_path; });
   if (built_in != known.end()) return parse_study(built_in->text, name_or_path, {overrides, {}});
   const std::filesystem::path path{name_or_path};
-  const auto text = text_of(path);
-  if (!text) {
-    std::string names;
-    for (const auto& one : known) names += (names.empty() ? "" : ", ") + std::string{one.name};
-    throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "' (built-in studies: " + names + ")"};
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) {
+    std::vector<std::string> names;
+    for (const auto& one : known) names.emplace_back(one.name);
+    Diagnostic unknown;
+    unknown.id = "E0116";
+    unknown.file = name_or_path;
+    unknown.message = "there is no built-in study and no file of this name";
+    unknown.hint = suggestion(name_or_path, names);
+    throw Error{{unknown}};
   }
+  const auto text = text_of(path);
+  if (!text) throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "'"};
   return parse_study(*text, name_or_path, {overrides, path.parent_path()});
 }
 

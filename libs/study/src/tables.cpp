@@ -70,12 +70,17 @@ Columns period_columns() {
           column("source", kText, "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."),
           column("demonstrations", kInteger, "Demonstrations shown."),
           column("area_sr", kReal, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"),
-          column("running_area_sr", kReal, "The same for all that was taught so far.", "sr"),
+          column("running_area_sr", kReal,
+                 "The same together with the components learned before; what earlier lessons of this component taught "
+                 "does not count.",
+                 "sr"),
           column("tests", kInteger, "Tests asked of every member."),
           column("all_correct", kBoolean, "Whether every member answered every test correctly."),
           column("excluded", kInteger, "Members left out of the common belief because their answers conflict."),
           column("untested", kInteger, "Taught constraints that nothing can test."),
-          column("gain", kReal, "Logarithm of the taught region's area before over after the lesson."),
+          column("gain", kReal,
+                 "Logarithm of the area of what was learned before (the prior and the components learned) over "
+                 "running_area_sr; 0 if a lesson is shown again."),
           column("p_bec_common", kReal, "Mass of the teacher's common belief in the policy's class, afterwards."),
           column("p_bec_joint", kReal, "Mass of the teacher's joint belief in the policy's class, afterwards.")};
 }
