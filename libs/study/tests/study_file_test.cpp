@@ -272,14 +272,35 @@ TEST(StudyFile, DocumentsEveryIdAndUsesEveryDocumentedOne) {
   EXPECT_EQ(documented, used);
 }
 
-TEST(StudyFile, CannotReadAFileThatDoesNotExist) {
+TEST(StudyFile, NamesTheBuiltInStudiesWhereThereIsNoSuchFile) {
+  const std::vector<std::pair<std::string, std::string>> unknown{{"no-such-study.toml", "known: paper, quick"},
+                                                                 {"qick", "did you mean 'quick'?"}};
+  for (const auto& [name, hint] : unknown) {
+    try {
+      (void)load_study(name);
+      FAIL() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+      ASSERT_EQ(error.diagnostics().size(), 1u);
+      EXPECT_EQ(error.diagnostics()[0].hint, hint);
+    }
+  }
+}
+
+TEST(StudyFile, CannotReadAFolder) {
   try {
-    (void)load_study("no-such-study.toml");
+    (void)load_study(std::filesystem::temp_directory_path().string());
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kIo);
-    EXPECT_THAT(error.what(), HasSubstr("paper, quick"));
   }
+}
+
+TEST(StudyFile, SaysOnlyThatAFileIsOfAnotherKind) {
+  const auto reading = parse_study("schema = \"kith.domain/1\"\nid = 5\nsurplus = 1\n", "d.toml", {{"no=\"x\""}, {}});
+  ASSERT_EQ(reading.diagnostics.size(), 1u);
+  EXPECT_EQ(reading.diagnostics[0].id, "E0106");
+  EXPECT_THAT(reading.diagnostics[0].message, HasSubstr("domain file"));
 }
 
 }  // namespace

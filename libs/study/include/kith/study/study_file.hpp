@@ -43,7 +43,7 @@ struct BuiltInStudy {
 [[nodiscard]] const std::vector<BuiltInStudy>& built_in_studies();
 
 /// A built-in study by name, or the study file at that path.
-/// @throws kith::Error (kIo) if the file cannot be read (the message names the built-in studies).
+/// @throws kith::Error (kInvalidInput, E0116) if there is neither; kIo if the file cannot be read.
 [[nodiscard]] StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides = {});
 
 /// The study as a study file with every key written out; reading it gives the same study again.
