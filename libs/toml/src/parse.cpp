@@ -110,12 +110,17 @@ Diagnostic from_parse_error(const TomlSource& source, const ::toml::parse_error&
     message.erase(0, colon + 2);
   }
   if (!message.empty() && message[0] == 'E') message[0] = 'e';
+  // Bare text is taken for the beginning of true, false, inf or nan.
+  const auto has = [&](const char* part) { return message.find(part) != std::string::npos; };
+  const bool no_value = has("could not determine value type") || has("expected 'true'") || has("expected 'false'") ||
+                        has("expected 'inf'") || has("expected 'nan'");
+  if (no_value) message = "this is not a value; text needs \"quotes\"";
   Diagnostic d = at(source, place_of(error.source()), twice ? "E0102" : "E0101",
                     twice ? "a key is given twice: " + message : "not valid TOML: " + message);
   if (twice) {
     point_at_key(d, message);
     d.hint = "keep one of them";
-  } else if (message.find("could not determine value type") != std::string::npos) {
+  } else if (no_value) {
     d.hint = "text needs \"quotes\"";
   }
   return d;

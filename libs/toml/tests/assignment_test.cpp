@@ -56,6 +56,15 @@ TEST(ParseAssignment, RefusesWhatIsNoAssignment) {
   EXPECT_EQ(refusal("a="), "E0101");
 }
 
+TEST(ParseAssignment, SaysThatTextNeedsQuotes) {
+  for (const std::string word : {"two", "four", "joint", "nothing", "individual"}) {
+    const auto parsing = parse_assignment("replicates=" + word, "--set");
+    ASSERT_EQ(parsing.diagnostics.size(), 1u) << word;
+    EXPECT_NE(parsing.diagnostics[0].message.find("text needs \"quotes\""), std::string::npos)
+        << parsing.diagnostics[0].message;
+  }
+}
+
 TEST(Assign, SetsReplacesAndMakesTables) {
   EXPECT_EQ(merged("seed = 1\n[t]\nx = 1\ny = 2\n", {"seed=2", "t.x=[3]", "u.v.w=true"}),
             "seed = 2\n\n[t]\nx = [3]\ny = 2\n\n[u]\n\n[u.v]\nw = true\n");
