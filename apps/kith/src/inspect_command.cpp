@@ -4,9 +4,10 @@
 #include <set>
 
 #include "commands.hpp"
+#include "domain_view.hpp"
 #include "inspect_json.hpp"
-#include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "legend.hpp"
 #include "picture.hpp"
 #include "words.hpp"
 
@@ -19,19 +20,17 @@ constexpr std::size_t kListLength = 20;  // without --all
 class Inspection {
  public:
   Inspection(const Atlas& atlas, const InspectOptions& options, const Console& console)
-      : atlas_{atlas}, domain_{atlas.domain()}, options_{options}, console_{console} {
-    mdp_ = MdpIndex{options.mdp.value_or(domain_.num_mdps() - 1)};
-    if (mdp_.value() >= domain_.num_mdps()) {
-      throw Error{ErrorKind::kUsage,
-                  fmt::format("there is no MDP {}: they are numbered 0 to {}", mdp_.value(), domain_.num_mdps() - 1)};
-    }
-  }
+      : atlas_{atlas},
+        domain_{atlas.domain()},
+        options_{options},
+        console_{console},
+        view_{domain_, options, console},
+        mdp_{view_.mdp()} {}
 
   std::string text() {
-    title();
+    out_ += view_.title();
     if (options_.show.empty()) {
-      map();
-      reward();
+      out_ += view_.map() + view_.reward();
       bec();
       components();
       coverage();
@@ -42,8 +41,8 @@ class Inspection {
 
  private:
   void show(const std::string& part) {
-    if (part == "map") map();
-    if (part == "policy") policy();
+    if (part == "map") out_ += view_.map();
+    if (part == "policy") out_ += view_.policy();
     if (part == "bec") bec();
     if (part == "kc") components();
     if (part == "demos") demos();
@@ -52,30 +51,6 @@ class Inspection {
   }
 
   void heading(const std::string& text) { out_ += "\n" + console_.bold(text) + "\n"; }
-
-  void title() {
-    out_ += console_.bold(domain_.id()) + (domain_.title().empty() ? "" : ": " + domain_.title()) + "\n";
-    out_ += fmt::format("{} MDPs, {} start states, {} features\n", domain_.num_mdps(), domain_.num_starts(),
-                        domain_.num_features());
-  }
-
-  void map() {
-    heading(fmt::format("Map of MDP {} (robot '@')", mdp_.value()));
-    out_ += beside({domain_.draw(mdp_, std::nullopt), start_picture(domain_, {mdp_, domain_.initial_state(mdp_)})}, 2);
-  }
-
-  void reward() {
-    heading("Reward");
-    TextTable table{"llrr"};
-    table.add({"  feature", "words", "weight", "at length 1"});
-    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
-      table.add({"  " + domain_.feature_names()[k], domain_.feature_words(k),
-                 fmt::format("{}", domain_.weights().raw[k]),
-                 fmt::format("{:.4f}", domain_.weights().unit[static_cast<Eigen::Index>(k)])});
-    }
-    out_ += table.text(console_);
-    for (const auto& half_space : domain_.prior()) out_ += "  known to all: " + described(domain_, half_space) + "\n";
-  }
 
   void constraints(const std::vector<HalfSpace>& half_spaces, const std::string& indent) {
     for (const auto& half_space : half_spaces) out_ += indent + described(domain_, half_space) + "\n";
@@ -106,42 +81,6 @@ class Inspection {
     out_ += fmt::format("  {} paths that are best for somebody: {:.2f} per start state, at most {}\n",
                         coverage.vertices, coverage.mean, coverage.max);
     out_ += fmt::format("  {} ways to behave in all of them (policy cells)\n", atlas_.cells().size());
-  }
-
-  void policy() {
-    heading(fmt::format("The robot's policy in MDP {}", mdp_.value()));
-    const auto start = domain_.initial_state(mdp_);
-    const auto path = atlas_.trajectory(atlas_.index({mdp_, start}));
-    std::vector<GridState> seen;
-    for (const auto state : path.states) {
-      if (domain_.mdp(mdp_).is_terminal(state)) continue;
-      auto now = domain_.state(mdp_, state);
-      const auto same = [&](const GridState& other) {
-        for (std::size_t i = 0; i < now.items.size(); ++i) {
-          if (now.carried[i] != other.carried[i] || (!now.carried[i] && now.items[i] != other.items[i])) return false;
-        }
-        return now.stations == other.stations;
-      };
-      if (std::any_of(seen.begin(), seen.end(), same)) continue;
-      seen.push_back(now);
-      out_ += "  " + configuration(now) + "\n" + beside({policy_picture(atlas_, mdp_, now)}, 4);
-    }
-    const auto demo = atlas_.index({mdp_, start});
-    out_ += "  from the start: " + actions_text(domain_, path.actions) + "\n";
-    out_ += fmt::format("  {}, return {:.4f}\n", counts_text(domain_, atlas_.feature_counts(demo)),
-                        domain_.weights().return_of(atlas_.feature_counts(demo)));
-  }
-
-  [[nodiscard]] std::string configuration(const GridState& state) const {
-    std::string text;
-    for (std::size_t i = 0; i < state.items.size(); ++i) {
-      const auto& name = domain_.item_names()[i];
-      text += (text.empty() ? "" : ", ") +
-              (state.carried[i] ? "carrying " + name
-                                : fmt::format("{} at ({},{})", name, state.items[i].x, state.items[i].y));
-    }
-    return text + fmt::format("{}{} station{} left", text.empty() ? "" : ", ", state.stations.size(),
-                              state.stations.size() == 1 ? "" : "s");
   }
 
   void demos() {
@@ -177,7 +116,7 @@ class Inspection {
   void counterfactuals() {
     const auto demo = atlas_.index({mdp_, domain_.initial_state(mdp_)});
     heading(fmt::format("What people could expect from the start of MDP {}", mdp_.value()));
-    out_ += beside({start_picture(domain_, atlas_.id(demo))}, 4);
+    out_ += beside({bare_picture(domain_, atlas_.id(demo)), start_picture(domain_, atlas_.id(demo))}, 4);
     const auto& robot = atlas_.feature_counts(demo);
     const auto paths = atlas_.coverage_set(demo);
     for (std::size_t i = 0; i < limited(paths.size()); ++i) {
@@ -201,14 +140,37 @@ class Inspection {
   const Domain& domain_;
   const InspectOptions& options_;
   const Console& console_;
+  DomainView view_;
   MdpIndex mdp_;
   std::string out_;
 };
 
+// Where weights are no points of a sphere there is nothing to teach yet, but still something to see.
+int inspect_without_atlas(const Domain& domain, const InspectOptions& options, Console& console) {
+  const DomainView view{domain, options, console};
+  if (console.json()) {
+    print_inspection(domain, console);
+  } else {
+    std::string text = view.title();
+    const auto& show = options.show;
+    const auto asked = [&](const char* part) { return std::find(show.begin(), show.end(), part) != show.end(); };
+    if (show.empty() || asked("map")) text += view.map();
+    if (show.empty()) text += view.reward();
+    if (show.empty() || asked("policy")) text += view.policy();
+    console.print(text);
+  }
+  console.warning(fmt::format("what can be taught is not shown: that takes exactly 3 features, and this domain has {}",
+                              domain.num_features()));
+  return 0;
+}
+
 }  // namespace
 
 int run_inspect(const InspectOptions& options, Console& console) {
-  const Atlas atlas{load_domain(options.domain)};
+  auto domain = load_domain(options.domain);
+  if (domain.num_features() != 3) return inspect_without_atlas(domain, options, console);
+  const Atlas atlas{std::move(domain)};
+  (void)DomainView{atlas.domain(), options, console};  // is there such an MDP?
   if (console.json()) {
     print_inspection(atlas, options, console);
   } else {

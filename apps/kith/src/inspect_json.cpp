@@ -37,27 +37,36 @@ Json components_to_json(const Atlas& atlas) {
   return components;
 }
 
+Json domain_to_json(const Domain& domain) {
+  const auto d = domain.num_features();
+  Json unit;
+  if (d == 3) unit = to_json(domain.weights().unit, d);
+  return {{"schema", "kith.inspect/1"},
+          {"id", domain.id()},
+          {"title", domain.title()},
+          {"mdps", domain.num_mdps()},
+          {"demonstrations", domain.num_starts()},
+          {"features", domain.feature_names()},
+          {"actions", domain.action_names()},
+          {"weights", {{"raw", domain.weights().raw}, {"unit", unit}}},
+          {"prior", to_json(domain.prior(), d)}};
+}
+
 }  // namespace
+
+void print_inspection(const Domain& domain, Console& console) { console.print_json(domain_to_json(domain)); }
 
 void print_inspection(const Atlas& atlas, const InspectOptions& options, Console& console) {
   const auto& domain = atlas.domain();
   const auto d = domain.num_features();
   const auto& coverage = atlas.coverage();
-  Json document{
-      {"schema", "kith.inspect/1"},
-      {"id", domain.id()},
-      {"title", domain.title()},
-      {"mdps", domain.num_mdps()},
-      {"demonstrations", atlas.num_demos()},
-      {"features", domain.feature_names()},
-      {"actions", domain.action_names()},
-      {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit, d)}}},
-      {"prior", to_json(domain.prior(), d)},
-      {"bec", {{"constraints", to_json(atlas.policy_bec_half_spaces(), d)}, {"area_sr", atlas.policy_bec_area_sr()}}},
-      {"knowledge_components", components_to_json(atlas)},
-      {"mask_counters", atlas.mask_counters()},
-      {"coverage", {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}}},
-      {"policy_cells", atlas.cells().size()}};
+  auto document = domain_to_json(domain);
+  document["bec"] = {{"constraints", to_json(atlas.policy_bec_half_spaces(), d)},
+                     {"area_sr", atlas.policy_bec_area_sr()}};
+  document["knowledge_components"] = components_to_json(atlas);
+  document["mask_counters"] = atlas.mask_counters();
+  document["coverage"] = {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}};
+  document["policy_cells"] = atlas.cells().size();
   if (std::find(options.show.begin(), options.show.end(), "demos") != options.show.end()) {
     Json demos = Json::array();
     for (std::size_t i = 0; i < atlas.num_demos(); ++i) {

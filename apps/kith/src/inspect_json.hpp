@@ -9,4 +9,7 @@ namespace kith::cli {
 /// `--show demos` every demonstration (of one MDP with --mdp).
 void print_inspection(const Atlas& atlas, const InspectOptions& options, Console& console);
 
+/// The same document for a domain that cannot be taught, without what concerns teaching.
+void print_inspection(const Domain& domain, Console& console);
+
 }  // namespace kith::cli

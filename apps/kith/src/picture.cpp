@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "legend.hpp"
+
 namespace kith::cli {
 namespace {
 
@@ -52,20 +54,20 @@ std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajec
 }
 
 std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
-  std::vector<Picture> pictures{start_picture(domain, id)};
+  std::vector<Picture> pictures{bare_picture(domain, id), start_picture(domain, id)};
   for (auto& leg : path_pictures(domain, id, path)) pictures.push_back(std::move(leg));
   return beside(pictures, indent);
 }
 
-Picture policy_picture(const Atlas& atlas, MdpIndex m, const GridState& configuration) {
-  const auto& domain = atlas.domain();
+Picture policy_picture(const Domain& domain, MdpIndex m, std::span<const std::uint32_t> choice,
+                       const GridState& configuration) {
   auto picture = domain.draw(m, std::nullopt);
   for (int y = 1; y <= domain.height(); ++y) {
     for (int x = 1; x <= domain.width(); ++x) {
       const Cell cell{x, y};
       const auto state = domain.find_state(m, moved(configuration, cell));
       if (!state || domain.mdp(m).is_terminal(*state)) continue;
-      const auto path = atlas.trajectory(atlas.index({m, *state}));
+      const auto path = canonical_trajectory(domain.mdp(m), choice, *state);
       at(picture, cell) = arrow_of(domain.action_names()[path.actions.front().value()]);
     }
   }

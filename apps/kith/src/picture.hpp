@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "kith/bec/atlas.hpp"
+#include "kith/domains/domain.hpp"
+#include "kith/mdp/planner.hpp"
 
 namespace kith::cli {
 
@@ -15,10 +18,12 @@ using Picture = std::vector<std::string>;
 /// A path drawn on the map, one picture per leg: a leg ends with an action that does not move the robot (a pick-up).
 /// Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends.
 [[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajectory& path);
-/// The start picture with the legs of the path beside it, each row indented.
+/// The bare map, the start picture and the legs of the path beside each other, each row indented.
 [[nodiscard]] std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
 /// What the robot does wherever it stands, while items and stations are as in `configuration`.
-[[nodiscard]] Picture policy_picture(const Atlas& atlas, MdpIndex m, const GridState& configuration);
+/// @param choice  per state of the MDP, as in ExactSolution::canonical_choice.
+[[nodiscard]] Picture policy_picture(const Domain& domain, MdpIndex m, std::span<const std::uint32_t> choice,
+                                     const GridState& configuration);
 /// Pictures beside each other, each row indented.
 [[nodiscard]] std::string beside(const std::vector<Picture>& pictures, std::size_t indent);
 

@@ -51,6 +51,8 @@ struct Transcript {
 
 /// The transcript for people: plain ASCII text, the same for the same inputs.
 [[nodiscard]] std::string to_text(const Atlas& atlas, const Transcript& transcript);
+/// How it begins: what is taught to whom, and how to read the rest.
+[[nodiscard]] std::string transcript_header(const Atlas& atlas, const Transcript& transcript);
 
 /// The path that a person with these weights takes, if it has the given feature counts.
 [[nodiscard]] std::optional<Trajectory> path_of_answer(const Atlas& atlas, DemoIndex test, const IntegerVector& counts,

@@ -18,7 +18,7 @@ class TranscriptWriter {
       : atlas_{atlas}, domain_{atlas.domain()}, transcript_{transcript} {}
 
   std::string text() {
-    header();
+    out_ = transcript_header(atlas_, transcript_);
     for (const auto& session : transcript_.sessions) write(session);
     ending();
     return std::move(out_);
@@ -26,37 +26,6 @@ class TranscriptWriter {
 
  private:
   void line(const std::string& text = "") { out_ += text + "\n"; }
-
-  void header() {
-    const auto& address = transcript_.address;
-    const auto& spec = transcript_.spec;
-    line(fmt::format("{}: teaching {} by strategy {}", domain_.id(), address.composition, name_of(address.strategy)));
-    line(fmt::format("study {}, seed address {}", spec.id, transcript_.record.seed_address));
-    for (const auto& factor : spec.factors) line("  " + factor.key + " = " + factor.value);
-    line();
-    line("What the robot is paid:");
-    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
-      line(fmt::format("  {:<10} {:>6} for {}", domain_.feature_names()[k], domain_.weights().raw[k],
-                       domain_.feature_words(k)));
-    }
-    line("What makes its policy, and is to be learned:");
-    for (const auto& half_space : atlas_.policy_bec_half_spaces()) line("  " + described(domain_, half_space));
-    for (const auto& half_space : domain_.prior()) line("  " + described(domain_, half_space) + " (known to all)");
-    line();
-    line("The learners:");
-    for (const auto& learner : transcript_.record.learners) {
-      const auto& type = learner_type(spec, learner.type);
-      const auto& p = learner.parameters;
-      line(
-          fmt::format("  member {} ({}, {}): ability {:.4f}, gains {:.4f} confirmed and {:.4f} corrected, at most {}, "
-                      "log-odds x {}",
-                      learner.member, learner.type, type.population.label, p.ability, p.confirm_gain, p.correct_gain,
-                      p.ability_max, p.ability_scale));
-    }
-    line(fmt::format(
-        "The teacher takes everybody's ability to be {}, and imagines {} counterfactuals per demonstration.",
-        spec.teaching.assumed_ability, spec.teaching.counterfactuals));
-  }
 
   void write(const TranscriptSession& session) {
     members_ = session.members;
@@ -68,17 +37,26 @@ class TranscriptWriter {
     skipped_until(session, 0,
                   session.periods.empty() ? session.components.size() : session.periods.front().lesson.component);
     for (std::size_t i = 0; i < session.periods.size(); ++i) {
-      write(session.periods[i]);
+      const bool begins = i > 0 && session.periods[i].lesson.component != session.periods[i - 1].lesson.component;
+      write(session.periods[i], begins);
       const auto next =
           i + 1 < session.periods.size() ? session.periods[i + 1].lesson.component : session.components.size();
       skipped_until(session, session.periods[i].lesson.component + 1, next);
     }
+    if (transcript_.sessions.size() == 1) return;  // then the end of the transcript says it
     line();
-    const auto learned = std::count(session.components.begin(), session.components.end(), ComponentStatus::kLearned);
-    line(fmt::format(
-        "{} after {} periods: {} of {} knowledge components learned",
-        session.status == SessionStatus::kComplete ? "Complete" : "Stopped at the largest number of periods",
-        session.periods.size(), learned, session.components.size()));
+    line(summary(session) + ".");
+  }
+
+  [[nodiscard]] static std::string summary(const TranscriptSession& session) {
+    const auto count = [&](ComponentStatus status) {
+      return std::count(session.components.begin(), session.components.end(), status);
+    };
+    const auto skipped = count(ComponentStatus::kSkipped);
+    return fmt::format("{} after {}: {} of {} knowledge components learned{}",
+                       session.status == SessionStatus::kComplete ? "Complete" : "Stopped",
+                       counted(session.periods.size(), "period"), count(ComponentStatus::kLearned),
+                       session.components.size(), skipped > 0 ? fmt::format(", {} skipped", skipped) : "");
   }
 
   void skipped_until(const TranscriptSession& session, std::size_t first, std::size_t last) {
@@ -89,7 +67,8 @@ class TranscriptWriter {
     }
   }
 
-  void write(const TranscriptPeriod& period) {
+  // `begins`: the first period of a component that is not the first of the session.
+  void write(const TranscriptPeriod& period, bool begins) {
     const auto& lesson = period.lesson;
     const auto& component = atlas_.knowledge_components()[lesson.component];
     line();
@@ -97,6 +76,7 @@ class TranscriptWriter {
     line(fmt::format("Period {}: knowledge component {}, {}", lesson.period, lesson.component + 1, component.name));
     line("  weighs " + weighed(component) +
          (component.masked ? ", where there is no " + domain_.feature_names()[*component.masked] : ""));
+    if (begins) line("  a new component begins: every member's ability is back at its initial value");
     reason(lesson);
     for (std::size_t i = 0; i < lesson.demonstrations.size(); ++i) demonstration(i + 1, lesson.demonstrations[i]);
     taught(lesson);
@@ -112,7 +92,8 @@ class TranscriptWriter {
       if (!component.masked || *component.masked != k) names.push_back(domain_.feature_words(k));
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
-      text += (i == 0 ? "" : i + 1 == names.size() ? " against " : ", ") + names[i];
+      const auto left = names.size() - i;  // the last stands against the others
+      text += (i == 0 ? "" : left == 1 ? " against " : left == 2 ? " and " : ", ") + names[i];
     }
     return text;
   }
@@ -126,11 +107,27 @@ class TranscriptWriter {
   void reason(const Lesson& lesson) {
     line("  lesson chosen for " + name_of_source(lesson.source));
     if (lesson.repeats) {
-      line("  no demonstration adds anything to it: the last lesson of this component is shown again");
+      line("  no demonstration would teach anything more: the last lesson of this component is shown again");
     } else {
-      line(fmt::format("  {} distinct counterfactuals among {} people imagined with it", lesson.counterfactuals.size(),
-                       transcript_.spec.teaching.counterfactuals));
+      const auto ways = lesson.counterfactuals.size();
+      line(fmt::format("  imagining {} people who hold that belief: they would act in {}",
+                       transcript_.spec.teaching.counterfactuals,
+                       ways == 1 ? "one way" : fmt::format("{} different ways", ways)));
     }
+  }
+
+  [[nodiscard]] std::string start_text(DemoId id) const {
+    auto text = fmt::format("MDP {}, start {}", id.mdp.value(), id.start.value());
+    const auto state = domain_.state(id.mdp, id.start);
+    const auto items = domain_.items_in(id.mdp);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (state.carried[i]) {
+        text += ", carrying " + domain_.item_names()[items[i]];
+      } else if (state.items[i] == state.robot) {
+        text += ", standing on " + domain_.item_names()[items[i]];
+      }
+    }
+    return text;
   }
 
   void demonstration(std::size_t number, const Demonstration& shown) {
@@ -138,25 +135,27 @@ class TranscriptWriter {
     const auto path = atlas_.trajectory(shown.demo);
     const auto& counts = atlas_.feature_counts(shown.demo);
     line();
-    line(fmt::format("  Demonstration {}: MDP {}, start {}", number, id.mdp.value(), id.start.value()));
+    line(fmt::format("  Demonstration {}: {}", number, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
     line("    " + actions_text(domain_, path.actions));
     line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), domain_.weights().return_of(counts)));
     line("    conveys to them:");
     for (const auto& half_space : shown.half_spaces) line("      " + described(domain_, half_space));
+    line(fmt::format("    chosen because it adds the fewest new constraints: {}{}", shown.num_new,
+                     shown.half_spaces.size() > shown.num_new ? " (the rest is implied or known)" : ""));
     line(
-        fmt::format("    chosen because it adds {} new constraint{}, the fewest, and leaves 1/{:.3f} of the taught "
-                    "region, the most gain",
-                    shown.num_new, shown.num_new == 1 ? "" : "s", shown.gain));
+        fmt::format("    and, of those that do, shrinks the region of what was learned before plus this lesson so far "
+                    "most: to 1/{:.3f}",
+                    shown.gain));
   }
 
   void taught(const Lesson& lesson) {
     line();
     line("  The lesson as a whole:");
     for (const auto& half_space : lesson.taught) line("    " + described(domain_, half_space));
-    line(fmt::format("    area {:.4f} sr; with all that was taught before {:.4f} sr; log gain {:.4f}", lesson.area_sr,
-                     lesson.running_area_sr, lesson.gain));
-    if (lesson.untested > 0) line(fmt::format("    {} of these constraints cannot be tested", lesson.untested));
+    line(fmt::format("    area {:.4f} sr; with the components learned before {:.4f} sr; gain (log) {:.4f}",
+                     lesson.area_sr, lesson.running_area_sr, lesson.gain));
+    if (lesson.untested > 0) line(fmt::format("    constraints that cannot be tested: {}", lesson.untested));
   }
 
   void test(const TranscriptPeriod& period, std::size_t t) {
@@ -164,7 +163,7 @@ class TranscriptWriter {
     const auto id = atlas_.id(asked.demo);
     const auto path = atlas_.trajectory(asked.demo);
     line();
-    line(fmt::format("  Test {}: MDP {}, start {}; what would the robot do?", t + 1, id.mdp.value(), id.start.value()));
+    line(fmt::format("  Test {}: {}; what would the robot do?", t + 1, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
     line("    the robot: " + actions_text(domain_, path.actions) + " (" +
          counts_text(domain_, atlas_.feature_counts(asked.demo)) + ")");
@@ -186,10 +185,12 @@ class TranscriptWriter {
     const auto path = response.weights ? path_of_answer(atlas_, demo, counts, *response.weights) : std::nullopt;
     const auto described_path = path ? actions_text(domain_, path->actions) + " (" + counts_text(domain_, counts) + ")"
                                      : counts_text(domain_, counts);
-    line(fmt::format("    member {}: {}, {}", members_[i],
-                     verdict.correct ? "right" : fmt::format("wrong, regret {:.4f}", verdict.regret), described_path));
-    for (const auto& half_space : verdict.half_spaces)
-      line("      suggests to the teacher that they think " + described(domain_, half_space));
+    line(fmt::format("    member {}: {}: {}", members_[i],
+                     verdict.correct ? "correct" : fmt::format("wrong (regret {:.4f})", verdict.regret),
+                     described_path));
+    const std::string shows =
+        verdict.correct ? "shows the teacher that they know " : "suggests to the teacher that they think ";
+    for (const auto& half_space : verdict.half_spaces) line("      " + shows + described(domain_, half_space));
   }
 
   void beliefs(const TranscriptPeriod& period) {
@@ -214,7 +215,8 @@ class TranscriptWriter {
     line();
     for (std::size_t i = 0; i < members_.size(); ++i) {
       line(fmt::format("  Member {}: ability {:.4f} -> {:.4f} ({})", members_[i], period.before.abilities[i],
-                       period.after.abilities[i], period.feedback.all_correct[i] ? "all answers right" : "corrected"));
+                       period.after.abilities[i],
+                       period.feedback.all_correct[i] ? "all answers correct" : "corrected"));
     }
     for (const auto member : period.feedback.excluded) {
       line(fmt::format("  Member {} is left out of the common belief this time: the answers conflict",
@@ -224,10 +226,10 @@ class TranscriptWriter {
                                  [](bool right) { return right; });
     const auto& name = atlas_.knowledge_components()[period.lesson.component].name;
     if (period.feedback.component_learned) {
-      line("  Learned: " + name + ", since everybody answered everything right");
+      line("  Learned: " + name + ", since everybody answered everything correctly");
     } else {
       line("  " + name + " is not learned yet" +
-           (all ? ": it takes more periods in a row with all answers right" : ""));
+           (all ? ": it takes more periods in a row with all answers correct" : ""));
     }
   }
 
@@ -235,14 +237,17 @@ class TranscriptWriter {
     const auto& record = transcript_.record;
     line();
     line(std::string(kWidth, '='));
-    line(fmt::format("In all: {} periods, {} demonstrations, {} tests; {}", record.periods, record.demonstrations,
-                     record.tests, record.completed ? "everything learned or known" : "not everything learned"));
-    for (const auto& learner : record.learners) {
-      line(fmt::format("  member {}: final belief {:.4f} in the policy's class, {} of {} answers right", learner.member,
-                       learner.p_bec, learner.correct, learner.tests));
+    const auto shown = counted(record.demonstrations, "demonstration") + " and " + counted(record.tests, "test");
+    if (transcript_.sessions.size() == 1) {
+      line(summary(transcript_.sessions.front()) + ", with " + shown);
+    } else {
+      line("In all sessions " + counted(record.periods, "period") + ", " + shown);
     }
-    line(fmt::format("  knowledge of the team: {:.4f}, of the weakest member {:.4f}", record.knowledge,
-                     record.knowledge_min));
+    for (const auto& learner : record.learners) {
+      line(fmt::format("  member {}: final belief {:.4f} in the policy's class, {} of {} answers correct",
+                       learner.member, learner.p_bec, learner.correct, learner.tests));
+    }
+    if (record.learners.size() > 1) line(fmt::format("  mean of the members: {:.4f}", record.knowledge));
   }
 
   const Atlas& atlas_;

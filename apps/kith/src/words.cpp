@@ -1,6 +1,8 @@
 #include "words.hpp"
 
+#include <cctype>
 #include <cstdlib>
+#include <utility>
 
 namespace kith::cli {
 namespace {
@@ -22,22 +24,74 @@ std::string times(const std::string& words, std::int64_t n) {
   return words + (n == 2 ? " twice" : " " + std::to_string(n) + " times");
 }
 
+enum class Number { kSingular, kPlural, kUnknown };
+
+// One thing of the robot's reward, several times: "crossing rubble", "2 steps".
+struct Thing {
+  std::string words;
+  Number number = Number::kUnknown;
+};
+
+// "a step", "the charger" and "crossing rubble" are singular, "2 steps" is plural; of other words nobody knows.
+Thing thing(const std::string& words, std::int64_t n) {
+  Thing result{times(words, n)};
+  const auto first = words.substr(0, words.find(' '));
+  const bool gerund = first.size() > 4 && first.substr(first.size() - 3) == "ing";
+  if (std::isdigit(static_cast<unsigned char>(result.words.front())) != 0) {
+    result.number = Number::kPlural;
+  } else if (gerund || first == "a" || first == "an" || first == "one" || first == "the") {
+    result.number = Number::kSingular;
+  }
+  return result;
+}
+
 // What stands on one side of the inequality: costs and gains of the robot.
 struct Side {
-  std::vector<std::string> costs, gains;
+  std::vector<Thing> costs, gains;
 
-  void add(const std::string& what, bool is_cost) { (is_cost ? costs : gains).push_back(what); }
+  void add(Thing what, bool is_cost) { (is_cost ? costs : gains).push_back(std::move(what)); }
   [[nodiscard]] bool empty() const { return costs.empty() && gains.empty(); }
   [[nodiscard]] bool mixed() const { return !costs.empty() && !gains.empty(); }
-  [[nodiscard]] std::size_t size() const { return costs.size() + gains.size(); }
-  // "what 2 steps cost", "what the charger is worth", or both.
+  [[nodiscard]] const std::vector<Thing>& things() const { return costs.empty() ? gains : costs; }
+  [[nodiscard]] std::string words() const {
+    std::vector<std::string> words;
+    for (const auto& one : things()) words.push_back(one.words);
+    return listed(words);
+  }
+  // What a verb behind words() agrees with. Only for a side that is not mixed.
+  [[nodiscard]] Number number() const { return things().size() > 1 ? Number::kPlural : things().front().number; }
+  [[nodiscard]] bool can_be_said() const { return empty() || (!mixed() && number() != Number::kUnknown); }
+  // "costs" or "is worth".
+  [[nodiscard]] std::string verb() const {
+    const bool plural = number() == Number::kPlural;
+    return costs.empty() ? (plural ? "are worth" : "is worth") : (plural ? "cost" : "costs");
+  }
+  // "the cost of 2 steps", "the gain of stopping at the charger", or both.
   [[nodiscard]] std::string amount() const {
     std::vector<std::string> parts;
-    if (!costs.empty()) parts.push_back("the cost of " + listed(costs));
-    if (!gains.empty()) parts.push_back("the gain of " + listed(gains));
+    if (!costs.empty()) parts.push_back("the cost of " + Side{costs, {}}.words());
+    if (!gains.empty()) parts.push_back("the gain of " + Side{{}, gains}.words());
     return listed(parts);
   }
+  // The verb of amount().
+  [[nodiscard]] std::string is() const { return mixed() ? " together are " : " is "; }
 };
+
+// "crossing rubble costs more than 2 steps", "4 steps cost more than stopping at the charger is worth".
+std::string compared(const Side& more, const Side& less) {
+  if (more.empty()) {
+    return less.can_be_said() ? less.words() + " " + less.verb() + " less than nothing"
+                              : less.amount() + less.is() + "less than nothing";
+  }
+  if (!more.can_be_said() || !less.can_be_said()) {
+    return more.amount() + (less.empty() ? more.is() + "more than nothing"
+                                         : (more.mixed() ? " outweigh " : " outweighs ") + less.amount());
+  }
+  const auto start = more.words() + " " + more.verb();
+  if (less.empty()) return start + " something";
+  const bool same_verb = more.costs.empty() == less.costs.empty();
+  return start + " more than " + less.words() + (same_verb ? "" : " " + less.verb());
+}
 
 }  // namespace
 
@@ -47,29 +101,9 @@ std::string in_words(const Domain& domain, const HalfSpace& half_space) {
     const auto entry = half_space.normal()[k];
     if (entry == 0) continue;
     const bool is_cost = domain.weights().integer[k] < 0;
-    (is_cost == (entry < 0) ? more : less).add(times(domain.feature_words(k), std::abs(entry)), is_cost);
+    (is_cost == (entry < 0) ? more : less).add(thing(domain.feature_words(k), std::abs(entry)), is_cost);
   }
-  if (more.empty())
-    return less.costs.empty() ? listed(less.gains) + " gains nothing" : listed(less.costs) + " costs nothing";
-  const bool verb_plural =
-      more.size() > 1 ||
-      std::isdigit(static_cast<unsigned char>((more.costs.empty() ? more.gains : more.costs).front().front())) != 0;
-  if (less.empty() && !more.mixed()) {
-    return more.gains.empty() ? listed(more.costs) + (verb_plural ? " cost" : " costs") + " something"
-                              : listed(more.gains) + (verb_plural ? " are" : " is") + " worth something";
-  }
-  if (!more.mixed() && less.gains.empty()) {
-    return more.gains.empty()
-               ? listed(more.costs) + (verb_plural ? " cost" : " costs") + " more than " + listed(less.costs)
-               : listed(more.gains) + (verb_plural ? " are" : " is") + " worth more than " + listed(less.costs);
-  }
-  if (!more.mixed() && less.costs.empty()) {
-    return more.gains.empty()
-               ? listed(more.costs) + (verb_plural ? " cost" : " costs") + " more than " + listed(less.gains) +
-                     " is worth"
-               : listed(more.gains) + (verb_plural ? " are" : " is") + " worth more than " + listed(less.gains);
-  }
-  return more.amount() + " outweigh " + (less.empty() ? "nothing" : less.amount());
+  return compared(more, less);
 }
 
 std::string normal_text(const Domain& domain, const HalfSpace& half_space) {
@@ -88,9 +122,13 @@ std::string counts_text(const Domain& domain, const IntegerVector& counts) {
   std::string text;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     if (counts[k] == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(counts[k]) + " " + domain.feature_names()[k];
+    text += (text.empty() ? "" : ", ") + domain.feature_names()[k] + " " + std::to_string(counts[k]);
   }
   return text.empty() ? "nothing" : text;
+}
+
+std::string counted(std::size_t n, const std::string& noun) {
+  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
 std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions) {

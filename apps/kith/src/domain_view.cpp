@@ -1,0 +1,94 @@
+#include "domain_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kith/core/error.hpp"
+#include "kith/mdp/planner.hpp"
+#include "legend.hpp"
+#include "picture.hpp"
+#include "words.hpp"
+
+namespace kith::cli {
+namespace {
+
+// Whether only the robot is elsewhere.
+bool same_things(const GridState& a, const GridState& b) {
+  for (std::size_t i = 0; i < a.items.size(); ++i) {
+    if (a.carried[i] != b.carried[i] || (!a.carried[i] && a.items[i] != b.items[i])) return false;
+  }
+  return a.stations == b.stations;
+}
+
+}  // namespace
+
+DomainView::DomainView(const Domain& domain, const InspectOptions& options, const Console& console)
+    : domain_{domain}, console_{console}, mdp_{options.mdp.value_or(domain.num_mdps() - 1)} {
+  if (mdp_.value() < domain.num_mdps()) return;
+  throw Error{ErrorKind::kUsage,
+              fmt::format("there is no MDP {}: they are numbered 0 to {}", mdp_.value(), domain.num_mdps() - 1)};
+}
+
+std::string DomainView::title() const {
+  return console_.bold(domain_.id()) + (domain_.title().empty() ? "" : ": " + domain_.title()) + "\n" +
+         fmt::format("{}, {}, {}\n", counted(domain_.num_mdps(), "MDP"), counted(domain_.num_starts(), "start state"),
+                     counted(domain_.num_features(), "feature"));
+}
+
+std::string DomainView::map() const {
+  const DemoId start{mdp_, domain_.initial_state(mdp_)};
+  return heading(fmt::format("Map of MDP {}, and its first start", mdp_.value())) +
+         beside({bare_picture(domain_, start), start_picture(domain_, start)}, 2) + "\n" + legend(domain_, 2);
+}
+
+std::string DomainView::reward() const {
+  TextTable table{"llrr"};
+  table.add({"  feature", "words", "weight", "at length 1"});
+  for (std::size_t k = 0; k < domain_.num_features(); ++k) {
+    IntegerVector once(domain_.num_features());
+    once[k] = 1;
+    table.add({"  " + domain_.feature_names()[k], domain_.feature_words(k), fmt::format("{}", domain_.weights().raw[k]),
+               fmt::format("{:.4f}", domain_.weights().return_of(once))});
+  }
+  auto text = heading("Reward") + table.text(console_);
+  for (const auto& half_space : domain_.prior()) text += "  known to all: " + described(domain_, half_space) + "\n";
+  return text;
+}
+
+std::string DomainView::policy() const {
+  auto text = heading(fmt::format("The robot's policy in MDP {}", mdp_.value()));
+  const auto& mdp = domain_.mdp(mdp_);
+  if (!mdp.is_deterministic() || mdp.discount() != 1.0)
+    return text + "  not shown: only that of certain, undiscounted MDPs is\n";
+  const auto solution = plan_exactly(mdp, domain_.weights().integer).solution.value();
+  const auto start = domain_.initial_state(mdp_);
+  const auto path = canonical_trajectory(mdp, solution.canonical_choice, start);
+  std::vector<GridState> seen;
+  for (const auto state : path.states) {
+    if (mdp.is_terminal(state)) continue;
+    const auto now = domain_.state(mdp_, state);
+    if (std::any_of(seen.begin(), seen.end(), [&](const auto& other) { return same_things(now, other); })) continue;
+    seen.push_back(now);
+    text +=
+        "  " + configuration(now) + "\n" + beside({policy_picture(domain_, mdp_, solution.canonical_choice, now)}, 4);
+  }
+  const auto& counts = solution.feature_counts[start.value()];
+  text += "  ^ v < > move the robot; a letter begins the name of another action\n";
+  return text + "  from the start: " + actions_text(domain_, path.actions) + "\n" +
+         fmt::format("  {}, return {:.4f}\n", counts_text(domain_, counts), domain_.weights().return_of(counts));
+}
+
+std::string DomainView::configuration(const GridState& state) const {
+  std::string text;
+  const auto names = domain_.items_in(mdp_);
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    const auto& name = domain_.item_names()[names[i]];
+    text += (state.carried[i] ? "carrying " + name
+                              : fmt::format("{} at ({},{})", name, state.items[i].x, state.items[i].y)) +
+            ", ";
+  }
+  return text + counted(state.stations.size(), "station") + " left";
+}
+
+}  // namespace kith::cli
