@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <map>
 
 #include "help.hpp"
 #include "kith/core/diagnostic.hpp"
 #include "kith/teaching/strategy.hpp"
+#include "option_values.hpp"
 
 namespace kith::cli {
 namespace {
@@ -20,26 +22,47 @@ std::string variable_of(const std::string& long_name) {
   return name;
 }
 
+std::string braces(const std::vector<std::string>& words) {
+  std::string text = "{";
+  for (const auto& word : words) text += (text.size() > 1 ? "," : "") + word;
+  return text + "}";
+}
+
+// An option whose value is one of a few words; help and completion list them.
+CLI::Option& takes_word(CLI::Option& option, const std::string& type, const std::vector<std::string>& words) {
+  return *option.check([words](const std::string& text) { return wrong_word(text, words); })
+              ->type_name(type + ":" + braces(words));
+}
+
+CLI::Option& takes_integer(CLI::Option& option, std::int64_t min,
+                           std::int64_t max = std::numeric_limits<std::int64_t>::max()) {
+  return *option.check([min, max](const std::string& text) { return wrong_integer(text, min, max); })->type_name("N");
+}
+
+template <typename Mode>
+void add_mode(CLI::App& command, const std::string& name, Mode& mode, const std::string& description,
+              const std::string& type, const std::vector<std::pair<std::string, Mode>>& modes) {
+  std::vector<std::string> words;
+  for (const auto& one : modes) words.push_back(one.first);
+  const auto set = [&mode, modes](const std::string& text) {
+    for (const auto& one : modes) {
+      if (one.first == text) mode = one.second;
+    }
+  };
+  takes_word(*command.add_option_function<std::string>(name, set, description), type, words);
+}
+
 // Every option can be set in the environment; help and completion are written by us.
 void add_common(CLI::App& command, CommonOptions& common) {
-  static const std::map<std::string, ColorMode> kColors{
-      {"auto", ColorMode::kAuto}, {"always", ColorMode::kAlways}, {"never", ColorMode::kNever}};
   command.set_help_flag();
   command.add_flag("--json", common.json, "Print one JSON document instead of text");
-  command.add_option("--color", common.color, "Colours on a terminal")
-      ->transform(CLI::CheckedTransformer(kColors))
-      ->type_name("WHEN:{auto,always,never}");
+  add_mode<ColorMode>(command, "--color", common.color, "Colours on a terminal", "WHEN",
+                      {{"auto", ColorMode::kAuto}, {"always", ColorMode::kAlways}, {"never", ColorMode::kNever}});
   command.add_flag("-q,--quiet", common.quiet, "Only results and errors");
   command.add_flag("-v,--verbose", common.verbosity, "Say more about what is done; twice: even more");
   for (auto* option : command.get_options()) {
     if (!option->get_lnames().empty()) option->envname(variable_of(option->get_lnames().front()));
   }
-}
-
-std::string braces(const std::vector<std::string>& words) {
-  std::string text = "{";
-  for (const auto& word : words) text += (text.size() > 1 ? "," : "") + word;
-  return text + "}";
 }
 
 void add_validate(CLI::App& app, Options& options) {
@@ -54,13 +77,13 @@ void add_validate(CLI::App& app, Options& options) {
 void add_inspect(CLI::App& app, Options& options) {
   auto& command = *app.add_subcommand("inspect", "Show a domain: map, reward, policy, and what can be taught about it");
   command.add_option("domain", options.inspect.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
-  command.add_option("--show", options.inspect.show, "What to show, separated by commas")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(inspect_parts()))
-      ->type_name("PARTS:" + braces(inspect_parts()));
-  command.add_option("--mdp", options.inspect.mdp, "Number of the MDP to show (default: the last, with everything)")
-      ->type_name("N");
+  takes_word(*command.add_option("--show", options.inspect.show, "What to show, separated by commas")
+                  ->delimiter(',')
+                  ->allow_extra_args(false),
+             "PARTS", inspect_parts());
+  takes_integer(*command.add_option("--mdp", options.inspect.mdp,
+                                    "Number of the MDP to show (default: the last, with everything)"),
+                0);
   command.add_flag("--all", options.inspect.all, "Do not cut long lists short");
   add_common(command, options.common);
 }
@@ -70,15 +93,15 @@ void add_teach(CLI::App& app, Options& options) {
   std::vector<std::string> names;
   for (const auto& entry : strategies()) names.emplace_back(entry.name);
   auto& command = *app.add_subcommand("teach", "Teach one simulated team and print a transcript");
-  command.add_option("domain", teach.domain, "Built-in domain or file")->type_name("DOMAIN");
+  auto* domain = command.add_option("domain", teach.domain, "Built-in domain or file")->type_name("DOMAIN");
   auto* group =
       command.add_option("--group", teach.group, "The members' learner types, one letter each")->type_name("LETTERS");
-  auto* strategy = command.add_option("--strategy", teach.strategy, "Whose belief the lessons are chosen for")
-                       ->capture_default_str()
-                       ->check(CLI::IsMember(names))
-                       ->type_name("NAME:" + braces(names));
+  auto* strategy =
+      &takes_word(*command.add_option("--strategy", teach.strategy, "Whose belief the lessons are chosen for")
+                       ->capture_default_str(),
+                  "NAME", names);
   auto* seed =
-      command.add_option("--seed", teach.seed, "Root of all random streams")->capture_default_str()->type_name("N");
+      &takes_integer(*command.add_option("--seed", teach.seed, "Root of all random streams")->capture_default_str(), 0);
   auto* study = command.add_option("--study", teach.study, "Built-in study or file with the learner types")
                     ->capture_default_str()
                     ->type_name("STUDY");
@@ -86,38 +109,34 @@ void add_teach(CLI::App& app, Options& options) {
                   ->allow_extra_args(false)
                   ->type_name("KEY=VALUE");
   auto* from = command.add_option("--from", teach.from, "Replay a team of this run folder")->type_name("DIR");
-  auto* team = command.add_option("--team", teach.team, "Number of the team, as in teams.csv")
-                   ->check(CLI::PositiveNumber)
-                   ->type_name("N");
+  auto* team = command.add_option("--team", teach.team, "Number of the team, as in teams.csv")->type_name("N");
   from->needs(team);
   team->needs(from);
-  for (auto* other : {group, strategy, seed, study, set}) from->excludes(other);
+  for (auto* other : {domain, group, strategy, seed, study, set}) from->excludes(other);
   add_common(command, options.common);
 }
 
 void add_study(CLI::App& app, Options& options) {
-  static const std::map<std::string, ProgressMode> kProgress{{"auto", ProgressMode::kAuto},
-                                                             {"bar", ProgressMode::kBar},
-                                                             {"json", ProgressMode::kJson},
-                                                             {"none", ProgressMode::kNone}};
   auto& study = options.study;
   auto& command = *app.add_subcommand("study", "Simulate all teams of a study and write its tables");
   command.add_option("study", study.study, "Built-in study or file; '-' is standard input")
       ->required()
       ->type_name("STUDY");
   command.add_option("-o,--out", study.out, "Run folder to make or to bring up to date")->type_name("DIR");
-  command.add_option("-j,--threads", study.threads, "Worker threads (default: one per core); never changes a result")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
-  command.add_option("--seed", study.seed, "The same as --set seed=N")->type_name("N");
+  takes_integer(*command.add_option("-j,--threads", study.threads,
+                                    "Worker threads (default: one per core); never changes a result"),
+                1, 1024);
+  takes_integer(*command.add_option("--seed", study.seed, "The same as --set seed=N"), 0);
   command.add_option("--set", study.set, "Set a key of the study (may be repeated)")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command.add_flag("--dry-run", study.dry_run, "Say what would be run, and run nothing");
   command.add_flag("--yes", study.yes, "Replace the results of a different study in the run folder");
-  command.add_option("--progress", study.progress, "How to show progress, on stderr")
-      ->transform(CLI::CheckedTransformer(kProgress))
-      ->type_name("HOW:{auto,bar,json,none}");
+  add_mode<ProgressMode>(command, "--progress", study.progress, "How to show progress, on stderr", "HOW",
+                         {{"auto", ProgressMode::kAuto},
+                          {"bar", ProgressMode::kBar},
+                          {"json", ProgressMode::kJson},
+                          {"none", ProgressMode::kNone}});
   add_common(command, options.common);
 }
 
@@ -125,10 +144,8 @@ void add_others(CLI::App& app, Options& options) {
   auto& doctor = *app.add_subcommand("doctor", "Check that this machine runs kith as it should");
   add_common(doctor, options.common);
   auto& completion = *app.add_subcommand("completion", "Print a shell's completion script");
-  completion.add_option("shell", options.completion.shell, "The shell")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
-      ->type_name("SHELL:{bash,zsh,fish}");
+  takes_word(*completion.add_option("shell", options.completion.shell, "The shell")->required(), "SHELL",
+             {"bash", "zsh", "fish"});
   add_common(completion, options.common);
   auto& version = *app.add_subcommand("version", "Print version, commit and compiler (also: kith --version)");
   add_common(version, options.common);
@@ -152,21 +169,6 @@ Command command_of(const std::string& name) {
       {"study", Command::kStudy},       {"doctor", Command::kDoctor},   {"completion", Command::kCompletion},
       {"version", Command::kVersion}};
   return kCommands.at(name);
-}
-
-const std::map<std::string, std::vector<std::string>>& examples() {
-  static const std::map<std::string, std::vector<std::string>> kExamples{
-      {"validate", {"kith validate my-domain.toml my-study.toml", "kith validate --strict --json domains/*.toml"}},
-      {"inspect", {"kith inspect item-delivery", "kith inspect item-delivery --show policy,demos --mdp 63"}},
-      {"teach", {"kith teach item-delivery --group NNP --strategy joint", "kith teach --from results/paper --team 17"}},
-      {"study",
-       {"kith study studies/paper.toml -o results/paper",
-        "kith study quick -o results/quick --set replicates=10 --set teacher.process_noise=0.5"}},
-      {"doctor", {"kith doctor", "kith doctor --json"}},
-      {"completion",
-       {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion zsh)"}},
-      {"version", {"kith --version", "kith --version --json"}}};
-  return kExamples;
 }
 
 // "NAME:{a,b}" -> "NAME" and {a, b}.
@@ -193,7 +195,7 @@ OptionDescription describe(const CLI::Option& option) {
 }
 
 CommandDescription describe(const CLI::App& command) {
-  CommandDescription result{command.get_name(), command.get_description(), examples().at(command.get_name()), {}};
+  CommandDescription result{command.get_name(), command.get_description(), examples_of(command.get_name()), {}};
   for (const auto* option : command.get_options()) result.options.push_back(describe(*option));
   result.options.push_back({{"-h"}, "", "Short help with examples", "", {}, "", false, false, false});
   result.options.push_back({{"--help"}, "", "Full help", "", {}, "", false, false, false});
@@ -201,10 +203,10 @@ CommandDescription describe(const CLI::App& command) {
 }
 
 // The mend for what CLI11 did not understand.
-UsageError explain(const CLI::App& command, const std::string& what) {
+UsageError explain(const CLI::App& command, const std::string& what, const std::vector<std::string>& arguments) {
   UsageError error{what, "", command.get_name()};
   const auto left = command.remaining();
-  if (left.empty()) return error;
+  if (left.empty()) return explain_value(describe(command), what, arguments);
   const auto option = std::find_if(left.begin(), left.end(), [](const auto& word) { return word.rfind('-', 0) == 0; });
   if (option == left.end()) {
     error.message = "unexpected argument '" + left.front() + "'";
@@ -231,7 +233,7 @@ ParsedCommandLine parse_command(Options& options, CLI::App& app, const std::vect
     options.command = command_of(command.get_name());
     result.options = options;
   } catch (const CLI::ParseError& error) {
-    result.error = explain(command, error.what());
+    result.error = explain(command, error.what(), arguments);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #include "help.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace kith::cli {
 namespace {
@@ -23,10 +24,11 @@ std::string left_column(const OptionDescription& option) {
   return text;
 }
 
-std::string right_column(const OptionDescription& option, std::size_t width) {
+std::string right_column(const OptionDescription& option, std::size_t width, bool full) {
   const std::string next = "\n" + std::string(width, ' ');
   std::string text = option.description;
   if (!option.choices.empty()) text += next + "one of: " + joined(option.choices, ", ");
+  if (!full) return text;
   std::vector<std::string> facts;
   if (!option.default_text.empty()) facts.push_back("default: " + option.default_text);
   if (!option.environment.empty()) facts.push_back("environment: " + option.environment);
@@ -53,6 +55,21 @@ constexpr const char* kExitCodes =
     "  4 valid, but nothing can be done with it\n";
 
 }  // namespace
+
+const std::vector<std::string>& examples_of(const std::string& command) {
+  static const std::map<std::string, std::vector<std::string>> kExamples{
+      {"validate", {"kith validate my-domain.toml my-study.toml", "kith validate --strict --json domains/*.toml"}},
+      {"inspect", {"kith inspect item-delivery", "kith inspect item-delivery --show policy,demos --mdp 63"}},
+      {"teach", {"kith teach item-delivery --group NNP --strategy joint", "kith teach --from results/paper --team 17"}},
+      {"study",
+       {"kith study studies/paper.toml -o results/paper",
+        "kith study quick -o results/quick --set replicates=10 --set teacher.process_noise=0.5"}},
+      {"doctor", {"kith doctor", "kith doctor --json"}},
+      {"completion",
+       {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion zsh)"}},
+      {"version", {"kith --version", "kith --version --json"}}};
+  return kExamples.at(command);
+}
 
 std::string help_text(const std::vector<CommandDescription>& commands, bool full) {
   std::string text =
@@ -84,8 +101,7 @@ std::string help_text(const CommandDescription& command, bool full) {
       if (option.positional != positional) continue;
       if (positional && !any_positional) text += "arguments:\n";
       any_positional = any_positional || positional;
-      text += padded(left_column(option), kFullWidth) + (full ? right_column(option, kFullWidth) : option.description) +
-              "\n";
+      text += padded(left_column(option), kFullWidth) + right_column(option, kFullWidth, full) + "\n";
     }
   }
   if (full) text += std::string{"\n"} + kExitCodes;

@@ -17,8 +17,13 @@ void Console::print_json(const Json& document) {
 }
 
 Json to_json(const Diagnostic& diagnostic) {
-  return {{"id", diagnostic.id},     {"message", diagnostic.message}, {"file", diagnostic.file},
-          {"line", diagnostic.line}, {"column", diagnostic.column},   {"hint", diagnostic.hint}};
+  const auto known = [](std::size_t number) { return number == 0 ? Json{} : Json(number); };
+  return {{"id", diagnostic.id},
+          {"message", diagnostic.message},
+          {"file", diagnostic.file.empty() ? Json{} : Json(diagnostic.file)},
+          {"line", known(diagnostic.line)},
+          {"column", known(diagnostic.column)},
+          {"hint", diagnostic.hint}};
 }
 
 Json error_document(const std::vector<Diagnostic>& diagnostics) {

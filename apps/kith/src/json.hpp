@@ -14,7 +14,8 @@ namespace kith::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// {"schema": "kith.error/1", "errors": [{id, message, file, line, column, hint}]}
+/// {"schema": "kith.error/1", "errors": [{id, message, file, line, column, hint}]}; what is unknown of the place is
+/// null.
 [[nodiscard]] Json error_document(const std::vector<Diagnostic>& diagnostics);
 /// One of its entries.
 [[nodiscard]] Json to_json(const Diagnostic& diagnostic);

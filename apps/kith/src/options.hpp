@@ -38,8 +38,8 @@ struct TeachOptions {
   std::uint64_t seed = 1;
   std::string study = "paper";  ///< Where learner types and the teacher's settings come from.
   std::vector<std::string> set;
-  std::string from;      ///< A run folder ...
-  std::size_t team = 0;  ///< ... and the number of one of its teams.
+  std::string from;  ///< A run folder ...
+  std::string team;  ///< ... and the number of one of its teams, as typed: only the folder tells how many there are.
 };
 
 struct StudyOptions {

@@ -4,13 +4,16 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "commands.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
+#include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/study/run_folder.hpp"
 #include "kith/study/study.hpp"
@@ -18,6 +21,7 @@
 #include "kith_build_info.hpp"
 #include "progress.hpp"
 #include "summary_json.hpp"
+#include "words.hpp"
 
 namespace kith::cli {
 namespace {
@@ -67,6 +71,15 @@ void add_row(TextTable& table, std::vector<std::string> keys, const CellSummary&
   table.add(std::move(keys));
 }
 
+// What the figures are, below the table.
+std::string table_notes(const StudySummary& summary, const Console& console) {
+  std::string text =
+      "\ncells: mean (sd over teams); knowledge: the team's mean mass of final belief in the policy's class;\n"
+      "area/sr: mean solid angle of the weights that fit one period's lesson, in steradians";
+  if (summary.group) text += "\nall groups: the teams of every strategy but the baseline, together";
+  return console.dim(text) + "\n";
+}
+
 std::string table_of(const Study& study, const StudySummary& summary, const Console& console) {
   const auto& factors = study.variants.front().factors;
   TextTable table{"ll" + std::string(factors.size(), 'l') + "rrrrr"};
@@ -88,13 +101,30 @@ std::string table_of(const Study& study, const StudySummary& summary, const Cons
     all[0] = "all baseline";
     add_row(table, all, *summary.baseline);
   }
-  return table.text(console);
+  return table.text(console) + table_notes(summary, console);
 }
 
 std::vector<std::string> overrides_of(const StudyOptions& options) {
   auto overrides = options.set;
   if (options.seed) overrides.push_back(fmt::format("seed={}", *options.seed));
   return overrides;
+}
+
+// Whether the results could be written there; nothing is made. @throws kith::Error as RunFolder does.
+void check_folder(const StudyOptions& options, const StudyReading& reading) {
+  std::filesystem::path path{options.out};
+  std::error_code failure;
+  if (std::filesystem::is_directory(path, failure)) {
+    (void)RunFolder{path, freeze(reading), options.yes};
+    return;
+  }
+  path = std::filesystem::absolute(path);
+  while (!std::filesystem::exists(path, failure) && path.has_relative_path()) path = path.parent_path();
+  if (!std::filesystem::is_directory(path, failure))
+    throw Error{ErrorKind::kIo, "cannot make the folder " + options.out + ": " + path.string() + " is not a folder"};
+  if (access(path.c_str(), W_OK | X_OK) != 0)
+    throw Error{ErrorKind::kIo,
+                "cannot make the folder " + options.out + ": no permission to write in " + path.string()};
 }
 
 int dry_run(const Study& study, std::size_t teams, Console& console) {
@@ -104,18 +134,25 @@ int dry_run(const Study& study, std::size_t teams, Console& console) {
     return 0;
   }
   console.print(
-      fmt::format("study {}: {} teams in {}, seed {}\n  {} variants x {} strategies x {} compositions x {} "
-                  "replicates\nNothing was run.\n",
-                  spec.id, teams, spec.domain, spec.seed, study.variants.size(), spec.strategies.size(),
-                  spec.compositions.size(), spec.replicates));
+      fmt::format("study {}: {} in {}, seed {}\n  {} x {} x {} x {}\nNothing was run.\n", spec.id,
+                  counted(teams, "team"), spec.domain, spec.seed, counted(study.variants.size(), "variant"),
+                  spec.strategies.size() == 1 ? "1 strategy" : fmt::format("{} strategies", spec.strategies.size()),
+                  counted(spec.compositions.size(), "composition"), counted(spec.replicates, "replicate")));
   return 0;
 }
 
 int interrupted(const StudyOptions& options, std::size_t done, std::size_t total, bool had_results, Console& console) {
   const int signal = stop_signal();
-  console.warning(
+  const auto message =
       fmt::format("interrupted after {} of {} teams; nothing was written{}. The same command runs the study again",
-                  done, total, had_results ? ", and the results in " + options.out + " are as they were" : ""));
+                  done, total, had_results ? ", and the results in " + options.out + " are as they were" : "");
+  console.warning(message);
+  if (console.json()) {
+    Diagnostic diagnostic;
+    diagnostic.id = "interrupted";
+    diagnostic.message = message;
+    console.print_json(error_document({diagnostic}));
+  }
   return 128 + (signal != 0 ? signal : SIGINT);
 }
 
@@ -134,6 +171,7 @@ int run_study(const StudyOptions& options, Console& console) {
   if (!console.quiet()) console.show(reading.diagnostics);
   const auto& study = *reading.study;
   const auto addresses = team_addresses(study);
+  if (options.dry_run && !options.out.empty()) check_folder(options, reading);
   if (options.dry_run) return dry_run(study, addresses.size(), console);
   if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith study needs -o DIR, the folder for the results"};
 
@@ -172,8 +210,8 @@ int run_study(const StudyOptions& options, Console& console) {
     return 0;
   }
   console.print(table_of(study, summary, console));
-  console.info(fmt::format("{} teams in {:.2f} s; tables in {}/tables, columns in codebook.json", result.teams.size(),
-                           seconds, options.out));
+  console.info(fmt::format("{} in {:.2f} s; tables in {}/tables, columns in codebook.json",
+                           counted(result.teams.size(), "team"), seconds, options.out));
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/study/run_folder.hpp"
+#include "option_values.hpp"
 #include "transcript.hpp"
 #include "transcript_json.hpp"
 
@@ -24,10 +25,9 @@ Assignment from_run_folder(const TeachOptions& options) {
   auto reading = read_run_folder(options.from);
   if (!reading.study) throw Error{reading.diagnostics};
   const auto addresses = team_addresses(*reading.study);
-  if (options.team > addresses.size()) {
-    usage(fmt::format("there is no team {}: the study has {}", options.team, addresses.size()));
-  }
-  const auto& address = addresses[options.team - 1];
+  const auto wrong = wrong_integer(options.team, 1, static_cast<std::int64_t>(addresses.size()));
+  if (!wrong.empty()) usage("--team " + wrong);
+  const auto& address = addresses[std::stoul(options.team) - 1];
   return {*std::move(reading.domain), reading.study->variants[address.variant], address};
 }
 

@@ -115,6 +115,18 @@ TEST(StudyCommand, RunsNothingWhenDry) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
+TEST(StudyCommand, SaysInADryRunWhatStandsInItsWay) {
+  const Scratch scratch;
+  ASSERT_EQ(run_kith({"study", "quick", "-o", scratch / "run", "-q"}).code, 0);
+  const auto before = tables_in(scratch / "run");
+  std::ofstream{scratch / "file"} << "x";
+  EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "run", "--dry-run"}).code, 0);
+  EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "run", "--dry-run", "--seed", "2"}).code, 2);
+  EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "run", "--dry-run", "--seed", "2", "--yes"}).code, 0);
+  EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "file/run", "--dry-run"}).code, 5);
+  EXPECT_EQ(tables_in(scratch / "run"), before);
+}
+
 TEST(StudyCommand, ReportsProgressAsJsonLines) {
   const Scratch scratch;
   const auto ran = run_kith({"study", "quick", "-o", scratch / "run", "--progress", "json", "-q"});
@@ -139,6 +151,20 @@ TEST(StudyCommand, StopsCleanlyWhenInterrupted) {
     EXPECT_THAT(text_of(scratch / "out"), IsEmpty());
     EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
   }
+}
+
+TEST(StudyCommand, EndsWithAnErrorDocumentWhenInterruptedInJson) {
+  const Scratch scratch;
+  std::ofstream{scratch / "in"} << "";
+  const auto child = start_kith(
+      {"study", "quick", "-o", scratch / "run", "--set", "replicates=100000", "--progress", "json", "--json"}, {},
+      scratch / "in", scratch / "out", scratch / "err");
+  for (int i = 0; i < 1000 && text_of(scratch / "err").find("\"done\"") == std::string::npos; ++i) usleep(10'000);
+  kill(child, SIGINT);
+  EXPECT_EQ(exit_code_of(child), 128 + SIGINT);
+  const auto document = Json::parse(text_of(scratch / "out"));
+  EXPECT_EQ(document.at("schema"), "kith.error/1");
+  EXPECT_EQ(document.at("errors").at(0).at("id"), "interrupted");
 }
 
 TEST(TeachCommand, IsDeterministicAndFollowsTheSeed) {
@@ -168,7 +194,11 @@ TEST(TeachCommand, ReplaysATeamOfAStudy) {
                      document.at("tests").dump() + "," + document.at("knowledge").dump() + ",";
     EXPECT_THAT(tables_in(scratch / "run").at("teams.csv"), HasSubstr(row));
   }
-  EXPECT_EQ(run_kith({"teach", "--from", scratch / "run", "--team", "7"}).code, 2);
+  for (const std::string team : {"7", "0", "-1", "x"}) {
+    const auto refused = run_kith({"teach", "--from", scratch / "run", "--team", team});
+    EXPECT_EQ(refused.code, 2) << team;
+    EXPECT_THAT(refused.err, HasSubstr("--team must be an integer from 1 to 6, not '" + team + "'"));
+  }
 }
 
 }  // namespace

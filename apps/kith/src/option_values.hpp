@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+
+namespace kith::cli {
+
+/// Why the text is no integer of this range ("must be an integer from 1 to 9, not 'x'"), or nothing.
+[[nodiscard]] std::string wrong_integer(const std::string& text, std::int64_t min,
+                                        std::int64_t max = std::numeric_limits<std::int64_t>::max());
+
+/// Why the text is none of the words; behind a line break the nearest of them. Or nothing.
+[[nodiscard]] std::string wrong_word(const std::string& text, const std::vector<std::string>& words);
+
+/// The parser's complaint about the value of an option, or about options that do or do not go together, in plain
+/// words. Names the environment variable if the value came from one.
+[[nodiscard]] UsageError explain_value(const CommandDescription& command, const std::string& complaint,
+                                       const std::vector<std::string>& arguments);
+
+}  // namespace kith::cli

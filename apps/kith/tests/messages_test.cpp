@@ -1,0 +1,129 @@
+// What people are told: complaints about the command line, pictures and words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+// The text with every `from` replaced; a test that replaces nothing tests nothing.
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  for (; at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string item_delivery() { return text_of(std::string{KITH_SOURCE_DIR} + "/domains/item_delivery.toml"); }
+
+std::string item_delivery_without_charger_reward() {
+  auto text = replaced(item_delivery(), "[[feature]]\nname = \"recharge\"\nwhen = \"leave:charger\"\n", "");
+  text = replaced(text, "recharge = 3.5, ", "");
+  text = replaced(text, "recharge = \"stopping at the charger\"", "");
+  return replaced(text, "halfspaces = [ { step = -1 } ]", "halfspaces = []");
+}
+
+TEST(Messages, SayInPlainWordsWhatIsWrongWithAValue) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+      {{"validate"}, "kith validate needs FILE"},
+      {{"inspect", "item-delivery", "--mdp", "-1"}, "--mdp must be an integer, 0 or more, not '-1'"},
+      {{"inspect", "item-delivery", "--color", "nevr"}, "did you mean 'never'?"},
+      {{"teach", "item-delivery", "--seed", "-1"}, "--seed must be an integer, 0 or more, not '-1'"},
+      {{"teach", "item-delivery", "--strategy", "jont"}, "did you mean 'joint'?"},
+      {{"teach", "item-delivery", "--from", "x", "--team", "1"}, "DOMAIN cannot be combined with --from"},
+      {{"teach", "--from", "x"}, "--from needs --team"},
+      {{"study", "quick", "--seed", "x"}, "--seed must be an integer, 0 or more, not 'x'"},
+      {{"study", "quick", "--seed"}, "--seed needs a value"},
+      {{"study", "quick", "-j", "9999"}, "--threads must be an integer from 1 to 1024, not '9999'"},
+      {{"study", "quick", "--progress", "qqqqqq"}, "one of: auto, bar, json, none"},
+  };
+  for (const auto& [arguments, message] : refused) {
+    const auto ran = run_kith(arguments);
+    EXPECT_EQ(ran.code, 2) << ::testing::PrintToString(arguments);
+    EXPECT_THAT(ran.err, HasSubstr(message));
+  }
+}
+
+TEST(Messages, NameTheEnvironmentVariableOfAWrongValue) {
+  const RunWith wrong{{{"KITH_SEED", "x"}}, "", ""};
+  EXPECT_THAT(run_kith({"study", "quick", "--dry-run"}, wrong).err, HasSubstr("environment variable KITH_SEED"));
+  EXPECT_THAT(run_kith({"study", "quick", "--dry-run", "--seed", "y"}, wrong).err, Not(HasSubstr("KITH_SEED")));
+  const RunWith flag{{{"KITH_QUIET", "maybe"}}, "", ""};
+  EXPECT_THAT(run_kith({"study", "quick", "--dry-run"}, flag).err, HasSubstr("environment variable KITH_QUIET"));
+}
+
+TEST(Messages, TakeAnUnknownStudyLikeAnUnknownDomain) {
+  const auto study = run_kith({"study", "qick"});
+  const auto domain = run_kith({"inspect", "item-delivry"});
+  EXPECT_EQ(study.code, 3);
+  EXPECT_EQ(domain.code, 3);
+  EXPECT_THAT(study.err, HasSubstr("did you mean 'quick'?"));
+  EXPECT_THAT(domain.err, HasSubstr("did you mean 'item-delivery'?"));
+}
+
+TEST(Messages, HaveNullInJsonForAnUnknownPlace) {
+  const auto error =
+      Json::parse(run_kith({"inspect", "item-delivery", "--mdp", "64", "--json"}).out).at("errors").at(0);
+  for (const auto* key : {"file", "line", "column"}) EXPECT_TRUE(error.at(key).is_null()) << key;
+}
+
+TEST(Messages, ListTheValuesOfAnOptionInShortHelp) {
+  EXPECT_THAT(run_kith({"teach", "-h"}).out, HasSubstr("one of: baseline, individual-low"));
+  EXPECT_THAT(run_kith({"inspect", "-h"}).out, HasSubstr("one of: map, policy"));
+  EXPECT_THAT(run_kith({"completion", "-h"}).out, HasSubstr("one of: bash, zsh, fish"));
+}
+
+TEST(Transcript, ShowsTheTerrainUnderThePathAndExplainsItsSymbols) {
+  const auto text = run_kith({"teach", "item-delivery", "--group", "N", "--seed", "1"}).out;
+  EXPECT_THAT(text, AllOf(HasSubstr("# wall   . floor   r rubble   B charger   G destination of parcel"),
+                          HasSubstr("@ robot   * item elsewhere than at first")));
+  // The first panel of every picture is the bare map.
+  std::size_t rows = 0;
+  for (std::size_t at = text.find("\n    #"); at != std::string::npos; at = text.find("\n    #", at + 1)) {
+    EXPECT_EQ(text.substr(at + 5, 4).find_first_of("@*oS^v<>"), std::string::npos) << text.substr(at, 20);
+    ++rows;
+  }
+  EXPECT_GT(rows, 8u);
+}
+
+TEST(Transcript, TellsAVerdictFromAnAction) {
+  const auto text = run_kith({"teach", "item-delivery", "--group", "NNP", "--seed", "1"}).out;
+  EXPECT_THAT(text, AllOf(HasSubstr("member 3: correct: "), HasSubstr("member 1: wrong (regret 0."),
+                          HasSubstr("ability is back at its initial value")));
+  EXPECT_THAT(text, Not(::testing::ContainsRegex("member [0-9]: right")));
+}
+
+TEST(Words, AgreeInNumberOrAvoidTheQuestion) {
+  EXPECT_THAT(run_kith({"inspect", "item-delivery", "--show", "bec"}).out,
+              AllOf(HasSubstr("crossing rubble costs more than 2 steps"),
+                    HasSubstr("4 steps cost more than stopping at the charger is worth")));
+  const Scratch scratch;
+  std::ofstream{scratch / "d.toml"} << replaced(item_delivery(), "\"crossing rubble\"", "\"rubble crossings\"");
+  EXPECT_THAT(run_kith({"inspect", scratch / "d.toml", "--show", "bec"}).out,
+              AllOf(HasSubstr("the cost of rubble crossings outweighs the cost of 2 steps"),
+                    HasSubstr("4 steps cost more than stopping at the charger is worth")));
+}
+
+TEST(Inspect, ShowsADomainThatCannotBeTaught) {
+  const Scratch scratch;
+  std::ofstream{scratch / "d.toml"} << item_delivery_without_charger_reward();
+  const auto ran = run_kith({"inspect", scratch / "d.toml"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("Map of MDP 63"), HasSubstr("Reward"), HasSubstr("The robot's policy in MDP 63"),
+                             HasSubstr("from the start: pickup, left x3, dropoff")));
+  EXPECT_THAT(ran.err, HasSubstr("exactly 3 features, and this domain has 2"));
+  const auto document = Json::parse(run_kith({"inspect", scratch / "d.toml", "--json"}).out);
+  EXPECT_EQ(document.at("schema"), "kith.inspect/1");
+  EXPECT_FALSE(document.contains("bec"));
+}
+
+}  // namespace
+}  // namespace kith::testing
