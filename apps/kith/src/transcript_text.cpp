@@ -53,8 +53,8 @@ class TranscriptWriter {
       return std::count(session.components.begin(), session.components.end(), status);
     };
     const auto skipped = count(ComponentStatus::kSkipped);
-    return fmt::format("{} after {}: {} of {} knowledge components learned{}",
-                       session.status == SessionStatus::kComplete ? "Complete" : "Stopped",
+    return fmt::format("{} {}: {} of {} knowledge components learned{}",
+                       session.status == SessionStatus::kComplete ? "Complete after" : "Stopped at the limit of",
                        counted(session.periods.size(), "period"), count(ComponentStatus::kLearned),
                        session.components.size(), skipped > 0 ? fmt::format(", {} skipped", skipped) : "");
   }
