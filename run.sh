@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Builds kith and runs it; see usage below.
 #
-# Running the study again is left to kith: it finds its journal in the output
-# folder and finishes, or finds everything done. This script deletes nothing; a
-# study whose files have changed since is refused, and needs another folder.
+# Running the study again is left to kith: results of the same study in the output
+# folder are replaced, by the same bytes. This script deletes nothing; the folder of a
+# different study is refused.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 root=$PWD

@@ -56,7 +56,7 @@ void AtlasBuilder::plan() {
       Atlas::Demo demo;
       demo.id = {m, s};
       demo.counts = plan.solution->feature_counts[s.value()];
-      atlas_.demos_.push_back(std::move(demo));
+      atlas_.demos_.push_back(demo);
     }
     describe_paths(m, *plan.solution);
     collect_one_step(m, *plan.solution);

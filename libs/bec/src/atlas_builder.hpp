@@ -25,7 +25,7 @@ class AtlasBuilder {
   [[nodiscard]] bool counts(const HalfSpace& half_space) const;
   void reduce_one_step();
   void find_hulls(MdpIndex m);
-  void intern_hull(Atlas::Demo& demo, const CoverageSets& coverage);
+  void intern_hull(Atlas::Demo& here, const CoverageSets& coverage);
   void number_constraints();
   void make_one_step_sets();
   void make_policy_bec();

@@ -129,6 +129,7 @@ class PolicyCellBuilder {
     }
     if (alive.size() < 3) return;
     std::vector<IntegerVector> gains;
+    gains.reserve(alive.size());
     for (const auto i : alive) gains.push_back(-losses[i]);
     const auto hull = upper_hull(gains, part);
     std::erase_if(alive,

@@ -87,6 +87,7 @@ class TeamRun {
     }
     Session session{atlas_, cache_, options_, record_.address.strategy, streams, teacher};
     std::vector<LearnerRecord> rows;
+    rows.reserve(people.size());
     for (const auto& person : people) {
       rows.push_back({.member = person.member, .type = person.type, .parameters = person.parameters});
     }

@@ -52,6 +52,7 @@ std::vector<Diagnostic> TomlReport::diagnostics() const {
            std::tie(b.place.source, b.place.line, b.place.column);
   });
   std::vector<Diagnostic> diagnostics;
+  diagnostics.reserve(sorted.size());
   for (Entry& entry : sorted) diagnostics.push_back(std::move(entry.diagnostic));
   return diagnostics;
 }
