@@ -2,22 +2,10 @@
 
 #include <algorithm>
 
+#include "diagnostic_at.hpp"
+
 namespace kith {
 namespace {
-
-Diagnostic assignment_error(std::string id, const TomlSource& source, const TomlPlace& place, std::string message,
-                            std::string hint) {
-  Diagnostic d;
-  d.id = std::move(id);
-  d.message = std::move(message);
-  d.hint = std::move(hint);
-  d.file = source.name;
-  d.line = place.line;
-  d.column = place.column;
-  d.length = place.length;
-  d.source_line = source.line(place.line);
-  return d;
-}
 
 // The same value as if it had been read from source number `source`.
 TomlValue moved_to_source(const TomlValue& value, std::size_t source) {
@@ -85,7 +73,7 @@ TomlAssignmentParsing parse_assignment(std::string_view text, const std::string&
   const TomlSource source{name, std::string{text}};
   const std::string form = "write KEY=VALUE, for instance teacher.process_noise=0.5; text values need \"quotes\"";
   const auto refuse = [&](const TomlPlace& place, const std::string& message) {
-    return TomlAssignmentParsing{std::nullopt, {assignment_error("E0113", source, place, message, form)}};
+    return TomlAssignmentParsing{std::nullopt, {diagnostic_at(source, place, "E0113", message, form)}};
   };
   if (text.find('\n') != std::string_view::npos || !has_equals_sign(text)) {
     return refuse({0, 1, 1, std::max<std::size_t>(text.size(), 1)}, "not an assignment KEY=VALUE");
@@ -118,10 +106,10 @@ std::vector<Diagnostic> assign(TomlDocument& document, const TomlAssignment& ass
   for (std::size_t i = 0; i + 1 < assignment.keys.size() && walk != nullptr; ++i) {
     const TomlValue* next = walk->find(assignment.keys[i]);
     if (next != nullptr && next->table() == nullptr) {
-      return {assignment_error("E0114", assignment.source, assignment.place,
-                               "'" + assignment.keys[i] + "' is " + std::string{next->kind_name()} +
-                                   ", so it has no key '" + assignment.keys[i + 1] + "'",
-                               "")};
+      return {diagnostic_at(assignment.source, assignment.place, "E0114",
+                            "'" + assignment.keys[i] + "' is " + std::string{next->kind_name()} +
+                                ", so it has no key '" + assignment.keys[i + 1] + "'",
+                            "")};
     }
     walk = next == nullptr ? nullptr : next->table();
   }

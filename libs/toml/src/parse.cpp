@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "diagnostic_at.hpp"
 #include "kith/toml/document.hpp"
 #include "scan.hpp"
 
@@ -76,18 +77,6 @@ class Converter {
   std::optional<TomlPlace> too_deep_;
 };
 
-Diagnostic at(const TomlSource& source, const TomlPlace& place, std::string id, std::string message) {
-  Diagnostic d;
-  d.id = std::move(id);
-  d.message = std::move(message);
-  d.file = source.name;
-  d.line = place.line;
-  d.column = place.column;
-  d.length = place.length;
-  d.source_line = source.line(place.line);
-  return d;
-}
-
 // toml++ reports a key given twice at its value; people look for the key.
 void point_at_key(Diagnostic& d, const std::string& message) {
   const auto open = message.find('\'');
@@ -115,8 +104,8 @@ Diagnostic from_parse_error(const TomlSource& source, const ::toml::parse_error&
   const bool no_value = has("could not determine value type") || has("expected 'true'") || has("expected 'false'") ||
                         has("expected 'inf'") || has("expected 'nan'");
   if (no_value) message = "this is not a value; text needs \"quotes\"";
-  Diagnostic d = at(source, place_of(error.source()), twice ? "E0102" : "E0101",
-                    twice ? "a key is given twice: " + message : "not valid TOML: " + message);
+  Diagnostic d = diagnostic_at(source, place_of(error.source()), twice ? "E0102" : "E0101",
+                               twice ? "a key is given twice: " + message : "not valid TOML: " + message);
   if (twice) {
     point_at_key(d, message);
     d.hint = "keep one of them";
@@ -137,7 +126,7 @@ TomlParsing parse_toml(std::string_view text, const std::string& name) {
   document.root = converter.table(result.table(), 0);
   if (converter.too_deep()) {
     const std::string message = "nested deeper than " + std::to_string(kMaxTomlDepth) + " levels";
-    return {std::nullopt, {at(document.sources[0], *converter.too_deep(), "E0104", message)}};
+    return {std::nullopt, {diagnostic_at(document.sources[0], *converter.too_deep(), "E0104", message)}};
   }
   return {std::move(document), {}};
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "diagnostic_at.hpp"
 #include "kith/toml/reader.hpp"
 
 namespace kith {
@@ -10,38 +11,26 @@ void TomlReport::add(Diagnostic diagnostic, const TomlPlace& place) {
     ++num_errors_;
     if (num_errors_ > kMaxErrors) return;
   }
-  const TomlSource& source = document_.sources.at(place.source);
-  diagnostic.file = source.name;
-  diagnostic.line = place.line;
-  diagnostic.column = place.column;
-  diagnostic.length = place.length;
-  diagnostic.source_line = source.line(place.line);
   entries_.push_back({place, std::move(diagnostic)});
 }
 
 void TomlReport::error(std::string id, const TomlPlace& place, std::string message, std::string hint) {
-  Diagnostic d;
-  d.id = std::move(id);
-  d.message = std::move(message);
-  d.hint = std::move(hint);
+  Diagnostic d =
+      diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));
   add(std::move(d), place);
 }
 
 void TomlReport::infeasible(std::string id, const TomlPlace& place, std::string message, std::string hint) {
-  Diagnostic d;
-  d.id = std::move(id);
-  d.message = std::move(message);
-  d.hint = std::move(hint);
+  Diagnostic d =
+      diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));
   d.infeasible = true;
   add(std::move(d), place);
 }
 
 void TomlReport::warning(std::string id, const TomlPlace& place, std::string message, std::string hint) {
-  Diagnostic d;
+  Diagnostic d =
+      diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));
   d.severity = Severity::kWarning;
-  d.id = std::move(id);
-  d.message = std::move(message);
-  d.hint = std::move(hint);
   add(std::move(d), place);
 }
 
