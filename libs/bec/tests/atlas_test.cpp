@@ -87,6 +87,11 @@ TEST(ItemDelivery, HasTheKnownCoverageSets) {
   EXPECT_EQ(coverage.max, 7u);
 }
 
+TEST(ItemDelivery, NeedsFewConstraintsAndPolicyCells) {
+  EXPECT_EQ(item_delivery().constraints().size(), 64u);
+  EXPECT_EQ(item_delivery().cells().size(), 241u);
+}
+
 // Laws.
 
 TEST(Atlas, EveryConstraintThatIsConveyedHoldsAtTheRobotsWeights) {
