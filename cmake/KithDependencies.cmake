@@ -2,6 +2,7 @@
 # was chosen: docs/adr/0008-dependencies.md. `./run.sh --setup` installs them.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
+find_package(Boost 1.74 REQUIRED) # headers only: Boost.Math
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
@@ -19,7 +20,8 @@ endif()
 
 # Header-only or without a CMake package of their own: say early, and by the
 # name of the package, what a compiler would only say as "no such file".
-foreach(header_and_package "Random123/philox.h|librandom123-dev" "toml++/toml.h|libtomlplusplus-dev" "csv.h|libcsv-dev")
+foreach(header_and_package "Random123/philox.h|librandom123-dev" "toml++/toml.h|libtomlplusplus-dev" "csv.h|libcsv-dev"
+    "boost/math/distributions/fisher_f.hpp|libboost-math-dev")
   string(REPLACE "|" ";" header_and_package ${header_and_package})
   list(GET header_and_package 0 header)
   list(GET header_and_package 1 package)

@@ -8,7 +8,7 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 packages_to_build=(
   g++ cmake ninja-build
   libeigen3-dev librandom123-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
-  libssl-dev
+  libssl-dev libboost-math-dev
 )
 packages_to_test=(libgtest-dev libgmock-dev)
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev libbenchmark-dev)

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/stats/estimable.hpp"
+#include "kith/stats/factor.hpp"
+#include "kith/stats/tests.hpp"
+
+namespace kith {
+
+enum class SumsOfSquares {
+  kTypeII,   ///< Each term after all terms that do not contain it.
+  kTypeIII,  ///< Each term after all others, with sum-to-zero contrasts.
+};
+
+/// One row of an analysis of variance.
+struct AnovaTerm {
+  std::string name;  ///< "strategy:composition"
+  std::size_t df = 0;
+  double sum_of_squares = 0.0;
+  Estimable<TestResult> test = Estimable<TestResult>::impossible("not computed");
+  /// Sum of squares over itself plus the residual one, in [0, 1].
+  Estimable<double> partial_eta_squared = Estimable<double>::impossible("not computed");
+};
+
+struct AnovaTable {
+  SumsOfSquares type = SumsOfSquares::kTypeII;
+  std::vector<AnovaTerm> terms;  ///< In the order asked for.
+  double residual_sum_of_squares = 0.0;
+  std::size_t residual_df = 0;
+  std::size_t observations = 0;
+  bool balanced = false;          ///< Every cell has the same number of observations.
+  std::size_t empty_cells = 0;    ///< Combinations of levels that no observation has.
+  std::vector<double> residuals;  ///< One per observation.
+};
+
+/// Analysis of variance of a model with factors only.
+///
+/// Computed from the cells' means and sums of squares, after the observations are
+/// centred, so that neither size nor scale of the data matters: equals R's aov with drop1 / car's
+/// definitions to 1e-10 relative. A term of which nothing can be estimated (empty cells, one
+/// level, no residual degrees of freedom, no residual spread) says why.
+///
+/// @param response  one value per observation, finite.
+/// @param factors   one code per observation each.
+/// @param terms     each a set of indices of `factors`, as in Formula::terms.
+/// @throws std::invalid_argument if shapes differ, a value is not finite, or a term names no factor.
+[[nodiscard]] AnovaTable anova(std::span<const double> response, std::span<const Factor> factors,
+                               std::span<const std::vector<std::size_t>> terms, SumsOfSquares type);
+
+/// The effect of a factor within blocks, such as strategies that taught the same
+/// simulated people: block means are taken out first, so that differences between blocks do not count as noise.
+/// Model: response ~ within * between + block, with block nested in `between` (R: aov with Error(block)). Returns the
+/// terms `within` and `within:between`, tested against the residual within blocks.
+/// Not estimable unless every block has each level of `within` exactly once.
+[[nodiscard]] Estimable<AnovaTable> blocked_anova(std::span<const double> response, const Factor& within,
+                                                  const Factor& between, const Factor& block);
+
+/// Skewness and excess kurtosis of residuals with the Jarque-Bera test of normality (asymptotic).
+struct NormalityCheck {
+  double skewness = 0.0;
+  double excess_kurtosis = 0.0;
+  TestResult test;
+};
+[[nodiscard]] Estimable<NormalityCheck> check_normality(std::span<const double> residuals);
+
+}  // namespace kith
