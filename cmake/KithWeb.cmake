@@ -1,0 +1,39 @@
+# kith_add_web_report(<variable>)
+#
+# Sets the variable to the path, in the build tree, of the report's template (one HTML file, see
+# web/build.mjs) and defines the target kith_web_report, which makes it. Packages come from npm,
+# once per build tree and whenever the lock file changes; the source tree stays as it is.
+find_program(KITH_NODE NAMES node nodejs DOC "Node.js, which bundles the pages")
+find_program(KITH_NPM npm DOC "npm, which fetches what the pages are made of")
+mark_as_advanced(KITH_NODE KITH_NPM)
+
+function(kith_add_web_report variable)
+  if(NOT KITH_NODE OR NOT KITH_NPM)
+    message(FATAL_ERROR "kith's report page is bundled with Node.js (18 or later) and npm, and one of them is missing. "
+                        "On Debian: apt-get install nodejs npm")
+  endif()
+  set(source ${PROJECT_SOURCE_DIR}/web)
+  set(build ${PROJECT_BINARY_DIR}/web)
+  set(page ${build}/report.html)
+  set(stamp ${build}/node_modules/.kith-stamp)
+  set(omit --omit=dev)  # the compiler of types, the browser's driver and axe: for tests only
+  if(KITH_BUILD_TESTS)
+    set(omit)
+  endif()
+  set(packages ${source}/package.json ${source}/package-lock.json ${source}/.npmrc)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${source}/src/*)
+
+  add_custom_command(OUTPUT ${stamp}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${build}
+    COMMAND ${CMAKE_COMMAND} -E copy ${packages} ${build}
+    COMMAND ${KITH_NPM} ci --ignore-scripts --no-audit --no-fund --prefer-offline --loglevel=error ${omit}
+    COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
+    DEPENDS ${packages} WORKING_DIRECTORY ${build}
+    COMMENT "Fetching what the report page is made of (npm)" VERBATIM)
+  add_custom_command(OUTPUT ${page}
+    COMMAND ${KITH_NODE} ${source}/build.mjs --modules ${build} --out ${page}
+    DEPENDS ${stamp} ${source}/build.mjs ${source}/notices.mjs ${sources}
+    COMMENT "Bundling the report page" VERBATIM)
+  add_custom_target(kith_web_report DEPENDS ${page})
+  set(${variable} ${page} PARENT_SCOPE)
+endfunction()

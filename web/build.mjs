@@ -1,0 +1,96 @@
+// Makes the report's template: one HTML file which holds the script, the style and the licences
+// of everything that is in it, and needs no network.
+//
+//   node build.mjs --out FILE [--modules DIR]
+//
+// DIR is a folder with node_modules (this one unless said otherwise), so that a build outside the
+// source tree leaves no file here. kith puts a document (schema kith.report/1) where
+// DATA_PLACEHOLDER stands and the escaped title where TITLE_PLACEHOLDER stands, each once.
+import { createHash } from 'node:crypto';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { collectNotices, noticesHtml } from './notices.mjs';
+
+const DATA_PLACEHOLDER = '/*KITH_REPORT_JSON*/';
+const TITLE_PLACEHOLDER = '/*KITH_REPORT_TITLE*/';
+const MAX_BYTES = 2_000_000;
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values } = parseArgs({ options: { out: { type: 'string' }, modules: { type: 'string' } } });
+if (!values.out) {
+  console.error('usage: node build.mjs --out FILE [--modules DIR]');
+  process.exit(2);
+}
+const modulesRoot = resolve(values.modules ?? here);
+const { build } = createRequire(join(modulesRoot, 'package.json'))('esbuild');
+
+async function bundle(entry, loaderOptions) {
+  const result = await build({
+    entryPoints: [join(here, entry)],
+    absWorkingDir: modulesRoot,
+    nodePaths: [join(modulesRoot, 'node_modules')],
+    bundle: true,
+    minify: true,
+    write: false,
+    metafile: true,
+    charset: 'ascii',
+    legalComments: 'none', // the page has whole licences instead
+    ...loaderOptions,
+  });
+  return { text: result.outputFiles[0].text, metafile: result.metafile };
+}
+
+// Browsers hash what is between the tags after their own normalisation, so what they would change must not occur.
+function checkInlineScript(script) {
+  for (const [what, found] of [
+    ['</script', /<\/script/i.test(script)],
+    ['<!--', script.includes('<!--')],
+    ['a carriage return', script.includes('\r')],
+  ]) {
+    if (found) throw new Error(`the script contains ${what}, which ends or changes an inlined script`);
+  }
+}
+
+// A function as replacement: in a string, `$&` and the like would be expanded.
+function fill(template, name, value) {
+  const parts = template.split(name);
+  if (parts.length !== 2) throw new Error(`the template must contain ${name} once, not ${parts.length - 1} times`);
+  return parts[0] + value + parts[1];
+}
+
+const script = await bundle('src/report/main.ts', {
+  platform: 'browser',
+  format: 'iife',
+  target: ['chrome100', 'firefox100', 'safari15.4'],
+});
+const style = await bundle('src/report/style.css', { target: ['chrome100', 'firefox100', 'safari15.4'] });
+const code = script.text.trimEnd();
+checkInlineScript(code);
+if (/<\/style/i.test(style.text)) throw new Error('the style contains </style');
+
+const hash = createHash('sha256').update(code, 'utf8').digest('base64');
+const policy = [
+  "default-src 'none'",
+  `script-src 'sha256-${hash}'`,
+  "style-src 'unsafe-inline'",
+  'img-src data: blob:',
+  "base-uri 'none'",
+  "form-action 'none'",
+].join('; ');
+
+let page = readFileSync(join(here, 'src/report/template.html'), 'utf8');
+page = fill(page, '__POLICY__', policy);
+page = fill(page, '__STYLE__', style.text.trim());
+page = fill(page, '__NOTICES__', noticesHtml(collectNotices(script.metafile, modulesRoot)));
+page = fill(page, '__SCRIPT__', code);
+for (const name of [DATA_PLACEHOLDER, TITLE_PLACEHOLDER]) {
+  if (page.split(name).length !== 2) throw new Error(`${name} must occur once`);
+}
+const bytes = Buffer.byteLength(page);
+if (bytes > MAX_BYTES) throw new Error(`the page has ${bytes} bytes, more than ${MAX_BYTES}`);
+mkdirSync(dirname(resolve(values.out)), { recursive: true });
+writeFileSync(values.out, page);
+console.log(`${values.out}: ${(bytes / 1e6).toFixed(2)} MB`);
