@@ -64,7 +64,7 @@ std::optional<std::string> text_if_any(const fs::path& path) {
   return read_file(path);
 }
 
-// The four tables and the codebook, in `folder`; their hashes by name.
+// The tables and the codebook, in `folder`; their hashes by name.
 std::map<std::string, std::string> write_tables(const fs::path& folder, const Study& study,
                                                 std::span<const TeamRecord> teams) {
   make_folder(folder);

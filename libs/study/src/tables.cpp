@@ -97,7 +97,30 @@ Columns response_columns() {
                           "Return of the robot's path minus that of the answer; missing without an answer."),
           optional_column("answer", kText, "Feature counts of the answer, separated by blanks; missing without one."),
           column("constraint", kText,
-                 "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'.")};
+                 "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'."),
+          column("covered", kText, "Half-spaces that the test examines and that its feedback teaches.")};
+}
+
+Columns demonstration_columns() {
+  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
+          optional_column("member", kInteger, "Who watched, for the baseline; missing if everybody did."),
+          column("kc", kInteger, "Number of the knowledge component, from 1."),
+          column("demonstration", kInteger, "Number of the demonstration in the period, from 1."),
+          column("mdp", kInteger, "Number of the MDP, from 0."),
+          column("start", kInteger, "Number of the start state in the MDP, from 0."),
+          column("constraint", kText,
+                 "Half-spaces that it conveys: entries of a normal separated by blanks, normals by ';'.")};
+}
+
+Columns progress_columns() {
+  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
+          column("kc", kInteger, "Number of the knowledge component, from 1."),
+          column("member", kInteger, "Number of the member, from 1."),
+          column("type", kText, "Letter of the learner type."),
+          column("ability", kReal, "Ability while watching the demonstrations, before ability_scale."),
+          column("p_bec", kReal,
+                 "Mass of the member's own belief in the policy's behaviour equivalence class, after the feedback."),
+          column("all_correct", kBoolean, "Whether the member answered every test of the period correctly.")};
 }
 
 Columns particle_columns() {
@@ -117,7 +140,10 @@ std::vector<TableDescription> descriptions(const Study& study) {
       {"teams.csv", "One row per team.", keys + team_columns()},
       {"learners.csv", "One row per member of a team.", keys + learner_columns()},
       {"periods.csv", "One row per interaction period; none if only teams are recorded.", keys + period_columns()},
-      {"responses.csv", "One row per member and test; none if only teams are recorded.", keys + response_columns()}};
+      {"responses.csv", "One row per member and test; none if only teams are recorded.", keys + response_columns()},
+      {"demonstrations.csv", "One row per demonstration shown; none if only teams are recorded.",
+       keys + demonstration_columns()},
+      {"progress.csv", "One row per member and period; none if only teams are recorded.", keys + progress_columns()}};
   if (study.variants.front().record == RecordLevel::kParticles) {
     tables.push_back({"particles.csv", "One row per particle, belief and period.", keys + particle_columns()});
   }
@@ -152,6 +178,8 @@ class Tables {
     for (const auto& learner : team.learners) add_learner(team, learner);
     for (const auto& period : team.period_records) add_period(team, period);
     for (const auto& response : team.responses) add_response(team, response);
+    for (const auto& demonstration : team.demonstration_records) add_demonstration(team, demonstration);
+    for (const auto& progress : team.progress) add_progress(team, progress);
     for (const auto& belief : team.beliefs) add_belief(team, belief);
   }
 
@@ -228,12 +256,37 @@ class Tables {
         .real(response.regret)
         .text_or_missing(answer)
         .text(std::string_view{text_of(response.constraints)})
+        .text(std::string_view{text_of(response.covered)})
+        .end_row();
+  }
+
+  void add_demonstration(const TeamRecord& team, const DemonstrationRecord& shown) {
+    begin_row(4, team.address)
+        .integer(count(shown.period))
+        .integer(shown.member == 0 ? std::nullopt : std::optional{count(shown.member)})
+        .integer(count(shown.component))
+        .integer(count(shown.demonstration))
+        .integer(count(shown.mdp))
+        .integer(count(shown.start))
+        .text(std::string_view{text_of(shown.constraints)})
+        .end_row();
+  }
+
+  void add_progress(const TeamRecord& team, const ProgressRecord& progress) {
+    begin_row(5, team.address)
+        .integer(count(progress.period))
+        .integer(count(progress.component))
+        .integer(count(progress.member))
+        .text(std::string_view{&progress.type, 1})
+        .real(progress.ability)
+        .real(progress.p_bec)
+        .boolean(progress.all_correct)
         .end_row();
   }
 
   void add_belief(const TeamRecord& team, const BeliefSnapshot& belief) {
     for (std::size_t i = 0; i < belief.weights.size(); ++i) {
-      begin_row(4, team.address)
+      begin_row(6, team.address)
           .integer(count(belief.period))
           .text(std::string_view{belief.belief})
           .integer(count(i + 1))

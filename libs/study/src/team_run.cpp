@@ -128,12 +128,20 @@ class TeamRun {
       answers.push_back(responses.back().answers);
     }
     const auto feedback = session.submit(answers);
+    std::vector<double> abilities;
+    for (const auto& one : learners) abilities.push_back(one.ability());
     for (std::size_t i = 0; i < learners.size(); ++i) {
       learners[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
       rows[i].tests += tests.size();
       for (const auto& verdict : feedback.verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
     }
-    write_down(session, lesson, answers, feedback, rows, member);
+    add_up(lesson);
+    if (spec_.record != RecordLevel::kTeam) {
+      write_period(session, lesson, feedback, member);
+      write_demonstrations(lesson, member);
+      write_responses(lesson, answers, feedback, rows);
+      write_progress(lesson, learners, abilities, feedback, rows);
+    }
     if (spec_.record == RecordLevel::kParticles) write_beliefs(session, lesson.period, learners, rows);
     if (observer_ != nullptr) observer_->on_feedback(session, lesson, responses, feedback, learners);
   }
@@ -155,12 +163,13 @@ class TeamRun {
     }
   }
 
-  void write_down(const Session& session, const Lesson& lesson, const std::vector<std::vector<Answer>>& answers,
-                  const Feedback& feedback, const std::vector<LearnerRecord>& rows, std::size_t member) {
+  void add_up(const Lesson& lesson) {
     record_.demonstrations += lesson.demonstrations.size();
     record_.tests += lesson.tests.size();
     area_sum_ += lesson.area_sr;
-    if (spec_.record == RecordLevel::kTeam) return;
+  }
+
+  void write_period(const Session& session, const Lesson& lesson, const Feedback& feedback, std::size_t member) {
     const auto& bec = atlas_.policy_bec_half_spaces();
     record_.period_records.push_back(
         {.period = lesson.period,
@@ -178,6 +187,24 @@ class TeamRun {
          .gain = lesson.gain,
          .p_bec_common = session.belief().common().mass_in(bec),
          .p_bec_joint = session.belief().joint().mass_in(bec)});
+  }
+
+  void write_demonstrations(const Lesson& lesson, std::size_t member) {
+    std::size_t number = 0;
+    for (const auto& shown : lesson.demonstrations) {
+      const auto id = atlas_.id(shown.demo);
+      record_.demonstration_records.push_back({.period = lesson.period,
+                                               .member = member,
+                                               .component = lesson.component + 1,
+                                               .demonstration = ++number,
+                                               .mdp = id.mdp.value(),
+                                               .start = id.start.value(),
+                                               .constraints = shown.half_spaces});
+    }
+  }
+
+  void write_responses(const Lesson& lesson, const std::vector<std::vector<Answer>>& answers, const Feedback& feedback,
+                       const std::vector<LearnerRecord>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       for (std::size_t t = 0; t < lesson.tests.size(); ++t) {
         const auto& verdict = feedback.verdicts[i][t];
@@ -191,8 +218,23 @@ class TeamRun {
                                      .correct = verdict.correct,
                                      .regret = verdict.answered ? std::optional{verdict.regret} : std::nullopt,
                                      .answer = answers[i][t],
-                                     .constraints = verdict.half_spaces});
+                                     .constraints = verdict.half_spaces,
+                                     .covered = lesson.tests[t].covered});
       }
+    }
+  }
+
+  void write_progress(const Lesson& lesson, const std::vector<SimulatedLearner>& learners,
+                      const std::vector<double>& abilities, const Feedback& feedback,
+                      const std::vector<LearnerRecord>& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      record_.progress.push_back({.period = lesson.period,
+                                  .component = lesson.component + 1,
+                                  .member = rows[i].member,
+                                  .type = rows[i].type,
+                                  .ability = abilities[i],
+                                  .p_bec = learners[i].belief().mass_in(atlas_.policy_bec_half_spaces()),
+                                  .all_correct = feedback.all_correct[i]});
     }
   }
 

@@ -66,7 +66,19 @@ TeamRecord team() {
   missing.regret.reset();
   missing.answer.reset();
   missing.constraints.clear();
+  wrong.covered = {HalfSpace{IntegerVector{-1, 0, 2}}};
   record.responses = {wrong, missing};
+  record.demonstration_records = {
+      {.period = 1,
+       .member = 0,
+       .component = 1,
+       .demonstration = 1,
+       .mdp = 3,
+       .start = 17,
+       .constraints = {HalfSpace{IntegerVector{-1, 0, 2}}, HalfSpace{IntegerVector{1, 1, 0}}}},
+      {.period = 1, .member = 2, .component = 1, .demonstration = 2, .mdp = 4, .start = 1, .constraints = {}}};
+  record.progress = {
+      {.period = 1, .component = 1, .member = 2, .type = 'P', .ability = 0.75, .p_bec = 0.125, .all_correct = true}};
   return record;
 }
 
@@ -91,10 +103,18 @@ TEST(StudyTables, MatchTheHandWrittenOnes) {
             "strategy,composition,replicate,team,period,kc,source,demonstrations,area_sr,running_area_sr,tests,"
             "all_correct,excluded,untested,gain,p_bec_common,p_bec_joint\n"
             "joint,NP,2,4,1,1,member 2,2,0.5,0.25,1,false,0,0,1.5,0.1,0.2\n");
-  EXPECT_EQ(tables.at("responses.csv"),
-            "strategy,composition,replicate,team,period,kc,test,member,mdp,start,correct,regret,answer,constraint\n"
-            "joint,NP,2,4,1,1,1,1,8,45,false,0.5,2 0 8,1 0 -2;0 -1 -4\n"
-            "joint,NP,2,4,1,1,1,2,8,45,false,,,\"\"\n");
+  EXPECT_EQ(
+      tables.at("responses.csv"),
+      "strategy,composition,replicate,team,period,kc,test,member,mdp,start,correct,regret,answer,constraint,covered\n"
+      "joint,NP,2,4,1,1,1,1,8,45,false,0.5,2 0 8,1 0 -2;0 -1 -4,-1 0 2\n"
+      "joint,NP,2,4,1,1,1,2,8,45,false,,,\"\",\"\"\n");
+  EXPECT_EQ(tables.at("demonstrations.csv"),
+            "strategy,composition,replicate,team,period,member,kc,demonstration,mdp,start,constraint\n"
+            "joint,NP,2,4,1,,1,1,3,17,-1 0 2;1 1 0\n"
+            "joint,NP,2,4,1,2,1,2,4,1,\"\"\n");
+  EXPECT_EQ(tables.at("progress.csv"),
+            "strategy,composition,replicate,team,period,kc,member,type,ability,p_bec,all_correct\n"
+            "joint,NP,2,4,1,1,2,P,0.75,0.125,true\n");
 }
 
 TEST(StudyTables, HaveVariedKeysRightBehindTheComposition) {
@@ -108,7 +128,7 @@ TEST(StudyTables, HaveVariedKeysRightBehindTheComposition) {
   }
 }
 
-TEST(StudyTables, HaveTheirHeadersWithoutATeam) { EXPECT_EQ(tables_of({{StudySpec{}}}, {}).size(), 4u); }
+TEST(StudyTables, HaveTheirHeadersWithoutATeam) { EXPECT_EQ(tables_of({{StudySpec{}}}, {}).size(), 6u); }
 
 // A folder of its own for every test.
 class RunFolderTest : public testing::Test {
@@ -156,7 +176,8 @@ TEST_F(RunFolderTest, HoldsWhatTheDocumentationLists) {
   for (const auto& [name, text] : content(root_ / "new" / "run")) names.insert(name);
   EXPECT_THAT(names, UnorderedElementsAre("manifest.json", "timings.csv", "log.txt", "inputs/study.toml",
                                           "inputs/domain.toml", "tables/teams.csv", "tables/learners.csv",
-                                          "tables/periods.csv", "tables/responses.csv", "tables/codebook.json"));
+                                          "tables/periods.csv", "tables/responses.csv", "tables/demonstrations.csv",
+                                          "tables/progress.csv", "tables/codebook.json"));
 }
 
 TEST_F(RunFolderTest, GetsTheSameBytesAgainFromTheSameStudy) {

@@ -31,6 +31,29 @@ struct ResponseRecord {
   std::optional<double> regret;         ///< Missing without an answer.
   std::optional<IntegerVector> answer;  ///< Feature counts; missing without an answer.
   std::vector<HalfSpace> constraints;   ///< What the answer shows.
+  std::vector<HalfSpace> covered;       ///< What the test examines and its feedback teaches.
+};
+
+/// A row of demonstrations.csv.
+struct DemonstrationRecord {
+  std::size_t period = 0;
+  std::size_t member = 0;         ///< 1-based for the baseline; 0: everybody watched.
+  std::size_t component = 0;      ///< 1-based
+  std::size_t demonstration = 0;  ///< 1-based within the period
+  std::size_t mdp = 0;
+  std::size_t start = 0;               ///< State index in the MDP.
+  std::vector<HalfSpace> constraints;  ///< What it conveys.
+};
+
+/// A row of progress.csv: one member at the end of one period.
+struct ProgressRecord {
+  std::size_t period = 0;
+  std::size_t component = 0;  ///< 1-based
+  std::size_t member = 0;     ///< 1-based
+  char type = 'N';
+  double ability = 0.0;      ///< While watching, before scaling.
+  double p_bec = 0.0;        ///< Mass of the own belief in the policy's BEC, after the feedback.
+  bool all_correct = false;  ///< This member answered every test of the period correctly.
 };
 
 /// A row of periods.csv.
@@ -84,9 +107,11 @@ struct TeamRecord {
   std::size_t components_skipped = 0;
   double area_sr = 0.0;  ///< Mean over periods of PeriodRecord::area_sr; 0 without periods.
   std::vector<LearnerRecord> learners;
-  std::vector<PeriodRecord> period_records;  ///< Empty at RecordLevel::kTeam.
-  std::vector<BeliefSnapshot> beliefs;       ///< Empty unless RecordLevel::kParticles.
-  std::vector<ResponseRecord> responses;     ///< Empty at RecordLevel::kTeam.
+  std::vector<PeriodRecord> period_records;                ///< Empty at RecordLevel::kTeam.
+  std::vector<BeliefSnapshot> beliefs;                     ///< Empty unless RecordLevel::kParticles.
+  std::vector<DemonstrationRecord> demonstration_records;  ///< Empty at RecordLevel::kTeam.
+  std::vector<ResponseRecord> responses;                   ///< Empty at RecordLevel::kTeam.
+  std::vector<ProgressRecord> progress;                    ///< Empty at RecordLevel::kTeam.
 };
 
 }  // namespace kith

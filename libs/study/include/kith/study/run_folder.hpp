@@ -43,7 +43,7 @@ struct RunFacts {
 ///
 ///   manifest.json    what was run, by which build, and hashes of inputs and tables
 ///   inputs/          study.toml and domain.toml, frozen
-///   tables/          teams, learners, periods, responses.csv and codebook.json
+///   tables/          teams.csv and the others (tables.hpp), codebook.json
 ///   timings.csv, log.txt
 ///
 /// Results appear complete or not at all: tables are written aside and put in

@@ -13,8 +13,8 @@ namespace kith {
 /// Takes the next piece of the file of that name ("teams.csv").
 using TableSink = std::function<void(std::string_view file, std::string_view piece)>;
 
-/// Writes teams, learners, periods and responses.csv, and particles.csv if the
-/// study records particles, team by team in the given
+/// Writes teams, learners, periods, responses, demonstrations and progress.csv,
+/// and particles.csv if the study records particles, team by team in the given
 /// order, in pieces that end where rows do. Each file gets at least its header.
 /// The study's varied keys are columns right behind the composition. The
 /// bytes depend on the study and its teams only.
