@@ -134,7 +134,9 @@ Columns particle_columns() {
           column("weight", kReal, "Weight of the particle; those of a belief sum to 1.")};
 }
 
-std::vector<TableDescription> descriptions(const Study& study) {
+}  // namespace
+
+std::vector<TableDescription> study_tables(const Study& study) {
   const auto keys = team_keys(study);
   std::vector<TableDescription> tables{
       {"teams.csv", "One row per team.", keys + team_columns()},
@@ -149,6 +151,8 @@ std::vector<TableDescription> descriptions(const Study& study) {
   }
   return tables;
 }
+
+namespace {
 
 std::int64_t count(std::size_t n) { return static_cast<std::int64_t>(n); }
 
@@ -167,7 +171,7 @@ std::string text_of(const std::vector<HalfSpace>& half_spaces) {
 class Tables {
  public:
   Tables(const Study& study, const TableSink& sink) : study_{study} {
-    for (auto& table : descriptions(study)) {
+    for (auto& table : study_tables(study)) {
       writers_.emplace_back(std::move(table.columns),
                             [sink, file = table.file](std::string_view piece) { sink(file, piece); });
     }
@@ -299,7 +303,7 @@ class Tables {
   }
 
   const Study& study_;
-  std::vector<CsvWriter> writers_;  // in the order of descriptions()
+  std::vector<CsvWriter> writers_;  // in the order of study_tables()
 };
 
 }  // namespace
@@ -310,6 +314,6 @@ void write_study_tables(const Study& study, std::span<const TeamRecord> teams, c
   tables.flush();
 }
 
-std::string study_codebook(const Study& study) { return codebook(descriptions(study)); }
+std::string study_codebook(const Study& study) { return codebook(study_tables(study)); }
 
 }  // namespace kith

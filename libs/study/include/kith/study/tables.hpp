@@ -4,9 +4,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kith/study/records.hpp"
 #include "kith/study/study.hpp"
+#include "kith/table/codebook.hpp"
 
 namespace kith {
 
@@ -19,6 +21,9 @@ using TableSink = std::function<void(std::string_view file, std::string_view pie
 /// The study's varied keys are columns right behind the composition. The
 /// bytes depend on the study and its teams only.
 void write_study_tables(const Study& study, std::span<const TeamRecord> teams, const TableSink& sink);
+
+/// The tables of a run of the study, in the order in which they are written: the one place where columns are defined.
+[[nodiscard]] std::vector<TableDescription> study_tables(const Study& study);
 
 /// The document that describes every column of these tables (codebook.json).
 [[nodiscard]] std::string study_codebook(const Study& study);

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kith/study/study.hpp"
+#include "kith/table/csv_reader.hpp"
+
+namespace kith {
+
+/// The teams of a design, as rows of its tables refer to them.
+struct TeamRegister {
+  std::vector<TeamAddress> addresses;   ///< Of all teams in the order of the tables.
+  std::vector<std::string> strategies;  ///< Per team, as files name it.
+};
+[[nodiscard]] TeamRegister register_teams(const Study& study);
+
+/// One row of a table of a run: the team that it belongs to, and the cells that were asked for.
+class StudyRow {
+ public:
+  StudyRow(const std::string& file, const CsvRow& row, std::size_t team, const TeamAddress& address)
+      : file_{file}, row_{row}, team_{team}, address_{address} {}
+
+  /// Position of the team among all, from 0: one less than its number.
+  [[nodiscard]] std::size_t team() const noexcept { return team_; }
+  [[nodiscard]] const TeamAddress& address() const noexcept { return address_; }
+  /// Where the row begins in the file, from 1.
+  [[nodiscard]] std::size_t line() const noexcept { return row_.line; }
+
+  // The cell that was asked for at position `i`, which must have that type.
+
+  [[nodiscard]] const std::string& text(std::size_t i) const;
+  [[nodiscard]] bool boolean(std::size_t i) const;
+  [[nodiscard]] double real(std::size_t i) const;
+  /// @throws kith::Error (kInvalidInput, E0621) unless the cell is within [min, max].
+  [[nodiscard]] std::size_t count(std::size_t i, std::size_t min, std::size_t max) const;
+
+  /// Complains about this row. @throws kith::Error (kInvalidInput) with that id, the file and the line.
+  [[noreturn]] void refuse(const std::string& id, const std::string& message, const std::string& hint) const;
+
+ private:
+  const std::string& file_;
+  const CsvRow& row_;
+  std::size_t team_;
+  const TeamAddress& address_;
+};
+
+/// Reads a table of a run from its text: every column is checked against its type, every row against the design.
+/// @param file    how messages name it. @param table  such as "periods.csv", see study_tables().
+/// @param wanted  names of the columns to hand out, without those that say where a team stands in the design.
+/// @param on_row  gets every row, in order; teams come in ascending order.
+/// @return the number of rows.
+/// @throws kith::Error (kInvalidInput) for the first fault of a row (E0620 to E0622) or all faults of the text
+/// (E0501 to E0511); std::invalid_argument for a table or column that the study does not have.
+std::size_t read_study_table(std::string_view text, const std::string& file, const Study& study,
+                             const TeamRegister& teams, std::string_view table,
+                             std::span<const std::string_view> wanted,
+                             const std::function<void(const StudyRow&)>& on_row);
+
+}  // namespace kith

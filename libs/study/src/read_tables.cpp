@@ -1,0 +1,137 @@
+#include "kith/study/read_tables.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "kith/core/error.hpp"
+#include "kith/study/tables.hpp"
+
+namespace kith {
+namespace {
+
+[[noreturn]] void refuse_row(const std::string& file, std::size_t line, const std::string& id,
+                             const std::string& message, const std::string& hint) {
+  throw Error{
+      std::vector<Diagnostic>{{.id = id, .message = message, .file = file, .line = line, .column = 1, .hint = hint}}};
+}
+
+const std::vector<Column>& columns_of(const std::vector<TableDescription>& tables, std::string_view table) {
+  const auto found = std::find_if(tables.begin(), tables.end(), [&](const auto& one) { return one.file == table; });
+  if (found == tables.end()) throw std::invalid_argument{"read_study_table: no table " + std::string{table}};
+  return found->columns;
+}
+
+std::size_t position(const std::vector<Column>& columns, std::string_view name) {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& one) { return one.name == name; });
+  if (found == columns.end()) throw std::invalid_argument{"read_study_table: no column " + std::string{name}};
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+// Finds the team of every row and checks that the row says the same of it as the design.
+class TeamKeys {
+ public:
+  TeamKeys(const std::string& file, const std::vector<Column>& columns, const Study& study, const TeamRegister& teams)
+      : file_{file}, study_{study}, teams_{teams} {
+    strategy_ = position(columns, "strategy");
+    composition_ = position(columns, "composition");
+    for (const auto& factor : study.variants.front().factors) factors_.push_back(position(columns, factor.key));
+    replicate_ = position(columns, "replicate");
+    team_ = position(columns, "team");
+  }
+
+  std::size_t team_of(const CsvRow& row) {
+    const auto number = std::get<std::int64_t>(row.cells[team_]);
+    if (number < 1 || static_cast<std::size_t>(number) > teams_.addresses.size()) {
+      refuse_row(file_, row.line, "E0620",
+                 "there is no team " + std::to_string(number) + " in this study, which has " +
+                     std::to_string(teams_.addresses.size()),
+                 "restore the tables as the run wrote them");
+    }
+    const auto team = static_cast<std::size_t>(number) - 1;
+    if (!agrees(row, team)) {
+      refuse_row(file_, row.line, "E0620",
+                 "the row does not say the same of team " + std::to_string(number) + " as inputs/study.toml",
+                 "the table and inputs/study.toml must come from the same run");
+    }
+    if (team < last_) {
+      refuse_row(file_, row.line, "E0622", "the rows of team " + std::to_string(number) + " are not together",
+                 "sort the table by the column team, and leave the order within a team as it was");
+    }
+    last_ = team;
+    return team;
+  }
+
+ private:
+  [[nodiscard]] bool agrees(const CsvRow& row, std::size_t team) const {
+    const auto& address = teams_.addresses[team];
+    if (std::get<std::string>(row.cells[strategy_]) != teams_.strategies[team]) return false;
+    if (std::get<std::string>(row.cells[composition_]) != address.composition) return false;
+    if (std::get<std::int64_t>(row.cells[replicate_]) != static_cast<std::int64_t>(address.replicate)) return false;
+    const auto& settings = study_.variants[address.variant].factors;
+    for (std::size_t i = 0; i < factors_.size(); ++i) {
+      if (std::get<std::string>(row.cells[factors_[i]]) != settings[i].value) return false;
+    }
+    return true;
+  }
+
+  const std::string& file_;
+  const Study& study_;
+  const TeamRegister& teams_;
+  std::size_t strategy_, composition_, replicate_, team_;
+  std::vector<std::size_t> factors_;
+  std::size_t last_ = 0;
+};
+
+}  // namespace
+
+TeamRegister register_teams(const Study& study) {
+  TeamRegister result{team_addresses(study), {}};
+  result.strategies.reserve(result.addresses.size());
+  for (const auto& address : result.addresses) result.strategies.emplace_back(name_of(address.strategy));
+  return result;
+}
+
+const std::string& StudyRow::text(std::size_t i) const { return std::get<std::string>(row_.cells[i]); }
+bool StudyRow::boolean(std::size_t i) const { return std::get<bool>(row_.cells[i]); }
+double StudyRow::real(std::size_t i) const { return std::get<double>(row_.cells[i]); }
+
+std::size_t StudyRow::count(std::size_t i, std::size_t min, std::size_t max) const {
+  const auto value = std::get<std::int64_t>(row_.cells[i]);
+  if (value < 0 || static_cast<std::size_t>(value) < min || static_cast<std::size_t>(value) > max) {
+    refuse("E0621",
+           std::to_string(value) + " is not from " + std::to_string(min) + " to " + std::to_string(max) +
+               ", as it must be here",
+           "restore the table as the run wrote it");
+  }
+  return static_cast<std::size_t>(value);
+}
+
+void StudyRow::refuse(const std::string& id, const std::string& message, const std::string& hint) const {
+  refuse_row(file_, row_.line, id, message, hint);
+}
+
+std::size_t read_study_table(std::string_view text, const std::string& file, const Study& study,
+                             const TeamRegister& teams, std::string_view table,
+                             std::span<const std::string_view> wanted,
+                             const std::function<void(const StudyRow&)>& on_row) {
+  const auto tables = study_tables(study);
+  const auto& columns = columns_of(tables, table);
+  std::vector<std::size_t> places;
+  for (const auto name : wanted) places.push_back(position(columns, name));
+  TeamKeys keys{file, columns, study, teams};
+  std::vector<TableCell> cells(wanted.size());
+  std::size_t rows = 0;
+  auto diagnostics = read_csv(text, file, columns, [&](const CsvRow& row) {
+    const auto team = keys.team_of(row);
+    for (std::size_t i = 0; i < places.size(); ++i) cells[i] = row.cells[places[i]];
+    const CsvRow chosen{row.line, cells};
+    on_row({file, chosen, team, teams.addresses[team]});
+    ++rows;
+  });
+  constexpr std::size_t kShown = 20;
+  if (diagnostics.size() > kShown) diagnostics.resize(kShown);
+  if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
+  return rows;
+}
+
+}  // namespace kith
