@@ -113,8 +113,9 @@ Parsed parse_cell(const std::optional<std::string>& field, const Column& column)
 
 class Reader {
  public:
-  Reader(const std::string& file, std::span<const Column> columns, const std::function<void(const CsvRow&)>& on_row)
-      : file_{file}, columns_{columns}, on_row_{on_row}, cells_(columns.size()) {}
+  Reader(const std::string& file, std::span<const Column> columns, const std::function<void(const CsvRow&)>& on_row,
+         OtherColumns others)
+      : file_{file}, columns_{columns}, on_row_{on_row}, others_{others}, cells_(columns.size()) {}
 
   std::vector<Diagnostic> read(std::string_view text) {
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
@@ -173,7 +174,7 @@ class Reader {
       const auto column =
           std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
       if (column == columns_.end()) {
-        report_unknown(record, f, name);
+        if (others_ == OtherColumns::kReject) report_unknown(record, f, name);
         continue;
       }
       auto& source = source_[static_cast<std::size_t>(column - columns_.begin())];
@@ -184,10 +185,24 @@ class Reader {
     }
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (source_[c] != record.fields.size()) continue;
-      report(record, 0, {"E0502", "column \"" + columns_[c].name + "\" is missing", "the columns are " + names()});
+      report(record, 0, {"E0502", "column \"" + columns_[c].name + "\" is missing", missing_hint(record, columns_[c])});
     }
     num_fields_ = record.fields.size();
     return diagnostics_.empty();
+  }
+
+  // Where other columns are ignored, the missing one may be there under a misspelt name.
+  [[nodiscard]] std::string missing_hint(const detail::CsvRecord& record, const Column& missing) const {
+    if (others_ == OtherColumns::kReject) return "the columns are " + names();
+    std::vector<std::string> found;
+    std::string list;
+    for (const auto& field : record.fields) {
+      if (!field || !is_text(*field)) continue;
+      found.push_back(*field);
+      list += (list.empty() ? "" : ", ") + *field;
+    }
+    const auto nearest = nearest_word(missing.name, found);
+    return nearest.empty() ? "the file has " + list : "did you mean " + nearest + "?";
   }
 
   void report_unknown(const detail::CsvRecord& record, std::size_t field, const std::string& name) {
@@ -228,6 +243,7 @@ class Reader {
   const std::string& file_;
   std::span<const Column> columns_;
   const std::function<void(const CsvRow&)>& on_row_;
+  OtherColumns others_;
   std::vector<TableCell> cells_;
   std::vector<std::size_t> source_;
   std::size_t num_fields_ = 0;
@@ -238,18 +254,51 @@ class Reader {
 }  // namespace
 
 std::vector<Diagnostic> read_csv(std::string_view text, const std::string& file, std::span<const Column> columns,
-                                 const std::function<void(const CsvRow&)>& on_row) {
+                                 const std::function<void(const CsvRow&)>& on_row, OtherColumns others) {
   detail::check_columns(columns, "read_csv");
-  return Reader{file, columns, on_row}.read(text);
+  return Reader{file, columns, on_row, others}.read(text);
 }
 
-CsvTable read_csv_file(const std::filesystem::path& path, std::span<const Column> columns) {
+std::vector<Column> read_csv_header(std::string_view text, const std::string& file) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::vector<Column> columns;
+  std::vector<Diagnostic> diagnostics;
+  const auto report = [&](const std::string& id, const std::string& message, const std::string& hint) {
+    diagnostics.push_back({.id = id, .message = message, .file = file, .line = 1, .column = 1, .hint = hint});
+  };
+  bool found = false;
+  detail::for_each_record(text, [&](const detail::CsvRecord& record) {
+    found = true;
+    if (record.malformed) {
+      report("E0508", "the quotes of the header do not match",
+             "put the whole name between quotes and write a quote inside it twice");
+    }
+    for (const auto& field : record.fields) {
+      const auto name = field.value_or("");
+      if (name.empty()) {
+        report("E0512", "column " + std::to_string(columns.size() + 1) + " has no name", "name every column");
+      } else if (!is_text(name)) {
+        report("E0509", "the name of a column is not UTF-8 text", "save the file as UTF-8");
+      } else if (std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; })) {
+        report("E0504", "column " + in_quotes(name) + " is there twice", "remove one of them");
+      }
+      columns.push_back({.name = name});
+    }
+    return false;
+  });
+  if (!found) report("E0501", "the table is empty; it has not even a header", "begin with a line of column names");
+  if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
+  return columns;
+}
+
+CsvTable read_csv_file(const std::filesystem::path& path, std::span<const Column> columns, OtherColumns others) {
   const std::string text = read_file(path);
   CsvTable table;
-  auto diagnostics = read_csv(text, path.string(), columns, [&](const CsvRow& row) {
+  const auto keep = [&](const CsvRow& row) {
     table.rows.emplace_back(row.cells.begin(), row.cells.end());
     table.lines.push_back(row.line);
-  });
+  };
+  auto diagnostics = read_csv(text, path.string(), columns, keep, others);
   if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
   return table;
 }

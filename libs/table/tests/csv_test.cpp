@@ -275,5 +275,41 @@ TEST(ReadCsvFile, ReadsAFileOrThrowsWithAllDiagnostics) {
   EXPECT_THROW((void)read_csv_file(path, kColumns), Error);
 }
 
+TEST(CsvReader, IgnoresColumnsThatWereNotAskedForIfToldTo) {
+  std::vector<TableCell> cells;
+  const auto keep = [&](const CsvRow& row) { cells.assign(row.cells.begin(), row.cells.end()); };
+  const std::vector<Column> wanted{{.name = "count", .type = ColumnType::kInteger}};
+  EXPECT_TRUE(read_csv("a,count,b\nx,3,y\n", "t.csv", wanted, keep, OtherColumns::kIgnore).empty());
+  EXPECT_EQ(cells, (std::vector<TableCell>{std::int64_t{3}}));
+
+  const auto faults = read_csv("a,cuont\nx,3\n", "t.csv", wanted, keep, OtherColumns::kIgnore);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].id, "E0502");
+  EXPECT_EQ(faults[0].hint, "did you mean cuont?");
+}
+
+TEST(CsvReader, TellsTheColumnsOfAnUnknownTable) {
+  const auto columns = read_csv_header("\xEF\xBB\xBFteam,\"a,b\"\r\n1,2\r\n", "t.csv");
+  ASSERT_EQ(columns.size(), 2u);
+  EXPECT_EQ(columns[0].name, "team");
+  EXPECT_EQ(columns[1].name, "a,b");
+}
+
+TEST(CsvReader, RefusesAHeaderWithoutNames) {
+  const auto id_of = [](std::string_view text) -> std::string {
+    try {
+      (void)read_csv_header(text, "t.csv");
+    } catch (const Error& error) {
+      return error.diagnostics().at(0).id;
+    }
+    return "none";
+  };
+  EXPECT_EQ(id_of(""), "E0501");
+  EXPECT_EQ(id_of("a,,b\n"), "E0512");
+  EXPECT_EQ(id_of("a,a\n"), "E0504");
+  EXPECT_EQ(id_of("a\"b\n"), "E0508");
+  EXPECT_EQ(id_of("\xFF\n"), "E0509");
+}
+
 }  // namespace
 }  // namespace kith

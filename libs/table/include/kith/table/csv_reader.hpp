@@ -24,18 +24,27 @@ struct CsvRow {
   std::span<const TableCell> cells;  ///< One per column, each missing or of the column's type.
 };
 
+/// What to do with columns of a file that were not asked for.
+enum class OtherColumns { kReject, kIgnore };
+
 /// Reads a CSV text (RFC 4180, UTF-8 with or without byte order mark, lines
 /// ending in LF or CRLF) that begins with a header. The columns may come in any
-/// order, but must be these. `on_row` gets every row without a fault, in order;
-/// blank lines are skipped.
+/// order. `on_row` gets every row without a fault, in order; blank lines are
+/// skipped.
 ///
 /// @param file how diagnostics name the file.
-/// @return everything that is wrong (ids E0501 to E0511, docs/errors-tables.md),
+/// @param columns those that must be there.
+/// @return everything that is wrong (ids E0501 to E0512, docs/errors-tables.md),
 ///         with line, column and a hint, at most 1 000 of them. A fault of the header ends the reading.
 /// @throws std::invalid_argument if there is no column, or names are empty or repeated.
 [[nodiscard]] std::vector<Diagnostic> read_csv(std::string_view text, const std::string& file,
                                                std::span<const Column> columns,
-                                               const std::function<void(const CsvRow&)>& on_row);
+                                               const std::function<void(const CsvRow&)>& on_row,
+                                               OtherColumns others = OtherColumns::kReject);
+
+/// The names of the columns, as text columns, of a CSV text whose columns are not known beforehand.
+/// @throws kith::Error (kInvalidInput) if the header is missing, damaged or names a column twice or not at all.
+[[nodiscard]] std::vector<Column> read_csv_header(std::string_view text, const std::string& file);
 
 /// The rows of a table, kept.
 struct CsvTable {
@@ -44,6 +53,7 @@ struct CsvTable {
 };
 
 /// The whole file. @throws kith::Error (kInvalidInput) with all diagnostics, or (kIo) if it cannot be read.
-[[nodiscard]] CsvTable read_csv_file(const std::filesystem::path& path, std::span<const Column> columns);
+[[nodiscard]] CsvTable read_csv_file(const std::filesystem::path& path, std::span<const Column> columns,
+                                     OtherColumns others = OtherColumns::kReject);
 
 }  // namespace kith
