@@ -1,0 +1,119 @@
+#include "open_table.hpp"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
+
+namespace kith::detail {
+namespace {
+
+Diagnostic diagnostic(Severity severity, std::string id, std::string message, const std::filesystem::path& file,
+                      std::size_t line, std::string hint) {
+  Diagnostic result;
+  result.severity = severity;
+  result.id = std::move(id);
+  result.message = std::move(message);
+  result.file = file.string();
+  result.line = line;
+  result.column = line > 0 ? 1 : 0;
+  result.hint = std::move(hint);
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> header_of(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  std::vector<std::string> cells;
+  if (text.empty()) return cells;
+  cells.emplace_back();
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      if (quoted && i + 1 < text.size() && text[i + 1] == '"')
+        cells.back() += text[++i];
+      else
+        quoted = !quoted;
+    } else if (!quoted && (c == '\n' || c == '\r')) {
+      break;
+    } else if (!quoted && c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+const TableCell* OpenRow::cell(const std::string& column) const {
+  const auto it = positions_.find(column);
+  return it == positions_.end() ? nullptr : &row_.cells[it->second];
+}
+
+std::optional<std::string> OpenRow::text(const std::string& column) const {
+  const auto* value = cell(column);
+  const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(value);
+  return text == nullptr ? std::nullopt : std::optional{*text};
+}
+
+std::optional<std::int64_t> OpenRow::integer(const std::string& column) const {
+  const auto* value = cell(column);
+  const auto* number = value == nullptr ? nullptr : std::get_if<std::int64_t>(value);
+  return number == nullptr ? std::nullopt : std::optional{*number};
+}
+
+std::optional<bool> OpenRow::boolean(const std::string& column) const {
+  const auto* value = cell(column);
+  const auto* flag = value == nullptr ? nullptr : std::get_if<bool>(value);
+  return flag == nullptr ? std::nullopt : std::optional{*flag};
+}
+
+void read_open_csv(const std::filesystem::path& path, std::vector<Column> required, std::vector<Column> optional,
+                   std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row) {
+  const auto content = kith::read_file(path);
+  const auto header = header_of(content);
+  std::vector<Column> columns = std::move(required);
+  const auto is_known = [&](const std::string& name) {
+    return std::any_of(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
+  };
+  for (const auto& name : header) {
+    if (name.empty() || is_known(name)) continue;
+    const auto it = std::find_if(optional.begin(), optional.end(), [&](const Column& c) { return c.name == name; });
+    columns.push_back(it != optional.end() ? *it : Column{.name = name, .type = ColumnType::kText});
+  }
+  std::map<std::string, std::size_t> positions;
+  for (std::size_t i = 0; i < columns.size(); ++i) positions[columns[i].name] = i;
+  const auto faults = read_csv(content, path.string(), columns, [&](const CsvRow& row) {
+    on_row(OpenRow{row, positions});
+  });
+  diagnostics.insert(diagnostics.end(), faults.begin(), faults.end());
+}
+
+void throw_if_errors(const std::vector<Diagnostic>& diagnostics) {
+  if (has_errors(diagnostics)) throw Error{diagnostics};
+}
+
+Diagnostic fault(std::string id, std::string message, const std::filesystem::path& file, std::size_t line,
+                 std::string hint) {
+  return diagnostic(Severity::kError, std::move(id), std::move(message), file, line, std::move(hint));
+}
+
+Diagnostic note(std::string id, std::string message, const std::filesystem::path& file, std::size_t line,
+                std::string hint) {
+  return diagnostic(Severity::kWarning, std::move(id), std::move(message), file, line, std::move(hint));
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream in{text};
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+}  // namespace kith::detail
