@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "checks.hpp"
+
 namespace kith {
 namespace {
 
@@ -45,15 +47,6 @@ void append_factor(const Factor& factor, Cells& cells) {
   }
   cells.levels = std::move(levels);
   cells.num_levels.push_back(num_levels);
-}
-
-void check_factor(const Factor& factor, std::size_t observations) {
-  if (factor.codes.size() != observations)
-    throw std::invalid_argument{"anova: factor '" + factor.name + "' needs one level per observation"};
-  for (const auto code : factor.codes) {
-    if (code >= factor.levels.size())
-      throw std::invalid_argument{"anova: factor '" + factor.name + "' has a code that is none of its levels"};
-  }
 }
 
 // Cells of the factors that some term names; the others have no levels.
@@ -220,7 +213,7 @@ StandardizedResponse standardize(std::span<const double> response) {
 CellModel::CellModel(std::size_t observations, std::span<const Factor> factors,
                      std::span<const std::vector<std::size_t>> terms, SumsOfSquares type) {
   const auto sets = checked_terms(terms, factors.size());
-  for (const auto& factor : factors) check_factor(factor, observations);
+  for (const auto& factor : factors) require_codes(factor, observations, "anova");
   for (const auto& set : sets) terms_.push_back({name_of(set, factors), 0, {}, {}, {}});
 
   auto cells = find_cells(observations, factors, sets);

@@ -56,6 +56,8 @@ class CellModel {
   [[nodiscard]] std::size_t empty_cells() const noexcept { return empty_cells_; }
   [[nodiscard]] bool balanced() const noexcept;
   [[nodiscard]] std::size_t residual_df() const noexcept { return residual_df_; }
+  // The model fits every cell's mean: as many columns as cells.
+  [[nodiscard]] bool saturated() const noexcept { return saturated_; }
   // Why nothing can be fitted: no observations, or too many cells and columns for dense matrices. Empty if it can.
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
 
@@ -85,7 +87,7 @@ class CellModel {
   Eigen::MatrixXd basis_;  // Of the whole model: shape [cells, rank].
   std::size_t empty_cells_ = 0;
   std::size_t residual_df_ = 0;
-  bool saturated_ = false;  // As many columns as cells: fits every mean.
+  bool saturated_ = false;
   std::string reason_;
 };
 
