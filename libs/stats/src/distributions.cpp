@@ -7,6 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -103,6 +104,11 @@ double non_central_f_upper(double f, double df1, double df2, double non_centrali
     return bm::cdf(
         bm::complement(bm::non_central_chi_squared_distribution<double, Quiet>{df1, non_centrality}, f * df1));
   return bm::cdf(bm::complement(bm::non_central_f_distribution<double, Quiet>{df1, df2, non_centrality}, f));
+}
+
+double gamma_ratio(double a, double b) {
+  require(a > 0.0 && b > 0.0 && std::isfinite(a) && std::isfinite(b), "gamma_ratio: a and b must be > 0 and finite");
+  return bm::tgamma_ratio(a, b, Quiet{});
 }
 
 }  // namespace kith

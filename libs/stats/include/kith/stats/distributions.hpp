@@ -16,4 +16,7 @@ namespace kith {
 /// P(F > f) for the non-central F distribution, the power of an F test. df1 is finite.
 [[nodiscard]] double non_central_f_upper(double f, double df1, double df2, double non_centrality);
 
+/// Gamma(a) / Gamma(b) for a, b > 0, without overflow where the ratio itself has none.
+[[nodiscard]] double gamma_ratio(double a, double b);
+
 }  // namespace kith
