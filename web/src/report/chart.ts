@@ -1,0 +1,72 @@
+// Drawing and exporting a specification. Expressions run through the interpreter (`ast`), because
+// the page's policy forbids making code from strings.
+import embed, { type Result } from 'vega-embed';
+import { type Config, type Spec as VegaSpec, View, parse } from 'vega';
+import { expressionInterpreter } from 'vega-interpreter';
+import { type TopLevelSpec, compile } from 'vega-lite';
+import { color, inLight } from './theme';
+
+// Specifications are data; the libraries check them.
+export type Json = string | number | boolean | null | undefined | Json[] | { [key: string]: Json };
+export type Spec = { [key: string]: Json };
+
+const kFont = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", sans-serif';
+
+const kText = { labelFont: kFont, titleFont: kFont, labelColor: color('muted'), titleColor: color('text'), labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal' };
+
+const kConfig = {
+  background: null,
+  font: kFont,
+  aria: false, // the figure has one text alternative; thousands of labelled points would drown it
+  padding: 4,
+  view: { stroke: null },
+  axis: { ...kText, gridColor: color('grid'), domainColor: color('line'), tickColor: color('line'), titlePadding: 8, labelOverlap: true },
+  legend: { ...kText, orient: 'top', title: null, symbolSize: 90, columnPadding: 14, labelFontSize: 12, labelColor: color('text') },
+  title: { font: kFont, color: color('text'), fontSize: 12, fontWeight: 600, anchor: 'start', offset: 6 },
+  text: { font: kFont, fill: color('text') },
+};
+
+const isVega = (spec: Spec): boolean => String(spec.$schema).includes('/vega/');
+
+export interface Drawing {
+  view: View;
+  finish(): void;
+}
+
+export async function draw(box: HTMLElement, spec: Spec): Promise<Drawing> {
+  const result: Result = await embed(box, spec as unknown as TopLevelSpec, {
+    actions: false,
+    ast: true,
+    renderer: 'svg',
+    config: kConfig as unknown as Config,
+    tooltip: { theme: 'kith', disableDefaultStyle: true },
+    defaultStyle: false,
+  });
+  return { view: result.view, finish: () => result.finalize() };
+}
+
+// A view without a page, light on white.
+function lightView(spec: Spec): View {
+  const light = inLight({ ...spec, background: '#ffffff' });
+  const config = inLight({ ...kConfig, background: '#ffffff', padding: 12 }) as unknown as Config;
+  const vega = isVega(light)
+    ? (light as unknown as VegaSpec)
+    : compile(light as unknown as TopLevelSpec, { config: config as never }).spec;
+  return new View(parse(vega, config, { ast: true }), { renderer: 'none', expr: expressionInterpreter } as never);
+}
+
+export async function toSvg(spec: Spec): Promise<Blob> {
+  const view = lightView(spec);
+  const text = await view.toSVG();
+  view.finalize();
+  return new Blob([text], { type: 'image/svg+xml' });
+}
+
+export async function toPng(spec: Spec, scale = 2): Promise<Blob> {
+  const view = lightView(spec);
+  const canvas = (await view.toCanvas(scale)) as unknown as HTMLCanvasElement;
+  view.finalize();
+  return new Promise((resolve, reject) => {
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser made no PNG'))), 'image/png');
+  });
+}

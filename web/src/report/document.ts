@@ -1,0 +1,124 @@
+// The document that kith writes (schema kith.report/1), as far as the page uses it.
+
+export type Cell = string | number | boolean | null;
+export type Row = Record<string, Cell>;
+
+export interface Table {
+  columns: string[];
+  rows: Cell[][];
+}
+
+export interface Headline {
+  label: string;
+  value: number | null;
+  sd?: number | null;
+  low?: number | null;
+  high?: number | null;
+  n?: number | null;
+}
+
+export interface Finding {
+  id: string;
+  title: string;
+  question?: string;
+  sentence: string;
+  warnings?: string[];
+  tables?: (Table & { caption: string })[];
+}
+
+export interface Reference {
+  key: string;
+  text: string;
+  bibtex?: string;
+}
+
+export type Vector = [number, number, number];
+
+export interface BeliefTeam {
+  title: string;
+  team?: number;
+  why?: string;
+  strategy?: string;
+  composition?: string;
+  periods: number;
+  components: number[];
+  beliefs: { name: string; kind: string }[];
+  mass: (number | null)[][]; // [frame][belief]
+  particles: { bits: number; count: number; data: string };
+}
+
+export interface Beliefs {
+  features: string[];
+  truth: Vector;
+  regions: { label: string; outline: Vector[] }[];
+  teams: BeliefTeam[];
+}
+
+export interface Report {
+  schema: string;
+  title: string;
+  study: string;
+  domain: string;
+  version?: string;
+  created?: string;
+  labels?: {
+    strategies?: Record<string, string>;
+    types?: Record<string, string>;
+    columns?: Record<string, string>;
+  };
+  overview: {
+    teams?: number;
+    people?: number;
+    completed?: number;
+    replicates?: number;
+    seed?: string | number;
+    strategies: string[];
+    compositions: string[];
+    factors?: (string | { key: string })[];
+    headlines?: Headline[];
+  };
+  notes?: string[];
+  tables: Record<string, Table | undefined>;
+  findings?: Finding[];
+  methods?: { paragraph: string; references?: Reference[] };
+  reproduce?: {
+    command?: string;
+    version?: string;
+    study_toml?: string;
+    domain_toml?: string;
+    hashes?: Record<string, string>;
+  };
+  beliefs?: Beliefs;
+}
+
+export const kSchema = 'kith.report/1';
+
+// The document inside the page; throws where there is none or of another schema.
+export function readReport(): Report {
+  const text = document.getElementById('kith-report')?.textContent ?? '';
+  const report = JSON.parse(text) as Report;
+  if (report.schema !== kSchema) {
+    throw new Error(`this page draws documents of schema ${kSchema}, not ${String(report.schema)}`);
+  }
+  return report;
+}
+
+// Keys that a study varies beside strategy and composition.
+export function factorKeys(report: Report): string[] {
+  return (report.overview.factors ?? []).map((factor) => (typeof factor === 'string' ? factor : factor.key));
+}
+
+// Figures show one variant of a study with further factors: the first that the table has.
+export function firstVariant(table: Table, factors: string[]): Table {
+  const first = table.rows[0];
+  const places = factors.map((key) => table.columns.indexOf(key)).filter((place) => place >= 0);
+  if (!first || places.length === 0) return table;
+  return { columns: table.columns, rows: table.rows.filter((row) => places.every((place) => row[place] === first[place])) };
+}
+
+export function toRows(table: Table): Row[] {
+  return table.rows.map((row) => Object.fromEntries(table.columns.map((name, i) => [name, row[i] ?? null])));
+}
+
+export const num = (cell: Cell | undefined): number | null =>
+  typeof cell === 'number' && Number.isFinite(cell) ? cell : null;

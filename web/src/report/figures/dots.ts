@@ -1,0 +1,69 @@
+// Means with intervals, strategies from top to bottom, one panel per composition or component;
+// optionally the raw points behind them.
+import type { Spec } from '../chart';
+import { type Row, num } from '../document';
+import type { Look } from '../palette';
+import { type Place, extent, panels, yAxis } from '../panels';
+
+export interface DotsOptions {
+  looks: Look[];
+  panels: { title: string; means: Row[]; points?: Row[] }[];
+  mean: string;
+  low: string;
+  high: string;
+  point?: string;
+  xTitle: string;
+  zero: boolean;
+  strategyOf(row: Row): string; // its label
+}
+
+// A point's place within the band of its strategy: spread evenly and without chance, so that a
+// figure drawn twice is the same twice.
+const spread = (i: number): number => ((i * 0.618034) % 1) * 2 - 1;
+
+function layers(options: DotsOptions, panel: DotsOptions['panels'][number], place: Place, domain: [number, number]): Spec {
+  const labels = options.looks.map((look) => look.label);
+  const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
+  const y: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, paddingInner: 0.25, paddingOuter: 0.15 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelLimit: 116, labelPadding: 6, labelFontSize: 12 }) };
+  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: true }, axis: { title: place.lastRow ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false } };
+  const hue: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.color)), legend: null };
+  const shape: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.shape)), legend: null };
+  const means = panel.means.map((row) => ({
+    strategy: options.strategyOf(row), mean: num(row[options.mean]), low: num(row[options.low]), high: num(row[options.high]),
+  }));
+  const seen = new Map<string, number>();
+  const points = (panel.points ?? []).map((row) => {
+    const strategy = options.strategyOf(row);
+    const i = seen.get(strategy) ?? 0;
+    seen.set(strategy, i + 1);
+    return { strategy, value: num(row[options.point ?? '']), spread: spread(i) };
+  });
+  const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'mean', title: options.xTitle, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
+  const raw: Spec = {
+    data: { values: points },
+    mark: { type: 'circle', size: 16, opacity: points.length > 600 ? 0.18 : 0.38, clip: true },
+    encoding: { y, x: { ...x, field: 'value' }, yOffset: { field: 'spread', type: 'quantitative', scale: { domain: [-1.05, 1.05] }, axis: null }, color: hue },
+  };
+  return {
+    title: panel.title,
+    width: place.width,
+    height: options.looks.length * 32,
+    layer: [
+      ...(points.length > 0 ? [raw] : []),
+      { data: { values: means.filter((row) => row.low !== null && row.high !== null) }, mark: { type: 'rule', strokeWidth: 2.4, strokeCap: 'round' }, encoding: { y, x: { ...x, field: 'low' }, x2: { field: 'high' }, color: hue } },
+      { data: { values: means }, mark: { type: 'point', filled: true, size: 95, opacity: 1, stroke: 'var(--ground)', strokeWidth: 1.4 }, encoding: { y, x: { ...x, field: 'mean' }, color: hue, shape, tooltip } },
+    ],
+  };
+}
+
+export function dots(options: DotsOptions, width: number): Spec {
+  const values = options.panels.flatMap((panel) => [
+    ...panel.means.flatMap((row) => [num(row[options.mean]), num(row[options.low]), num(row[options.high])]),
+    ...(panel.points ?? []).map((row) => num(row[options.point ?? ''])),
+  ]);
+  const domain = extent(values, options.zero);
+  return panels(options.panels.length, width, { left: 104, min: 132 }, (i, place) => {
+    const panel = options.panels[i];
+    return panel ? layers(options, panel, place, domain) : {};
+  });
+}

@@ -1,0 +1,86 @@
+// Where time goes: teaching time per component, computing time per phase.
+import type { Spec } from '../chart';
+import { type Row, num } from '../document';
+import { extent, panels, yAxis } from '../panels';
+import { type Study, componentName, rowsOf } from '../study';
+import { color } from '../theme';
+import type { Figure } from './figure';
+import { range } from './gist';
+
+// Components are ordered, so their shades run from light to dark.
+const shades = (count: number): string[] => Array.from({ length: count }, (_, i) => color(`k${i % 6}`));
+
+function teachingSpec(study: Study, rows: Row[], width: number): Spec {
+  const compositions = study.compositions(rows);
+  const components = study.codes(rows, 'kc');
+  const strategies = study.looks(rows).map((look) => look.label);
+  const totals = new Map<string, number>();
+  for (const row of rows) {
+    const key = `${String(row.strategy)} ${String(row.composition)}`;
+    totals.set(key, (totals.get(key) ?? 0) + (num(row.mean_periods) ?? 0));
+  }
+  const domain = extent([...totals.values()], true);
+  const names = components.map(componentName);
+  return panels(compositions.length, width, { left: 104, min: 132 }, (i, place) => ({
+    title: compositions[i] ?? '',
+    width: place.width,
+    height: strategies.length * 26,
+    data: { values: rows.filter((row) => row.composition === compositions[i]).map((row) => ({ strategy: study.words.strategy(row.strategy), component: componentName(String(row.kc)), order: components.indexOf(String(row.kc)), periods: num(row.mean_periods) })) },
+    mark: { type: 'bar', stroke: color('ground'), strokeWidth: 1.5 },
+    encoding: {
+      y: { field: 'strategy', type: 'nominal', scale: { domain: strategies, paddingInner: 0.3 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelFontSize: 12, labelLimit: 116, labelPadding: 6 }) },
+      x: { field: 'periods', type: 'quantitative', stack: true, scale: { domain, nice: true }, axis: { title: place.lastRow ? 'Periods, mean' : null, domain: false, tickCount: Math.max(3, Math.floor(place.width / 45)) } },
+      order: { field: 'order', type: 'quantitative' },
+      color: { field: 'component', type: 'nominal', scale: { domain: names, range: shades(names.length) }, legend: { title: null, symbolType: 'square', columns: Math.max(1, Math.min(names.length, Math.floor(width / 120))) } },
+      tooltip: [{ field: 'strategy', title: 'Strategy' }, { field: 'component', title: 'Part' }, { field: 'periods', title: 'Periods, mean', format: '.3~r' }],
+    },
+  }));
+}
+
+function teachingFigures(study: Study): Figure[] {
+  const table = study.table('periods_by_component');
+  if (!table) return [];
+  const rows = rowsOf(table);
+  const title = 'Where teaching time goes';
+  return [{
+    id: 'time-components',
+    title,
+    reading: 'Mean periods spent on each component; the length of a bar is the mean number of periods of a team. Intervals are in the data.',
+    gist: `${title}. Mean periods of one component: ${range(rows, 'mean_periods', (row) => `${study.words.strategy(row.strategy)}, ${String(row.composition)}, component ${String(row.kc)}`)}`,
+    table,
+    spec: (width) => teachingSpec(study, rows, width),
+  }];
+}
+
+function computingSpec(rows: Row[], width: number): Spec {
+  const values = rows.map((row) => ({ phase: String(row.phase), seconds: num(row.seconds) }));
+  const y: Spec = { field: 'phase', type: 'nominal', sort: null, axis: { title: null, ticks: false, domain: false, labelFontSize: 12, labelPadding: 6 } };
+  const x: Spec = { field: 'seconds', type: 'quantitative', axis: { title: 'Seconds', domain: false, tickCount: 5 } };
+  return {
+    $schema: 'https://vega.github.io/schema/vega-lite/v5.json',
+    width: Math.max(120, width - 150),
+    height: rows.length * 24,
+    data: { values },
+    layer: [
+      { mark: { type: 'bar', fill: color('k1') }, encoding: { y, x } },
+      { mark: { type: 'text', align: 'left', dx: 5, fontSize: 11, fill: color('text') }, encoding: { y, x, text: { field: 'seconds', type: 'quantitative', format: '.3~r' } } },
+    ],
+  };
+}
+
+function computingFigures(study: Study): Figure[] {
+  const table = study.table('timings');
+  if (!table) return [];
+  const rows = rowsOf(table);
+  const title = 'Where computing time goes';
+  return [{
+    id: 'time-computing',
+    title,
+    reading: 'Seconds per phase of the run, on the machine that ran it.',
+    gist: `${title}. ${rows.map((row) => `${String(row.phase)} ${String(row.seconds)} s`).join(', ')}.`,
+    table,
+    spec: (width) => computingSpec(rows, width),
+  }];
+}
+
+export const timeFigures = (study: Study): Figure[] => [...teachingFigures(study), ...computingFigures(study)];

@@ -1,0 +1,50 @@
+// Small multiples which reflow: as many columns as the width allows.
+import type { Json, Spec } from './chart';
+
+export interface Place {
+  firstColumn: boolean;
+  lastRow: boolean;
+  width: number;
+}
+
+export interface Grid {
+  left: number; // room for the labels of the left axis, px
+  min: number; // least width of a panel, px
+  max?: number; // most columns
+  gap?: number; // between columns, px
+  rowGap?: number; // between rows, px: axis, title of the next panel
+}
+
+export function panels(count: number, width: number, grid: Grid, make: (i: number, place: Place) => Spec): Spec {
+  const gap = grid.gap ?? 18;
+  const fitting = Math.floor((width - grid.left - 16 + gap) / (grid.min + gap));
+  const most = Math.max(1, Math.min(fitting, grid.max ?? count, count));
+  const columns = Math.ceil(count / Math.ceil(count / most)); // 4 in 3 columns would leave one alone
+  const inner = Math.floor((width - grid.left - 16 - gap * (columns - 1)) / columns);
+  const concat: Json[] = [];
+  for (let i = 0; i < count; ++i) {
+    concat.push(make(i, { firstColumn: i % columns === 0, lastRow: i + columns >= count, width: Math.max(inner, 80) }));
+  }
+  return {
+    $schema: 'https://vega.github.io/schema/vega-lite/v5.json',
+    concat,
+    columns,
+    spacing: { row: grid.rowGap ?? 48, column: gap },
+    bounds: 'flush',
+    resolve: { legend: { color: 'shared', shape: 'shared', strokeDash: 'shared' } },
+  };
+}
+
+// Axes of inner panels keep their grid and lose their words.
+export function yAxis(place: Place, axis: Spec): Spec {
+  return place.firstColumn ? axis : { ...axis, title: null, labels: false, ticks: false, domain: false };
+}
+
+export function extent(values: (number | null)[], zero = false): [number, number] {
+  const known = values.filter((value): value is number => value !== null);
+  if (zero) known.push(0);
+  if (known.length === 0) return [0, 1];
+  const low = Math.min(...known);
+  const high = Math.max(...known);
+  return low === high ? [low - 0.5, high + 0.5] : [low, high];
+}

@@ -1,0 +1,31 @@
+// The sections that hold figures, in the order of the page; figures are numbered through.
+import { abilityFigures, completionFigures, correctFigures, knowledgeFigures } from '../figures/progress';
+import { areaFigures } from '../figures/area';
+import type { Figure } from '../figures/figure';
+import { interactionFigures } from '../figures/interaction';
+import { outcomeFigures } from '../figures/outcomes';
+import { timeFigures } from '../figures/time';
+import { figureView } from '../figure_view';
+import { spheresFigure } from '../spheres/spheres';
+import type { Study } from '../study';
+import type { Section } from './section';
+
+const kSections: { id: string; title: string; figures(study: Study): Figure[] }[] = [
+  { id: 'outcomes', title: 'Periods and knowledge', figures: (study) => [...outcomeFigures(study), ...interactionFigures(study)] },
+  { id: 'manipulation', title: 'Manipulation check', figures: areaFigures },
+  { id: 'progress', title: 'Progress over periods', figures: (study) => [...completionFigures(study), ...knowledgeFigures(study), ...abilityFigures(study), ...correctFigures(study)] },
+  { id: 'time', title: 'Where time goes', figures: timeFigures },
+];
+
+export function figureSections(study: Study): Section[] {
+  let number = 0;
+  const sections: Section[] = [];
+  for (const { id, title, figures } of kSections) {
+    const views = figures(study).map((figure) => figureView(figure, ++number, study.report.study, study.words));
+    if (views.length > 0) sections.push({ id, title, content: views });
+  }
+  const { beliefs } = study.report;
+  const spheres = beliefs ? spheresFigure(beliefs, number + 1, study.report.study, study.words) : null;
+  if (spheres) sections.push({ id: 'beliefs', title: 'Belief spheres', content: [spheres] });
+  return sections;
+}

@@ -1,0 +1,23 @@
+import type { Finding } from '../document';
+import { el } from '../dom';
+import type { Study } from '../study';
+import { tableView } from '../table_view';
+import type { Section } from './section';
+
+function finding(one: Finding, study: Study): HTMLElement {
+  const tables = one.tables ?? [];
+  return el('article', { class: 'finding', id: `finding-${one.id}` },
+    el('h3', {}, one.title),
+    one.question ? el('p', { class: 'question' }, one.question) : null,
+    el('p', {}, one.sentence),
+    ...(one.warnings ?? []).map((text) => el('p', { class: 'warning' }, el('strong', {}, 'Warning: '), text)),
+    tables.length > 0
+      ? el('details', {}, el('summary', {}, `Tests: ${one.title}`), ...tables.map((table) => tableView(table, table.caption, study.words)))
+      : null);
+}
+
+export function findingsSection(study: Study): Section | null {
+  const findings = study.report.findings ?? [];
+  if (findings.length === 0) return null;
+  return { id: 'findings', title: 'Findings', content: findings.map((one) => finding(one, study)) };
+}

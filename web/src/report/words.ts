@@ -1,0 +1,66 @@
+// How codes and numbers are written.
+import type { Cell, Report } from './document';
+
+const kMinus = '\u2212';
+
+// At most four significant digits, and no trailing zeros that say nothing.
+export function formatNumber(value: number): string {
+  if (Number.isInteger(value) && Math.abs(value) < 1e15) return String(value).replace('-', kMinus);
+  const size = Math.abs(value);
+  if (size < 1e-4 || size >= 1e6) return value.toExponential(2).replace('e', ' e').replaceAll('-', kMinus);
+  const digits = size >= 1000 ? 1 : size >= 100 ? 1 : size >= 10 ? 2 : size >= 0.1 ? 3 : 4;
+  return value.toFixed(digits).replace('-', kMinus);
+}
+
+export function formatFixed(value: number | null | undefined, digits: number): string {
+  return value === null || value === undefined ? 'unknown' : value.toFixed(digits).replace('-', kMinus);
+}
+
+// Probabilities by name of column, so that a tiny one is not shown as 0.
+function formatP(value: number): string {
+  return value < 0.001 ? '< 0.001' : value.toFixed(3);
+}
+
+const isP = (column: string): boolean => /^p($|_)|_p$/i.test(column);
+
+export class Words {
+  private readonly strategies: Record<string, string>;
+  private readonly types: Record<string, string>;
+  private readonly columns: Record<string, string>;
+
+  constructor(report: Report) {
+    this.strategies = report.labels?.strategies ?? {};
+    this.types = report.labels?.types ?? {};
+    this.columns = report.labels?.columns ?? {};
+  }
+
+  strategy(code: Cell | undefined): string {
+    const name = String(code ?? '');
+    return this.strategies[name] ?? name;
+  }
+
+  // Capitalised, since it stands alone as a heading of a panel.
+  type(code: Cell | undefined): string {
+    const name = this.types[String(code ?? '')] ?? String(code ?? '');
+    return name.charAt(0).toUpperCase() + name.slice(1);
+  }
+
+  column(name: string): string {
+    return this.columns[name] ?? name.replaceAll('_', ' ').replace(/^./, (letter) => letter.toUpperCase());
+  }
+
+  cell(column: string, value: Cell): string {
+    if (value === null) return '\u2013';
+    if (column === 'strategy') return this.strategy(value);
+    if (column === 'type') return this.type(value);
+    if (typeof value === 'boolean') return value ? 'yes' : 'no';
+    if (typeof value === 'number') return isP(column) ? formatP(value) : formatNumber(value);
+    return value;
+  }
+}
+
+export const plural = (count: number, one: string): string => `${count} ${one}${count === 1 ? '' : 's'}`;
+
+export function listOf(items: string[]): string {
+  return items.length < 2 ? items.join('') : `${items.slice(0, -1).join(', ')} and ${items[items.length - 1]}`;
+}

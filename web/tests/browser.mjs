@@ -1,0 +1,47 @@
+// Debian's Chromium without network, watched: requests that leave the page, console errors and
+// uncaught errors are collected.
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+
+const kFlags = [
+  '--headless', '--no-sandbox', '--disable-gpu', '--no-first-run',
+  '--disable-background-networking', '--disable-component-update', '--disable-sync',
+];
+
+export function requireFrom(modules) {
+  return createRequire(join(resolve(modules), 'package.json'));
+}
+
+export async function launch(modules, executablePath) {
+  const { chromium } = requireFrom(modules)('playwright-core');
+  return chromium.launch({ executablePath, args: kFlags });
+}
+
+// A page with the report open in it.
+export async function openReport(browser, address, { width, dark, reducedMotion = false }) {
+  const context = await browser.newContext({
+    viewport: { width, height: 900 },
+    colorScheme: dark ? 'dark' : 'light',
+    reducedMotion: reducedMotion ? 'reduce' : 'no-preference',
+    acceptDownloads: true,
+  });
+  await context.setOffline(true);
+  const trouble = [];
+  await context.route('**/*', (route) => {
+    const url = route.request().url();
+    if (/^(file|blob|data):/.test(url)) return route.continue();
+    trouble.push(`request: ${url}`);
+    return route.abort();
+  });
+  const page = await context.newPage();
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) trouble.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => trouble.push(`uncaught: ${error.message}`));
+  await page.goto(address);
+  await page.waitForSelector('main section');
+  await page.waitForFunction(() =>
+    [...document.querySelectorAll('.drawing')].every((box) => box.dataset.drawn && box.querySelector('svg')),
+  );
+  return { context, page, trouble };
+}
