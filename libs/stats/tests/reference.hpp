@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kith/stats/factor.hpp"
+
+namespace kith::testing {
+
+// Values that R computed; the script beside the file makes it.
+inline nlohmann::json read_reference(const std::string& name) {
+  const auto path = std::filesystem::path{KITH_SOURCE_DIR} / "libs/stats/tests/reference" / name;
+  std::ifstream in{path};
+  if (!in) throw std::runtime_error{"cannot read " + path.string()};
+  return nlohmann::json::parse(in);
+}
+
+inline Factor read_factor(const nlohmann::json& factor) {
+  return {factor.at("name"), factor.at("levels"), factor.at("codes")};
+}
+
+inline std::vector<Factor> read_factors(const nlohmann::json& factors) {
+  std::vector<Factor> result;
+  for (const auto& factor : factors) result.push_back(read_factor(factor));
+  return result;
+}
+
+// |a - b| as a part of |b|; of 1 where b is 0.
+inline double relative_error(double a, double b) { return std::abs(a - b) / (b == 0.0 ? 1.0 : std::abs(b)); }
+
+}  // namespace kith::testing
