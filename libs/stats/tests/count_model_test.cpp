@@ -1,0 +1,223 @@
+#include "kith/stats/count_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "kith/random/distributions.hpp"
+#include "kith/stats/distributions.hpp"
+#include "reference.hpp"
+
+namespace kith {
+namespace {
+
+using nlohmann::json;
+using testing::read_factors;
+using testing::relative_error;
+
+constexpr double kTolerance = 1e-6;
+
+const json& cases() {
+  static const json reference = testing::read_reference("models.json").at("counts");
+  return reference;
+}
+
+void expect_equal_ratio(const RateRatio& ratio, const json& one, std::size_t coefficient) {
+  const double log_ratio = one.at("coefficients")[coefficient];
+  const double margin = one.at("standard_errors")[coefficient].get<double>() * normal_quantile(0.975);
+  EXPECT_LE(relative_error(ratio.ratio.estimate, std::exp(log_ratio)), kTolerance);
+  EXPECT_LE(relative_error(ratio.ratio.low, std::exp(log_ratio - margin)), kTolerance);
+  EXPECT_LE(relative_error(ratio.ratio.high, std::exp(log_ratio + margin)), kTolerance);
+  EXPECT_EQ(ratio.test.statistic_name, "z");
+  EXPECT_LE(relative_error(ratio.test.statistic, one.at("z")[coefficient]), kTolerance);
+  EXPECT_LE(relative_error(ratio.test.p, one.at("p")[coefficient]), kTolerance);
+}
+
+TEST(CountModel, AgreesWithRsGlmNbAndGlm) {
+  for (const auto& one : cases()) {
+    SCOPED_TRACE(one.at("name").get<std::string>());
+    const auto model = fit_count_model(one.at("counts").get<std::vector<double>>(), read_factors(one.at("factors")));
+    ASSERT_TRUE(model) << model.reason();
+    ASSERT_EQ(model->theta.has_value(), !one.at("theta").is_null());
+    if (model->theta) {
+      EXPECT_LE(relative_error(*model->theta, one.at("theta")), kTolerance);
+    }
+    EXPECT_LE(relative_error(model->log_likelihood, one.at("log_likelihood")), kTolerance);
+    EXPECT_LE(relative_error(model->dispersion, one.at("dispersion")), kTolerance);
+    ASSERT_EQ(model->coefficients.size(), one.at("coefficients").size());
+    ASSERT_EQ(model->ratios.size() + 1, model->coefficients.size());
+    for (std::size_t c = 0; c < model->coefficients.size(); ++c) {
+      EXPECT_LE(relative_error(model->coefficients[c], one.at("coefficients")[c]), kTolerance);
+      if (c > 0) expect_equal_ratio(model->ratios[c - 1], one, c);
+    }
+    ASSERT_EQ(model->factor_tests.size(), one.at("tests").size());
+    for (std::size_t f = 0; f < model->factor_tests.size(); ++f) {
+      const auto& expected = one.at("tests")[f];
+      ASSERT_TRUE(model->factor_tests[f]);
+      EXPECT_EQ(model->factor_tests[f]->df, std::vector<double>{expected.at("df").get<double>()});
+      EXPECT_LE(relative_error(model->factor_tests[f]->statistic, expected.at("statistic")), kTolerance);
+      EXPECT_LE(relative_error(model->factor_tests[f]->p, expected.at("p")), kTolerance);
+    }
+  }
+}
+
+const Factor kTwo{"strategy", {"low", "joint"}, {0, 0, 0, 0, 1, 1, 1, 1}};
+
+TEST(CountModel, OfOneFactorHasTheRatiosOfTheMeans) {
+  const auto model = fit_count_model(std::vector<double>{1, 9, 2, 8, 20, 4, 1, 35}, std::vector{kTwo});
+  ASSERT_TRUE(model) << model.reason();
+  EXPECT_EQ(model->ratios.front().name, "strategy joint / low");
+  EXPECT_NEAR(model->ratios.front().ratio.estimate, 15.0 / 5.0, 1e-9);
+  EXPECT_NEAR(model->coefficients.front(), std::log(5.0), 1e-9);
+}
+
+TEST(CountModel, IsPoissonsWhereCountsVaryLess) {
+  const auto model = fit_count_model(std::vector<double>{7, 8, 8, 7, 9, 8, 8, 9}, std::vector{kTwo});
+  ASSERT_TRUE(model) << model.reason();
+  EXPECT_FALSE(model->theta.has_value());
+  EXPECT_LT(model->dispersion, 0.1);
+}
+
+// The profile likelihood of theta, with constants left out, by brute force over a grid: one factor, so that
+// the expected counts are the means whatever theta is.
+double profile_likelihood(const std::vector<double>& counts, double theta) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double mu = i < 4 ? (counts[0] + counts[1] + counts[2] + counts[3]) / 4
+                            : (counts[4] + counts[5] + counts[6] + counts[7]) / 4;
+    sum += std::lgamma(counts[i] + theta) - std::lgamma(theta) - std::lgamma(counts[i] + 1.0) +
+           theta * std::log(theta / (theta + mu)) + counts[i] * std::log(mu / (theta + mu));
+  }
+  return sum;
+}
+
+TEST(CountModel, HasTheThetaOfTheLargestLikelihood) {
+  auto random = RandomStream{1}.split("theta");
+  int overdispersed = 0;
+  for (int round = 0; round < 50; ++round) {
+    std::vector<double> counts;
+    // Small counts, and such beyond the terms that are summed one by one.
+    const double scale = round % 2 == 0 ? 10.0 : 3000.0;
+    for (int i = 0; i < 8; ++i) counts.push_back(std::floor(-scale * std::log1p(-uniform01(random))));
+    const auto model = fit_count_model(counts, std::vector{kTwo});
+    if (!model || !model->theta) continue;
+    ++overdispersed;
+    const double best = profile_likelihood(counts, *model->theta);
+    EXPECT_NEAR(model->log_likelihood, best, 1e-9 * std::abs(best));
+    for (double factor = 0.1; factor < 10.0; factor *= 1.05)
+      EXPECT_LE(profile_likelihood(counts, *model->theta * factor), best + 1e-9 * std::abs(best));
+  }
+  EXPECT_GT(overdispersed, 40);
+}
+
+TEST(CountModel, DoesNotDependOnTheOrderOfObservations) {
+  for (const auto& one : cases()) {
+    auto counts = one.at("counts").get<std::vector<double>>();
+    auto factors = read_factors(one.at("factors"));
+    const auto model = fit_count_model(counts, factors);
+    std::ranges::reverse(counts);
+    for (auto& factor : factors) std::ranges::reverse(factor.codes);
+    const auto reversed = fit_count_model(counts, factors);
+    ASSERT_TRUE(model && reversed);
+    EXPECT_LE(relative_error(reversed->log_likelihood, model->log_likelihood), 1e-12);
+    EXPECT_LE(relative_error(reversed->theta.value_or(0.0), model->theta.value_or(0.0)), 1e-8);
+  }
+}
+
+TEST(CountModel, LeavesOutLevelsThatNoObservationHas) {
+  const std::vector<double> counts{1, 9, 2, 8, 20, 4, 1, 35};
+  const Factor with_unused{"strategy", {"none", "low", "other", "joint"}, {1, 1, 1, 1, 3, 3, 3, 3}};
+  const auto model = fit_count_model(counts, std::vector{with_unused});
+  ASSERT_TRUE(model);
+  ASSERT_EQ(model->ratios.size(), 1U);
+  EXPECT_EQ(model->ratios.front().name, "strategy joint / low");
+}
+
+TEST(CountModel, FitsCountsOfAnySize) {
+  const auto model = fit_count_model(std::vector<double>{1e9, 3e9, 2e9, 1e9, 5e9, 1e10, 2e9, 7e9}, std::vector{kTwo});
+  ASSERT_TRUE(model) << model.reason();
+  EXPECT_NEAR(model->ratios.front().ratio.estimate, 24.0 / 7.0, 1e-6);
+  ASSERT_TRUE(model->theta.has_value());
+  // So many that a gamma distribution of the same shape has the same likelihood: its equation for the shape.
+  const auto gamma_shape = *model->theta;
+  EXPECT_GT(gamma_shape, 1.0);
+  EXPECT_LT(gamma_shape, 20.0);
+}
+
+std::string reason_of(const std::vector<double>& counts, const std::vector<Factor>& factors) {
+  const auto model = fit_count_model(counts, factors);
+  EXPECT_EQ(model.has_value(), model.reason().empty());
+  return model.reason();
+}
+
+TEST(CountModel, SaysWhyThereIsNone) {
+  const std::vector<double> good{1, 2, 3, 4, 5, 6, 7, 9};
+  EXPECT_EQ(reason_of({}, {}), "there are no observations");
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, 8.5}, {kTwo}), "counts must be whole numbers that are not negative");
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, -1}, {kTwo}), "counts must be whole numbers that are not negative");
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, std::nan("")}, {kTwo}),
+            "counts must be whole numbers that are not negative");
+  EXPECT_EQ(reason_of(std::vector<double>(8, 0.0), {kTwo}), "all counts are zero");
+  EXPECT_EQ(reason_of(good, {Factor{"f", {"a", "b"}, std::vector<std::size_t>(8, 1)}}), "f has only one level");
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 0, 0, 0, 0}, {kTwo}),
+            "all counts of strategy joint are zero, so its ratio has no lower bound");
+  EXPECT_EQ(reason_of(good, {kTwo, kTwo}), "the factors cannot be told apart: some levels only occur together");
+  EXPECT_EQ(reason_of({1, 2}, {Factor{"f", {"a", "b"}, {0, 1}}}), "there are no more observations than coefficients");
+}
+
+const std::string kSeparated = "combinations of levels with only zeros leave some ratios without a bound";
+
+// Levels a1, a2 and b1, b2 each have counts, but only (a1, b1) and (a2, b2) and (a2, b1) may tell the effects apart.
+TEST(CountModel, SaysSoIfZerosOfSomeCombinationsSeparateTheCounts) {
+  // b2 against b1 is known from the cells with a1 only, where b2 has none but zeros; with a2 only b2 occurs.
+  const Factor a{"a", {"1", "2"}, {0, 0, 0, 0, 1, 1}};
+  const Factor b{"b", {"1", "2"}, {0, 0, 1, 1, 1, 1}};
+  EXPECT_EQ(reason_of({3, 2, 0, 0, 4, 1}, {a, b}), kSeparated);
+  EXPECT_EQ(reason_of({3, 2, 0, 1, 4, 1}, {a, b}), "");
+}
+
+TEST(CountModel, FindsAFiniteMaximumBesideCellsOfZeros) {
+  // Zeros off the diagonal pull in opposite directions: the effects stay finite.
+  const Factor a{"a", {"1", "2"}, {0, 0, 0, 0, 1, 1, 1, 1}};
+  const Factor b{"b", {"1", "2"}, {0, 0, 1, 1, 0, 0, 1, 1}};
+  EXPECT_EQ(reason_of({3, 2, 0, 0, 0, 0, 2, 3}, {a, b}), "");
+}
+
+TEST(CountModel, SaysSoIfSeveralDirectionsAreSeparated) {
+  // Three levels of b whose effects are known from cells of zeros only.
+  const Factor a{"a", {"1", "2", "3"}, {0, 0, 0, 0, 0, 0, 1, 1, 2, 2}};
+  const Factor b{"b", {"1", "2", "3"}, {0, 0, 1, 1, 2, 2, 1, 1, 2, 2}};
+  EXPECT_EQ(reason_of({3, 2, 0, 0, 0, 0, 4, 1, 2, 2}, {a, b}), kSeparated);
+}
+
+TEST(CountModel, NamesWhatItCannotTake) {
+  const std::vector<double> counts{1, 2, 3};
+  EXPECT_THROW((void)fit_count_model(counts, std::vector{kTwo}), std::invalid_argument);
+  EXPECT_THROW((void)fit_count_model(counts, std::vector{Factor{"f", {"a"}, {0, 0, 1}}}), std::invalid_argument);
+  EXPECT_THROW((void)fit_count_model(counts, {}, 0.0), std::invalid_argument);
+}
+
+// Under the null the likelihood-ratio test's p-values are uniform, here to what 400 data sets tell: four standard
+// deviations of a share of p below 0.1, 4 sqrt(0.1 0.9 / 400) = 0.06. The counts are geometric (theta = 1).
+TEST(CountModel, RejectsATrueHypothesisAsOftenAsItSays) {
+  auto random = RandomStream{2}.split("null");
+  const std::size_t observations = 200;
+  Factor groups{"group", {"a", "b", "c"}, {}};
+  for (std::size_t i = 0; i < observations; ++i) groups.codes.push_back(i % 3);
+  int rejected = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<double> counts;
+    for (std::size_t i = 0; i < observations; ++i)
+      counts.push_back(std::floor(std::log1p(-uniform01(random)) / std::log(0.8)));
+    const auto model = fit_count_model(counts, std::vector{groups});
+    ASSERT_TRUE(model);
+    if (model->factor_tests.front()->p < 0.1) ++rejected;
+  }
+  EXPECT_NEAR(rejected / 400.0, 0.1, 0.06);
+}
+
+}  // namespace
+}  // namespace kith
