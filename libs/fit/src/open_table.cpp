@@ -1,7 +1,6 @@
 #include "open_table.hpp"
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -25,31 +24,6 @@ Diagnostic diagnostic(Severity severity, std::string id, std::string message, co
 }
 
 }  // namespace
-
-std::vector<std::string> header_of(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  std::vector<std::string> cells;
-  if (text.empty()) return cells;
-  cells.emplace_back();
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') {
-      if (quoted && i + 1 < text.size() && text[i + 1] == '"')
-        cells.back() += text[++i];
-      else
-        quoted = !quoted;
-    } else if (!quoted && (c == '\n' || c == '\r')) {
-      break;
-    } else if (!quoted && c == ',') {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
 
 const TableCell* OpenRow::cell(const std::string& column) const {
   const auto it = positions_.find(column);
@@ -77,21 +51,20 @@ std::optional<bool> OpenRow::boolean(const std::string& column) const {
 void read_open_csv(const std::filesystem::path& path, std::vector<Column> required, std::vector<Column> optional,
                    std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row) {
   const auto content = kith::read_file(path);
-  const auto header = header_of(content);
   std::vector<Column> columns = std::move(required);
-  const auto is_known = [&](const std::string& name) {
-    return std::any_of(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
-  };
-  for (const auto& name : header) {
-    if (name.empty() || is_known(name)) continue;
-    const auto it = std::find_if(optional.begin(), optional.end(), [&](const Column& c) { return c.name == name; });
-    columns.push_back(it != optional.end() ? *it : Column{.name = name, .type = ColumnType::kText});
+  for (const auto& present : read_csv_header(content, path.string())) {
+    const auto same = [&](const Column& column) { return column.name == present.name; };
+    const auto it = std::find_if(optional.begin(), optional.end(), same);
+    if (it != optional.end()) columns.push_back(*it);
   }
   std::map<std::string, std::size_t> positions;
   for (std::size_t i = 0; i < columns.size(); ++i) positions[columns[i].name] = i;
-  const auto faults = read_csv(content, path.string(), columns, [&](const CsvRow& row) {
-    on_row(OpenRow{row, positions});
-  });
+  const auto faults = read_csv(
+      content, path.string(), columns,
+      [&](const CsvRow& row) {
+        on_row(OpenRow{row, positions});
+      },
+      OtherColumns::kIgnore);
   diagnostics.insert(diagnostics.end(), faults.begin(), faults.end());
 }
 

@@ -13,9 +13,6 @@
 
 namespace kith::detail {
 
-// The first record of a CSV text, cell by cell; empty for an empty text.
-[[nodiscard]] std::vector<std::string> header_of(std::string_view text);
-
 // A row of a table that may have more columns than we know.
 class OpenRow {
  public:

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "kith/fit/person_log.hpp"
+
+namespace kith {
+
+/// The people of a run folder (docs/formats.md, section 3): what they saw (demonstrations.csv), answered
+/// (responses.csv) and are labelled (learners.csv). What is known of them apart from the parameters (filter, prior,
+/// cap, scale) is taken from the frozen study. Of the parameters in learners.csv nothing is read.
+///
+/// Paths that are best for nobody count by their verdict only (W0706).
+/// @throws kith::Error (kInvalidInput, with file and row) if a table cannot be understood (E0501 to E0512, E0707,
+/// E0708), the run has no answers because of its record level (E0705), it is not finished (E0704), or learners imagine
+/// counterfactuals of their own, so that the tables do not say what they learned (E0706).
+[[nodiscard]] ResponseLogs import_run_folder(const std::filesystem::path& folder, AnswerDetail detail);
+
+}  // namespace kith

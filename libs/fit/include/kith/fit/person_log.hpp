@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/belief/likelihood.hpp"
+#include "kith/belief/particle_belief.hpp"
+#include "kith/core/diagnostic.hpp"
+#include "kith/geometry/cone.hpp"
+
+namespace kith {
+
+/// What one answer says about the weight that a person had in mind: that it lies in the cone, or that it does not.
+struct AnswerRegion {
+  std::vector<HalfSpace> cone;
+  bool inside = true;
+};
+
+/// What a person saw, was asked and heard in one interaction period.
+struct LoggedPeriod {
+  std::size_t component = 1;          ///< 1-based; another one than before sets the ability back.
+  std::vector<HalfSpace> conveyed;    ///< By the demonstrations, watched at the current ability.
+  std::vector<HalfSpace> possible;    ///< Weights with a finite optimum in every test, the only ones that answer.
+  std::vector<AnswerRegion> answers;  ///< One per test that was answered.
+  double chance = 1.0;                ///< Probability of these answers by guessing.
+  bool all_correct = true;            ///< Which gain the feedback brings.
+  bool feedback = true;               ///< Whether the person heard which answers were right.
+  std::vector<HalfSpace> taught;      ///< By the feedback, at the changed ability.
+};
+
+/// What is taken for known about a learner: all but the parameters that are fitted.
+struct LearnerModel {
+  FilterOptions filter;
+  Cone prior;                  ///< Where the person's belief starts, uniformly.
+  double ability_max = 0.95;   ///< Cap on the ability.
+  double ability_scale = 1.0;  ///< Factor on the log-odds of the ability, see Population.
+  LikelihoodForm form = LikelihoodForm::kDiscontinuous;
+};
+
+/// One person's sequence, and what a recovery test knows besides.
+struct PersonLog {
+  std::string id;         ///< Unique: "7/2" is member 2 of team 7.
+  std::string type;       ///< Learner type as labelled; empty: unknown.
+  std::size_t model = 0;  ///< Index into ResponseLogs::models.
+  std::vector<LoggedPeriod> periods;
+  std::size_t answered = 0;       ///< Tests answered, in all periods.
+  std::size_t correct = 0;        ///< Of these.
+  std::size_t final_tests = 0;    ///< Final tests, which no feedback followed; 0 if there are none.
+  std::size_t final_correct = 0;  ///< Of these.
+};
+
+/// The people of some logs, in the order of the files, and everything worth saying about how they were read.
+struct ResponseLogs {
+  std::vector<PersonLog> people;
+  std::vector<LearnerModel> models;
+  std::vector<HalfSpace> policy;  ///< The behaviour equivalence class of the robot's policy; empty: unknown.
+  std::vector<Diagnostic> notes;  ///< Warnings: what was repaired, left out or doubtful.
+};
+
+/// How much of an answer is used.
+enum class AnswerDetail {
+  kPath,     ///< Which path was taken: the weight lies where this path is the best one.
+  kVerdict,  ///< Only whether it was right.
+};
+
+}  // namespace kith
