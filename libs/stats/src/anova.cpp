@@ -99,7 +99,7 @@ AnovaTable anova(std::span<const double> response, std::span<const Factor> facto
   table.empty_cells = model.empty_cells();
   for (const auto& term : model.terms()) {
     table.terms.push_back({term.name, term.df});
-    test_term(table.terms.back(), 0.0, 0.0, 0, term.reason);
+    if (!term.reason.empty()) test_term(table.terms.back(), 0.0, 0.0, 0, term.reason);
   }
   if (!model.reason().empty()) return table;
 

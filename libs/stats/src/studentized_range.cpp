@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include "kith/stats/multiple.hpp"
 
@@ -12,29 +15,58 @@
 //
 // Both integrands are positive, so that small tails keep their digits. Both are analytic and fade at both ends (the
 // outer one as a function of u = log s), for which the trapezoidal rule converges faster than any power of its step.
+//
+// The steps below leave a relative error of 1e-11 at most for up to 1000 groups, found by dividing them by three.
 
 namespace kith {
 namespace {
 
 double normal_lower(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-// Steps were chosen so that halving them changes nothing in 13 digits.
-double range_upper(double r, double groups) {
-  constexpr double kReach = 8.75;  // Beyond it the integrand is below 1e-16 of its largest value.
-  const double step = std::min(0.25, 0.8 / std::sqrt(groups));
-  const double low = r / 2.0 - kReach;
-  const double high = std::max(r / 2.0 + kReach, kReach + 1.0);
-  double sum = 0.0;
-  for (double z = low; z <= high; z += step) {
-    const double below = normal_lower(z);
-    const double density = std::exp(-0.5 * z * z) * std::pow(below, groups - 1.0);
-    // 1 - (1 - share)^(k-1)
-    const double share = normal_lower(z - r) / below;
-    const double outside = share < 1.0 ? -std::expm1((groups - 1.0) * std::log1p(-share)) : 1.0;
-    sum += density * outside;
+// P(R > r) for many r: what depends on z alone is computed once.
+class RangeTail {
+ public:
+  explicit RangeTail(double groups) : groups_{groups}, step_{std::min(0.35, 1.0 / std::sqrt(groups))} {}
+
+  double operator()(double r) {
+    const auto first = static_cast<std::size_t>(std::max(0.0, r / 2.0 / step_));
+    const auto last = static_cast<std::size_t>((std::max(r / 2.0, 1.0) + 2.0 * kReach) / step_);
+    extend_to(last);
+    double sum = 0.0;
+    for (auto i = first; i <= last; ++i) {
+      const auto& point = points_[i];
+      if (point.weight == 0.0) continue;
+      const double share = std::min(1.0, normal_lower(point.z - r) / point.below);
+      // 1 - (1 - share)^(k-1), and its limit where that would be rounded
+      const double outside =
+          share < 1e-17 ? (groups_ - 1.0) * share : -std::expm1((groups_ - 1.0) * std::log1p(-share));
+      sum += point.weight * outside;
+    }
+    return std::min(1.0, groups_ * sum * step_ / std::sqrt(2.0 * std::numbers::pi));
   }
-  return std::min(1.0, groups * sum * step / std::sqrt(2.0 * std::numbers::pi));
-}
+
+ private:
+  static constexpr double kReach = 8.75;  // Beyond it the integrand is below 1e-16 of its largest value.
+
+  struct Point {
+    double z = 0.0;
+    double below = 0.0;   // Phi(z)
+    double weight = 0.0;  // exp(-z^2 / 2) Phi(z)^(k-1)
+  };
+
+  // Points are at -kReach, -kReach + step, ...
+  void extend_to(std::size_t last) {
+    while (points_.size() <= last) {
+      const double z = static_cast<double>(points_.size()) * step_ - kReach;
+      const double below = normal_lower(z);
+      points_.push_back({z, below, std::exp(-0.5 * z * z) * std::pow(below, groups_ - 1.0)});
+    }
+  }
+
+  double groups_;
+  double step_;
+  std::vector<Point> points_;
+};
 
 // Sum of f(start + i * step) over all integers i, from 0 outwards until terms no longer count. f has one peak, near
 // `start`.
@@ -64,10 +96,11 @@ double studentized_range_upper(double q, std::size_t groups, double df) {
   if (q == 0.0) return 1.0;
   if (std::isinf(q)) return 0.0;
   const auto k = static_cast<double>(groups);
-  if (std::isinf(df)) return range_upper(q, k);
+  RangeTail range_upper{k};
+  if (std::isinf(df)) return range_upper(q);
 
-  // The one bound is for how fast P(R > r) falls where groups are many, the other for the density of large df.
-  const double step = std::min(0.05, 0.7 / std::sqrt(2.0 * df));
+  // Bounded by how steeply P(R > r) falls, steeper for many groups, and by the width of the density.
+  const double step = std::min(groups <= 20 ? 0.1 : 0.05, 0.7 / std::sqrt(2.0 * df));
   // Of log s, with exponent 0 at its mode u = 0.
   const auto density = [df](double u) { return std::exp(df * (u - 0.5 * std::expm1(2.0 * u))); };
   // Both factors are log-concave in u, so their product has one peak: here if P(R > r) fades as exp(-r^2 / 4).
@@ -75,7 +108,7 @@ double studentized_range_upper(double q, std::size_t groups, double df) {
   if (std::isinf(mode)) return 0.0;
   const double tail = sum_outwards(mode, step, [&](double u) {
     const double weight = density(u);
-    return weight > 0.0 ? weight * range_upper(q * std::exp(u), k) : 0.0;
+    return weight > 0.0 ? weight * range_upper(q * std::exp(u)) : 0.0;
   });
   const double total = sum_outwards(0.0, step, density);
   return std::min(1.0, tail / total);
@@ -110,7 +143,7 @@ double studentized_range_quantile(double p, std::size_t groups, double df) {
       at_high = at_middle;
       at_low *= 0.5;
     }
-    if (std::abs(at_middle) < 1e-14) return middle;
+    if (std::abs(at_middle) < 1e-13) return middle;
   }
   return 0.5 * (low + high);
 }
