@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -189,6 +190,51 @@ PopulationFit fit_with_intervals(const LikelihoodSurface& surface, const std::ve
   fit.correct_scale = exponential(problem.profile(best, 3));
   fit.confirm_scale = gains == GainModel::kEqual ? fit.correct_scale : exponential(problem.profile(best, 2));
   return fit;
+}
+
+namespace {
+
+// log of the priors of draw_populations(), as densities of the parameters that the walk moves.
+double log_hyperprior(const Point& x) {
+  constexpr double kScale = 0.1;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < kNumParameters; ++k) {
+    if (x[k] < kBounds[k].lower || x[k] > kBounds[k].upper) return -std::numeric_limits<double>::infinity();
+    if (k == 0) continue;
+    const double value = std::exp(x[k]);
+    sum += x[k] - 0.5 * (value / kScale) * (value / kScale);  // x[k]: of the change from value to its logarithm
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<PopulationParameters> draw_populations(const LikelihoodSurface& surface, const std::vector<double>& weights,
+                                                   const PopulationLimits& limits, const PopulationFit& start,
+                                                   std::size_t num_draws, RandomStream random) {
+  const Problem problem{surface, weights, limits, GainModel::kFree};
+  constexpr std::size_t kBetween = 40;
+  constexpr std::array<double, kNumParameters> kSteps{0.2, 0.35, 0.7, 0.7};
+  auto x = to_point(start.parameters);
+  for (std::size_t k = 1; k < kNumParameters; ++k) x[k] = std::clamp(x[k], std::log(0.01), std::log(0.15));
+  const auto log_posterior = [&](const Point& at) {
+    const double prior = log_hyperprior(at);
+    return std::isfinite(prior) ? prior + problem.log_likelihood(at) : prior;
+  };
+  double here = log_posterior(x);
+  std::vector<PopulationParameters> draws;
+  const std::size_t burn_in = 10 * kBetween;
+  for (std::size_t round = 0; round < burn_in + num_draws * kBetween; ++round) {
+    auto next = x;
+    for (std::size_t k = 0; k < kNumParameters; ++k) next[k] += kSteps[k] * standard_normal(random);
+    const double there = log_posterior(next);
+    if (std::log(std::max(uniform01(random), 1e-300)) < there - here) {
+      x = next;
+      here = there;
+    }
+    if (round >= burn_in && (round - burn_in + 1) % kBetween == 0) draws.push_back(to_parameters(x));
+  }
+  return draws;
 }
 
 GainsTest compare_gain_scales(const LikelihoodSurface& surface, const std::vector<double>& weights,

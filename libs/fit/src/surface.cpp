@@ -163,27 +163,65 @@ PersonPosterior compare(const CellDistribution& posterior, const CellDistributio
 
 }  // namespace
 
-LikelihoodSurface::LikelihoodSurface(const LikelihoodTable& table, std::size_t refine)
-    : gains_{table.grid.confirm_gains} {
+namespace {
+
+// Where a refined value lies among the coarse ones.
+struct Between {
+  std::size_t below;
+  double t;
+};
+
+Between between(std::size_t i, std::size_t refine, std::size_t num_coarse) {
+  const auto below = std::min(i / refine, num_coarse - 2);
+  return {below, static_cast<double>(i - below * refine) / static_cast<double>(refine)};
+}
+
+std::vector<double> refined(const std::vector<double>& coarse, std::size_t refine) {
+  std::vector<double> values;
+  const auto n = (coarse.size() - 1) * refine + 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [below, t] = between(i, refine, coarse.size());
+    values.push_back(coarse[below] + t * (coarse[below + 1] - coarse[below]));
+  }
+  return values;
+}
+
+// The table of a person, linear in each parameter between the points of the grid.
+double interpolated(const std::vector<double>& row, std::size_t n, const Between& a, const Between& c,
+                    const Between& i) {
+  double value = 0.0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const std::size_t da = corner >> 2U & 1U;
+    const std::size_t dc = corner >> 1U & 1U;
+    const std::size_t di = corner & 1U;
+    const double weight = (da == 1 ? a.t : 1.0 - a.t) * (dc == 1 ? c.t : 1.0 - c.t) * (di == 1 ? i.t : 1.0 - i.t);
+    if (weight > 0.0) value += weight * row[((a.below + da) * n + c.below + dc) * n + i.below + di];
+  }
+  return value;
+}
+
+}  // namespace
+
+LikelihoodSurface::LikelihoodSurface(const LikelihoodTable& table, std::size_t refine) {
   if (!table.complete || table.log_likelihood.empty() || refine == 0) {
     throw std::invalid_argument{"LikelihoodSurface: a complete table with people is needed, and refine >= 1"};
   }
-  const auto& coarse = table.grid.abilities;
-  const auto num_pairs = gains_.size() * gains_.size();
-  const auto num_abilities = (coarse.size() - 1) * refine + 1;
-  for (std::size_t a = 0; a < num_abilities; ++a) {
-    const double t = static_cast<double>(a) / static_cast<double>(num_abilities - 1);
-    abilities_.push_back(coarse.front() + t * (coarse.back() - coarse.front()));
-  }
+  constexpr std::size_t kRefineGains = 2;
+  const auto num_abilities = table.grid.abilities.size();
+  const auto n = table.grid.confirm_gains.size();
+  abilities_ = refined(table.grid.abilities, refine);
+  gains_ = refined(table.grid.confirm_gains, kRefineGains);
   for (const auto& row : table.log_likelihood) {
     const double top = *std::max_element(row.begin(), row.end());
-    auto& values = relative_.emplace_back(num_abilities * num_pairs);
-    for (std::size_t a = 0; a < num_abilities; ++a) {
-      const auto below = std::min(a / refine, coarse.size() - 2);
-      const double t = static_cast<double>(a - below * refine) / static_cast<double>(refine);
-      for (std::size_t g = 0; g < num_pairs; ++g) {
-        const double log_value = (1.0 - t) * row[below * num_pairs + g] + t * row[(below + 1) * num_pairs + g];
-        values[a * num_pairs + g] = std::exp(log_value - top);
+    auto& values = relative_.emplace_back();
+    values.reserve(abilities_.size() * gains_.size() * gains_.size());
+    for (std::size_t a = 0; a < abilities_.size(); ++a) {
+      for (std::size_t c = 0; c < gains_.size(); ++c) {
+        for (std::size_t i = 0; i < gains_.size(); ++i) {
+          const double log_value = interpolated(row, n, between(a, refine, num_abilities), between(c, kRefineGains, n),
+                                                between(i, kRefineGains, n));
+          values.push_back(std::exp(log_value - top));
+        }
       }
     }
     log_top_.push_back(top);

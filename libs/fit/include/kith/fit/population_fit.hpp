@@ -35,10 +35,10 @@ enum class GainModel {
 };
 
 /// The people's likelihoods on a refined grid, on which everything about populations is computed: log-likelihoods are
-/// interpolated linearly in the ability, between the points where the filter was run.
+/// interpolated linearly in every parameter, between the points where the filter was run.
 class LikelihoodSurface {
  public:
-  /// @param refine  points of the new grid per step of abilities.
+  /// @param refine  points of the new grid per step of abilities; of gains there are 2.
   /// @throws std::invalid_argument unless the table is complete, has people and refine >= 1.
   explicit LikelihoodSurface(const LikelihoodTable& table, std::size_t refine = 5);
 
@@ -111,6 +111,16 @@ struct GainsTest {
 };
 [[nodiscard]] GainsTest compare_gain_scales(const LikelihoodSurface& surface, const std::vector<double>& weights,
                                             PopulationLimits limits);
+
+/// Populations that the answers leave possible: draws from the posterior of the population's parameters, by a random
+/// walk of Metropolis in (mean, log sd, log scales) with a flat prior on the mean and half-normal priors of scale 0.1
+/// on the others. What is said about single people is averaged over them, so that it does not pretend the
+/// population to be known. [gelman2013, section 11.2]
+[[nodiscard]] std::vector<PopulationParameters> draw_populations(const LikelihoodSurface& surface,
+                                                                 const std::vector<double>& weights,
+                                                                 const PopulationLimits& limits,
+                                                                 const PopulationFit& start, std::size_t num_draws,
+                                                                 RandomStream random);
 
 /// Populations whose members are not labelled.
 struct MixtureFit {

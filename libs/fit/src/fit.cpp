@@ -1,0 +1,230 @@
+#include "kith/fit/fit.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "kith/core/error.hpp"
+#include "open_table.hpp"
+
+namespace kith {
+namespace {
+
+std::string figure(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+PopulationLimits limits_of(const ResponseLogs& logs, const FitOptions& options) {
+  PopulationLimits limits{.ability_min = options.ability_first, .ability_max = 0.5, .gain_max = options.gain_last};
+  for (const auto& model : logs.models) limits.ability_max = std::max(limits.ability_max, model.ability_max);
+  limits.ability_max = std::min(limits.ability_max, options.ability_last);
+  return limits;
+}
+
+// One population and the weights of its people.
+struct Members {
+  std::string name;
+  std::vector<double> weights;
+  double share = 1.0;
+};
+
+[[noreturn]] void too_few(const std::string& what) {
+  auto diagnostic =
+      detail::fault("E0710", what, "", 0, "give more logs; several folders and files can be fitted together");
+  diagnostic.infeasible = true;
+  throw Error{{diagnostic}};
+}
+
+std::vector<Members> labelled_members(const ResponseLogs& logs) {
+  std::set<std::string> labels;
+  for (const auto& person : logs.people) labels.insert(person.type);
+  std::vector<Members> result;
+  for (const auto& label : labels) {
+    Members members{.name = labels.size() == 1 && label.empty() ? "all" : label.empty() ? "unlabelled" : label};
+    std::size_t count = 0;
+    for (const auto& person : logs.people) {
+      members.weights.push_back(person.type == label ? 1.0 : 0.0);
+      count += person.type == label ? 1u : 0u;
+    }
+    if (count < 2) too_few("type '" + members.name + "' has one person; a population cannot be fitted to that");
+    members.share = static_cast<double>(count) / static_cast<double>(logs.people.size());
+    result.push_back(std::move(members));
+  }
+  return result;
+}
+
+std::vector<Members> mixed_members(const MixtureFit& mixture) {
+  std::vector<Members> result;
+  for (std::size_t k = 0; k < mixture.types.size(); ++k) {
+    Members members{.name = "type " + std::to_string(k + 1), .weights = {}, .share = mixture.shares[k]};
+    for (const auto& probability : mixture.probability) members.weights.push_back(probability[k]);
+    result.push_back(std::move(members));
+  }
+  return result;
+}
+
+// Contraction below this is called nothing.
+constexpr double kNothing = 0.1;
+
+std::string learned_about(const std::string& what, double contraction) {
+  const std::string percent = figure(100.0 * std::max(contraction, 0.0), 0) + " %";
+  if (contraction < kNothing)
+    return "about a single person's " + what + " the answers say next to nothing (" + percent + ")";
+  return "a person's answers remove " + percent + " of the population's variance of the " + what;
+}
+
+void describe(Identifiability& result) {
+  const std::string figures =
+      "twice the log-likelihood ratio " + figure(result.gains.statistic, 2) + ", p = " + figure(result.gains.p, 3);
+  result.sentences.push_back(result.gains_apart
+                                 ? "the scales of the two gains differ (" + figures + ")"
+                                 : "these data cannot tell the gains apart: one scale for both explains the answers "
+                                   "as well (" +
+                                       figures + ")");
+  result.sentences.push_back(learned_about("ability", result.ability));
+  result.sentences.push_back(learned_about("gain after right answers", result.confirm_gain));
+  result.sentences.push_back(learned_about("gain after wrong answers", result.correct_gain));
+}
+
+class Fitting {
+ public:
+  Fitting(const ResponseLogs& logs, const FitOptions& options, const LikelihoodTable& table)
+      : logs_{logs}, options_{options}, surface_{table}, limits_{limits_of(logs, options)} {}
+
+  FitReport run() {
+    if (options_.num_types > 0) {
+      mixture_ = fit_mixture(surface_, std::min(options_.num_types, logs_.people.size()), limits_);
+      members_ = mixed_members(*mixture_);
+    } else {
+      members_ = labelled_members(logs_);
+    }
+    for (const auto& members : members_) add_type(members);
+    for (std::size_t i = 0; i < logs_.people.size(); ++i) add_person(i);
+    for (std::size_t k = 0; k < members_.size(); ++k) add_identifiability(k);
+    compare_models();
+    return std::move(report_);
+  }
+
+ private:
+  void add_type(const Members& members) {
+    TypeReport type{.name = members.name, .fit = {}, .share = members.share, .identifiability = {}};
+    type.fit = fit_with_intervals(surface_, members.weights, limits_, GainModel::kFree);
+    type.identifiability.gains = compare_gain_scales(surface_, members.weights, limits_);
+    auto& masses = masses_.emplace_back();
+    const auto random = RandomStream{options_.seed}.split("populations").split(members.name);
+    for (const auto& population :
+         draw_populations(surface_, members.weights, limits_, type.fit, options_.num_draws, random)) {
+      masses.push_back(masses_of(surface_, population, limits_, GainModel::kFree));
+    }
+    report_.types.push_back(std::move(type));
+  }
+
+  void add_person(std::size_t i) {
+    const auto& log = logs_.people[i];
+    PersonReport person{.id = log.id,
+                        .type = log.type,
+                        .periods = log.periods.size(),
+                        .answered = log.answered,
+                        .correct = log.correct,
+                        .type_probabilities = {},
+                        .posterior = {}};
+    std::vector<PopulationMasses> masses;
+    std::vector<double> probabilities;
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      const double probability = mixture_ ? mixture_->probability[i][k] : members_[k].weights[i];
+      if (mixture_) person.type_probabilities.push_back(probability);
+      if (probability < 1e-6) continue;
+      for (const auto& one : masses_[k]) {
+        masses.push_back(one);
+        probabilities.push_back(probability / static_cast<double>(masses_[k].size()));
+      }
+    }
+    person.type_unclear = mixture_ && mixture_->types.size() > 1 &&
+                          *std::max_element(person.type_probabilities.begin(), person.type_probabilities.end()) < 0.9;
+    person.posterior = posterior_of(surface_, i, masses, probabilities);
+    report_.people.push_back(std::move(person));
+  }
+
+  void add_identifiability(std::size_t k) {
+    auto& result = report_.types[k].identifiability;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < report_.people.size(); ++i) {
+      const double weight = members_[k].weights[i];
+      const auto& posterior = report_.people[i].posterior;
+      sum += weight;
+      result.ability += weight * posterior.ability.contraction();
+      result.confirm_gain += weight * posterior.confirm_gain.contraction();
+      result.correct_gain += weight * posterior.correct_gain.contraction();
+      result.difference += weight * posterior.difference.contraction();
+      result.gain_correlation += weight * posterior.gain_correlation;
+    }
+    for (double* value :
+         {&result.ability, &result.confirm_gain, &result.correct_gain, &result.difference, &result.gain_correlation}) {
+      *value /= sum;
+    }
+    result.gains_apart = result.gains.p < 0.05;
+    describe(result);
+  }
+
+  void compare_models() {
+    const auto folds = std::min(options_.folds, logs_.people.size());
+    if (folds < 2) return;
+    std::vector<std::string> labels;
+    for (const auto& person : logs_.people) labels.push_back(person.type);
+    report_.cross_validation = cross_validate(surface_, labels, limits_, folds, options_.seed,
+                                              {.threads = options_.parallel.threads, .on_progress = {}});
+    for (const auto& model : report_.cross_validation) {
+      if (model.model == "full") continue;
+      const std::string figures = " (" + figure(model.difference, 1) + " +- " + figure(model.difference_se, 1) + ")";
+      const bool better = model.difference > 2.0 * model.difference_se;
+      const bool worse = model.difference < -2.0 * model.difference_se;
+      report_.sentences.push_back("people who were held out are predicted " +
+                                  std::string{better  ? "better"
+                                              : worse ? "worse"
+                                                      : "as well"} +
+                                  " by the model '" + model.model + "' " + (better || worse ? "than" : "as") +
+                                  " by one population with two gains" + figures);
+    }
+  }
+
+  const ResponseLogs& logs_;
+  const FitOptions& options_;
+  LikelihoodSurface surface_;
+  PopulationLimits limits_;
+  std::optional<MixtureFit> mixture_;
+  std::vector<Members> members_;
+  std::vector<std::vector<PopulationMasses>> masses_;  // per type, of its possible populations
+  FitReport report_;
+};
+
+}  // namespace
+
+FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
+  constexpr std::size_t kFewest = 3;
+  if (logs.people.size() < kFewest) {
+    too_few(std::to_string(logs.people.size()) + " people are too few to fit a population; 3 are the least");
+  }
+  if (options.num_types == 0) static_cast<void>(labelled_members(logs));  // complain before the work
+  const auto grid = make_grid(options.ability_first, options.ability_last, options.num_abilities, options.gain_last,
+                              options.num_gains);
+  const auto table = log_likelihoods(
+      logs, grid,
+      {.replicates = options.replicates, .seed = options.seed, .slip = options.slip, .parallel = options.parallel});
+  if (!table.complete) return {.complete = false, .types = {}, .people = {}, .cross_validation = {}, .sentences = {}};
+  return Fitting{logs, options, table}.run();
+}
+
+std::string learner_section(char letter, const TypeReport& type) {
+  const auto& p = type.fit.parameters;
+  std::string text = std::string{"[learner."} + letter + "]\n";
+  text += "label = \"" + type.name + " (fitted to " + figure(type.fit.people, 0) + " people)\"\n";
+  text += "ability = { mean = " + figure(p.ability_mean, 3) + ", sd = " + figure(p.ability_sd, 3) + ", min = 0.51 }\n";
+  text += "confirm_gain = { half_normal = " + figure(p.confirm_scale, 3) + " }\n";
+  text += "correct_gain = { half_normal = " + figure(p.correct_scale, 3) + " }\n";
+  text += "gain_max = 0.16\nordered_gains = false\n";
+  return text;
+}
+
+}  // namespace kith
