@@ -1,0 +1,126 @@
+#include "kith/stats/multiple.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "kith/stats/distributions.hpp"
+
+namespace kith {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Adjust, HolmIsNeverAboveBonferroniNorBelowTheRawValue) {
+  const std::vector<double> p{0.01, 0.04, 0.03, 0.005, 0.9, 0.01};
+  const auto holm = adjust(p, Correction::kHolm);
+  const auto bonferroni = adjust(p, Correction::kBonferroni);
+  EXPECT_EQ(adjust(p, Correction::kNone), p);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_LE(p[i], holm[i]);
+    EXPECT_LE(holm[i], bonferroni[i]);
+    EXPECT_LE(bonferroni[i], 1.0);
+  }
+}
+
+TEST(Adjust, AHandComputedHolm) {
+  EXPECT_THAT(adjust(std::vector<double>{0.01, 0.04, 0.03}, Correction::kHolm),
+              testing::Pointwise(testing::DoubleEq(), {0.03, 0.06, 0.06}));
+  EXPECT_TRUE(adjust({}, Correction::kHolm).empty());
+  EXPECT_THROW((void)adjust(std::vector<double>{1.1}, Correction::kHolm), std::invalid_argument);
+  EXPECT_THROW((void)adjust(std::vector<double>{std::nan("")}, Correction::kNone), std::invalid_argument);
+}
+
+TEST(Adjust, CorrectionsHaveNames) {
+  EXPECT_EQ(to_string(Correction::kNone), "none");
+  EXPECT_EQ(to_string(Correction::kBonferroni), "Bonferroni");
+  EXPECT_EQ(to_string(Correction::kHolm), "Holm");
+}
+
+// The range of two means is sqrt(2) |t|: an exact value for every q, tails included.
+TEST(StudentizedRange, OfTwoGroupsIsStudentsT) {
+  for (const double df : {2.0, 3.0, 10.0, 224.0, 19984.0, kInfinity}) {
+    for (const double q : {1e-3, 0.1, 1.0, 3.0, 6.0, 12.0, 20.0, 30.0}) {
+      const double expected = student_t_two_sided(q / std::sqrt(2.0), df);
+      EXPECT_NEAR(studentized_range_upper(q, 2, df), expected, 1e-11 * expected) << q << ' ' << df;
+    }
+  }
+}
+
+// q(0.95; 3, 10) and others from the tables in textbooks, which have three digits.
+TEST(StudentizedRange, QuantilesAreThoseOfTheTables) {
+  EXPECT_NEAR(studentized_range_quantile(0.05, 3, 10), 3.877, 6e-4);
+  EXPECT_NEAR(studentized_range_quantile(0.05, 4, 20), 3.958, 6e-4);
+  EXPECT_NEAR(studentized_range_quantile(0.01, 5, 30), 5.048, 6e-4);
+  EXPECT_NEAR(studentized_range_quantile(0.05, 10, kInfinity), 4.474, 6e-4);
+}
+
+TEST(StudentizedRange, QuantileInvertsTheTail) {
+  for (const std::size_t groups : {2u, 4u, 30u}) {
+    for (const double df : {2.0, 15.0, 1e5}) {
+      for (const double p : {1e-12, 1e-3, 0.05, 0.5, 0.999}) {
+        const double q = studentized_range_quantile(p, groups, df);
+        EXPECT_NEAR(studentized_range_upper(q, groups, df), p, 1e-10 * p);
+      }
+    }
+  }
+}
+
+TEST(StudentizedRange, FallsWithQAndGrowsWithGroups) {
+  double before = 1.0;
+  for (double q = 0.25; q < 40.0; q *= 1.3) {
+    const double upper = studentized_range_upper(q, 4, 56);
+    EXPECT_LT(upper, before);
+    EXPECT_GT(upper, studentized_range_upper(q, 3, 56));
+    before = upper;
+  }
+  EXPECT_GT(before, 0.0);
+}
+
+TEST(StudentizedRange, EndsAreExact) {
+  EXPECT_EQ(studentized_range_upper(0.0, 4, 56), 1.0);
+  EXPECT_EQ(studentized_range_upper(kInfinity, 4, 56), 0.0);
+  EXPECT_EQ(studentized_range_upper(1e300, 4, 1e6), 0.0);
+  EXPECT_EQ(studentized_range_upper(100.0, 4, kInfinity), 0.0);
+  EXPECT_THROW((void)studentized_range_upper(-1.0, 4, 56), std::invalid_argument);
+  EXPECT_THROW((void)studentized_range_upper(1.0, 1, 56), std::invalid_argument);
+  EXPECT_THROW((void)studentized_range_upper(1.0, 4, 1.9), std::invalid_argument);
+  EXPECT_THROW((void)studentized_range_quantile(0.0, 4, 56), std::invalid_argument);
+}
+
+TEST(Tukey, OfTwoGroupsIsTheTTest) {
+  const auto pairs = tukey_hsd(std::vector<double>{1.0, 2.5}, std::vector<std::size_t>{4, 9}, 1.3, 11.0);
+  ASSERT_TRUE(pairs);
+  const double standard_error = std::sqrt(1.3 * (1.0 / 4.0 + 1.0 / 9.0));
+  EXPECT_NEAR(pairs->at(0).p, student_t_two_sided(1.5 / standard_error, 11.0), 1e-12);
+  EXPECT_NEAR(pairs->at(0).high, 1.5 + student_t_quantile(0.975, 11.0) * standard_error, 1e-10);
+}
+
+TEST(Tukey, IntervalsHoldZeroIffNotSignificant) {
+  const std::vector<double> means{1.0, 1.4, 2.1, 4.0};
+  const auto pairs = tukey_hsd(means, std::vector<std::size_t>{5, 8, 6, 7}, 1.0, 22.0, 0.9);
+  ASSERT_EQ(pairs->size(), 6u);
+  for (const auto& pair : *pairs) {
+    EXPECT_LT(pair.first, pair.second);
+    EXPECT_EQ(pair.difference, means[pair.second] - means[pair.first]);
+    EXPECT_EQ(pair.low <= 0.0 && pair.high >= 0.0, pair.p >= 0.1);
+  }
+}
+
+TEST(Tukey, SaysWhyNothingCanBeCompared) {
+  const std::vector<double> means{1.0, 2.0};
+  const std::vector<std::size_t> counts{3, 3};
+  EXPECT_EQ(tukey_hsd(means, counts, 0.0, 4).reason(), "no residual spread");
+  EXPECT_EQ(tukey_hsd(means, counts, 1.0, 1).reason(), "fewer than two residual degrees of freedom");
+  EXPECT_EQ(tukey_hsd(means, std::vector<std::size_t>{3, 0}, 1.0, 4).reason(), "a group without observations");
+  EXPECT_EQ(tukey_hsd(std::vector<double>{1}, std::vector<std::size_t>{3}, 1.0, 4).reason(), "fewer than two groups");
+  EXPECT_THROW((void)tukey_hsd(means, std::vector<std::size_t>{3}, 1.0, 4), std::invalid_argument);
+  EXPECT_THROW((void)tukey_hsd(means, counts, -1.0, 4), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kith
