@@ -26,7 +26,7 @@ PopulationLimits limits_of(const ResponseLogs& logs, const FitOptions& options) 
 // One population and the weights of its people.
 struct Members {
   std::string name;
-  std::vector<double> weights;
+  std::vector<double> weights{};
   double share = 1.0;
 };
 

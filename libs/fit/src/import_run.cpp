@@ -236,6 +236,12 @@ class RunImport {
       const auto it = shown.find(period);
       person.periods.push_back(period_of(it == shown.end() ? Shown{} : it->second, answers[period], person));
     }
+    // There is no final examination: the last answers stand in for it.
+    constexpr std::size_t kFinal = 6;
+    person.final_tests = std::min(kFinal, last_.size());
+    person.final_correct = static_cast<std::size_t>(
+        std::count(last_.end() - static_cast<std::ptrdiff_t>(person.final_tests), last_.end(), true));
+    last_.clear();
     logs_.people.push_back(std::move(person));
   }
 
@@ -253,6 +259,7 @@ class RunImport {
       period.taught.insert(period.taught.end(), answered.covered.begin(), answered.covered.end());
       person.correct += answered.correct ? 1u : 0u;
       ++person.answered;
+      last_.push_back(answered.correct);
       add_answer(period, answered, demo);
     }
     period.possible.assign(possible.begin(), possible.end());
@@ -317,6 +324,7 @@ class RunImport {
   std::map<Seat, std::string> types_;
   std::map<Seat, std::map<std::int64_t, Shown>> shown_;
   std::map<Seat, std::map<std::int64_t, std::vector<Answered>>> answers_;
+  std::vector<bool> last_;  // answers of the person at hand, in order
   std::size_t num_unknown_paths_ = 0;
   std::size_t num_unanswered_ = 0;
   ResponseLogs logs_;

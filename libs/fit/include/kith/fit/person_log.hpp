@@ -47,7 +47,7 @@ struct PersonLog {
   std::vector<LoggedPeriod> periods;
   std::size_t answered = 0;       ///< Tests answered, in all periods.
   std::size_t correct = 0;        ///< Of these.
-  std::size_t final_tests = 0;    ///< Final tests, which no feedback followed; 0 if there are none.
+  std::size_t final_tests = 0;    ///< Final tests; in run folders, which have none, the last 6 answers.
   std::size_t final_correct = 0;  ///< Of these.
 };
 

@@ -1,0 +1,274 @@
+#include "kith/fit/import_trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "open_table.hpp"
+#include "vectors.hpp"
+
+namespace kith {
+namespace {
+
+using Json = nlohmann::json;
+using detail::OpenRow;
+
+enum class TrialKind { kDemonstration, kTest, kFeedback, kFinalTest };
+
+struct Trial {
+  TrialKind kind = TrialKind::kTest;
+  bool correct = false;
+  std::string component;
+  std::vector<HalfSpace> half_spaces;
+  std::size_t line = 0;
+};
+
+struct Participant {
+  std::string condition;
+  std::size_t line = 0;  // of the first row
+  std::vector<Trial> trials;
+};
+
+const std::map<std::string, TrialKind>& kinds() {
+  static const std::map<std::string, TrialKind> kKinds{
+      {"demo", TrialKind::kDemonstration},           {"remedial demo", TrialKind::kDemonstration},
+      {"diagnostic test", TrialKind::kTest},         {"remedial test", TrialKind::kTest},
+      {"diagnostic feedback", TrialKind::kFeedback}, {"remedial feedback", TrialKind::kFeedback},
+      {"final test", TrialKind::kFinalTest}};
+  return kKinds;
+}
+
+const std::set<std::string>& conditions() {
+  static const std::set<std::string> kConditions{"open", "pl", "cl", "wt", "wtcl"};
+  return kConditions;
+}
+
+std::optional<bool> verdict_of(const std::string& text) {
+  static const std::set<std::string> kRight{"1", "1.0", "true", "True", "TRUE"};
+  static const std::set<std::string> kWrong{"0", "0.0", "false", "False", "FALSE"};
+  if (kRight.contains(text)) return true;
+  if (kWrong.contains(text)) return false;
+  return std::nullopt;
+}
+
+// Adds the normals in lists that may be nested: [[1, 0, -4]] or [[[1, 0, -4]]]. False if there is anything else.
+bool add_normals(const Json& value, std::vector<HalfSpace>& half_spaces) {
+  if (!value.is_array()) return false;
+  const bool numbers =
+      !value.empty() && std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_number(); });
+  if (!numbers) {
+    return std::all_of(value.begin(), value.end(), [&](const Json& one) { return add_normals(one, half_spaces); });
+  }
+  if (value.size() != 3) return false;
+  IntegerVector normal(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = value[k].get<double>();
+    if (!(std::abs(x) < 1e9) || std::abs(x - std::round(x)) > 1e-6) return false;
+    normal[k] = std::llround(x);
+  }
+  if (!normal.is_zero()) half_spaces.emplace_back(normal);
+  return true;
+}
+
+class TrialImport {
+ public:
+  explicit TrialImport(std::filesystem::path path) : path_{std::move(path)} {}
+
+  ResponseLogs run() {
+    read();
+    detail::throw_if_errors(logs_.notes);
+    find_usual_finals();
+    LearnerModel model;
+    model.prior = Cone::intersection(std::vector{HalfSpace{IntegerVector{0, 0, -1}}}).value();  // actions cost
+    logs_.models.push_back(model);
+    for (const auto& [key, participant] : participants_) add_person(key, participant);
+    return std::move(logs_);
+  }
+
+ private:
+  // Person and domain.
+  using Key = std::pair<std::string, std::string>;
+
+  void complain(std::size_t line, const std::string& id, const std::string& message, const std::string& hint = {}) {
+    if (logs_.notes.size() < 20) logs_.notes.push_back(detail::fault(id, message, path_, line, hint));
+  }
+  void remark(std::size_t line, const std::string& id, const std::string& message) {
+    logs_.notes.push_back(detail::note(id, message, path_, line));
+  }
+
+  void read() {
+    const auto needed = [](std::string name) {
+      return Column{
+          .name = std::move(name), .type = ColumnType::kText, .description = {}, .unit = {}, .required = true};
+    };
+    const auto optional = [](std::string name) { return Column{.name = std::move(name), .type = ColumnType::kText}; };
+    detail::read_open_csv(path_, {needed("user_id"), needed("domain"), needed("interaction_type")},
+                          {optional("loop_condition"), optional("is_opt_response"), optional("mdp_parameters"),
+                           optional("kc_id"), optional("group")},
+                          logs_.notes, [&](const OpenRow& row) { add_row(row); });
+  }
+
+  void add_row(const OpenRow& row) {
+    const auto type = *row.text("interaction_type");
+    const auto kind = kinds().find(type);
+    if (kind == kinds().end()) {
+      std::vector<std::string> known;
+      for (const auto& [name, one] : kinds()) known.push_back(name);
+      const auto nearest = nearest_word(type, known);
+      complain(row.line(), "E0709", "'" + type + "' is no type of interaction",
+               nearest.empty() ? "" : "did you mean '" + nearest + "'?");
+      return;
+    }
+    auto person = *row.text("user_id");
+    if (const auto group = row.text("group"); group && !group->empty()) person = *group + "/" + person;
+    auto& participant = participants_[{person, *row.text("domain")}];
+    if (participant.trials.empty()) participant.line = row.line();
+    note_condition(row, participant);
+    if (auto trial = trial_of(row, kind->second)) participant.trials.push_back(*std::move(trial));
+  }
+
+  void note_condition(const OpenRow& row, Participant& participant) {
+    const auto condition = row.text("loop_condition").value_or("");
+    if (condition.empty()) return;
+    if (!conditions().contains(condition)) {
+      complain(row.line(), "E0709", "'" + condition + "' is no loop_condition", "known: open, pl, cl, wt, wtcl");
+    } else if (participant.condition.empty()) {
+      participant.condition = condition;
+    } else if (participant.condition != condition) {
+      remark(row.line(), "W0701",
+             "loop_condition changes from '" + participant.condition + "' to '" + condition +
+                 "' within a person; the first one counts");
+    }
+  }
+
+  std::optional<Trial> trial_of(const OpenRow& row, TrialKind kind) {
+    Trial trial{.kind = kind, .correct = false, .component = {}, .half_spaces = {}, .line = row.line()};
+    if (kind == TrialKind::kTest || kind == TrialKind::kFinalTest) {
+      const auto text = row.text("is_opt_response").value_or("");
+      const auto verdict = verdict_of(text);
+      if (!verdict) {
+        complain(row.line(), "E0709", "is_opt_response of a test is '" + text + "'", "write 1 or 0, or true or false");
+        return std::nullopt;
+      }
+      trial.correct = *verdict;
+    }
+    const auto text = row.text("mdp_parameters").value_or("");
+    if (!text.empty()) {
+      const auto parameters = Json::parse(text, nullptr, false);
+      if (!parameters.is_object() ||
+          (parameters.contains("constraints") && !add_normals(parameters["constraints"], trial.half_spaces))) {
+        complain(row.line(), "E0707",
+                 "mdp_parameters is no JSON object with a list of normals of three integers as "
+                 "'constraints'");
+        return std::nullopt;
+      }
+      if (parameters.contains("variable_filter")) trial.component = parameters["variable_filter"].dump();
+    }
+    if (const auto component = row.text("kc_id"); component && !component->empty()) trial.component = *component;
+    return trial;
+  }
+
+  static std::size_t finals_of(const Participant& participant) {
+    return static_cast<std::size_t>(std::count_if(participant.trials.begin(), participant.trials.end(),
+                                                  [](const Trial& t) { return t.kind == TrialKind::kFinalTest; }));
+  }
+
+  static bool has(const Participant& participant, TrialKind kind) {
+    return std::any_of(participant.trials.begin(), participant.trials.end(),
+                       [&](const Trial& trial) { return trial.kind == kind; });
+  }
+
+  // How many final tests most people have, by domain.
+  void find_usual_finals() {
+    std::map<std::string, std::map<std::size_t, std::size_t>> counts;
+    for (const auto& [key, participant] : participants_) ++counts[key.second][finals_of(participant)];
+    for (const auto& [domain, of_number] : counts) {
+      usual_finals_[domain] = std::max_element(of_number.begin(), of_number.end(), [](const auto& a, const auto& b) {
+                                return a.second < b.second;
+                              })->first;
+    }
+  }
+
+  void add_person(const Key& key, const Participant& participant) {
+    const auto name = key.first + "/" + key.second;
+    const auto& condition = participant.condition;
+    if (condition == "wt" || condition == "wtcl") {
+      remark(participant.line, "W0705", "person " + name + " was told the weights and is left out");
+      return;
+    }
+    const bool feedback = has(participant, TrialKind::kFeedback);
+    if (condition == "open" && (feedback || has(participant, TrialKind::kTest))) {
+      remark(participant.line, "W0701",
+             "person " + name + " is labelled 'open' but was tested or corrected while learning; the rows count");
+    }
+    if (condition == "cl" && !feedback) {
+      remark(participant.line, "W0701",
+             "person " + name + " is labelled 'cl' but never heard feedback; the rows count");
+    }
+    const auto finals = finals_of(participant);
+    if (finals != usual_finals_[key.second]) {
+      remark(participant.line, "W0702",
+             "person " + name + " has " + std::to_string(finals) + " final tests, most have " +
+                 std::to_string(usual_finals_[key.second]) + "; those that are there count");
+    }
+    PersonLog log;
+    log.id = name;
+    fill(log, participant, feedback);
+    logs_.people.push_back(std::move(log));
+  }
+
+  void fill(PersonLog& log, const Participant& participant, bool has_feedback) {
+    std::map<std::string, std::size_t> components;
+    std::size_t repaired = 0;
+    std::vector<HalfSpace> shown;
+    const auto& trials = participant.trials;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const auto& trial = trials[i];
+      if (trial.kind == TrialKind::kDemonstration || trial.kind == TrialKind::kFeedback) {
+        shown.insert(shown.end(), trial.half_spaces.begin(), trial.half_spaces.end());
+        continue;
+      }
+      LoggedPeriod period;
+      period.component = components.try_emplace(trial.component, components.size() + 1).first->second;
+      // A final examination goes across components; nothing is learned in it.
+      if (trial.kind == TrialKind::kFinalTest && !log.periods.empty()) period.component = log.periods.back().component;
+      period.conveyed = std::exchange(shown, {});
+      if (!trial.half_spaces.empty()) period.answers.push_back({trial.half_spaces, trial.correct});
+      period.chance = trial.half_spaces.empty() ? 1.0 : 0.5;
+      period.all_correct = trial.correct;
+      const bool heard = i + 1 < trials.size() && trials[i + 1].kind == TrialKind::kFeedback;
+      const bool missing = trial.kind == TrialKind::kTest && !heard && trial.correct && has_feedback;
+      repaired += missing ? 1u : 0u;
+      period.feedback = heard || missing;
+      if (heard) period.taught = trials[++i].half_spaces;
+      if (period.feedback && period.taught.empty()) period.taught = trial.half_spaces;
+      ++log.answered;
+      log.correct += trial.correct ? 1u : 0u;
+      if (trial.kind == TrialKind::kFinalTest) {
+        ++log.final_tests;
+        log.final_correct += trial.correct ? 1u : 0u;
+      }
+      log.periods.push_back(std::move(period));
+    }
+    if (repaired > 0) {
+      remark(participant.line, "W0703",
+             "person " + log.id + ": after " + std::to_string(repaired) +
+                 " right answers there is no feedback row; they count as heard");
+    }
+  }
+
+  std::filesystem::path path_;
+  std::map<Key, Participant> participants_;
+  std::map<std::string, std::size_t> usual_finals_;
+  ResponseLogs logs_;
+};
+
+}  // namespace
+
+ResponseLogs import_trials(const std::filesystem::path& path) { return TrialImport{path}.run(); }
+
+}  // namespace kith
