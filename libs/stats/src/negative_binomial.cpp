@@ -19,10 +19,11 @@
 namespace kith::detail {
 namespace {
 
-constexpr int kMaxNewtonSteps = 100;
-// A Newton step this small in every coefficient (a log ratio) is the last one.
-constexpr double kSmallestStep = 1e-11;
-// Newton's step is halved until the log-likelihood falls by no more than this part of itself: what rounding may do.
+constexpr int kMostSteps = 200;
+// A Newton step that promises less than this of log-likelihood is the last one: the coefficients are then off by 1e-7
+// of their standard errors, and by the square of that once it is taken.
+constexpr double kSmallestGain = 1e-14;
+// A step is halved until the log-likelihood falls by no more than this part of itself: what rounding may do.
 constexpr double kRoundingOfLikelihood = 1e-13;
 // Where the variance exceeds the mean by less than this part of it, theta is taken as infinite.
 constexpr double kLeastExcess = 1e-10;
@@ -126,39 +127,62 @@ Eigen::VectorXd first_guess(const CountData& data, const CountDesign& design) {
   return weighted_products(design, weights).ldlt().solve(weighted_columns(design, values));
 }
 
-// Maximises the likelihood over the coefficients for given alpha. It is concave in them, so Newton's method with
-// halved steps gets there from anywhere, unless the maximum lies at infinity.
+// The step to the maximum of the likelihood's quadratic approximation: with the observed information (Newton), or with
+// the expected one (Fisher), which stays large where the data are far from what the coefficients say.
+enum class Information { kObserved, kExpected };
+struct ScoringStep {
+  Eigen::VectorXd step;
+  double gain = 0.0;  // of log-likelihood, twice what the approximation promises
+};
+ScoringStep scoring_step(const CountData& data, const CountDesign& design, const Eigen::VectorXd& eta, double alpha,
+                         Information information) {
+  Eigen::VectorXd scores(eta.size());
+  Eigen::VectorXd weights(eta.size());
+  for (std::size_t c = 0; c < data.cells.size(); ++c) {
+    const auto& cell = data.cells[c];
+    const auto row = static_cast<Eigen::Index>(c);
+    const double mu = std::exp(eta[row]);
+    const double spread = 1.0 + alpha * mu;
+    scores[row] = (cell.sum - cell.observations * mu) / spread;
+    weights[row] = information == Information::kObserved
+                       ? (alpha * cell.sum + cell.observations) * mu / (spread * spread)
+                       : cell.observations * mu / spread;
+  }
+  const Eigen::VectorXd gradient = weighted_columns(design, scores);
+  const Eigen::VectorXd step = weighted_products(design, weights).ldlt().solve(gradient);
+  return {step, step.dot(gradient)};
+}
+
+// Maximises the likelihood over the coefficients for given alpha. It is concave in them, so steps that are
+// halved until they do not lose get there from anywhere, unless the maximum lies at infinity.
 std::optional<Eigen::VectorXd> fit_coefficients(const CountData& data, const CountDesign& design, double alpha,
                                                 Eigen::VectorXd coefficients) {
   Eigen::VectorXd eta = linear_predictor(design, coefficients);
   double likelihood = cell_log_likelihood(data, eta, alpha);
-  Eigen::VectorXd scores(eta.size());
-  Eigen::VectorXd weights(eta.size());
-  for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
-    for (std::size_t c = 0; c < data.cells.size(); ++c) {
-      const auto& cell = data.cells[c];
-      const auto row = static_cast<Eigen::Index>(c);
-      const double mu = std::exp(eta[row]);
-      const double spread = 1.0 + alpha * mu;
-      scores[row] = (cell.sum - cell.observations * mu) / spread;
-      weights[row] = (alpha * cell.sum + cell.observations) * mu / (spread * spread);
-    }
-    const Eigen::LDLT<Eigen::MatrixXd> information{weighted_products(design, weights)};
-    Eigen::VectorXd step = information.solve(weighted_columns(design, scores));
-    if (information.info() != Eigen::Success || !step.allFinite()) return std::nullopt;
+  // Moves by the step if that loses nothing but rounding.
+  const auto accepts = [&](const Eigen::VectorXd& step) {
+    const Eigen::VectorXd next = coefficients + step;
+    const Eigen::VectorXd next_eta = linear_predictor(design, next);
+    const double next_likelihood = cell_log_likelihood(data, next_eta, alpha);
     const double allowed_loss = kRoundingOfLikelihood * (1.0 + std::abs(likelihood));
-    while (true) {
-      const Eigen::VectorXd next = coefficients + step;
-      eta = linear_predictor(design, next);
-      const double next_likelihood = cell_log_likelihood(data, eta, alpha);
-      const bool is_last = step.cwiseAbs().maxCoeff() <= kSmallestStep;
-      if (is_last || next_likelihood >= likelihood - allowed_loss) {
-        coefficients = next;
-        likelihood = next_likelihood;
-        if (is_last) return coefficients;
-        break;
-      }
-      step /= 2.0;
+    if (!(next_likelihood >= likelihood - allowed_loss)) return false;
+    coefficients = next;
+    eta = next_eta;
+    likelihood = next_likelihood;
+    return true;
+  };
+  for (int iteration = 0; iteration < kMostSteps; ++iteration) {
+    const auto newton = scoring_step(data, design, eta, alpha, Information::kObserved);
+    if (newton.step.allFinite()) {
+      if (newton.gain <= kSmallestGain) return coefficients + newton.step;
+      if (accepts(newton.step)) continue;
+    }
+    auto fisher = scoring_step(data, design, eta, alpha, Information::kExpected);
+    if (!fisher.step.allFinite()) return std::nullopt;
+    while (!accepts(fisher.step)) {
+      fisher.step /= 2.0;
+      fisher.gain /= 2.0;
+      if (fisher.gain <= kSmallestGain) return coefficients;
     }
   }
   return std::nullopt;

@@ -122,7 +122,8 @@ TEST(CountModel, DoesNotDependOnTheOrderOfObservations) {
     for (auto& factor : factors) std::ranges::reverse(factor.codes);
     const auto reversed = fit_count_model(counts, factors);
     ASSERT_TRUE(model && reversed);
-    EXPECT_LE(relative_error(reversed->log_likelihood, model->log_likelihood), 1e-12);
+    // The largest data set's terms are of size 1e7 and cancel to 1e3.
+    EXPECT_LE(relative_error(reversed->log_likelihood, model->log_likelihood), 1e-11);
     EXPECT_LE(relative_error(reversed->theta.value_or(0.0), model->theta.value_or(0.0)), 1e-8);
   }
 }
@@ -141,10 +142,8 @@ TEST(CountModel, FitsCountsOfAnySize) {
   ASSERT_TRUE(model) << model.reason();
   EXPECT_NEAR(model->ratios.front().ratio.estimate, 24.0 / 7.0, 1e-6);
   ASSERT_TRUE(model->theta.has_value());
-  // So many that a gamma distribution of the same shape has the same likelihood: its equation for the shape.
-  const auto gamma_shape = *model->theta;
-  EXPECT_GT(gamma_shape, 1.0);
-  EXPECT_LT(gamma_shape, 20.0);
+  EXPECT_GT(*model->theta, 1.0);  // the moments say 1.9
+  EXPECT_LT(*model->theta, 4.0);
 }
 
 std::string reason_of(const std::vector<double>& counts, const std::vector<Factor>& factors) {
@@ -170,9 +169,8 @@ TEST(CountModel, SaysWhyThereIsNone) {
 
 const std::string kSeparated = "combinations of levels with only zeros leave some ratios without a bound";
 
-// Levels a1, a2 and b1, b2 each have counts, but only (a1, b1) and (a2, b2) and (a2, b1) may tell the effects apart.
 TEST(CountModel, SaysSoIfZerosOfSomeCombinationsSeparateTheCounts) {
-  // b2 against b1 is known from the cells with a1 only, where b2 has none but zeros; with a2 only b2 occurs.
+  // Only the cells of a1 compare b2 with b1, and there b2 has none but zeros.
   const Factor a{"a", {"1", "2"}, {0, 0, 0, 0, 1, 1}};
   const Factor b{"b", {"1", "2"}, {0, 0, 1, 1, 1, 1}};
   EXPECT_EQ(reason_of({3, 2, 0, 0, 4, 1}, {a, b}), kSeparated);
@@ -191,6 +189,23 @@ TEST(CountModel, SaysSoIfSeveralDirectionsAreSeparated) {
   const Factor a{"a", {"1", "2", "3"}, {0, 0, 0, 0, 0, 0, 1, 1, 2, 2}};
   const Factor b{"b", {"1", "2", "3"}, {0, 0, 1, 1, 2, 2, 1, 1, 2, 2}};
   EXPECT_EQ(reason_of({3, 2, 0, 0, 0, 0, 4, 1, 2, 2}, {a, b}), kSeparated);
+}
+
+TEST(CountModel, SaysSoIfSeparationIsOneOfManyDirections) {
+  const Factor a{"a", {"1", "2", "3", "4"}, {0, 1, 1, 0, 2, 1, 3, 3, 0, 2}};
+  const Factor b{"b", {"1", "2", "3"}, {1, 1, 1, 0, 2, 2, 1, 1, 1, 1}};
+  const Factor c{"c", {"1", "2"}, {1, 1, 0, 1, 1, 0, 1, 0, 1, 1}};
+  EXPECT_EQ(reason_of({0, 1, 0, 7, 1, 0, 0, 4, 0, 0}, {a, b, c}), kSeparated);
+}
+
+TEST(CountModel, FitsWhereOnlyZerosTellTwoFactorsApart) {
+  // Newton's steps end in rounding here that is large against a fixed step, as the likelihood is almost flat.
+  const Factor a{"a", {"1", "2"}, {0, 1, 0, 0, 0, 1, 1}};
+  const Factor b{"b", {"1", "2"}, {1, 1, 0, 1, 1, 1, 0}};
+  const Factor c{"c", {"1", "2"}, {0, 0, 0, 0, 1, 1, 1}};
+  const auto model = fit_count_model(std::vector<double>{48391, 0, 6068, 0, 0, 13715, 2930}, std::vector{a, b, c});
+  ASSERT_TRUE(model) << model.reason();
+  EXPECT_NEAR(model->coefficients[1], model->coefficients[3], 1e-6);  // a and c enter alike
 }
 
 TEST(CountModel, NamesWhatItCannotTake) {
