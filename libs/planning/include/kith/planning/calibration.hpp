@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+#include "kith/planning/targets.hpp"
+
+namespace kith {
+
+/// How far a model is from its targets, >= 0:
+///   sum over targets of 3^(1 - priority) (max(0, |z| - 1) + 0.01 z^2), z = miss().
+/// Beyond the tolerance a target counts in proportion, so that one more important target outweighs equal misses of
+/// the next two ranks; within it only a little, which is what decides between settings that meet everything.
+/// @param misses  one per target.
+[[nodiscard]] double discrepancy(std::span<const Target> targets, std::span<const double> misses);
+
+/// What a model makes of one target.
+struct TargetOutcome {
+  double model = 0.0;
+  /// By the jackknife over replicates, which keeps the teams of the same people together.
+  double standard_error = 0.0;
+  double miss = 0.0;  ///< In tolerances, signed.
+};
+
+/// One setting of the parameters, simulated.
+struct CalibrationPoint {
+  std::string label;           ///< "as in the study", "best of the surface", ...
+  std::vector<double> values;  ///< One per parameter.
+  std::size_t teams_per_cell = 0;
+  std::vector<TargetOutcome> targets;
+  double discrepancy = 0.0;
+  double standard_error = 0.0;  ///< Of the discrepancy, jackknife.
+};
+
+/// The values of one parameter that do as well as the best, the other parameters moving along.
+struct ParameterRange {
+  double low = 0.0;
+  double high = 0.0;
+  bool open_low = false;   ///< The range ends where the last search did: smaller values may do as well.
+  bool open_high = false;  ///< Larger ones.
+};
+
+/// What a parameter does to a target's figure, over the whole ranges, by the quadratic fitted to the first design.
+struct Sensitivity {
+  double main_share = 0.0;   ///< Of the variance, in [0, 1]: by this parameter alone [sobol2001].
+  double total_share = 0.0;  ///< And with all terms that it is part of.
+  double slope = 0.0;        ///< From the lower to the upper end, others at the centre, in the figure's unit.
+};
+
+/// Two targets that pull in different directions.
+struct Conflict {
+  std::size_t first = 0;  ///< Indices of targets.
+  std::size_t second = 0;
+  /// The smallest value that the larger of the two |misses| takes over all settings, by the quadratics, in tolerances.
+  double closest = 0.0;
+};
+
+/// A point of the trade-off between two quantities.
+struct FrontierPoint {
+  CalibrationPoint point;
+  double first_error = 0.0;  ///< Root mean square of the misses of the first quantity's means, in tolerances.
+  double second_error = 0.0;
+};
+
+struct CalibrationOptions {
+  std::size_t rounds = 3;           ///< Designs, each in a smaller box than the one before.
+  std::size_t points = 64;          ///< Settings per design.
+  std::size_t teams = 20;           ///< Per cell, for each setting of a design.
+  std::size_t confirm_teams = 200;  ///< Per cell, fresh ones, for the candidates; half as many on the frontier.
+  std::size_t frontier_points = 7;  ///< 0: no frontier.
+  std::uint64_t seed = 1;
+  std::size_t threads = 0;  ///< Changes the speed, never a result.
+  /// As in RunOptions; counts teams. The total is exact from the last design on and an upper bound before.
+  std::function<bool(std::size_t done, std::size_t total)> on_progress{};
+};
+
+struct Calibration {
+  CalibrationPoint best;
+  std::vector<CalibrationPoint> candidates;                 ///< All that were confirmed, the study as it is first.
+  std::vector<ParameterRange> ranges;                       ///< One per parameter.
+  std::vector<double> surface_error, explained;             ///< Of the last quadratics, one per target.
+  std::vector<std::vector<Sensitivity>> sensitivities;      ///< Shape [targets][parameters].
+  std::vector<double> sensitivity_explained;                ///< By the first quadratics, one per target.
+  std::vector<Conflict> conflicts;                          ///< Worst first; only pairs whose members can be met alone.
+  std::optional<Quantity> first_quantity, second_quantity;  ///< Of the frontier; missing without one.
+  std::vector<FrontierPoint> frontier;                      ///< Not dominated by each other; first_error rises.
+  std::size_t teams_simulated = 0;
+};
+
+/// Fits the free parameters of a study to published figures by simulation.
+///
+/// A maximin Latin hypercube over the box, simulated with common random numbers, gives a quadratic per target;
+/// where their discrepancy is small the next, smaller design is placed, and so on. The best of the last quadratic, the
+/// setting that leaves as many parameters as possible as they are, the best setting simulated, and the study as it
+/// is are then simulated with fresh seeds and more teams; among those that do not differ beyond the
+/// noise the one that changes least is the answer. Values are rounded to what their ranges support.
+/// @param targets  with at least one target and one parameter.
+/// @return nothing if on_progress stopped it.
+/// @throws std::invalid_argument without targets or parameters or with counts below 2 (teams) or 8 (points).
+/// @throws kith::Error if the study refuses a combination of values.
+[[nodiscard]] std::optional<Calibration> calibrate(const Atlas& atlas, const StudyMaker& make_study,
+                                                   const TargetSet& targets, const CalibrationOptions& options = {});
+
+}  // namespace kith

@@ -1,0 +1,283 @@
+#include "kith/planning/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "evaluation.hpp"
+#include "frontier.hpp"
+#include "kith/planning/space_filling.hpp"
+#include "surfaces.hpp"
+
+namespace kith {
+namespace {
+
+class Calibrator {
+ public:
+  Calibrator(const Atlas& atlas, const StudyMaker& make_study, const TargetSet& set, const CalibrationOptions& options)
+      : set_{set}, options_{options}, random_{options.seed}, lab_{atlas, make_study, set, options} {
+    for (const auto& parameter : set.parameters) present_.push_back(parameter.present);
+    lab_.expect(lab_.cost(options.rounds * options.points, options.teams) + lab_.cost(4, options.confirm_teams) +
+                lab_.cost(options.frontier_points, frontier_teams()));
+  }
+
+  std::optional<Calibration> run() {
+    auto box = Box::whole(present_.size());
+    for (std::size_t round = 0; round < options_.rounds; ++round) {
+      if (!design(box, round)) return std::nullopt;
+      surfaces_ = fit_in(box);
+      if (round == 0) describe_sensitivities();
+      if (round + 1 < options_.rounds) box = smaller(box, round);
+    }
+    if (!confirm(box) || !explore_frontier()) return std::nullopt;
+    result_.teams_simulated = lab_.done();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t frontier_teams() const { return std::max<std::size_t>(2, options_.confirm_teams / 2); }
+  [[nodiscard]] RandomStream stream(std::string_view purpose, std::size_t number = 0) const {
+    return random_.split(purpose).split(number);
+  }
+
+  // Places a design in the box and simulates it; all designs share their people and chance.
+  bool design(const Box& box, std::size_t round) {
+    constexpr std::size_t kTries = 20;
+    std::vector<std::vector<double>> settings;
+    for (const auto& fraction : latin_hypercube(options_.points, present_.size(), kTries, stream("design", round))) {
+      units_.push_back(box.place(fraction));
+      settings.push_back(to_values(set_.parameters, units_.back()));
+    }
+    const auto evaluations = lab_.run(settings, options_.teams, random_.split("search").address());
+    if (!evaluations) return false;
+    evaluations_.insert(evaluations_.end(), evaluations->begin(), evaluations->end());
+    return true;
+  }
+
+  // From the points in the box and a little around it.
+  [[nodiscard]] Surfaces fit_in(const Box& box) const {
+    constexpr double kMargin = 0.25;
+    std::vector<std::vector<double>> points;
+    std::vector<Evaluation> evaluations;
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+      if (!box.contains(units_[i], kMargin)) continue;
+      points.push_back(units_[i]);
+      evaluations.push_back(evaluations_[i]);
+    }
+    return {set_.targets, box, points, evaluations};
+  }
+
+  [[nodiscard]] Objective objective() const {
+    return [this](std::span<const double> unit) { return surfaces_->discrepancy_at(unit); };
+  }
+
+  // Around the best tenth of the box, at least a quarter as wide as before, and a little beyond it.
+  [[nodiscard]] Box smaller(const Box& box, std::size_t round) const {
+    constexpr std::size_t kSample = 8192;
+    auto points = latin_hypercube(kSample, present_.size(), 1, stream("shrink", round));
+    std::vector<double> values;
+    for (auto& point : points) {
+      point = box.place(point);
+      values.push_back(surfaces_->discrepancy_at(point));
+    }
+    std::vector<std::size_t> order(kSample);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    order.resize(kSample / 10);
+    Box next = box;
+    for (std::size_t k = 0; k < present_.size(); ++k) {
+      std::vector<double> coordinates;
+      for (const auto i : order) coordinates.push_back(points[i][k]);
+      std::sort(coordinates.begin(), coordinates.end());
+      const auto quantile = [&](double q) {
+        return coordinates[static_cast<std::size_t>(q * static_cast<double>(coordinates.size() - 1))];
+      };
+      const double before = box.high[k] - box.low[k];
+      const double low = quantile(0.02), high = quantile(0.98);
+      const double half = std::max((high - low) / 2.0 + 0.05 * before, before / 8.0);
+      next.low[k] = std::clamp((low + high) / 2.0 - half, 0.0, 1.0);
+      next.high[k] = std::clamp((low + high) / 2.0 + half, 0.0, 1.0);
+    }
+    return next;
+  }
+
+  void describe_sensitivities() {
+    for (std::size_t t = 0; t < set_.targets.size(); ++t) {
+      const auto& surface = surfaces_->surface(t);
+      std::vector<Sensitivity> row;
+      const double unit = set_.targets[t].is_factor ? set_.targets[t].value : 1.0;
+      for (std::size_t k = 0; k < present_.size(); ++k)
+        row.push_back({surface.main_share(k), surface.total_share(k), unit * surface.slope(k)});
+      result_.sensitivities.push_back(std::move(row));
+      result_.sensitivity_explained.push_back(surface.explained());
+    }
+  }
+
+  // --- candidates --------------------------------------------------------------
+
+  // As many parameters as possible as the study has them, the others moved to where that costs least.
+  [[nodiscard]] std::vector<double> frugal(const Box& box, const std::vector<double>& best, double allowed) const {
+    const auto present = to_unit(set_.parameters, present_);
+    Fixed fixed(present_.size());
+    auto point = best;
+    while (true) {
+      std::optional<std::size_t> cheapest;
+      std::vector<double> cheapest_point;
+      double cheapest_value = surfaces_->discrepancy_at(best) + allowed;
+      for (std::size_t k = 0; k < present_.size(); ++k) {
+        if (fixed[k] || present[k] < box.low[k] || present[k] > box.high[k]) continue;
+        auto trial = fixed;
+        trial[k] = present[k];
+        const auto there = minimum(objective(), box, trial, stream("frugal", k));
+        const double value = surfaces_->discrepancy_at(there);
+        if (value > cheapest_value) continue;
+        cheapest = k;
+        cheapest_point = there;
+        cheapest_value = value;
+      }
+      if (!cheapest) return point;
+      fixed[*cheapest] = present[*cheapest];
+      point = cheapest_point;
+    }
+  }
+
+  void find_ranges(const Box& box, const std::vector<double>& best, double allowed) {
+    constexpr std::size_t kSample = 16'384;
+    auto low = best, high = best;
+    const double limit = surfaces_->discrepancy_at(best) + allowed;
+    for (const auto& fraction : latin_hypercube(kSample, present_.size(), 1, stream("ranges"))) {
+      const auto point = box.place(fraction);
+      if (surfaces_->discrepancy_at(point) > limit) continue;
+      for (std::size_t k = 0; k < point.size(); ++k) {
+        low[k] = std::min(low[k], point[k]);
+        high[k] = std::max(high[k], point[k]);
+      }
+    }
+    const auto low_values = to_values(set_.parameters, low), high_values = to_values(set_.parameters, high);
+    for (std::size_t k = 0; k < best.size(); ++k) {
+      const double edge = 0.02 * (box.high[k] - box.low[k]);
+      result_.ranges.push_back(
+          {low_values[k], high_values[k], low[k] - box.low[k] < edge, box.high[k] - high[k] < edge});
+    }
+  }
+
+  // Numbers that people can read: no more digits than the range supports; what the study has stays as it is.
+  [[nodiscard]] std::vector<double> readable(const std::vector<double>& unit) const {
+    auto values = to_values(set_.parameters, unit);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto& parameter = set_.parameters[k];
+      const auto& range = result_.ranges[k];
+      if (std::abs(values[k] - present_[k]) <= 1e-9 * std::abs(present_[k])) {
+        values[k] = present_[k];
+      } else {
+        const double round = rounded(values[k], range.low, range.high, parameter.integer);
+        values[k] = std::clamp(round, parameter.min, parameter.max);
+      }
+    }
+    return values;
+  }
+
+  [[nodiscard]] std::vector<double> best_simulated() const {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < evaluations_.size(); ++i) {
+      const double value = discrepancy(set_.targets, misses_of(set_.targets, evaluations_[i].figures));
+      if (value < least) {
+        least = value;
+        best = i;
+      }
+    }
+    return units_[best];
+  }
+
+  // The study as it is wins ties, then what changes least: the order of the candidates.
+  bool confirm(const Box& box) {
+    const auto best = minimum(objective(), box, Fixed(present_.size()), stream("minimum"));
+    const double noise = surfaces_->noise_at(best, stream("noise"));
+    find_ranges(box, best, noise);
+    std::vector<std::string> labels{"the study as it is"};
+    std::vector<std::vector<double>> settings{present_};
+    const auto propose = [&](std::string label, const std::vector<double>& unit) {
+      auto values = readable(unit);
+      if (std::find(settings.begin(), settings.end(), values) != settings.end()) return;
+      labels.push_back(std::move(label));
+      settings.push_back(std::move(values));
+    };
+    propose("fewest changes", frugal(box, best, noise));
+    propose("best of the surface", best);
+    propose("best simulated", best_simulated());
+    lab_.expect(lab_.done() + lab_.cost(settings.size(), options_.confirm_teams) +
+                lab_.cost(options_.frontier_points, frontier_teams()));
+    const auto evaluations = lab_.run(settings, options_.confirm_teams, random_.split("confirm").address());
+    if (!evaluations) return false;
+    std::size_t least = 0;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      result_.candidates.push_back(point_of(set_.targets, (*evaluations)[i], settings[i], labels[i]));
+      if (result_.candidates[i].discrepancy < result_.candidates[least].discrepancy) least = i;
+    }
+    std::size_t chosen = 0;
+    while (chosen != least && result_.candidates[chosen].discrepancy - result_.candidates[least].discrepancy >
+                                  difference_error(set_.targets, (*evaluations)[chosen], (*evaluations)[least])) {
+      ++chosen;
+    }
+    result_.best = result_.candidates[chosen];
+    for (std::size_t t = 0; t < set_.targets.size(); ++t) {
+      result_.surface_error.push_back(surfaces_->error_of(t));
+      result_.explained.push_back(surfaces_->surface(t).explained());
+    }
+    return true;
+  }
+
+  // --- what cannot be met together ----------------------------------------------
+
+  bool explore_frontier() {
+    const Surfaces global{set_.targets, Box::whole(present_.size()), units_, evaluations_};
+    result_.conflicts = find_conflicts(set_.targets, global, stream("conflicts"));
+    const auto quantities = trade_off(set_.targets);
+    if (!quantities || options_.frontier_points == 0) return true;
+    result_.first_quantity = quantities->first;
+    result_.second_quantity = quantities->second;
+    const auto settings = frontier_settings(set_, global, *quantities, options_.frontier_points, stream("frontier"));
+    const auto evaluations = lab_.run(settings, frontier_teams(), random_.split("confirm").address());
+    if (!evaluations) return false;
+    std::vector<CalibrationPoint> points{result_.candidates};
+    for (std::size_t i = 0; i < settings.size(); ++i)
+      points.push_back(point_of(set_.targets, (*evaluations)[i], settings[i], "on the frontier"));
+    result_.frontier = not_dominated(set_.targets, std::move(points), *quantities);
+    return true;
+  }
+
+  const TargetSet& set_;
+  const CalibrationOptions& options_;
+  RandomStream random_;
+  Laboratory lab_;
+  std::vector<double> present_;
+  std::vector<std::vector<double>> units_;  // of all settings simulated in the search
+  std::vector<Evaluation> evaluations_;
+  std::optional<Surfaces> surfaces_;  // of the last box
+  Calibration result_;
+};
+
+}  // namespace
+
+double discrepancy(std::span<const Target> targets, std::span<const double> misses) {
+  if (targets.size() != misses.size()) throw std::invalid_argument{"discrepancy: one miss per target"};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const double weight = std::pow(3.0, 1.0 - static_cast<double>(targets[i].priority));
+    sum += weight * (std::max(0.0, std::abs(misses[i]) - 1.0) + 0.01 * misses[i] * misses[i]);
+  }
+  return sum;
+}
+
+std::optional<Calibration> calibrate(const Atlas& atlas, const StudyMaker& make_study, const TargetSet& targets,
+                                     const CalibrationOptions& options) {
+  if (targets.targets.empty() || targets.parameters.empty())
+    throw std::invalid_argument{"calibrate: needs a target and a parameter"};
+  if (options.rounds < 1 || options.points < 8 || options.teams < 2 || options.confirm_teams < 2)
+    throw std::invalid_argument{"calibrate: too few rounds, points or teams"};
+  return Calibrator{atlas, make_study, targets, options}.run();
+}
+
+}  // namespace kith

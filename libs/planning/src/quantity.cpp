@@ -1,0 +1,73 @@
+#include "kith/planning/quantity.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace kith {
+namespace {
+
+constexpr std::array<std::string_view, 4> kNames{"periods", "knowledge", "completed", "area_sr"};
+
+}  // namespace
+
+std::string_view name_of(Quantity quantity) noexcept { return kNames[static_cast<std::size_t>(quantity)]; }
+
+std::optional<Quantity> find_quantity(std::string_view name) noexcept {
+  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<Quantity>(found - kNames.begin());
+}
+
+double value_of(const TeamRecord& team, Quantity quantity) noexcept {
+  switch (quantity) {
+    case Quantity::kPeriods:
+      return static_cast<double>(team.periods);
+    case Quantity::kKnowledge:
+      return team.knowledge;
+    case Quantity::kCompleted:
+      return team.completed ? 1.0 : 0.0;
+    case Quantity::kAreaSr:
+      return team.area_sr;
+  }
+  return 0.0;
+}
+
+bool TeamSelection::contains(const TeamAddress& address) const {
+  const bool right_strategy = strategy ? address.strategy == *strategy : address.strategy != Strategy::kBaseline;
+  return right_strategy && (composition.empty() || composition == address.composition);
+}
+
+std::string to_string(const TeamSelection& selection) {
+  std::string text{selection.strategy ? name_of(*selection.strategy) : "group"};
+  if (!selection.composition.empty()) text += "/" + selection.composition;
+  return text;
+}
+
+std::optional<TeamSelection> parse_selection(std::string_view text, const StudySpec& spec) {
+  const auto slash = text.find('/');
+  TeamSelection selection;
+  const auto who = text.substr(0, slash);
+  if (who == "group") {
+    const auto is_group = [](Strategy strategy) { return strategy != Strategy::kBaseline; };
+    if (std::none_of(spec.strategies.begin(), spec.strategies.end(), is_group)) return std::nullopt;
+  } else {
+    selection.strategy = find_strategy(who);
+    if (!selection.strategy) return std::nullopt;
+    const auto& all = spec.strategies;
+    if (std::find(all.begin(), all.end(), *selection.strategy) == all.end()) return std::nullopt;
+  }
+  if (slash == std::string_view::npos) return selection;
+  selection.composition = text.substr(slash + 1);
+  const auto& all = spec.compositions;
+  if (std::find(all.begin(), all.end(), selection.composition) == all.end()) return std::nullopt;
+  return selection;
+}
+
+std::string selections_of(const StudySpec& spec) {
+  std::string text = "group";
+  for (const auto strategy : spec.strategies) text += ", " + std::string{name_of(strategy)};
+  text += "; each may be followed by a composition, such as group/" + spec.compositions.front();
+  return text;
+}
+
+}  // namespace kith

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "evaluation.hpp"
+#include "kith/planning/response_surface.hpp"
+#include "kith/random/stream.hpp"
+#include "parameter_box.hpp"
+
+namespace kith {
+
+// One quadratic per target over a box. Figures that have to be met within a factor are fitted on the log scale.
+class Surfaces {
+ public:
+  // @param points  unit coordinates. @pre as many evaluations, at least three.
+  Surfaces(std::span<const Target> targets, Box box, std::span<const std::vector<double>> points,
+           std::span<const Evaluation> evaluations);
+
+  [[nodiscard]] const Box& box() const { return box_; }
+  [[nodiscard]] const ResponseSurface& surface(std::size_t target) const { return surfaces_[target]; }
+  [[nodiscard]] std::vector<double> misses_at(std::span<const double> unit) const;
+  [[nodiscard]] double discrepancy_at(std::span<const double> unit) const;
+  // How much the discrepancy at a point is uncertain: root mean square of its change when every figure is off by a
+  // normal error as large as the surface's.
+  [[nodiscard]] double noise_at(std::span<const double> unit, RandomStream random) const;
+  // The surface's error in the figure's own unit; of a logarithmic one, at the target's value.
+  [[nodiscard]] double error_of(std::size_t target) const;
+
+ private:
+  std::span<const Target> targets_;
+  Box box_;
+  std::vector<ResponseSurface> surfaces_;
+};
+
+// A function to be made small, and the least value found.
+using Objective = std::function<double(std::span<const double> unit)>;
+
+// Coordinates that are given; the others are free.
+using Fixed = std::vector<std::optional<double>>;
+
+// The minimum over a box: the best of a space-filling sample, each of the first few improved coordinate by coordinate.
+[[nodiscard]] std::vector<double> minimum(const Objective& objective, const Box& box, const Fixed& fixed,
+                                          const RandomStream& random);
+
+}  // namespace kith

@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "kith/planning/targets.hpp"
+#include "kith/toml/document.hpp"
+#include "kith/toml/reader.hpp"
+
+namespace kith {
+namespace {
+
+constexpr const char* kTargetsSchema = "kith.targets/1";
+const std::vector<std::string>& quantity_words() {
+  static const std::vector<std::string> kWords{"periods", "knowledge", "completed", "area_sr"};
+  return kWords;
+}
+
+// The number under a dotted key, if there is one.
+std::optional<double> number_at(const TomlTable& root, const std::string& dotted) {
+  const TomlTable* table = &root;
+  std::size_t begin = 0;
+  while (true) {
+    const auto dot = dotted.find('.', begin);
+    const auto* value = table->find(dotted.substr(begin, dot == std::string::npos ? dot : dot - begin));
+    if (value == nullptr) return std::nullopt;
+    if (dot == std::string::npos) {
+      if (const auto* integer = value->integer()) return static_cast<double>(*integer);
+      if (const auto* real = value->real()) return *real;
+      return std::nullopt;
+    }
+    table = value->table();
+    if (table == nullptr) return std::nullopt;
+    begin = dot + 1;
+  }
+}
+
+class TargetsParser {
+ public:
+  TargetsParser(const TomlDocument& document, const StudyMaker& make_study)
+      : report_{document},
+        root_{document.root, TomlPlace{}, "the targets file", report_},
+        make_study_{make_study},
+        study_{make_study({})} {
+    const auto written = parse_toml(to_toml(*study_.study, *study_.domain), "study");
+    if (written.document) resolved_ = written.document->root;
+  }
+
+  TargetsReading parse() {
+    if (right_schema()) {
+      if (const auto title = root_.string("title", Presence::kOptional)) set_.title = *title;
+      each("target", [&](TomlReader& table) { read_target(table); });
+      each("parameter", [&](TomlReader& table) { read_parameter(table); });
+      each("finding", [&](TomlReader& table) { read_finding(table); });
+      root_.finish();
+    }
+    TargetsReading reading;
+    reading.diagnostics = report_.diagnostics();
+    if (!report_.has_errors()) reading.targets = std::move(set_);
+    return reading;
+  }
+
+ private:
+  const StudySpec& spec() const { return study_.study->variants.front(); }
+
+  // Of a file of another kind only that is worth saying.
+  bool right_schema() {
+    const auto schema = root_.string("schema", Presence::kRequired);
+    if (!schema || *schema == kTargetsSchema) return true;
+    report_.error("E0106", root_.value("schema", Presence::kOptional)->place(),
+                  "schema '" + *schema + "' is not a targets file of this version",
+                  std::string{"write schema = \""} + kTargetsSchema + "\"");
+    return false;
+  }
+
+  template <typename Read>
+  void each(std::string_view key, const Read& read) {
+    const auto* list = root_.array(key, Presence::kOptional);
+    if (list == nullptr) return;
+    std::size_t number = 0;
+    for (const auto& element : *list) {
+      const auto name = "[[" + std::string{key} + "]] " + std::to_string(++number);
+      const auto* table = read_table(element, name, report_);
+      if (table == nullptr) continue;
+      TomlReader reader{*table, element.place(), name, report_};
+      read(reader);
+      reader.finish();
+    }
+  }
+
+  static TomlPlace place_of(TomlReader& table, std::string_view key) {
+    const auto* value = table.value(key, Presence::kOptional);
+    return value != nullptr ? value->place() : table.place();
+  }
+
+  void read_target(TomlReader& table) {
+    Target target;
+    target.priority = set_.targets.size() + 1;
+    if (const auto word = table.word("quantity", Presence::kRequired, quantity_words()))
+      target.quantity = static_cast<Quantity>(*word);
+    if (const auto word = table.word("statistic", Presence::kOptional, {"mean", "sd"}))
+      target.statistic = static_cast<Statistic>(*word);
+    if (const auto text = table.string("teams", Presence::kRequired)) {
+      const auto selection = parse_selection(*text, spec());
+      if (selection) {
+        target.teams = *selection;
+      } else {
+        report_.error("E0801", place_of(table, "teams"), "'" + *text + "' are no teams of the study",
+                      "known: " + selections_of(spec()));
+      }
+    }
+    if (const auto value = table.real("value", Presence::kRequired)) target.value = *value;
+    read_tolerance(table, target);
+    if (const auto priority = table.integer("priority", Presence::kOptional, {1, 1000}))
+      target.priority = static_cast<std::size_t>(*priority);
+    if (const auto source = table.string("source", Presence::kOptional)) target.source = *source;
+    const auto same = [&](const Target& other) { return to_string(other) == to_string(target); };
+    if (std::any_of(set_.targets.begin(), set_.targets.end(), same))
+      report_.error("E0804", table.place(), "there already is a target for the " + to_string(target));
+    set_.targets.push_back(std::move(target));
+  }
+
+  void read_tolerance(TomlReader& table, Target& target) {
+    const auto tolerance = table.real("tolerance", Presence::kOptional, {.min = 0.0, .open_min = true});
+    const auto factor = table.real("within_factor", Presence::kOptional, {.min = 1.0, .open_min = true});
+    if (table.has("tolerance") == table.has("within_factor")) {
+      report_.error("E0802", table.place(), table.name() + " needs either tolerance or within_factor",
+                    "write tolerance = 0.3 (a difference) or within_factor = 1.6 (a ratio)");
+    }
+    target.is_factor = factor.has_value();
+    if (tolerance) target.tolerance = *tolerance;
+    if (factor) target.tolerance = *factor;
+    if (factor && target.value <= 0.0)
+      report_.error("E0803", place_of(table, "within_factor"), "only a positive value can be met within a factor");
+  }
+
+  // --- parameters --------------------------------------------------------------
+
+  // "learner.*.x" stands for the key x of every learner type.
+  std::vector<std::string> expanded(const std::string& key) const {
+    constexpr std::string_view kAll = "learner.*.";
+    if (key.rfind(kAll, 0) != 0) return {key};
+    std::vector<std::string> keys;
+    for (const auto& type : spec().learner_types)
+      keys.push_back(std::string{"learner."} + type.letter + "." + key.substr(kAll.size()));
+    return keys;
+  }
+
+  void read_parameter(TomlReader& table) {
+    const auto errors = report_.num_errors();
+    FreeParameter parameter;
+    const auto keys = table.strings("keys", Presence::kRequired);
+    if (const auto name = table.string("name", Presence::kRequired)) parameter.name = *name;
+    if (const auto min = table.real("min", Presence::kRequired)) parameter.min = *min;
+    if (const auto max = table.real("max", Presence::kRequired)) parameter.max = *max;
+    if (const auto word = table.word("scale", Presence::kOptional, {"linear", "log"}))
+      parameter.logarithmic = *word == 1;
+    if (const auto integer = table.boolean("integer", Presence::kOptional)) parameter.integer = *integer;
+    (void)table.string("note", Presence::kOptional);
+    if (report_.num_errors() > errors || !keys) return;
+    if (parameter.min >= parameter.max || (parameter.logarithmic && parameter.min <= 0.0)) {
+      report_.error("E0805", place_of(table, "min"), "the range of " + table.name() + " is empty",
+                    "min must be less than max and, with scale = \"log\", above 0");
+      return;
+    }
+    for (const auto& key : *keys) {
+      for (auto& one : expanded(key)) parameter.keys.push_back(std::move(one));
+    }
+    check_keys(table, parameter);
+    if (report_.num_errors() == errors) set_.parameters.push_back(std::move(parameter));
+  }
+
+  void check_keys(TomlReader& table, FreeParameter& parameter) {
+    const auto place = place_of(table, "keys");
+    if (parameter.keys.empty()) {
+      report_.error("E0806", place, "a parameter sets at least one key of the study");
+      return;
+    }
+    for (const auto& key : parameter.keys) {
+      if (!taken_.insert(key).second) report_.error("E0807", place, "'" + key + "' is set by two parameters");
+    }
+    for (const double end : {parameter.min, parameter.max}) {
+      const auto reading = make_study_(overrides_of({parameter}, {end}));
+      for (const auto& diagnostic : reading.diagnostics) {
+        if (diagnostic.severity != Severity::kError) continue;
+        report_.error("E0808", place, "the study refuses this parameter: " + diagnostic.message, diagnostic.hint);
+        return;
+      }
+    }
+    const auto present = number_at(resolved_, parameter.keys.front());
+    if (!present) {
+      report_.error("E0808", place, "'" + parameter.keys.front() + "' is no number of the study");
+      return;
+    }
+    parameter.present = *present;
+  }
+
+  // --- findings ----------------------------------------------------------------
+
+  void read_finding(TomlReader& table) {
+    Finding finding;
+    if (const auto text = table.string("effect", Presence::kRequired)) {
+      auto reading = parse_effect(*text, spec());
+      if (!reading.effect) {
+        report_.error("E0809", place_of(table, "effect"), reading.problem, reading.hint);
+      } else {
+        finding.effect = *reading.effect;
+      }
+    }
+    if (const auto significant = table.boolean("significant", Presence::kRequired)) finding.significant = *significant;
+    if (const auto alpha = table.real("alpha", Presence::kOptional, {0.0, 1.0, true, true})) finding.alpha = *alpha;
+    finding.f = table.real("f", Presence::kOptional, {.min = 0.0});
+    if (const auto* df = table.array("df", Presence::kOptional)) {
+      if (df->size() == 2) {
+        finding.df1 = read_real((*df)[0], "'df'", {.min = 1.0}, report_);
+        finding.df2 = read_real((*df)[1], "'df'", {.min = 1.0}, report_);
+      }
+    }
+    if (finding.f.has_value() != (finding.df1 && finding.df2)) {
+      report_.error("E0810", table.place(), "a published F needs two degrees of freedom, and they need an F",
+                    "write f = 4.67 and df = [3, 224]");
+    }
+    if (const auto source = table.string("source", Presence::kOptional)) finding.source = *source;
+    set_.findings.push_back(std::move(finding));
+  }
+
+  TomlReport report_;
+  TomlReader root_;
+  const StudyMaker& make_study_;
+  StudyReading study_;
+  TomlTable resolved_;
+  TargetSet set_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace
+
+TargetsReading parse_targets(std::string_view text, const std::string& name, const StudyMaker& make_study) {
+  const auto parsing = parse_toml(text, name);
+  if (!parsing.document) return {{}, parsing.diagnostics};
+  return TargetsParser{*parsing.document, make_study}.parse();
+}
+
+}  // namespace kith
