@@ -15,5 +15,6 @@ int run_study(const StudyOptions& options, Console& console);
 int run_doctor(Console& console);
 int run_completion(const CompletionOptions& options, Console& console);
 int run_version(Console& console);
+int run_calibrate(const CalibrateOptions& options, Console& console);
 
 }  // namespace kith::cli

@@ -67,6 +67,9 @@ const std::vector<std::string>& examples_of(const std::string& command) {
       {"doctor", {"kith doctor", "kith doctor --json"}},
       {"completion",
        {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion zsh)"}},
+      {"calibrate",
+       {"kith calibrate paper-uncalibrated --targets studies/paper-targets.toml -o mine.toml",
+        "kith calibrate studies/paper.toml --targets studies/paper-targets.toml --quick --json"}},
       {"version", {"kith --version", "kith --version --json"}}};
   return kExamples.at(command);
 }

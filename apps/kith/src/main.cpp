@@ -34,6 +34,8 @@ int run(const Options& options, Console& console) {
       return run_completion(options.completion, console);
     case Command::kVersion:
       return run_version(console);
+    case Command::kCalibrate:
+      return run_calibrate(options.calibrate, console);
   }
   return kInternalError;
 }

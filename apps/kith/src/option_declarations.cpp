@@ -137,6 +137,42 @@ void add_study(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_progress(CLI::App& command, ProgressMode& mode) {
+  add_mode<ProgressMode>(command, "--progress", mode, "How to show progress, on stderr", "HOW",
+                         {{"auto", ProgressMode::kAuto},
+                          {"bar", ProgressMode::kBar},
+                          {"json", ProgressMode::kJson},
+                          {"none", ProgressMode::kNone}});
+}
+
+void add_calibrate(CLI::App& app, Options& options) {
+  auto& calibrate = options.calibrate;
+  auto& command = *app.add_subcommand("calibrate", "Fit a study's free parameters to published figures");
+  command.add_option("study", calibrate.study, "Built-in study or file; '-' is standard input")
+      ->required()
+      ->type_name("STUDY");
+  command.add_option("--targets", calibrate.targets, "File with the figures, their tolerances and the free parameters")
+      ->type_name("FILE");
+  command.add_option("-o,--out", calibrate.out, "Write the calibrated study to this file")->type_name("FILE");
+  takes_integer(*command.add_option("-j,--threads", calibrate.threads,
+                                    "Worker threads (default: one per core); never changes a result"),
+                1, 1024);
+  takes_integer(*command.add_option("--seed", calibrate.seed, "Root of all random streams of the search (default: 1)"),
+                0);
+  takes_integer(*command.add_option("--teams", calibrate.teams, "Teams per cell for each setting tried (default: 20)"),
+                2, 100'000);
+  takes_integer(*command.add_option("--confirm", calibrate.confirm,
+                                    "Teams per cell to confirm the best settings (default: ten times --teams)"),
+                2, 1'000'000);
+  command.add_flag("--quick", calibrate.quick, "A coarse search in a tenth of the time");
+  command.add_option("--set", calibrate.set, "Set a key of the study (may be repeated)")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  command.add_flag("--yes", calibrate.yes, "Replace the file of -o if there is one");
+  add_progress(command, calibrate.progress);
+  add_common(command, options.common);
+}
+
 void add_others(CLI::App& app, Options& options) {
   auto& doctor = *app.add_subcommand("doctor", "Check that this machine runs kith as it should");
   add_common(doctor, options.common);
@@ -158,15 +194,16 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_inspect(*app, options);
   add_teach(*app, options);
   add_study(*app, options);
+  add_calibrate(*app, options);
   add_others(*app, options);
   return app;
 }
 
 Command command_of(const std::string& name) {
   static const std::map<std::string, Command> kCommands{
-      {"validate", Command::kValidate}, {"inspect", Command::kInspect}, {"teach", Command::kTeach},
-      {"study", Command::kStudy},       {"doctor", Command::kDoctor},   {"completion", Command::kCompletion},
-      {"version", Command::kVersion}};
+      {"validate", Command::kValidate}, {"inspect", Command::kInspect},    {"teach", Command::kTeach},
+      {"study", Command::kStudy},       {"doctor", Command::kDoctor},      {"completion", Command::kCompletion},
+      {"version", Command::kVersion},   {"calibrate", Command::kCalibrate}};
   return kCommands.at(name);
 }
 

@@ -7,7 +7,7 @@
 
 namespace kith::cli {
 
-enum class Command { kValidate, kInspect, kTeach, kStudy, kDoctor, kCompletion, kVersion };
+enum class Command { kValidate, kInspect, kTeach, kStudy, kDoctor, kCompletion, kVersion, kCalibrate };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
 
@@ -57,6 +57,20 @@ struct CompletionOptions {
   std::string shell;
 };
 
+struct CalibrateOptions {
+  std::string study;
+  std::string targets;  ///< "-" is standard input.
+  std::string out;      ///< The study file to write; empty: none.
+  std::optional<std::uint64_t> seed;
+  std::size_t threads = 0;             ///< 0: as many as there are cores. Changes the speed, never the results.
+  std::optional<std::size_t> teams;    ///< Per cell and setting tried.
+  std::optional<std::size_t> confirm;  ///< Per cell, to confirm the best settings.
+  bool quick = false;
+  bool yes = false;  ///< Replace an existing file.
+  std::vector<std::string> set;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
 /// One command line, understood.
 struct Options {
   Command command = Command::kVersion;
@@ -66,6 +80,7 @@ struct Options {
   TeachOptions teach;
   StudyOptions study;
   CompletionOptions completion;
+  CalibrateOptions calibrate;
 };
 
 /// What `kith inspect --show` can show.

@@ -1,0 +1,347 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "input.hpp"
+#include "interrupt.hpp"
+#include "json.hpp"
+#include "kith/core/error.hpp"
+#include "kith/planning/calibration.hpp"
+#include "kith/table/atomic_file.hpp"
+#include "planning_input.hpp"
+#include "progress.hpp"
+#include "words.hpp"
+
+namespace kith::cli {
+namespace {
+
+// The largest |miss| that still counts as met.
+bool is_met(const TargetOutcome& outcome) { return std::abs(outcome.miss) <= 1.0; }
+
+// As many digits as tell the figure from its noise.
+std::string figure(double value) {
+  return fmt::format("{:.{}f}", value, std::abs(value) >= 100.0 ? 0 : std::abs(value) >= 1.0 ? 2 : 3);
+}
+
+std::string range_text(const ParameterRange& range) {
+  if (range.open_low && range.open_high) return fmt::format("{:.3g} .. {:.3g} and beyond", range.low, range.high);
+  return fmt::format("{}{:.3g} .. {:.3g}{}", range.open_low ? "below " : "", range.low, range.high,
+                     range.open_high ? " and above" : "");
+}
+
+// Which of the ranges end because the parameter may not go further.
+ParameterRange within_limits(ParameterRange range, const FreeParameter& parameter) {
+  const double slack = 0.03 * (parameter.max - parameter.min);
+  range.open_low = range.open_low && range.low > parameter.min + slack;
+  range.open_high = range.open_high && range.high < parameter.max - slack;
+  return range;
+}
+
+std::string parameters_table(const TargetSet& set, const Calibration& result, const Console& console) {
+  TextTable table{"lrrl"};
+  table.add({"parameter", "study", "calibrated", "as good, the others moving along"});
+  for (std::size_t k = 0; k < set.parameters.size(); ++k) {
+    table.add({set.parameters[k].name, fmt::format("{}", set.parameters[k].present),
+               fmt::format("{}", result.best.values[k]),
+               range_text(within_limits(result.ranges[k], set.parameters[k]))});
+  }
+  return table.text(console);
+}
+
+std::string targets_table(const TargetSet& set, const Calibration& result, const Console& console) {
+  TextTable table{"lrrrrl"};
+  table.add({"target", "published", "model", "(se)", "off by", ""});
+  for (std::size_t t = 0; t < set.targets.size(); ++t) {
+    const auto& target = set.targets[t];
+    const auto& outcome = result.best.targets[t];
+    const auto published = figure(target.value) + (target.is_factor ? " x/ " : " +- ") + figure(target.tolerance);
+    table.add({to_string(target), published, figure(outcome.model), fmt::format("({:.2g})", outcome.standard_error),
+               fmt::format("{:+.2f}", outcome.miss), is_met(outcome) ? "met" : "missed"});
+  }
+  return table.text(console) +
+         console.dim(
+             "off by: in tolerances; a factor's on the scale of logarithms. se: standard error of the model's\n"
+             "figure by the jackknife over replicates") +
+         "\n";
+}
+
+std::string candidates_table(const TargetSet& set, const Calibration& result, const Console& console) {
+  TextTable table{"lrr" + std::string(set.parameters.size(), 'r')};
+  std::vector<std::string> header{"confirmed with fresh teams", "discrepancy", "(se)"};
+  for (const auto& parameter : set.parameters) header.push_back(parameter.name);
+  table.add(header);
+  for (const auto& candidate : result.candidates) {
+    std::vector<std::string> row{candidate.label, fmt::format("{:.4f}", candidate.discrepancy),
+                                 fmt::format("({:.1g})", candidate.standard_error)};
+    for (const double value : candidate.values) row.push_back(fmt::format("{}", value));
+    table.add(row);
+  }
+  return table.text(console);
+}
+
+std::string sensitivity_table(const TargetSet& set, const Calibration& result, const Console& console) {
+  TextTable table{"lr" + std::string(set.parameters.size(), 'r')};
+  std::vector<std::string> header{"share of variance", "explained"};
+  for (const auto& parameter : set.parameters) header.push_back(parameter.name);
+  table.add(header);
+  for (std::size_t t = 0; t < set.targets.size(); ++t) {
+    std::vector<std::string> row{to_string(set.targets[t]),
+                                 fmt::format("{:.0f}%", 100.0 * std::max(0.0, result.sensitivity_explained[t]))};
+    for (const auto& one : result.sensitivities[t])
+      row.push_back(fmt::format("{:.0f}% {}", 100.0 * one.total_share, one.slope < 0.0 ? "-" : "+"));
+    table.add(row);
+  }
+  return table.text(console) +
+         console.dim(
+             "of the figure over the whole ranges, by a quadratic: each parameter with its interactions; + and -:\n"
+             "the figure rises or falls with it. explained: what the quadratic predicts of settings left out") +
+         "\n";
+}
+
+std::string conflict_sentences(const TargetSet& set, const Calibration& result) {
+  const auto missed = std::count_if(result.best.targets.begin(), result.best.targets.end(),
+                                    [](const TargetOutcome& outcome) { return !is_met(outcome); });
+  std::string text = missed == 0 ? "All targets are met within their tolerances.\n"
+                                 : fmt::format("{} of {} targets are missed.\n", missed, set.targets.size());
+  constexpr std::size_t kShown = 4;
+  for (std::size_t i = 0; i < std::min(kShown, result.conflicts.size()); ++i) {
+    const auto& conflict = result.conflicts[i];
+    text += fmt::format("The {} and the {} can each be met exactly, but not both: {} {:.1f} {}.\n",
+                        to_string(set.targets[conflict.first]), to_string(set.targets[conflict.second]),
+                        conflict.closest > 1.0 ? "no setting brings both within their tolerances; one stays off by"
+                                               : "one stays off by at least",
+                        conflict.closest, "tolerances");
+  }
+  return text;
+}
+
+std::string frontier_table(const TargetSet& set, const Calibration& result, const Console& console) {
+  if (!result.first_quantity || result.frontier.empty()) return "";
+  std::vector<std::size_t> means;
+  for (std::size_t t = 0; t < set.targets.size(); ++t) {
+    if (set.targets[t].statistic == Statistic::kMean) means.push_back(t);
+  }
+  TextTable table{"rr" + std::string(means.size() + set.parameters.size(), 'r')};
+  std::vector<std::string> header{fmt::format("{} error", name_of(*result.first_quantity)),
+                                  fmt::format("{} error", name_of(*result.second_quantity))};
+  for (const auto t : means)
+    header.push_back(fmt::format("{} {}", to_string(set.targets[t].teams), name_of(set.targets[t].quantity)));
+  for (const auto& parameter : set.parameters) header.push_back(parameter.name);
+  table.add(header);
+  for (const auto& one : result.frontier) {
+    std::vector<std::string> row{fmt::format("{:.2f}", one.first_error), fmt::format("{:.2f}", one.second_error)};
+    for (const auto t : means) row.push_back(figure(one.point.targets[t].model));
+    for (const double value : one.point.values) row.push_back(fmt::format("{:.3g}", value));
+    table.add(row);
+  }
+  return "\nThe frontier: settings of which none is better in both.\n" + table.text(console) +
+         console.dim("error: root mean square of the means' misses, in tolerances") + "\n";
+}
+
+std::string report(const TargetSet& set, const Calibration& result, const Console& console) {
+  return parameters_table(set, result, console) + "\n" + targets_table(set, result, console) + "\n" +
+         candidates_table(set, result, console) + "\n" + sensitivity_table(set, result, console) + "\n" +
+         conflict_sentences(set, result) + frontier_table(set, result, console);
+}
+
+// --- JSON ---------------------------------------------------------------------------
+
+Json to_json(const TargetSet& set, const CalibrationPoint& point) {
+  Json values = Json::object();
+  for (std::size_t k = 0; k < set.parameters.size(); ++k) values[set.parameters[k].name] = point.values[k];
+  Json targets = Json::array();
+  for (const auto& one : point.targets)
+    targets.push_back({{"model", one.model}, {"standard_error", one.standard_error}, {"miss", one.miss}});
+  return {{"label", point.label},
+          {"values", values},
+          {"teams_per_cell", point.teams_per_cell},
+          {"discrepancy", point.discrepancy},
+          {"standard_error", point.standard_error},
+          {"targets", targets}};
+}
+
+Json to_json(const Target& target) {
+  return {{"quantity", name_of(target.quantity)},
+          {"statistic", target.statistic == Statistic::kMean ? "mean" : "sd"},
+          {"teams", to_string(target.teams)},
+          {"value", target.value},
+          {target.is_factor ? "within_factor" : "tolerance", target.tolerance},
+          {"priority", target.priority},
+          {"source", target.source}};
+}
+
+Json parameters_json(const TargetSet& set, const Calibration& result) {
+  Json parameters = Json::array();
+  for (std::size_t k = 0; k < set.parameters.size(); ++k) {
+    const auto& parameter = set.parameters[k];
+    const auto range = within_limits(result.ranges[k], parameter);
+    parameters.push_back({{"name", parameter.name},
+                          {"keys", parameter.keys},
+                          {"min", parameter.min},
+                          {"max", parameter.max},
+                          {"present", parameter.present},
+                          {"value", result.best.values[k]},
+                          {"low", range.low},
+                          {"high", range.high},
+                          {"open_low", range.open_low},
+                          {"open_high", range.open_high}});
+  }
+  return parameters;
+}
+
+Json document_of(const std::string& study, std::uint64_t seed, const TargetSet& set, const Calibration& result) {
+  Json targets = Json::array();
+  for (std::size_t t = 0; t < set.targets.size(); ++t) {
+    auto target = to_json(set.targets[t]);
+    target["surface_error"] = result.surface_error[t];
+    target["surface_explained"] = result.explained[t];
+    Json sensitivities = Json::object();
+    for (std::size_t k = 0; k < set.parameters.size(); ++k) {
+      const auto& one = result.sensitivities[t][k];
+      sensitivities[set.parameters[k].name] = {
+          {"main_share", one.main_share}, {"total_share", one.total_share}, {"slope", one.slope}};
+    }
+    target["sensitivity"] = sensitivities;
+    target["sensitivity_explained"] = result.sensitivity_explained[t];
+    targets.push_back(target);
+  }
+  Json candidates = Json::array();
+  for (const auto& candidate : result.candidates) candidates.push_back(to_json(set, candidate));
+  Json conflicts = Json::array();
+  for (const auto& conflict : result.conflicts)
+    conflicts.push_back({{"first", conflict.first}, {"second", conflict.second}, {"closest", conflict.closest}});
+  Json frontier = Json::array();
+  for (const auto& one : result.frontier) {
+    auto point = to_json(set, one.point);
+    point["errors"] = {{std::string{name_of(*result.first_quantity)}, one.first_error},
+                       {std::string{name_of(*result.second_quantity)}, one.second_error}};
+    frontier.push_back(point);
+  }
+  return {{"schema", "kith.calibration/1"},
+          {"study", study},
+          {"seed", seed},
+          {"teams", result.teams_simulated},
+          {"parameters", parameters_json(set, result)},
+          {"targets", targets},
+          {"best", to_json(set, result.best)},
+          {"candidates", candidates},
+          {"conflicts", conflicts},
+          {"frontier", frontier}};
+}
+
+// --- the file -------------------------------------------------------------------------
+
+std::string commented(const std::string& text) {
+  std::string lines;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const auto end = std::min(text.find('\n', begin), text.size());
+    const auto line = text.substr(begin, end - begin);
+    lines += (line.empty() ? "#" : "# " + line) + "\n";
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::string plain_report(const TargetSet& set, const Calibration& result) {
+  CommonOptions plain;
+  plain.color = ColorMode::kNever;
+  const Console console{plain};
+  return parameters_table(set, result, console) + "\n" + targets_table(set, result, console) + "\n" +
+         conflict_sentences(set, result);
+}
+
+// The complete study with the calibrated values, the domain named as seen from its new place.
+std::string study_file(const CalibrateOptions& options, const StudyText& source, const TargetSet& set,
+                       const Calibration& result) {
+  auto reading = source.read(overrides_of(set.parameters, result.best.values));
+  for (auto& spec : reading.study->variants) {
+    const auto domain = source.folder() / spec.domain;
+    if (spec.domain.find('.') != std::string::npos && std::filesystem::exists(domain)) {
+      const auto folder = std::filesystem::absolute(options.out).parent_path();
+      spec.domain = std::filesystem::proximate(std::filesystem::absolute(domain), folder).string();
+    }
+  }
+  return commented(fmt::format("{} with parameters calibrated to {} (seed {}, {} simulated teams).\n\n", options.study,
+                               options.targets, options.seed.value_or(1), result.teams_simulated)) +
+         commented(plain_report(set, result)) + "\n" + to_toml(*reading.study, *reading.domain);
+}
+
+void check_out(const CalibrateOptions& options) {
+  if (options.out.empty()) return;
+  std::error_code failure;
+  for (const auto& input : {options.study, options.targets}) {
+    if (std::filesystem::equivalent(options.out, input, failure))
+      throw Error{ErrorKind::kUsage, "-o must not be the input " + input};
+  }
+  if (std::filesystem::exists(options.out, failure) && !options.yes)
+    throw Error{ErrorKind::kUsage, options.out + " exists; --yes replaces it"};
+}
+
+CalibrationOptions search_options(const CalibrateOptions& options) {
+  CalibrationOptions search;
+  if (options.quick) {
+    search.rounds = 2;
+    search.points = 36;
+    search.teams = 6;
+    search.frontier_points = 5;
+  }
+  if (options.teams) search.teams = *options.teams;
+  search.confirm_teams = options.confirm.value_or(10 * search.teams);
+  search.seed = options.seed.value_or(1);
+  search.threads = options.threads;
+  return search;
+}
+
+}  // namespace
+
+int run_calibrate(const CalibrateOptions& options, Console& console) {
+  if (options.targets.empty()) throw Error{ErrorKind::kUsage, "kith calibrate needs --targets FILE"};
+  if (options.study == "-" && options.targets == "-")
+    throw Error{ErrorKind::kUsage, "only one of STUDY and --targets can be standard input"};
+  check_out(options);
+  const StudyText source{options.study, options.set};
+  const auto reading = source.read({});
+  if (!console.quiet()) console.show(reading.diagnostics);
+  check_single_variant(options.study, *reading.study);
+  const auto set = targets_of(options.targets, source);
+  if (set.targets.empty() || set.parameters.empty()) {
+    Diagnostic nothing;
+    nothing.id = "E0811";
+    nothing.file = options.targets;
+    nothing.message = set.targets.empty() ? "there is no [[target]] to meet" : "there is no [[parameter]] to move";
+    throw Error{{nothing}};
+  }
+
+  watch_signals();
+  const Atlas atlas{*reading.domain};
+  Progress progress{options.progress, console};
+  auto search = search_options(options);
+  search.on_progress = [&](std::size_t done, std::size_t total) {
+    progress.update(done, total);
+    return stop_signal() == 0;
+  };
+  const auto result = calibrate(
+      atlas, [&](const auto& overrides) { return source.read(overrides); }, set, search);
+  progress.finish();
+  if (!result) {
+    console.warning("interrupted; nothing was written");
+    return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
+  }
+  if (!options.out.empty()) write_file_atomically(options.out, study_file(options, source, set, *result));
+  if (console.json()) {
+    console.print_json(document_of(options.study, search.seed, set, *result));
+    return 0;
+  }
+  console.print(report(set, *result, console));
+  console.info(fmt::format("{} simulated{}", counted(result->teams_simulated, "team"),
+                           options.out.empty() ? "" : "; the calibrated study is in " + options.out));
+  return 0;
+}
+
+}  // namespace kith::cli
