@@ -8,7 +8,7 @@ const half = (normals) => (w) => normals.every((n) => dot(n, w) >= 0);
 
 // Corners of the region around the truth, counter-clockwise seen from outside.
 function ring(centre, radius, count, squash = 1) {
-  const a = normalise([centre[1], -centre[0], 0.001]);
+  const a = normalise(Math.abs(centre[2]) < 0.9 ? [centre[1], -centre[0], 0] : [1, 0, 0]);
   const b = [centre[1] * a[2] - centre[2] * a[1], centre[2] * a[0] - centre[0] * a[2], centre[0] * a[1] - centre[1] * a[0]];
   return [...Array(count).keys()].map((i) => {
     const angle = (2 * Math.PI * i) / count;

@@ -2,7 +2,7 @@
 //
 //   node tests/report_test.mjs REPORT.html [--screenshots DIR] [--modules DIR] [--chromium FILE]
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -24,11 +24,12 @@ if (positionals.length !== 1) {
 }
 const address = pathToFileURL(resolve(positionals[0])).href;
 const axeSource = readFileSync(requireFrom(values.modules).resolve('axe-core/axe.min.js'), 'utf8');
+// axe needs half a minute for all tables, so it sees them opened in two looks only.
 const kLooks = [
-  { name: 'light-1280', width: 1280, dark: false },
+  { name: 'light-1280', width: 1280, dark: false, opened: true },
   { name: 'dark-1280', width: 1280, dark: true },
   { name: 'light-320', width: 320, dark: false },
-  { name: 'dark-320', width: 320, dark: true },
+  { name: 'dark-320', width: 320, dark: true, opened: true },
 ];
 
 let browser;
@@ -54,7 +55,11 @@ async function openAllDetails(page) {
 async function violations(page) {
   // From the debugger, so that the page's policy stays as it is.
   await page.evaluate(axeSource);
-  const { violations: found } = await page.evaluate(() => axe.run(document, { resultTypes: ['violations'] }));
+  // Drawings are hidden from assistive technology, their text alternative is around them; thousands
+  // of marks would take axe a minute.
+  const { violations: found } = await page.evaluate(() =>
+    axe.run({ exclude: ['.drawing'] }, { resultTypes: ['violations'] }),
+  );
   return found
     .filter(({ impact }) => impact === 'serious' || impact === 'critical')
     .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(' | ')}`);
@@ -69,10 +74,11 @@ for (const look of kLooks) {
         mkdirSync(values.screenshots, { recursive: true });
         await page.screenshot({ path: join(values.screenshots, `${look.name}.png`), fullPage: true });
       }
+      if (!look.opened) assert.deepEqual(await violations(page), []);
       await openAllDetails(page);
       const { page: body, view } = await page.evaluate(() => ({ page: document.documentElement.scrollWidth, view: document.documentElement.clientWidth }));
       assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
-      assert.deepEqual(await violations(page), []);
+      if (look.opened) assert.deepEqual(await violations(page), []);
     });
   });
 }
@@ -100,7 +106,6 @@ test('every figure saves as SVG, PNG and CSV, drawn in light whatever the theme 
       const lines = csv.bytes.toString('utf8').trimEnd().split('\n');
       assert.ok(lines.length > 1 && lines.every((line) => line.includes(',')), `${id}: ${lines[0]}`);
       if (values.screenshots) {
-        const { writeFileSync } = await import('node:fs');
         writeFileSync(join(values.screenshots, png.name), png.bytes);
         writeFileSync(join(values.screenshots, svg.name), svg.bytes);
       }

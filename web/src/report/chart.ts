@@ -1,7 +1,7 @@
 // Drawing and exporting a specification. Expressions run through the interpreter (`ast`), because
 // the page's policy forbids making code from strings.
 import embed, { type Result } from 'vega-embed';
-import { type Config, type Spec as VegaSpec, View, parse } from 'vega';
+import { type Spec as VegaSpec, View, parse } from 'vega';
 import { expressionInterpreter } from 'vega-interpreter';
 import { type TopLevelSpec, compile } from 'vega-lite';
 import { color, inLight } from './theme';
@@ -22,11 +22,20 @@ const kConfig = {
   view: { stroke: null },
   axis: { ...kText, gridColor: color('grid'), domainColor: color('line'), tickColor: color('line'), titlePadding: 8, labelOverlap: true },
   legend: { ...kText, orient: 'top', title: null, symbolSize: 90, columnPadding: 14, labelFontSize: 12, labelColor: color('text') },
-  title: { font: kFont, color: color('text'), fontSize: 12, fontWeight: 600, anchor: 'start', offset: 6 },
+  title: { font: kFont, color: color('text'), fontSize: 12, fontWeight: 600, anchor: 'start', frame: 'group', offset: 8 },
   text: { font: kFont, fill: color('text') },
 };
 
 const isVega = (spec: Spec): boolean => String(spec.$schema).includes('/vega/');
+
+// Compiles Vega-Lite; `usermeta.legend` of a figure is the one legend of its strategies.
+function toVega(spec: Spec): VegaSpec {
+  if (isVega(spec)) return { ...spec, config: kConfig } as unknown as VegaSpec;
+  const { usermeta, ...rest } = spec;
+  const vega = compile(rest as unknown as TopLevelSpec, { config: kConfig as never }).spec;
+  const legend = usermeta as { legend?: Spec } | undefined;
+  return legend?.legend ? { ...vega, legends: [legend.legend as never] } : vega;
+}
 
 export interface Drawing {
   view: View;
@@ -34,25 +43,21 @@ export interface Drawing {
 }
 
 export async function draw(box: HTMLElement, spec: Spec): Promise<Drawing> {
-  const result: Result = await embed(box, spec as unknown as TopLevelSpec, {
+  const result: Result = await embed(box, toVega(spec), {
+    mode: 'vega',
     actions: false,
     ast: true,
     renderer: 'svg',
-    config: kConfig as unknown as Config,
     tooltip: { theme: 'kith', disableDefaultStyle: true },
     defaultStyle: false,
   });
   return { view: result.view, finish: () => result.finalize() };
 }
 
-// A view without a page, light on white.
+// A view without a page, light on white, with a margin.
 function lightView(spec: Spec): View {
-  const light = inLight({ ...spec, background: '#ffffff' });
-  const config = inLight({ ...kConfig, background: '#ffffff', padding: 12 }) as unknown as Config;
-  const vega = isVega(light)
-    ? (light as unknown as VegaSpec)
-    : compile(light as unknown as TopLevelSpec, { config: config as never }).spec;
-  return new View(parse(vega, config, { ast: true }), { renderer: 'none', expr: expressionInterpreter } as never);
+  const light = { ...inLight(toVega(spec)), background: '#ffffff', padding: 12 };
+  return new View(parse(light, {}, { ast: true }), { renderer: 'none', expr: expressionInterpreter } as never);
 }
 
 export async function toSvg(spec: Spec): Promise<Blob> {

@@ -16,19 +16,23 @@ export interface Saves {
   svg(): Promise<Blob>;
   png(): Promise<Blob>;
   table: Table;
+  raw?: Figure['raw'];
 }
 
 export function saveButtons(saves: Saves): HTMLElement {
-  const kinds: [string, string, () => Promise<Blob>][] = [
-    ['SVG', 'svg', saves.svg],
-    ['PNG', 'png', saves.png],
-    ['CSV', 'csv', () => Promise.resolve(toCsv(saves.table))],
+  const kinds: { label: string; name: string; file: string; ending: string; make(): Promise<Blob> }[] = [
+    { label: 'SVG', name: `Save ${saves.what} as SVG`, file: saves.file, ending: 'svg', make: saves.svg },
+    { label: 'PNG', name: `Save ${saves.what} as PNG`, file: saves.file, ending: 'png', make: saves.png },
+    { label: 'CSV', name: `Save the data of ${saves.what} as CSV`, file: saves.file, ending: 'csv', make: () => Promise.resolve(toCsv(saves.table)) },
   ];
-  const buttons = kinds.map(([label, ending, make]) => {
-    const name = `Save ${ending === 'csv' ? 'the data of ' : ''}${saves.what} as ${label}`;
+  const raw = saves.raw;
+  if (raw) {
+    kinds.push({ label: `CSV of ${raw.what}`, name: `Save the ${raw.what} of ${saves.what} as CSV`, file: `${saves.file}-${raw.what}`, ending: 'csv', make: () => Promise.resolve(toCsv(raw.table)) });
+  }
+  const buttons = kinds.map(({ label, name, file, ending, make }) => {
     const save = async (): Promise<void> => {
-      download(await make(), `${saves.file}.${ending}`);
-      announce(`Saved ${saves.file}.${ending}`);
+      download(await make(), `${file}.${ending}`);
+      announce(`Saved ${file}.${ending}`);
     };
     return button(label, () => void save(), { 'aria-label': name, title: name, 'data-save': ending });
   });
@@ -63,7 +67,7 @@ function keepDrawn(box: HTMLElement, figure: Figure): void {
 
 export function figureView(figure: Figure, number: number, study: string, words: Words): HTMLElement {
   const what = `figure ${number}`;
-  const drawing = el('div', { class: 'drawing' });
+  const drawing = el('div', { class: 'drawing', 'aria-hidden': 'true' });
   const chart = el('div', { class: 'chart', role: 'img', 'aria-label': figure.gist }, drawing);
   const captionId = `${figure.id}-caption`;
   const view = el('figure', { id: `figure-${figure.id}`, 'aria-labelledby': captionId },
@@ -75,6 +79,7 @@ export function figureView(figure: Figure, number: number, study: string, words:
       svg: () => toSvg(figure.spec(kPaperWidth)),
       png: () => toPng(figure.spec(kPaperWidth)),
       table: figure.table,
+      raw: figure.raw,
     }),
     lazyDetails(`Data of ${what}`, () => tableView(figure.table, `Data of ${what}: ${figure.title}`, words)));
   keepDrawn(drawing, figure);

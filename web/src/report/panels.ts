@@ -31,7 +31,6 @@ export function panels(count: number, width: number, grid: Grid, make: (i: numbe
     columns,
     spacing: { row: grid.rowGap ?? 48, column: gap },
     bounds: 'flush',
-    resolve: { legend: { color: 'shared', shape: 'shared', strokeDash: 'shared' } },
   };
 }
 

@@ -2,6 +2,7 @@
 import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import type { Look } from '../palette';
+import { strategyLegend } from '../legend';
 import { type Place, extent, panels, yAxis } from '../panels';
 
 export interface CurvesOptions {
@@ -17,12 +18,7 @@ export interface CurvesOptions {
   maxColumns?: number;
 }
 
-function legendColumns(looks: Look[], width: number): number {
-  const letters = Math.max(...looks.map((look) => look.label.length));
-  return Math.max(1, Math.min(looks.length, Math.floor(width / (letters * 7 + 44))));
-}
-
-function layers(options: CurvesOptions, rows: Row[], place: Place, domains: { x: [number, number]; y: [number, number] }, columns: number): Spec {
+function layers(options: CurvesOptions, rows: Row[], place: Place, domains: { x: [number, number]; y: [number, number] }): Spec {
   const labels = options.looks.map((look) => look.label);
   const values = rows.map((row) => ({
     strategy: options.strategyOf(row), x: num(row[options.x]), y: num(row[options.y]), low: num(row.low), high: num(row.high),
@@ -30,16 +26,17 @@ function layers(options: CurvesOptions, rows: Row[], place: Place, domains: { x:
   const x: Spec = { field: 'x', type: 'quantitative', scale: { domain: domains.x, nice: false }, axis: { title: place.lastRow ? options.xTitle : null, tickMinStep: 1, format: 'd', grid: false, tickCount: Math.floor(place.width / 36) } };
   const yScale: Spec = { domain: domains.y, zero: false, nice: true };
   const y: Spec = { type: 'quantitative', scale: yScale, axis: yAxis(place, { title: options.yTitle, tickCount: 5, domain: false, format: '.3~f' }) };
-  const legend: Spec = { title: null, columns, symbolType: 'stroke', symbolSize: 260, symbolStrokeWidth: 2.2 };
-  const color: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.color) }, legend };
-  const dash: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.dash) }, legend };
+  const color: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.color) }, legend: null };
+  const dash: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.dash) }, legend: null };
   const interpolate = options.step ? 'step-after' : 'linear';
   const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'x', title: options.xTitle }, { field: 'y', title: options.yTitle, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
   const shape: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.shape) }, legend: null };
   const layer: Spec[] = [
-    { transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }], mark: { type: 'area', fillOpacity: 0.13, interpolate }, encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, fill: { ...color, legend: null } } },
+    { transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }], mark: { type: 'area', fillOpacity: 0.12, interpolate }, encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color } },
     { mark: { type: 'line', strokeWidth: 2, interpolate, strokeJoin: 'round' }, encoding: { x, y: { ...y, field: 'y' }, color, strokeDash: dash } },
-    { mark: { type: 'point', filled: true, size: options.step ? 60 : 36, opacity: options.step ? 0 : 1 }, encoding: { x, y: { ...y, field: 'y' }, fill: { ...color, legend: null }, shape, tooltip } },
+options.step
+      ? { mark: { type: 'point', filled: true, size: 60, opacity: 0 }, encoding: { x, y: { ...y, field: 'y' }, tooltip } } // for tooltips only
+      : { mark: { type: 'point', filled: true, size: 36, opacity: 1 }, encoding: { x, y: { ...y, field: 'y' }, color, shape, tooltip } },
   ];
   return { data: { values }, width: place.width, height: 190, layer };
 }
@@ -50,9 +47,9 @@ export function curves(options: CurvesOptions, width: number): Spec {
     x: extent(all.map((row) => num(row[options.x]))),
     y: options.yDomain ?? extent(all.flatMap((row) => [num(row[options.y]), num(row.low), num(row.high)])),
   };
-  const columns = legendColumns(options.looks, width);
-  return panels(options.panels.length, width, { left: 52, min: 190, max: options.maxColumns ?? 3, gap: 22, rowGap: 54 }, (i, place) => {
+  const legend = strategyLegend(options.looks, width - 60, options.step ? 'line' : 'mark');
+  return { ...panels(options.panels.length, width, { left: 52, min: 190, max: options.maxColumns ?? 3, gap: 22, rowGap: 54 }, (i, place) => {
     const panel = options.panels[i];
-    return panel ? { title: panel.title, ...layers(options, panel.rows, place, domains, columns) } : {};
-  });
+    return panel ? { title: panel.title, ...layers(options, panel.rows, place, domains) } : {};
+  }), usermeta: { legend } };
 }

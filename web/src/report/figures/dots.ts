@@ -24,8 +24,8 @@ const spread = (i: number): number => ((i * 0.618034) % 1) * 2 - 1;
 function layers(options: DotsOptions, panel: DotsOptions['panels'][number], place: Place, domain: [number, number]): Spec {
   const labels = options.looks.map((look) => look.label);
   const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
-  const y: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, paddingInner: 0.25, paddingOuter: 0.15 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelLimit: 116, labelPadding: 6, labelFontSize: 12 }) };
-  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: true }, axis: { title: place.lastRow ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false } };
+  const y: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, paddingInner: 0.25, paddingOuter: 0.15 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelLimit: 116, labelPadding: 6, labelFontSize: 12, labelColor: 'var(--text)' }) };
+  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: place.lastRow ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false } };
   const hue: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.color)), legend: null };
   const shape: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.shape)), legend: null };
   const means = panel.means.map((row) => ({
@@ -41,17 +41,19 @@ function layers(options: DotsOptions, panel: DotsOptions['panels'][number], plac
   const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'mean', title: options.xTitle, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
   const raw: Spec = {
     data: { values: points },
-    mark: { type: 'circle', size: 16, opacity: points.length > 600 ? 0.18 : 0.38, clip: true },
+    mark: { type: 'circle', size: 16, opacity: points.length > 600 ? 0.18 : 0.38 },
     encoding: { y, x: { ...x, field: 'value' }, yOffset: { field: 'spread', type: 'quantitative', scale: { domain: [-1.05, 1.05] }, axis: null }, color: hue },
   };
+  const known = means.filter((row) => row.low !== null && row.high !== null);
   return {
     title: panel.title,
     width: place.width,
     height: options.looks.length * 32,
     layer: [
       ...(points.length > 0 ? [raw] : []),
-      { data: { values: means.filter((row) => row.low !== null && row.high !== null) }, mark: { type: 'rule', strokeWidth: 2.4, strokeCap: 'round' }, encoding: { y, x: { ...x, field: 'low' }, x2: { field: 'high' }, color: hue } },
-      { data: { values: means }, mark: { type: 'point', filled: true, size: 95, opacity: 1, stroke: 'var(--ground)', strokeWidth: 1.4 }, encoding: { y, x: { ...x, field: 'mean' }, color: hue, shape, tooltip } },
+      { data: { values: known }, mark: { type: 'rule', strokeWidth: 2 }, encoding: { y, x: { ...x, field: 'low' }, x2: { field: 'high' }, color: hue } },
+      ...['low', 'high'].map((field): Spec => ({ data: { values: known }, mark: { type: 'tick', thickness: 2, size: 9 }, encoding: { y, x: { ...x, field }, color: hue } })),
+      { data: { values: means }, mark: { type: 'point', filled: true, size: 62, opacity: 1, stroke: 'var(--ground)', strokeWidth: 1 }, encoding: { y, x: { ...x, field: 'mean' }, color: hue, shape, tooltip } },
     ],
   };
 }
@@ -61,7 +63,9 @@ export function dots(options: DotsOptions, width: number): Spec {
     ...panel.means.flatMap((row) => [num(row[options.mean]), num(row[options.low]), num(row[options.high])]),
     ...(panel.points ?? []).map((row) => num(row[options.point ?? ''])),
   ]);
-  const domain = extent(values, options.zero);
+  const [least, most] = extent(values, options.zero);
+  const margin = 0.03 * (most - least); // so that marks at the ends are whole
+  const domain: [number, number] = [options.zero ? least : least - margin, most + margin];
   return panels(options.panels.length, width, { left: 104, min: 132 }, (i, place) => {
     const panel = options.panels[i];
     return panel ? layers(options, panel, place, domain) : {};

@@ -8,5 +8,6 @@ export interface Figure {
   reading: string; // one sentence: how to read it
   gist: string; // the text alternative
   table: Table;
+  raw?: { what: string; table: Table } | undefined; // single observations behind the table, to save only
   spec(width: number): Spec;
 }

@@ -3,6 +3,7 @@
 // press the others flat.
 import type { Spec } from '../chart';
 import { type Row, num } from '../document';
+import { strategyLegend } from '../legend';
 import type { Look } from '../palette';
 import { extent, panels } from '../panels';
 import { type Study, rowsOf } from '../study';
@@ -28,8 +29,8 @@ function panelsOf(rows: Row[]): Panel[] {
 function spec(study: Study, list: Panel[], compositions: string[], looks: Look[], width: number): Spec {
   const labels = looks.map((look) => look.label);
   const scale = (range: (string | number[])[]): Spec => ({ domain: labels, range });
-  const columns = Math.max(1, Math.min(labels.length, Math.floor(width / 145)));
-  return panels(list.length, width, { left: 46, min: 170, gap: 58, rowGap: 64 }, (i, place) => {
+  const legend = strategyLegend(looks, width - 60, 'mark');
+  return { ...panels(list.length, width, { left: 46, min: 170, gap: 58, rowGap: 64 }, (i, place) => {
     const panel = list[i];
     if (!panel) return {};
     const local = study.looks(panel.rows);
@@ -43,8 +44,7 @@ function spec(study: Study, list: Panel[], compositions: string[], looks: Look[]
     const domain = extent(values.flatMap((row) => [row.mean, row.low, row.high]));
     const x: Spec = { field: 'at', type: 'quantitative', scale: { domain: [-0.4, compositions.length - 0.6], nice: false }, axis: { title: place.lastRow ? 'Composition' : null, values: compositions.map((_, k) => k), labelExpr: `${JSON.stringify(compositions)}[datum.value]`, grid: false, labelOverlap: false } };
     const y: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: true }, axis: { title: null, domain: false, tickCount: 5 } };
-    const legend: Spec = { title: null, columns };
-    const color: Spec = { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.color)), legend };
+    const color: Spec = { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.color)), legend: null };
     const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'composition', title: 'Composition' }, { field: 'mean', title: panel.title, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
     return {
       title: panel.title,
@@ -52,12 +52,12 @@ function spec(study: Study, list: Panel[], compositions: string[], looks: Look[]
       width: place.width,
       height: 200,
       layer: [
-        { transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }], mark: { type: 'rule', strokeWidth: 1.2, opacity: 0.7 }, encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color: { ...color, legend: null } } },
-        { mark: { type: 'line', strokeWidth: 1.8 }, encoding: { x, y: { ...y, field: 'mean' }, color, strokeDash: { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.dash)), legend } } },
-        { mark: { type: 'point', filled: true, size: 60, opacity: 1 }, encoding: { x, y: { ...y, field: 'mean' }, color, shape: { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.shape)), legend }, tooltip } },
+        { transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }], mark: { type: 'rule', strokeWidth: 1.2, opacity: 0.7 }, encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color } },
+        { mark: { type: 'line', strokeWidth: 1.8 }, encoding: { x, y: { ...y, field: 'mean' }, color, strokeDash: { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.dash)), legend: null } } },
+        { mark: { type: 'point', filled: true, size: 60, opacity: 1 }, encoding: { x, y: { ...y, field: 'mean' }, color, shape: { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.shape)), legend: null }, tooltip } },
       ],
     };
-  });
+  }), usermeta: { legend } };
 }
 
 export function interactionFigures(study: Study): Figure[] {

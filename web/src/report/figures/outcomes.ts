@@ -45,6 +45,7 @@ export function outcomeFigures(study: Study): Figure[] {
     reading,
     gist: `${title}. Means: ${range(means, `${column}_mean`, name)}`,
     table: cells,
+    raw: teams ? { what: 'teams', table: teams } : undefined,
     spec: (width) =>
       dots({
         looks,

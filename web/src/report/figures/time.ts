@@ -28,7 +28,7 @@ function teachingSpec(study: Study, rows: Row[], width: number): Spec {
     data: { values: rows.filter((row) => row.composition === compositions[i]).map((row) => ({ strategy: study.words.strategy(row.strategy), component: componentName(String(row.kc)), order: components.indexOf(String(row.kc)), periods: num(row.mean_periods) })) },
     mark: { type: 'bar', stroke: color('ground'), strokeWidth: 1.5 },
     encoding: {
-      y: { field: 'strategy', type: 'nominal', scale: { domain: strategies, paddingInner: 0.3 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelFontSize: 12, labelLimit: 116, labelPadding: 6 }) },
+      y: { field: 'strategy', type: 'nominal', scale: { domain: strategies, paddingInner: 0.3 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelFontSize: 12, labelColor: color('text'), labelLimit: 116, labelPadding: 6 }) },
       x: { field: 'periods', type: 'quantitative', stack: true, scale: { domain, nice: true }, axis: { title: place.lastRow ? 'Periods, mean' : null, domain: false, tickCount: Math.max(3, Math.floor(place.width / 45)) } },
       order: { field: 'order', type: 'quantitative' },
       color: { field: 'component', type: 'nominal', scale: { domain: names, range: shades(names.length) }, legend: { title: null, symbolType: 'square', columns: Math.max(1, Math.min(names.length, Math.floor(width / 120))) } },
@@ -54,7 +54,7 @@ function teachingFigures(study: Study): Figure[] {
 
 function computingSpec(rows: Row[], width: number): Spec {
   const values = rows.map((row) => ({ phase: String(row.phase), seconds: num(row.seconds) }));
-  const y: Spec = { field: 'phase', type: 'nominal', sort: null, axis: { title: null, ticks: false, domain: false, labelFontSize: 12, labelPadding: 6 } };
+  const y: Spec = { field: 'phase', type: 'nominal', sort: null, axis: { title: null, ticks: false, domain: false, labelFontSize: 12, labelColor: color('text'), labelPadding: 6 } };
   const x: Spec = { field: 'seconds', type: 'quantitative', axis: { title: 'Seconds', domain: false, tickCount: 5 } };
   return {
     $schema: 'https://vega.github.io/schema/vega-lite/v5.json',

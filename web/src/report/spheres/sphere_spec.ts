@@ -66,7 +66,7 @@ function keys(beliefs: Beliefs): Key[] {
   return [
     ...beliefs.regions.map(({ label }, i) => ({ label, shape: i === 0 ? 'square' : 'stroke', fill: i === 0 ? color('bec') : 'transparent', stroke: i === 0 ? color('bec') : color('muted'), dash: kRegionDashes[i % 4] ?? [1, 0] })),
     { label: 'true reward', shape: kStar, fill: color('truth'), stroke: color('ground'), dash: [1, 0] },
-    { label: 'particle', shape: 'circle', fill: color('own'), stroke: 'transparent', dash: [1, 0] },
+    { label: 'particle', shape: 'circle', fill: color('muted'), stroke: 'transparent', dash: [1, 0] },
   ];
 }
 

@@ -33,7 +33,7 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
   const first = beliefs.teams[0];
   if (!first) return null;
   const what = `figure ${number}`;
-  const drawing = el('div', { class: 'drawing globes' });
+  const drawing = el('div', { class: 'drawing globes', 'aria-hidden': 'true' });
   const chart = el('div', { class: 'chart', role: 'img' }, drawing);
   const view = new GlobeView(drawing, beliefs, first);
   const about = el('p', { class: 'about' });
