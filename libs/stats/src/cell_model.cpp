@@ -169,6 +169,21 @@ std::vector<std::vector<std::size_t>> checked_terms(std::span<const std::vector<
   return sets;
 }
 
+// Of levels that have observations; at most 2^53.
+std::size_t num_combinations(const Cells& cells) {
+  double combinations = cells.cell_of.empty() ? 0.0 : 1.0;
+  for (const auto num_levels : cells.num_levels) combinations *= static_cast<double>(num_levels);
+  return static_cast<std::size_t>(std::min(combinations, 0x1.0p53));
+}
+
+std::string reason_against_fitting(const Cells& cells, const std::vector<std::vector<std::size_t>>& terms) {
+  if (cells.cell_of.empty()) return "no observations";
+  const auto rows = static_cast<double>(cells.levels.size());
+  const double width = num_columns(cells, terms);
+  if (rows * width * std::min(rows, width) <= kMostWork) return "";
+  return "too many combinations of levels for an analysis of variance";
+}
+
 std::string reason_without_df(const std::vector<std::size_t>& term, const Cells& cells,
                               std::span<const Factor> factors) {
   for (const auto factor : term) {
@@ -216,40 +231,41 @@ CellModel::CellModel(std::size_t observations, std::span<const Factor> factors,
   for (const auto& factor : factors) require_codes(factor, observations, "anova");
   for (const auto& set : sets) terms_.push_back({name_of(set, factors), 0, {}, {}, {}});
 
-  auto cells = find_cells(observations, factors, sets);
+  const auto cells = find_cells(observations, factors, sets);
+  cell_of_ = cells.cell_of;
   counts_.assign(cells.levels.size(), 0);
-  for (const auto cell : cells.cell_of) ++counts_[cell];
+  for (const auto cell : cell_of_) ++counts_[cell];
   root_counts_.resize(index_of(counts_.size()));
   for (std::size_t c = 0; c < counts_.size(); ++c)
     root_counts_(index_of(c)) = std::sqrt(static_cast<double>(counts_[c]));
-  double combinations = observations == 0 ? 0.0 : 1.0;
-  for (const auto num_levels : cells.num_levels) combinations *= static_cast<double>(num_levels);
-  empty_cells_ = static_cast<std::size_t>(std::min(combinations, 0x1.0p53)) - counts_.size();
-  cell_of_ = std::move(cells.cell_of);
+  empty_cells_ = num_combinations(cells) - counts_.size();
 
-  const double width = num_columns(cells, sets);
-  if (observations == 0) {
-    reason_ = "no observations";
-  } else if (static_cast<double>(counts_.size()) * width * std::min(width, static_cast<double>(counts_.size())) >
-             kMostWork) {
-    reason_ = "too many combinations of levels for an analysis of variance";
-  }
-  if (!reason_.empty()) {
-    for (auto& term : terms_) term.reason = reason_;
-    return;
-  }
-
+  reason_ = reason_against_fitting(cells, sets);
+  for (auto& term : terms_) term.reason = reason_;
+  if (!reason_.empty()) return;
   std::vector<MatrixXd> columns;
   for (const auto& set : sets) columns.push_back(term_columns(cells, set, sets));
-  const MatrixXd intercept = MatrixXd::Ones(index_of(counts_.size()), 1);
+  decompose(columns, sets, type);
+  for (std::size_t t = 0; t < sets.size(); ++t) {
+    if (terms_[t].df == 0) {
+      terms_[t].reason = reason_without_df(sets[t], cells, factors);
+    } else if (residual_df_ == 0) {
+      terms_[t].reason = "no residual degrees of freedom: as many parameters as observations";
+    }
+  }
+}
+
+void CellModel::decompose(const std::vector<MatrixXd>& columns, const std::vector<std::vector<std::size_t>>& sets,
+                          SumsOfSquares type) {
+  const MatrixXd intercept = MatrixXd::Ones(index_of(num_cells()), 1);
   const auto weighted = [this](const MatrixXd& design) -> MatrixXd { return root_counts_.asDiagonal() * design; };
 
   MatrixXd design = intercept;
   for (const auto& term : columns) design = beside(design, term);
   const auto rank = rank_of(design);
   basis_ = orthonormal(weighted(design), rank);
-  saturated_ = rank == counts_.size();
-  residual_df_ = observations - rank;
+  saturated_ = rank == num_cells();
+  residual_df_ = observations() - rank;
 
   for (std::size_t t = 0; t < sets.size(); ++t) {
     MatrixXd others = intercept;
@@ -257,15 +273,11 @@ CellModel::CellModel(std::size_t observations, std::span<const Factor> factors,
       if (other == t || (type == SumsOfSquares::kTypeII && contains(sets[other], sets[t]))) continue;
       others = beside(others, columns[other]);
     }
-    auto& term = terms_[t];
     const auto rank_of_others = rank_of(others);
+    auto& term = terms_[t];
     term.df = rank_of(beside(others, columns[t])) - rank_of_others;
     term.others = orthonormal(weighted(others), rank_of_others);
     term.basis = orthonormal(outside(term.others, weighted(columns[t])), term.df);
-    if (term.df == 0)
-      term.reason = reason_without_df(sets[t], cells, factors);
-    else if (residual_df_ == 0)
-      term.reason = "no residual degrees of freedom: the model has as many parameters as there are observations";
   }
 }
 

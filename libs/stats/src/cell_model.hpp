@@ -80,6 +80,10 @@ class CellModel {
   [[nodiscard]] Eigen::VectorXd fitted_without(std::size_t term, const Eigen::VectorXd& z) const;
 
  private:
+  // Finds the bases of the model and of its terms. `columns` are those of each term, `sets` their factors.
+  void decompose(const std::vector<Eigen::MatrixXd>& columns, const std::vector<std::vector<std::size_t>>& sets,
+                 SumsOfSquares type);
+
   std::vector<Term> terms_;
   std::vector<std::size_t> cell_of_;
   std::vector<std::size_t> counts_;

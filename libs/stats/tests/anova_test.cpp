@@ -282,7 +282,7 @@ TEST(BlockedAnova, SaysWhatIsWrongWithTheBlocks) {
   };
   EXPECT_EQ(reason(within, one_group, factor_with("b", 2, {0, 0, 0, 1})),
             "block 'L0' has level 'L0' of 'w' more than once");
-  EXPECT_EQ(reason(within, one_group, factor_with("b", 3, {0, 0, 1, 2})), "block 'L1' lacks a level of 'w'");
+  EXPECT_EQ(reason(within, one_group, factor_with("b", 3, {0, 0, 1, 2})), "block 'L1' lacks level 'L1' of 'w'");
   EXPECT_EQ(reason(within, factor_with("g", 2, {0, 1, 0, 0}), factor_with("b", 2, {0, 0, 1, 1})),
             "block 'L0' has more than one level of 'g'");
   EXPECT_EQ(reason(factor_with("w", 2, {1, 1, 1, 1}), one_group, factor_with("b", 4, {0, 1, 2, 3})),

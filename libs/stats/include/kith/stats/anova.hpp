@@ -32,16 +32,20 @@ struct AnovaTable {
   std::size_t residual_df = 0;
   std::size_t observations = 0;
   bool balanced = false;          ///< Every cell has the same number of observations.
-  std::size_t empty_cells = 0;    ///< Combinations of levels that no observation has.
-  std::vector<double> residuals;  ///< One per observation.
+  std::size_t empty_cells = 0;    ///< Combinations of used levels that nobody has.
+  std::vector<double> residuals;  ///< One per observation; empty if no model was fitted.
 };
 
 /// Analysis of variance of a model with factors only.
 ///
 /// Computed from the cells' means and sums of squares, after the observations are
-/// centred, so that neither size nor scale of the data matters: equals R's aov with drop1 / car's
-/// definitions to 1e-10 relative. A term of which nothing can be estimated (empty cells, one
-/// level, no residual degrees of freedom, no residual spread) says why.
+/// centred and scaled, so that neither size nor scale of the data matters: equals R's comparisons of linear models
+/// (type II) and drop1 with sum-to-zero contrasts (type III) to 1e-10 relative. Only a sum of squares itself can be
+/// beyond the range of double, and is then infinite or 0. A term of which nothing can be estimated (empty cells, one
+/// level, no residual degrees of freedom, no residual spread beyond the rounding of the values, so many combinations
+/// of levels that fitting would take minutes) says why.
+///
+/// Costs O(n) for n observations and O(c p^2) per term for c cells and p columns.
 ///
 /// @param response  one value per observation, finite.
 /// @param factors   one code per observation each.

@@ -27,6 +27,10 @@ struct BootstrapOptions {
   std::size_t resamples = 2'000;
   double confidence = 0.95;
 };
+
+// Percentile intervals (R: quantile type 7 of the resampled estimates). Resample r draws from random.split(r).
+// Resamples without spread are left out; not estimable if they are more than one in a hundred.
+
 /// Hedges' g with a percentile bootstrap interval; a and b are resampled each by itself.
 [[nodiscard]] Estimable<Interval> bootstrap_hedges_g(std::span<const double> a, std::span<const double> b,
                                                      const BootstrapOptions& options, RandomStream random);

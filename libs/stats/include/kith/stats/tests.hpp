@@ -17,7 +17,10 @@ struct TestResult {
   double p = 1.0;          ///< In [0, 1].
 };
 
-/// One-way analysis of variance, F(k - 1, n - k). [field's standard]
+// Values must be finite and every observation must have a level, else std::invalid_argument. Levels without
+// observations do not count. Spread that rounding of the values explains is no spread.
+
+/// One-way analysis of variance of k groups and n values, F(k - 1, n - k) (R: aov).
 [[nodiscard]] Estimable<TestResult> one_way_anova(std::span<const double> values, const Factor& groups);
 /// Welch's test of equal means without equal variances (R: oneway.test(var.equal = FALSE)).
 [[nodiscard]] Estimable<TestResult> welch_anova(std::span<const double> values, const Factor& groups);
