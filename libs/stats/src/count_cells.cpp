@@ -1,7 +1,7 @@
 #include "count_cells.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <boost/math/special_functions/gamma.hpp>
 #include <unordered_map>
 
 namespace kith::detail {
@@ -55,7 +55,7 @@ CountData summarise_counts(std::span<const double> counts, std::span<const Facto
   data.observations = static_cast<double>(counts.size());
   data.frequencies = frequencies_of(counts);
   for (const auto& [count, observations] : data.frequencies)
-    data.log_factorials += observations * std::lgamma(count + 1.0);
+    data.log_factorials += observations * boost::math::lgamma(count + 1.0);
   return data;
 }
 

@@ -50,7 +50,7 @@ std::optional<double> median_of(const std::vector<SurvivalStep>& steps) {
 class ConnectedGroups {
  public:
   explicit ConnectedGroups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t part_of(std::size_t group) const {
+  [[nodiscard]] std::size_t part_of(std::size_t group) const {
     while (parent_[group] != group) group = parent_[group];
     return group;
   }
