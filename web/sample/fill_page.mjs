@@ -2,15 +2,22 @@
 //
 //   node sample/fill_page.mjs TEMPLATE DOCUMENT OUT
 import { readFileSync, writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
 
-const [template, document, out] = process.argv.slice(2);
-if (!out) {
-  console.error('usage: node sample/fill_page.mjs TEMPLATE DOCUMENT OUT');
-  process.exit(2);
-}
 const escapeHtml = (text) => text.replace(/&/g, '&amp;').replace(/</g, '&lt;');
-const text = readFileSync(document, 'utf8').trim();
-const page = readFileSync(template, 'utf8')
-  .replace('/*KITH_REPORT_TITLE*/', () => escapeHtml(JSON.parse(text).title))
-  .replace('/*KITH_REPORT_JSON*/', () => text.replaceAll('<', '\\u003c'));
-writeFileSync(out, page);
+
+// Replacements are functions: in a string, `$&` and the like would be expanded.
+export function fillPage(template, document) {
+  return template
+    .replace('/*KITH_REPORT_TITLE*/', () => escapeHtml(String(JSON.parse(document).title)))
+    .replace('/*KITH_REPORT_JSON*/', () => document.trim().replaceAll('<', '\\u003c'));
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const [template, document, out] = process.argv.slice(2);
+  if (!out) {
+    console.error('usage: node sample/fill_page.mjs TEMPLATE DOCUMENT OUT');
+    process.exit(2);
+  }
+  writeFileSync(out, fillPage(readFileSync(template, 'utf8'), readFileSync(document, 'utf8')));
+}

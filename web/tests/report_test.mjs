@@ -1,28 +1,39 @@
 // Opens a report as a reader would and checks what a reader needs.
 //
-//   node tests/report_test.mjs REPORT.html [--screenshots DIR] [--modules DIR] [--chromium FILE]
+//   node tests/report_test.mjs REPORT.html [--document FILE] [--screenshots DIR] [--modules DIR] [--chromium FILE]
+//
+// With --document, REPORT.html is the template, and the document is put into a copy of it.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
+import { fillPage } from '../sample/fill_page.mjs';
 import { launch, openReport, requireFrom } from './browser.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
   allowPositionals: true,
   options: {
+    document: { type: 'string' },
     screenshots: { type: 'string' },
     modules: { type: 'string', default: join(here, '..') },
     chromium: { type: 'string', default: '/usr/bin/chromium' },
   },
 });
 if (positionals.length !== 1) {
-  console.error('usage: node tests/report_test.mjs REPORT.html [--screenshots DIR] [--modules DIR] [--chromium FILE]');
+  console.error('usage: node tests/report_test.mjs REPORT.html [--document FILE] [--screenshots DIR] [--modules DIR] [--chromium FILE]');
   process.exit(2);
 }
-const address = pathToFileURL(resolve(positionals[0])).href;
+let report = resolve(positionals[0]);
+if (values.document) {
+  const filled = join(mkdtempSync(join(tmpdir(), 'kith-report-')), 'report.html');
+  writeFileSync(filled, fillPage(readFileSync(report, 'utf8'), readFileSync(values.document, 'utf8')));
+  report = filled;
+}
+const address = pathToFileURL(report).href;
 const axeSource = readFileSync(requireFrom(values.modules).resolve('axe-core/axe.min.js'), 'utf8');
 // axe needs half a minute for all tables, so it sees them opened in two looks only.
 const kLooks = [

@@ -34,9 +34,11 @@ export function panels(count: number, width: number, grid: Grid, make: (i: numbe
   };
 }
 
-// Axes of inner panels keep their grid and lose their words.
-export function yAxis(place: Place, axis: Spec): Spec {
-  return place.firstColumn ? axis : { ...axis, title: null, labels: false, ticks: false, domain: false };
+// Axes of inner panels keep their grid and lose their words. Labels that reach above the panel stay
+// as invisible ones, or the title would stand lower than its neighbour's.
+export function yAxis(place: Place, axis: Spec, hold = false): Spec {
+  if (place.firstColumn) return axis;
+  return { ...axis, title: null, ticks: false, domain: false, ...(hold ? { labelOpacity: 0 } : { labels: false }) };
 }
 
 export function extent(values: (number | null)[], zero = false): [number, number] {

@@ -13,7 +13,7 @@ function byComponent(study: Study): Figure[] {
   return [{
     id: 'area-component',
     title,
-    reading: 'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95 % intervals.',
+    reading: 'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals.',
     gist: `${title}. Mean log area: ${range(rows, 'mean_log_area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
     table,
     spec: (width) =>
@@ -35,7 +35,7 @@ function byComposition(study: Study): Figure[] {
   return [{
     id: 'area-composition',
     title,
-    reading: 'Further left conveys more: mean area over all periods in steradians, with 95 % intervals over teams.',
+    reading: 'Further left conveys more: mean area over all periods in steradians, with 95\u00a0% intervals over teams.',
     gist: `${title}. Mean area in steradians: ${range(rows, 'mean_area_sr', name)}`,
     table,
     spec: (width) =>

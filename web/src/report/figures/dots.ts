@@ -25,7 +25,7 @@ function layers(options: DotsOptions, panel: DotsOptions['panels'][number], plac
   const labels = options.looks.map((look) => look.label);
   const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
   const y: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, paddingInner: 0.25, paddingOuter: 0.15 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelLimit: 116, labelPadding: 6, labelFontSize: 12, labelColor: 'var(--text)' }) };
-  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: place.lastRow ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false } };
+  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: place.lastRow ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false, labelFlush: false, format: '.3~f' } };
   const hue: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.color)), legend: null };
   const shape: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.shape)), legend: null };
   const means = panel.means.map((row) => ({
@@ -66,7 +66,7 @@ export function dots(options: DotsOptions, width: number): Spec {
   const [least, most] = extent(values, options.zero);
   const margin = 0.03 * (most - least); // so that marks at the ends are whole
   const domain: [number, number] = [options.zero ? least : least - margin, most + margin];
-  return panels(options.panels.length, width, { left: 104, min: 132 }, (i, place) => {
+  return panels(options.panels.length, width, { left: 104, min: 124, gap: 26 }, (i, place) => {
     const panel = options.panels[i];
     return panel ? layers(options, panel, place, domain) : {};
   });

@@ -71,7 +71,7 @@ export function interactionFigures(study: Study): Figure[] {
   return [{
     id: 'interaction',
     title,
-    reading: 'Parallel lines mean that a strategy\u2019s advantage does not depend on who is in the team; bars are 95 % intervals.',
+    reading: 'Parallel lines mean that a strategy\u2019s advantage does not depend on who is in the team; bars are 95\u00a0% intervals.',
     gist: `${title}. Mean periods: ${range(rows, 'periods_mean', name)} Mean knowledge: ${range(rows, 'knowledge_mean', name)}`,
     table: cells,
     spec: (width) => spec(study, panelsOf(rows), compositions, study.looks(rows), width),

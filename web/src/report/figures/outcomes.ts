@@ -19,14 +19,14 @@ const kOutcomes: Outcome[] = [
     column: 'periods',
     title: 'Periods of teaching by strategy and composition',
     xTitle: 'Periods',
-    reading: 'Further left is faster; large marks are means with 95 % intervals, small dots single teams. The baseline counts the sum over members.',
+    reading: 'Further left is faster; large marks are means with 95\u00a0% intervals, small dots single teams. The baseline counts the sum over members.',
   },
   {
     id: 'knowledge',
     column: 'knowledge',
     title: 'Knowledge at the end by strategy and composition',
     xTitle: 'Knowledge',
-    reading: 'Further right is better; knowledge is the share of belief within the policy\u2019s region (BEC). Large marks are means with 95 % intervals, small dots single teams.',
+    reading: 'Further right is better; knowledge is the share of belief within the policy\u2019s region (BEC). Large marks are means with 95\u00a0% intervals, small dots single teams.',
   },
 ];
 

@@ -27,7 +27,7 @@ export function completionFigures(study: Study): Figure[] {
   return [figure(study, table, {
     id: 'completion',
     title: 'Teams that have learned everything, over periods',
-    reading: 'Steeper and further left is faster; one minus the Kaplan-Meier estimate with 95 % bands. The baseline counts the sum over members.',
+    reading: 'Steeper and further left is faster; one minus the Kaplan-Meier estimate with 95\u00a0% bands. The baseline counts the sum over members.',
   }, { x: 'period', y: 'done', xTitle: 'Period', yTitle: 'Share of teams done', step: true, yDomain: [0, 1], maxColumns: 2 },
   (rows) => study.compositions(rows).map((code) => ({ title: code, rows: rows.filter((row) => row.composition === code) })))];
 }
@@ -41,7 +41,7 @@ export function knowledgeFigures(study: Study): Figure[] {
   return [figure(study, table, {
     id: 'knowledge-periods',
     title: 'Knowledge over periods by type of learner',
-    reading: 'Share of people\u2019s own belief within the policy\u2019s region (BEC), mean with 95 % bands; a line ends where too few people are still taught.',
+    reading: 'Share of people\u2019s own belief within the policy\u2019s region (BEC), mean with 95\u00a0% bands; a line ends where too few people are still taught.',
   }, { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false }, byType(study))];
 }
 
@@ -51,7 +51,7 @@ export function abilityFigures(study: Study): Figure[] {
   return [figure(study, table, {
     id: 'ability-periods',
     title: 'Learning ability over the periods of a component',
-    reading: 'Ability while watching, mean with 95 % bands; it starts anew with every component and rises with feedback.',
+    reading: 'Ability while watching, mean with 95\u00a0% bands; it starts anew with every component and rises with feedback.',
   }, { x: 'period_of_kc', y: 'mean', xTitle: 'Period of the component', yTitle: 'Ability', step: false },
   (rows) => study.types(rows).flatMap((type) => study.codes(rows, 'kc').map((kc) => ({
     title: `${study.words.type(type)}, ${componentName(kc).toLowerCase()}`,
@@ -65,6 +65,6 @@ export function correctFigures(study: Study): Figure[] {
   return [figure(study, table, {
     id: 'correct-periods',
     title: 'Right answers over periods by type of learner',
-    reading: 'Share of test answers that were right, with 95 % bands; later periods hold the teams that needed longest.',
+    reading: 'Share of test answers that were right, with 95\u00a0% bands; later periods hold the teams that needed longest.',
   }, { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false }, byType(study))];
 }

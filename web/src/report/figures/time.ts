@@ -21,7 +21,7 @@ function teachingSpec(study: Study, rows: Row[], width: number): Spec {
   }
   const domain = extent([...totals.values()], true);
   const names = components.map(componentName);
-  return panels(compositions.length, width, { left: 104, min: 132 }, (i, place) => ({
+  return panels(compositions.length, width, { left: 104, min: 124, gap: 26 }, (i, place) => ({
     title: compositions[i] ?? '',
     width: place.width,
     height: strategies.length * 26,
@@ -29,7 +29,7 @@ function teachingSpec(study: Study, rows: Row[], width: number): Spec {
     mark: { type: 'bar', stroke: color('ground'), strokeWidth: 1.5 },
     encoding: {
       y: { field: 'strategy', type: 'nominal', scale: { domain: strategies, paddingInner: 0.3 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelFontSize: 12, labelColor: color('text'), labelLimit: 116, labelPadding: 6 }) },
-      x: { field: 'periods', type: 'quantitative', stack: true, scale: { domain, nice: true }, axis: { title: place.lastRow ? 'Periods, mean' : null, domain: false, tickCount: Math.max(3, Math.floor(place.width / 45)) } },
+      x: { field: 'periods', type: 'quantitative', stack: true, scale: { domain, nice: true }, axis: { title: place.lastRow ? 'Periods, mean' : null, domain: false, labelFlush: false, tickCount: Math.max(3, Math.floor(place.width / 45)) } },
       order: { field: 'order', type: 'quantitative' },
       color: { field: 'component', type: 'nominal', scale: { domain: names, range: shades(names.length) }, legend: { title: null, symbolType: 'square', columns: Math.max(1, Math.min(names.length, Math.floor(width / 120))) } },
       tooltip: [{ field: 'strategy', title: 'Strategy' }, { field: 'component', title: 'Part' }, { field: 'periods', title: 'Periods, mean', format: '.3~r' }],

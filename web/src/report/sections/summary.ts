@@ -12,7 +12,7 @@ function card(headline: Headline): HTMLElement {
   const digits = digitsOf(headline);
   const details = [
     typeof sd === 'number' ? `sd ${formatFixed(sd, digits)}` : '',
-    typeof low === 'number' && typeof high === 'number' ? `95 % interval ${formatFixed(low, digits)} to ${formatFixed(high, digits)}` : '',
+    typeof low === 'number' && typeof high === 'number' ? `95\u00a0% interval ${formatFixed(low, digits)} to ${formatFixed(high, digits)}` : '',
     typeof n === 'number' ? plural(n, 'team') : '',
   ].filter(Boolean);
   return el('div', { class: 'card' },

@@ -41,17 +41,3 @@ export function closedLine(outline: Vector[]): { type: 'LineString'; coordinates
   const first = ring[0];
   return { type: 'LineString', coordinates: first ? [...ring, first] : ring };
 }
-
-// A five-pointed star on the sphere itself, so that it turns and hides like everything else.
-export function star(centre: Vector, radius = 0.11): Vector[] {
-  const c = normalise(centre);
-  const pole: Vector = Math.abs(c[2]) < 0.9 ? [0, 0, 1] : [0, 1, 0];
-  const east = normalise(cross(pole, c));
-  const north = cross(c, east);
-  return Array.from({ length: 10 }, (_, i) => {
-    const angle = Math.PI / 2 + (i * Math.PI) / 5;
-    const r = i % 2 === 0 ? radius : radius * 0.42;
-    const at = (k: 0 | 1 | 2): number => Math.cos(r) * c[k] + Math.sin(r) * (Math.cos(angle) * east[k] + Math.sin(angle) * north[k]);
-    return [at(0), at(1), at(2)];
-  });
-}

@@ -10,10 +10,12 @@ import type { Spec } from '../chart';
 
 const kDegreesPerPixel = 0.5;
 
-// The prior faces the viewer: everything that is possible is in view.
+// Halfway from the prior's middle to the true reward: the prior faces the viewer, and the region that
+// matters does not lie at the edge.
 export function firstTurn(beliefs: Beliefs): Turn {
   const prior = beliefs.regions.find(({ label }) => label.toLowerCase().startsWith('prior')) ?? beliefs.regions[0];
-  const [lambda, phi] = toLonLat(prior ? middle(prior.outline) : beliefs.truth);
+  const [x, y, z] = prior ? middle(prior.outline) : beliefs.truth;
+  const [lambda, phi] = toLonLat([x + beliefs.truth[0], y + beliefs.truth[1], z + beliefs.truth[2]]);
   return { lambda: Math.round(lambda), phi: Math.round(phi) };
 }
 

@@ -1,10 +1,10 @@
 // One Vega specification with a globe per belief (orthographic projection). All globes share one
 // rotation, the signals `lambda` and `phi`: longitude and latitude that face the viewer, degrees.
 import type { Json, Spec } from '../chart';
-import type { Beliefs, BeliefTeam } from '../document';
+import type { Beliefs, BeliefTeam, Vector } from '../document';
 import { color } from '../theme';
 import { formatFixed } from '../words';
-import { closedLine, polygon, star, toLonLat } from './geometry';
+import { closedLine, polygon, toLonLat } from './geometry';
 import type { Particles } from './particles';
 
 export interface Turn {
@@ -42,12 +42,28 @@ export function beliefRows(team: BeliefTeam, frame: number): Json[] {
   return team.beliefs.map(({ name }, belief) => ({ belief, name, mass: `p = ${formatFixed(team.mass[frame]?.[belief], 2)}` }));
 }
 
+function inRadians(v: Vector): { lon: number; lat: number } {
+  const [lon, lat] = toLonLat(v);
+  return { lon: (lon * Math.PI) / 180, lat: (lat * Math.PI) / 180 };
+}
+
+// The orthographic projection of points whose marks keep their shape at the edge: place and whether
+// they are in front.
+function onGlobe(radius: number): Json[] {
+  const away = 'datum.lon - lambda*PI/180';
+  return [
+    { type: 'formula', as: 'front', expr: `sin(phi*PI/180)*sin(datum.lat) + cos(phi*PI/180)*cos(datum.lat)*cos(${away})` },
+    { type: 'formula', as: 'px', expr: `${radius} + ${radius - 1}*cos(datum.lat)*sin(${away})` },
+    { type: 'formula', as: 'py', expr: `${radius} - ${radius - 1}*(cos(phi*PI/180)*sin(datum.lat) - sin(phi*PI/180)*cos(datum.lat)*cos(${away}))` },
+  ];
+}
+
 // Both ends of every feature's axis, for orientation.
 function axisRows(features: string[]): Json[] {
   return features.slice(0, 3).flatMap((name, i) =>
     [1, -1].map((sign) => {
-      const [lon, lat] = toLonLat([i === 0 ? sign : 0, i === 1 ? sign : 0, i === 2 ? sign : 0]);
-      return { label: `${name} ${sign > 0 ? '+' : '\u2212'}`, lon: (lon * Math.PI) / 180, lat: (lat * Math.PI) / 180 };
+      const end: Vector = [i === 0 ? sign : 0, i === 1 ? sign : 0, i === 2 ? sign : 0];
+      return { label: `${name} ${sign > 0 ? '+' : '\u2212'}`, ...inRadians(end) };
     }),
   );
 }
@@ -110,7 +126,7 @@ function globeMarks(): Spec[] {
     { type: 'symbol', from: { data: 'axes' }, encode: { update: { x: { field: 'px' }, y: { field: 'py' }, size: { value: 7 }, fill: { value: color('muted') }, opacity: { signal: 'datum.front > 0.05 ? 1 : 0' } } } },
     label({ stroke: { value: color('sphere') }, strokeWidth: { value: 3 }, strokeOpacity: { value: 0.85 }, fill: { value: color('sphere') } }),
     label({ fill: { value: color('muted') } }),
-    geoshape('star', { fill: { value: color('truth') }, stroke: { value: color('ground') }, strokeWidth: { value: 1 } }),
+    { type: 'symbol', from: { data: 'truth' }, encode: { update: { x: { field: 'px' }, y: { field: 'py' }, shape: { value: kStar }, size: { value: 190 }, fill: { value: color('truth') }, stroke: { value: color('ground') }, strokeWidth: { value: 1.2 }, opacity: { signal: 'datum.front > 0 ? 1 : 0' } } } },
   ];
 }
 
@@ -138,17 +154,13 @@ export function sphereSpec(beliefs: Beliefs, team: BeliefTeam, particles: Partic
       { name: 'graticule', transform: [{ type: 'graticule', step: [30, 30] }] },
       { name: 'region', values: beliefs.regions.slice(0, 1).map(({ outline }) => polygon(outline)) },
       { name: 'outlines', values: beliefs.regions.slice(1).map(({ outline }, i) => ({ ...closedLine(outline), dash: kRegionDashes[(i + 1) % 4] })) },
-      { name: 'star', values: [polygon(star(beliefs.truth))] },
+      { name: 'truth', values: [inRadians(beliefs.truth)], transform: onGlobe(radius) },
       { name: 'particles', values: particleRows(particles, team, frame) },
       { name: 'beliefs', values: beliefRows(team, frame) },
       {
         name: 'axes',
         values: axisRows(beliefs.features),
-        transform: [
-          { type: 'formula', as: 'front', expr: 'sin(phi*PI/180)*sin(datum.lat) + cos(phi*PI/180)*cos(datum.lat)*cos(datum.lon - lambda*PI/180)' },
-          { type: 'formula', as: 'px', expr: `${radius} + ${radius - 1}*cos(datum.lat)*sin(datum.lon - lambda*PI/180)` },
-          { type: 'formula', as: 'py', expr: `${radius} - ${radius - 1}*(cos(phi*PI/180)*sin(datum.lat) - sin(phi*PI/180)*cos(datum.lat)*cos(datum.lon - lambda*PI/180))` },
-        ],
+        transform: onGlobe(radius),
       },
       { name: 'keys', values: legend.rows },
     ],
