@@ -131,6 +131,20 @@ TEST(AgainstR, TypeIIISumsOfSquaresEqualDrop1WithSumContrasts) {
   }
 }
 
+// There R has NaN, Inf or rounding errors: `r_says`.
+TEST(AgainstR, WhatRCannotEstimateHasAReason) {
+  for (const auto& entry : reference().at("degenerate")) {
+    const auto set = data_set_of(entry);
+    for (const auto type : {SumsOfSquares::kTypeII, SumsOfSquares::kTypeIII}) {
+      for (const auto& term : anova(set.response, set.factors, set.terms, type).terms) {
+        EXPECT_FALSE(term.test) << set.name << ", " << term.name;
+        EXPECT_FALSE(term.test.reason().empty());
+        EXPECT_FALSE(term.partial_eta_squared);
+      }
+    }
+  }
+}
+
 TEST(AgainstR, TestsOfOneFactorEqual) {
   for (const auto& entry : reference().at("data_sets")) {
     const auto set = data_set_of(entry);

@@ -260,6 +260,33 @@ for (groups in c(2, 4, 6)) for (n in c(5, 15, 100)) for (ratio in c(0.02, 0.1, 0
                                        power = result$power)
 }
 
+# ---- where R answers with NaN, Inf, or a p-value of rounding errors ----
+
+degenerate <- list()
+add_degenerate <- function(name, codes, y, terms = full_terms(length(codes))) {
+  names <- letters[seq_along(codes)]
+  data <- data.frame(y = y)
+  for (f in seq_along(codes)) data[[names[f]]] <- factor(codes[[f]])
+  labels <- vapply(terms, term_label, "", names)
+  model <- aov(as.formula(paste("y ~", paste(labels, collapse = "+"))), data)
+  f <- suppressWarnings(summary(model))[[1]][["F value"]]
+  degenerate[[length(degenerate) + 1]] <<- list(name = name, y = array_of(y), exponent = 0, offset = 0,
+                                                factors = lapply(codes, array_of),
+                                                terms = lapply(terms, function(t) array_of(t - 1)),
+                                                r_says = paste(format(f), collapse = " "))
+}
+d <- cells(balanced(3, 4)); add_degenerate("all values are equal", d, rep(0.1, 12))
+add_degenerate("no spread within groups", d, c(0.1, 0.7, 1.3)[d[[1]] + 1])
+add_degenerate("spread of rounding errors", d,
+               c(0.1, 0.7, 1.3)[d[[1]] + 1] + rep(c(0, 1, 0, 2), 3) * 2^-53)
+add_degenerate("no spread at an offset", d, 1e8 + c(1, 2, 3)[d[[1]] + 1])
+add_degenerate("no spread at a huge scale", d, 1e150 * c(1, 2, 3)[d[[1]] + 1])
+add_degenerate("no spread at a tiny scale", d, 1e-150 * c(1, 2, 3)[d[[1]] + 1])
+d <- cells(balanced(3, 2, 1)); add_degenerate("one observation per cell, crossed", d, rnorm(6))
+add_degenerate("exactly additive", d, 0.1 * d[[1]] + 0.3 * d[[2]], terms = list(1, 2))
+d <- cells(array(c(3, 0, 0, 4), c(2, 2))); add_degenerate("two factors that are one", d, rnorm(7))
+d <- cells(balanced(4, 1)); add_degenerate("one observation per group", d, rnorm(4))
+
 # ---- write ----
 
 argument <- grep("^--file=", commandArgs(FALSE), value = TRUE)
@@ -267,6 +294,6 @@ folder <- dirname(sub("^--file=", "", argument[1]))
 lines <- function(name, entries) paste0("\"", name, "\":[\n", paste(vapply(entries, json, ""), collapse = ",\n"), "\n]")
 writeLines(paste0("{\"made_by\":\"", R.version.string, "\",\n",
                   paste(lines("data_sets", data_sets), lines("blocks", blocks), lines("adjusted", adjusted),
-                        lines("studentized_range", ranges), lines("power", powers), sep = ",\n"), "\n}"),
+                        lines("degenerate", degenerate), lines("studentized_range", ranges), lines("power", powers), sep = ",\n"), "\n}"),
            file.path(folder, "anova.json"))
 cat(length(data_sets), "data sets\n")
