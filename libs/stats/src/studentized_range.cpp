@@ -75,7 +75,7 @@ double sum_outwards(double start, double step, Function f) {
   constexpr double kNegligible = 1e-18;
   double sum = f(start);
   for (const double direction : {-step, step}) {
-    for (double i = 1.0;; ++i) {
+    for (int i = 1;; ++i) {
       const double term = f(start + i * direction);
       sum += term;
       if (term <= kNegligible * sum) break;

@@ -16,8 +16,10 @@ enum class Correction { kNone, kBonferroni, kHolm };
 /// Adjusted p-values, in the order given, in [0, 1] (R: p.adjust).
 [[nodiscard]] std::vector<double> adjust(std::span<const double> p_values, Correction correction);
 
-/// P(Q > q) of the studentised range of `groups` means with `df` degrees of freedom (R: ptukey(lower.tail = FALSE)),
-/// within 1e-6 relative where it exceeds 1e-6. df may be infinite.
+/// P(Q > q) of the studentised range of `groups` means with `df` degrees of freedom, which may be infinite. The
+/// integral that defines it, within 1e-10 relative for up to 1000 groups, however small. R's
+/// ptukey(lower.tail = FALSE) agrees within 1e-6 where it is accurate itself; for few degrees of freedom or large q it
+/// is off by up to two percent, and 0 for large q. Costs a fraction of a millisecond.
 /// @throws std::invalid_argument unless q >= 0, groups >= 2, df >= 2 (R's limits).
 [[nodiscard]] double studentized_range_upper(double q, std::size_t groups, double df);
 /// The q with studentized_range_upper(q, groups, df) = p, for p in (0, 1).

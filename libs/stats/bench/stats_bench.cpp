@@ -1,0 +1,57 @@
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+#include "kith/random/distributions.hpp"
+#include "kith/stats/anova.hpp"
+#include "kith/stats/effect_size.hpp"
+#include "kith/stats/multiple.hpp"
+
+namespace kith {
+namespace {
+
+const std::vector<std::vector<std::size_t>> kCrossed{{0}, {1}, {0, 1}};
+
+// Teams of the published design, four strategies by four compositions.
+struct Teams {
+  std::vector<Factor> factors{{"strategy", {"0", "1", "2", "3"}, {}}, {"composition", {"0", "1", "2", "3"}, {}}};
+  std::vector<double> response;
+
+  explicit Teams(std::size_t n) {
+    RandomStream random{11};
+    for (std::size_t i = 0; i < n; ++i) {
+      for (auto& factor : factors) factor.codes.push_back(uniform_index(4, random));
+      response.push_back(standard_normal(random));
+    }
+  }
+};
+
+// What does a table cost, from the published 240 teams to a large simulation?
+void BM_Anova(benchmark::State& state) {
+  const Teams teams{static_cast<std::size_t>(state.range(0))};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(anova(teams.response, teams.factors, kCrossed, SumsOfSquares::kTypeIII));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(BM_Anova)->Arg(240)->Arg(20'000)->Unit(benchmark::kMicrosecond);
+
+// What do intervals of all effects cost, with 2000 resamples?
+void BM_BootstrapPartialEtaSquared(benchmark::State& state) {
+  const Teams teams{static_cast<std::size_t>(state.range(0))};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(bootstrap_partial_eta_squared(teams.response, teams.factors, kCrossed,
+                                                           SumsOfSquares::kTypeII, {}, RandomStream{1}));
+  }
+}
+BENCHMARK(BM_BootstrapPartialEtaSquared)->Arg(240)->Arg(20'000)->Unit(benchmark::kMillisecond);
+
+// What do all pairs of four groups cost? The critical value is most of it.
+void BM_Tukey(benchmark::State& state) {
+  const std::vector<double> means{1.0, 1.2, 1.5, 2.0};
+  const std::vector<std::size_t> counts(4, 60);
+  for (auto _ : state) benchmark::DoNotOptimize(tukey_hsd(means, counts, 1.0, static_cast<double>(state.range(0))));
+}
+BENCHMARK(BM_Tukey)->Arg(5)->Arg(224)->Arg(19'984)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace kith
