@@ -2,10 +2,12 @@
 #
 # Sets the variable to the path, in the build tree, of the report's template (one HTML file, see
 # web/build.mjs) and defines the target kith_web_report, which makes it. Packages come from npm,
-# once per build tree and whenever the lock file changes; the source tree stays as it is.
+# once per build tree and whenever the lock file changes; the source tree stays as it is. Tests of
+# the page run where Chromium is installed.
 find_program(KITH_NODE NAMES node nodejs DOC "Node.js, which bundles the pages")
 find_program(KITH_NPM npm DOC "npm, which fetches what the pages are made of")
-mark_as_advanced(KITH_NODE KITH_NPM)
+find_program(KITH_CHROMIUM NAMES chromium DOC "Browser that tests the pages")
+mark_as_advanced(KITH_NODE KITH_NPM KITH_CHROMIUM)
 
 function(kith_add_web_report variable)
   if(NOT KITH_NODE OR NOT KITH_NPM)
@@ -36,4 +38,23 @@ function(kith_add_web_report variable)
     COMMENT "Bundling the report page" VERBATIM)
   add_custom_target(kith_web_report DEPENDS ${page})
   set(${variable} ${page} PARENT_SCOPE)
+  if(KITH_BUILD_TESTS AND NOT KITH_SANITIZE)
+    kith_test_web_report(${source} ${build} ${page})
+  endif()
+endfunction()
+
+# Types, the sample document as a reader sees it, and documents that lack parts. One browser at a time.
+function(kith_test_web_report source build page)
+  add_test(NAME web.Types COMMAND ${KITH_NODE} ${source}/tests/types_test.mjs --modules ${build})
+  set_tests_properties(web.Types PROPERTIES LABELS web)
+  if(NOT KITH_CHROMIUM)
+    message(STATUS "No Chromium: the report page is not tested in a browser (apt-get install chromium)")
+    return()
+  endif()
+  set(sample ${source}/sample/report.json)
+  set(tools --modules ${build} --chromium ${KITH_CHROMIUM})
+  add_test(NAME web.Report COMMAND ${KITH_NODE} ${source}/tests/report_test.mjs ${page} --document ${sample} ${tools})
+  add_test(NAME web.ReportParts COMMAND ${KITH_NODE} ${source}/tests/parts_test.mjs ${page} ${sample} ${tools})
+  set_tests_properties(web.Report web.ReportParts PROPERTIES RESOURCE_LOCK browser TIMEOUT 600 LABELS web)
+  set_property(TEST web.ReportParts PROPERTY LABELS slow)
 endfunction()

@@ -35,12 +35,11 @@ if (values.document) {
 }
 const address = pathToFileURL(report).href;
 const axeSource = readFileSync(requireFrom(values.modules).resolve('axe-core/axe.min.js'), 'utf8');
-// axe needs half a minute for all tables, so it sees them opened in two looks only.
 const kLooks = [
-  { name: 'light-1280', width: 1280, dark: false, opened: true },
+  { name: 'light-1280', width: 1280, dark: false },
   { name: 'dark-1280', width: 1280, dark: true },
   { name: 'light-320', width: 320, dark: false },
-  { name: 'dark-320', width: 320, dark: true, opened: true },
+  { name: 'dark-320', width: 320, dark: true },
 ];
 
 let browser;
@@ -57,9 +56,14 @@ async function withReport(look, body) {
   }
 }
 
-// Opened details are checked too: what is in them is made when they open.
-async function openAllDetails(page) {
-  await page.evaluate(() => document.querySelectorAll('details').forEach((box) => (box.open = true)));
+// What is in details is made when they open. axe needs long for many tables, and those of figures are
+// all made alike, so it sees one of them.
+async function openDetails(page, { all }) {
+  await page.evaluate((every) => {
+    const later = document.querySelectorAll('figure ~ figure details, section ~ section figure details');
+    const skipped = new Set(every ? [] : later);
+    for (const box of document.querySelectorAll('details')) box.open = box.open || !skipped.has(box);
+  }, all);
   await page.waitForTimeout(100);
 }
 
@@ -85,11 +89,11 @@ for (const look of kLooks) {
         mkdirSync(values.screenshots, { recursive: true });
         await page.screenshot({ path: join(values.screenshots, `${look.name}.png`), fullPage: true });
       }
-      if (!look.opened) assert.deepEqual(await violations(page), []);
-      await openAllDetails(page);
+      await openDetails(page, { all: false });
+      assert.deepEqual(await violations(page), []);
+      await openDetails(page, { all: true });
       const { page: body, view } = await page.evaluate(() => ({ page: document.documentElement.scrollWidth, view: document.documentElement.clientWidth }));
       assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
-      if (look.opened) assert.deepEqual(await violations(page), []);
     });
   });
 }

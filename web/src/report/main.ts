@@ -7,6 +7,7 @@ import { methodsSection } from './sections/methods';
 import { noticesSection } from './sections/notices';
 import { parametersSection } from './sections/parameters';
 import { reproduceSection } from './sections/reproduce';
+import { openForPrinting } from './print';
 import type { Section } from './sections/section';
 import { notesSection, summarySection } from './sections/summary';
 import { Study } from './study';
@@ -40,6 +41,7 @@ function show(page: HTMLElement): void {
 }
 
 installTheme();
+openForPrinting();
 const page = document.getElementById('page');
 if (page) {
   try {
