@@ -27,6 +27,13 @@ std::size_t position(const std::vector<Column>& columns, std::string_view name) 
   return static_cast<std::size_t>(found - columns.begin());
 }
 
+// The columns that say where a team stands in the design.
+std::vector<std::string> key_names(const Study& study) {
+  std::vector<std::string> names{"strategy", "composition", "replicate", "team"};
+  for (const auto& factor : study.variants.front().factors) names.push_back(factor.key);
+  return names;
+}
+
 // Finds the team of every row and checks that the row says the same of it as the design.
 class TeamKeys {
  public:
@@ -115,19 +122,20 @@ std::size_t read_study_table(std::string_view text, const std::string& file, con
                              std::span<const std::string_view> wanted,
                              const std::function<void(const StudyRow&)>& on_row) {
   const auto tables = study_tables(study);
-  const auto& columns = columns_of(tables, table);
-  std::vector<std::size_t> places;
-  for (const auto name : wanted) places.push_back(position(columns, name));
+  const auto& all = columns_of(tables, table);
+  std::vector<Column> columns;
+  for (const auto name : wanted) columns.push_back(all[position(all, name)]);
+  for (const auto& name : key_names(study)) columns.push_back(all[position(all, name)]);
   TeamKeys keys{file, columns, study, teams};
-  std::vector<TableCell> cells(wanted.size());
   std::size_t rows = 0;
-  auto diagnostics = read_csv(text, file, columns, [&](const CsvRow& row) {
-    const auto team = keys.team_of(row);
-    for (std::size_t i = 0; i < places.size(); ++i) cells[i] = row.cells[places[i]];
-    const CsvRow chosen{row.line, cells};
-    on_row({file, chosen, team, teams.addresses[team]});
-    ++rows;
-  });
+  auto diagnostics = read_csv(
+      text, file, columns,
+      [&](const CsvRow& row) {
+        const auto team = keys.team_of(row);
+        on_row({file, row, team, teams.addresses[team]});
+        ++rows;
+      },
+      OtherColumns::kIgnore);
   constexpr std::size_t kShown = 20;
   if (diagnostics.size() > kShown) diagnostics.resize(kShown);
   if (!diagnostics.empty()) throw Error{std::move(diagnostics)};

@@ -22,6 +22,7 @@ struct TeamRegister {
 /// One row of a table of a run: the team that it belongs to, and the cells that were asked for.
 class StudyRow {
  public:
+  /// The first cells of the row are those that were asked for. All arguments must outlive the object.
   StudyRow(const std::string& file, const CsvRow& row, std::size_t team, const TeamAddress& address)
       : file_{file}, row_{row}, team_{team}, address_{address} {}
 
@@ -49,7 +50,8 @@ class StudyRow {
   const TeamAddress& address_;
 };
 
-/// Reads a table of a run from its text: every column is checked against its type, every row against the design.
+/// Reads columns of a table of a run from its text: each is checked against its type, every row against the design.
+/// Other columns are not looked at.
 /// @param file    how messages name it. @param table  such as "periods.csv", see study_tables().
 /// @param wanted  names of the columns to hand out, without those that say where a team stands in the design.
 /// @param on_row  gets every row, in order; teams come in ascending order.
