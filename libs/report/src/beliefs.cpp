@@ -1,0 +1,233 @@
+#include "beliefs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "kith/study/team_run.hpp"
+#include "outline.hpp"
+#include "parameters.hpp"
+
+namespace kith::detail {
+namespace {
+
+constexpr std::size_t kBytesPerParticle = 8;    // three 16-bit numbers in base64
+constexpr std::size_t kMaxTeamBytes = 700'000;  // of base64 text
+constexpr std::size_t kFewestParticles = 40;    // fewer do not show a shape
+constexpr double kInteger16 = 32767.0;
+
+// A belief at one time, as it is drawn.
+struct Picture {
+  double mass = 0.0;                 // in the policy's class
+  std::vector<std::uint8_t> points;  // little endian, 16 bits a coordinate
+};
+
+// Keeps every belief of a team before teaching and after every period.
+class Camera : public TeamObserver {
+ public:
+  Camera(const Atlas& atlas, std::size_t team_size, std::size_t particles, RandomStream random)
+      : atlas_{atlas}, team_size_{team_size}, particles_{particles}, random_{random} {}
+
+  void on_session(const Session&, std::size_t member) override {
+    alone_ = member;
+    const std::size_t slots = team_size_ + (member == 0 && team_size_ > 1 ? 2 : 0);
+    if (frames_.empty()) frames_.emplace_back(slots, kUnknown);
+  }
+  void on_lesson(const Session& session, const Lesson&, const std::vector<SimulatedLearner>& learners) override {
+    fill_initial(session, learners);
+  }
+  void on_feedback(const Session& session, const Lesson& lesson, const std::vector<SimulatedLearner::Response>&,
+                   const Feedback&, const std::vector<SimulatedLearner>& learners) override {
+    frames_.push_back(frames_.back());
+    for_each_belief(session, learners,
+                    [&](std::size_t slot, const ParticleBelief& belief) { frames_.back()[slot] = take(belief, slot); });
+    components_.push_back(lesson.component + 1);
+  }
+  void on_end(const Session& session, const std::vector<SimulatedLearner>& learners) override {
+    fill_initial(session, learners);
+  }
+
+  [[nodiscard]] std::size_t num_slots() const { return frames_.front().size(); }
+  [[nodiscard]] const std::vector<std::size_t>& components() const { return components_; }
+  [[nodiscard]] Json masses() const {
+    Json result = Json::array();
+    for (const auto& frame : frames_) {
+      Json row = Json::array();
+      for (const auto picture : frame) row.push_back(number(pictures_[picture].mass));
+      result.push_back(std::move(row));
+    }
+    return result;
+  }
+  [[nodiscard]] std::vector<std::uint8_t> points() const {
+    std::vector<std::uint8_t> all;
+    for (const auto& frame : frames_) {
+      for (const auto picture : frame) {
+        all.insert(all.end(), pictures_[picture].points.begin(), pictures_[picture].points.end());
+      }
+    }
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kUnknown = static_cast<std::size_t>(-1);
+
+  // The members of the session in its seats, then the team's beliefs.
+  template <typename Action>
+  void for_each_belief(const Session& session, const std::vector<SimulatedLearner>& learners, Action action) {
+    for (std::size_t i = 0; i < learners.size(); ++i) action(alone_ == 0 ? i : alone_ - 1, learners[i].belief());
+    if (num_slots() == team_size_) return;
+    action(team_size_, session.belief().common());
+    action(team_size_ + 1, session.belief().joint());
+  }
+
+  // What a belief was before its session holds for all frames before it.
+  void fill_initial(const Session& session, const std::vector<SimulatedLearner>& learners) {
+    for_each_belief(session, learners, [&](std::size_t slot, const ParticleBelief& belief) {
+      if (frames_.front()[slot] != kUnknown) return;
+      const auto picture = take(belief, slot);
+      for (auto& frame : frames_) frame[slot] = picture;
+    });
+  }
+
+  std::size_t take(const ParticleBelief& belief, std::size_t slot) {
+    Picture picture{belief.mass_in(atlas_.policy_bec_half_spaces()), {}};
+    const auto random = random_.split(slot).split(frames_.size());
+    for (const auto& draw : belief.systematic_draws(particles_, random)) {
+      for (std::size_t copy = 0; copy < draw.count; ++copy) add_point(picture.points, belief.point(draw.index));
+    }
+    pictures_.push_back(std::move(picture));
+    return pictures_.size() - 1;
+  }
+
+  static void add_point(std::vector<std::uint8_t>& bytes, const Eigen::Vector3d& point) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto value = static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(kInteger16 * point[k])));
+      bytes.push_back(static_cast<std::uint8_t>(value & 0xFFu));
+      bytes.push_back(static_cast<std::uint8_t>(value >> 8u));
+    }
+  }
+
+  const Atlas& atlas_;
+  std::size_t team_size_;
+  std::size_t particles_;
+  RandomStream random_;
+  std::size_t alone_ = 0;
+  std::vector<Picture> pictures_;
+  std::vector<std::vector<std::size_t>> frames_;  // which picture, shape [frames, slots]
+  std::vector<std::size_t> components_;
+};
+
+Json point_json(const Eigen::Vector3d& point) {
+  constexpr double kDigits = 1e6;
+  Json result = Json::array();
+  for (Eigen::Index k = 0; k < 3; ++k) result.push_back(std::round(point[k] * kDigits) / kDigits + 0.0);  // no -0
+  return result;
+}
+
+void add_region(Json& regions, const std::string& label, std::vector<HalfSpace> half_spaces, const Cone& prior) {
+  half_spaces.insert(half_spaces.end(), prior.facets().begin(), prior.facets().end());
+  const auto cone = Cone::intersection(half_spaces);
+  if (!cone) return;
+  Json corners = Json::array();
+  for (const auto& corner : outline(*cone)) corners.push_back(point_json(corner));
+  // The last component has all constraints of the policy; one outline is enough.
+  for (const auto& known : regions) {
+    if (known.at("outline") == corners) return;
+  }
+  if (!corners.empty()) regions.push_back({{"label", label}, {"outline", std::move(corners)}});
+}
+
+Json regions_of(const Atlas& atlas) {
+  Json regions = Json::array();
+  add_region(regions, "policy (BEC)", atlas.policy_bec_half_spaces(), atlas.prior_cone());
+  std::size_t number = 0;
+  for (const auto& component : atlas.knowledge_components()) {
+    add_region(regions, "component " + std::to_string(++number) + " (" + component.name + ")",
+               atlas.constraints().half_spaces(component.constraints), atlas.prior_cone());
+  }
+  add_region(regions, "prior", {}, atlas.prior_cone());
+  return regions;
+}
+
+Json belief_names(const RunFiles& run, const std::string& composition, std::size_t slots) {
+  Json names = Json::array();
+  for (std::size_t i = 0; i < composition.size(); ++i) {
+    const auto& label = learner_type(run.spec(), composition[i]).population.label;
+    const auto type = label.empty() ? std::string{composition[i]} : label;
+    names.push_back({{"name", "member " + std::to_string(i + 1) + " (" + type + ")"}, {"kind", "own"}});
+  }
+  if (slots > composition.size()) {
+    names.push_back({{"name", "teacher: common belief"}, {"kind", "common"}});
+    names.push_back({{"name", "teacher: joint belief"}, {"kind", "joint"}});
+  }
+  return names;
+}
+
+// Whether the team came out as its row says.
+bool agrees(const TeamRecord& record, const TeamValues& row) {
+  constexpr double kTolerance = 1e-12;  // the tables hold the exact number, but it may have been written elsewhere
+  return static_cast<double>(record.periods) == row.periods && record.completed == row.completed &&
+         std::abs(record.knowledge - row.knowledge) <= kTolerance;
+}
+
+}  // namespace
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? std::uint32_t{bytes[i + k]} : 0u; };
+    const std::uint32_t bits = byte(0) << 16u | byte(1) << 8u | byte(2);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k > bytes.size() ? '=' : kDigits[bits >> (18u - 6u * k) & 63u];
+    }
+  }
+  return text;
+}
+
+std::optional<Json> belief_spheres(const RunFiles& run, const ReportDesign& design, const RunData& data,
+                                   const Atlas& atlas, std::size_t particles, std::vector<std::string>& notes) {
+  Json teams = Json::array();
+  TeachingCache cache{atlas.constraints()};
+  for (const auto& [team, why] : telling_teams(design, data)) {
+    const auto& address = run.teams.addresses[team];
+    const auto& series = design.series[design.cells[design.cell_of_team[team]].series];
+    const auto size = address.composition.size();
+    const auto pictures = (static_cast<std::size_t>(data.teams[team].periods) + 1) * (size + 2);
+    const auto count = std::min(particles, kMaxTeamBytes / (kBytesPerParticle * pictures));
+    if (count < std::min(particles, kFewestParticles)) {
+      notes.push_back("The beliefs of team " + std::to_string(address.team) +
+                      " are left out: " + shortest(data.teams[team].periods) + " periods are too many to draw.");
+      continue;
+    }
+    const auto& spec = run.study.variants[address.variant];
+    Camera camera{atlas, size, count, RandomStream{spec.seed}.split("report").split(address.team)};
+    if (!agrees(run_team(atlas, cache, spec, address, &camera), data.teams[team])) {
+      notes.push_back(
+          "The belief spheres are left out: team " + std::to_string(address.team) +
+          ", taught again from the frozen inputs, does not come out as in tables/teams.csv. The tables were "
+          "changed, or made by another version of kith.");
+      return std::nullopt;
+    }
+    const auto slots = camera.num_slots();
+    teams.push_back({{"title", "Team " + std::to_string(address.team) + ": " + series.code + ", " +
+                                   address.composition + ", replicate " + std::to_string(address.replicate)},
+                     {"team", address.team},
+                     {"why", why},
+                     {"strategy", series.code},
+                     {"composition", address.composition},
+                     {"periods", camera.components().size()},
+                     {"components", camera.components()},
+                     {"beliefs", belief_names(run, address.composition, slots)},
+                     {"mass", camera.masses()},
+                     {"particles", {{"bits", 16}, {"count", count}, {"data", base64(camera.points())}}}});
+  }
+  if (teams.empty()) return std::nullopt;
+  return Json{{"features", run.domain.feature_names()},
+              {"truth", point_json(run.domain.weights().unit)},
+              {"regions", regions_of(atlas)},
+              {"teams", std::move(teams)}};
+}
+
+}  // namespace kith::detail

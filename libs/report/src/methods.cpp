@@ -1,0 +1,262 @@
+#include "methods.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "bibliography.hpp"
+#include "built_in.hpp"
+#include "kith/analysis/analysis.hpp"
+#include "parameters.hpp"
+
+namespace kith::detail {
+namespace {
+
+std::string counted(std::size_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+std::string counted(std::size_t n, const std::string& noun) { return counted(n, noun, noun + "s"); }
+
+// "a, b and c"
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+// Collects what is cited, in the order of first use.
+class Citations {
+ public:
+  Citations() : references_{parse_bibtex(kReferencesText)} {}
+
+  // "(Jayaraman et al., 2024)"; nothing for a key that references.bib does not have.
+  std::string operator()(const std::string& key) {
+    const auto text = inside(key);
+    return text.empty() ? "" : " (" + text + ")";
+  }
+
+  // The same without brackets.
+  std::string inside(const std::string& key) {
+    const auto found =
+        std::find_if(references_.begin(), references_.end(), [&](const auto& one) { return one.key == key; });
+    if (found == references_.end()) return "";
+    if (cited_keys_.insert(key).second) {
+      cited_.push_back({{"key", key}, {"text", reference_text(*found)}, {"bibtex", found->bibtex}});
+    }
+    return citation_text(*found);
+  }
+
+  [[nodiscard]] Json take() && { return std::move(cited_); }
+
+ private:
+  std::vector<Reference> references_;
+  std::set<std::string> cited_keys_;
+  Json cited_ = Json::array();
+};
+
+class Paragraph {
+ public:
+  Paragraph(const RunFiles& run, const ReportDesign& design, const RunData& data, const Analysis& analysis)
+      : run_{run}, spec_{run.spec()}, design_{design}, data_{data}, analysis_{analysis} {}
+
+  Json write() && {
+    design();
+    task();
+    learners();
+    beliefs();
+    teaching();
+    measures();
+    statistics();
+    return {{"paragraph", text_}, {"references", std::move(cite_).take()}};
+  }
+
+ private:
+  void say(const std::string& sentence) { text_ += (text_.empty() ? "" : " ") + sentence; }
+
+  [[nodiscard]] std::string program() const {
+    auto text = "kith " + manifest_text(run_, "version");
+    const auto git = manifest_text(run_, "git");
+    if (!git.empty() && git != "unknown") text += " (" + git + ")";
+    return text;
+  }
+
+  void design() {
+    std::set<std::size_t> sizes;
+    for (const auto& composition : spec_.compositions) sizes.insert(composition.size());
+    std::string members = std::to_string(*sizes.begin());
+    if (sizes.size() > 1) members += " to " + std::to_string(*sizes.rbegin());
+    std::vector<std::string> names;
+    std::string types;
+    for (const auto strategy : spec_.strategies) names.emplace_back(name_of(strategy));
+    for (const auto& type : spec_.learner_types) {
+      if (type.population.label.empty()) continue;
+      types += (types.empty() ? "" : ", ") + std::string{type.letter} + ": " + type.population.label;
+    }
+    say("We simulated " + counted(data_.teams.size(), "team") + " of " + members +
+        (sizes == std::set<std::size_t>{1} ? " learner" : " learners") + " with " + program() +
+        " and the random seed " + std::to_string(spec_.seed) + ".");
+    say("The design crossed " + counted(names.size(), "teaching strategy", "teaching strategies") +
+        cite_("jayaraman2024") + ", " + listed(names) + ", with " +
+        counted(spec_.compositions.size(), "team composition") + ", " + listed(spec_.compositions) +
+        (types.empty() ? "" : " (" + types + ")") + ", at " + counted(spec_.replicates, "team") + " per cell.");
+    if (!spec_.factors.empty()) say(variation());
+    say(spec_.pairing == Pairing::kReplicate
+            ? "The same simulated people were taught with every strategy (common random numbers" + cite_("salmon2011") +
+                  ")."
+            : "Every cell had simulated people of its own, drawn from counter-based random streams" +
+                  cite_("salmon2011") + ".");
+  }
+
+  [[nodiscard]] std::string variation() const {
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < spec_.factors.size(); ++i) {
+      std::vector<std::string> values;
+      for (const auto& variant : run_.study.variants) {
+        const auto& value = variant.factors[i].value;
+        if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+      }
+      keys.push_back(spec_.factors[i].key + " (" + listed(values) + ")");
+    }
+    return "In addition we varied " + listed(keys) + ".";
+  }
+
+  void task() {
+    std::vector<std::string> features;
+    for (std::size_t k = 0; k < run_.domain.num_features(); ++k) {
+      features.push_back(run_.domain.feature_names()[k] + " (" + shortest(run_.domain.weights().raw[k]) + ")");
+    }
+    say("The robot's policy to be taught was optimal for a reward that is linear in the features " + listed(features) +
+        " of the domain " + run_.domain.id() + ", which has " + counted(run_.domain.num_mdps(), "world") + " with " +
+        std::to_string(run_.domain.num_starts()) +
+        " start states; a lesson showed the robot's paths from some of them.");
+  }
+
+  // What holds for every learner type of the design: said once where it is the same for all, else type by type.
+  template <typename Words>
+  [[nodiscard]] std::string per_type(Words words) const {
+    std::vector<std::string> each;
+    std::set<std::string> different;
+    for (const auto& type : spec_.learner_types) {
+      const auto used = [&](const auto& composition) { return composition.find(type.letter) != std::string::npos; };
+      if (std::none_of(spec_.compositions.begin(), spec_.compositions.end(), used)) continue;
+      const auto& label = type.population.label;
+      different.insert(words(type));
+      each.push_back(words(type) + " (" + (label.empty() ? std::string{type.letter} : label) + ")");
+    }
+    return different.size() == 1 ? *different.begin() : listed(each);
+  }
+
+  void learners() {
+    say("People's initial abilities were drawn from normal distributions with mean " +
+        per_type([](const auto& type) { return shortest(type.population.ability_mean); }) + " and standard deviation " +
+        per_type([](const auto& type) { return shortest(type.population.ability_sd); }) +
+        ", again unless they were above " +
+        per_type([](const auto& type) { return shortest(type.population.ability_min); }) + " and below " +
+        per_type([](const auto& type) { return shortest(type.population.ability_max); }) + ".");
+    say("Their gains of ability by confirmation were " +
+        per_type([](const auto& type) { return gain(type.population.confirm_gain); }) + ", those by correction " +
+        per_type([](const auto& type) { return gain(type.population.correct_gain); }) +
+        ", both drawn again unless they were " + per_type([](const auto& type) {
+          return "below " + shortest(type.population.gain_max) +
+                 (type.population.ordered_gains ? " and the first smaller than the second" : "");
+        }) +
+        ".");
+    say("The ability rose by the first gain after a period with all answers right and by the second one after any "
+        "other, up to " +
+        per_type([](const auto& type) { return shortest(type.population.ability_max); }) +
+        ", and returned to its initial value with every knowledge component.");
+    const auto scale = per_type([](const auto& type) { return shortest(type.population.ability_scale); });
+    if (scale != "1")
+      say("The log-odds of the ability were multiplied by " + scale + " whenever something was learned.");
+    for (const auto& type : spec_.learner_types) {
+      if (type.prior) say("Learners of the type '" + type.population.label + "' started from a prior of their own.");
+    }
+  }
+
+  static std::string gain(const GainDistribution& distribution) {
+    if (distribution.half_normal) return "half-normal with scale " + shortest(*distribution.half_normal);
+    return "equal to " + shortest(distribution.value.value_or(0.0));
+  }
+
+  void beliefs() {
+    const auto& options = spec_.teaching;
+    const auto teachers =
+        counted(options.filter.particles, "particle") + " and " + shortest(options.filter.process_noise);
+    const auto peoples = per_type([](const auto& type) {
+      return counted(type.filter.particles, "particle") + " and " + shortest(type.filter.process_noise);
+    });
+    const auto own = teachers == peoples ? "" : "; those of the learners themselves had " + peoples;
+    say("Beliefs about the reward weights were particle filters on the unit sphere with " +
+        counted(options.filter.particles, "particle") + ", the " +
+        (options.likelihood == LikelihoodForm::kDiscontinuous ? "discontinuous" : "continuous") +
+        " likelihood of a half-space, systematic resampling" + cite_("kitagawa1996") +
+        " when the effective sample size fell below " + shortest(options.filter.resample_below) +
+        " of that number, and a process noise (bandwidth factor) of " + shortest(options.filter.process_noise) + own +
+        ".");
+    say("The teacher ascribed the ability " + shortest(options.assumed_ability) +
+        " to everybody and blurred its beliefs by " + shortest(options.response_noise) +
+        " rad after test answers; its common belief followed the largest set of members whose answers were consistent" +
+        (options.reduce_before_update ? ", reduced to the minimal set of their half-spaces." : "."));
+  }
+
+  void teaching() {
+    const auto& options = spec_.teaching;
+    say("Demonstrations were chosen by what they convey" + cite_("brown2019machine") + " to " +
+        counted(options.counterfactuals, "counterfactual learner") + " drawn " +
+        (options.sampling == CounterfactualSampling::kSystematic ? "systematically" : "far from each other") +
+        " from the belief of the strategy" +
+        (spec_.learner_counterfactuals_self ? "; people learned from them what they convey to weights of their own."
+                                            : "."));
+    say("A knowledge component was taught until every member answered all tests right in " +
+        (options.consecutive_correct == 1 ? "a period"
+                                          : std::to_string(options.consecutive_correct) + " periods in a row") +
+        (options.duplicate_sets == 1 ? ""
+                                     : ", with " + std::to_string(options.duplicate_sets) + " sets of tests each") +
+        "; teaching ended after " + counted(options.max_periods, "period") + " at the latest.");
+    const auto missed = static_cast<std::size_t>(
+        std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed; }));
+    say(missed == 0 ? "All teams learned every component."
+                    : counted(missed, "team") + " reached this limit and " + (missed == 1 ? "counts" : "count") +
+                          " as censored.");
+  }
+
+  void measures() {
+    const auto is_baseline = [](const auto& series) { return series.strategy == Strategy::kBaseline; };
+    const bool baseline = std::any_of(design_.series.begin(), design_.series.end(), is_baseline);
+    say("Periods are the interaction periods of a team" +
+        std::string{baseline ? ", for the baseline summed over its members" : ""} +
+        "; knowledge is the mass of a person's final belief in the behaviour equivalence class of the policy, averaged "
+        "over the team.");
+  }
+
+  void statistics() {
+    say("Means are given with 95 % intervals by Student's t distribution over teams (over people, where people are "
+        "shown), shares of right answers with Wilson's score intervals" +
+        cite_("wilson1927") + ", and completion as one minus the Kaplan-Meier estimate" + cite_("kaplan1958") +
+        " with Greenwood's variance on the log scale.");
+    if (analysis_.findings.empty()) return;
+    const AnalysisOptions options;
+    std::vector<std::string> titles;
+    for (const auto& finding : analysis_.findings) titles.push_back("'" + finding.title + "'");
+    say("Tests were made at the level " + shortest(options.alpha) + ", families of them with the correction of " +
+        (options.correction == Correction::kHolm ? "Holm" : "Bonferroni") + ": " + listed(titles) + ".");
+  }
+
+  const RunFiles& run_;
+  const StudySpec& spec_;
+  const ReportDesign& design_;
+  const RunData& data_;
+  const Analysis& analysis_;
+  Citations cite_;
+  std::string text_;
+};
+
+}  // namespace
+
+Json methods_of(const RunFiles& run, const ReportDesign& design, const RunData& data, const Analysis& analysis) {
+  return Paragraph{run, design, data, analysis}.write();
+}
+
+}  // namespace kith::detail

@@ -1,0 +1,177 @@
+#include "parameters.hpp"
+
+#include <array>
+#include <charconv>
+
+#include "kith/toml/document.hpp"
+
+namespace kith::detail {
+namespace {
+
+struct Meaning {
+  std::string_view key;  // "*" stands for one word; at the end, for all that follow
+  std::string_view words;
+};
+
+constexpr std::array kMeanings{
+    Meaning{"study.schema", "kind and version of the study file"},
+    Meaning{"study.id", "short name of the study"},
+    Meaning{"study.title", "title of the study"},
+    Meaning{"study.domain", "what the robot does: a built-in domain, or the file with it"},
+    Meaning{"study.seed", "the only source of randomness"},
+    Meaning{"study.replicates", "teams per cell (strategy and composition)"},
+    Meaning{"design.strategies", "whose belief the lessons of a team are chosen for"},
+    Meaning{"design.compositions", "the members of a team, one letter of a learner type each"},
+    Meaning{"design.pairing",
+            "'replicate': the same simulated people under every strategy (common random numbers); 'none': other people "
+            "in every cell"},
+    Meaning{"design.vary.*", "settings of this key that are compared with each other"},
+    Meaning{"learner.*.label", "what people of this type are called"},
+    Meaning{"learner.*.ability.mean",
+            "mean of the initial ability (beta_0), the probability mass that a constraint is believed with"},
+    Meaning{"learner.*.ability.sd", "standard deviation of the initial ability"},
+    Meaning{"learner.*.ability.min", "initial abilities up to this are drawn again"},
+    Meaning{"learner.*.confirm_gain.half_normal",
+            "scale of the half-normal gain of ability after a period with all answers right"},
+    Meaning{"learner.*.confirm_gain.value", "gain of ability after a period with all answers right, equal for all"},
+    Meaning{"learner.*.correct_gain.half_normal",
+            "scale of the half-normal gain of ability after a period with a wrong answer"},
+    Meaning{"learner.*.correct_gain.value", "gain of ability after a period with a wrong answer, equal for all"},
+    Meaning{"learner.*.gain_max", "gains from this on are drawn again"},
+    Meaning{"learner.*.ordered_gains", "whether gains are drawn again unless confirm_gain < correct_gain"},
+    Meaning{"learner.*.ability_max", "cap of the ability at all times"},
+    Meaning{"learner.*.ability_scale", "factor on the log-odds of the ability whenever something is learned"},
+    Meaning{"learner.*.particles", "particles of a person's own belief"},
+    Meaning{"learner.*.process_noise", "bandwidth factor of the kernel that moves particles after resampling"},
+    Meaning{"learner.*.prior", "half-spaces that people of this type know from the start"},
+    Meaning{"teacher.particles", "particles of each of the teacher's beliefs"},
+    Meaning{"teacher.counterfactuals", "weights drawn from the belief to imagine what people expect (N)"},
+    Meaning{"teacher.counterfactual_sampling",
+            "how they are drawn: 'systematic' by mass, 'spread' far from each other"},
+    Meaning{"teacher.assumed_ability", "ability (beta) that the teacher ascribes to everybody"},
+    Meaning{"teacher.likelihood", "form of the likelihood of a half-space: 'discontinuous' or 'continuous'"},
+    Meaning{"teacher.process_noise", "bandwidth factor of the kernel that moves particles after resampling (eta)"},
+    Meaning{"teacher.response_noise", "blur of the teacher's beliefs after test answers, in radians per axis (nu)"},
+    Meaning{"teacher.resample_below",
+            "beliefs are resampled when the effective sample size falls below this share of the particles"},
+    Meaning{"teacher.conflict", "which members the common belief follows when their answers contradict each other"},
+    Meaning{"teacher.reduce_before_update",
+            "whether the common belief gets only the minimal set of the half-spaces that answers show"},
+    Meaning{"teacher.learner_counterfactuals",
+            "whose expectations say what a demonstration conveys to a person: the teacher's counterfactuals, or the "
+            "person's own ('self')"},
+    Meaning{"stop.max_periods", "periods after which a session ends at the latest"},
+    Meaning{"stop.consecutive_correct", "periods in a row that everybody must answer all right"},
+    Meaning{"stop.duplicate_sets", "different sets of tests in a period"},
+    Meaning{"record.level", "how much of every team is written down"},
+};
+
+// Whether the key is one that the pattern stands for.
+bool matches(std::string_view key, std::string_view pattern) {
+  while (true) {
+    const auto word = pattern.substr(0, pattern.find('.'));
+    if (word == "*" && word.size() == pattern.size()) return !key.empty();
+    const auto own = key.substr(0, key.find('.'));
+    if (word != "*" && word != own) return false;
+    const bool last = word.size() == pattern.size();
+    if (last || own.size() == key.size()) return last && own.size() == key.size();
+    pattern.remove_prefix(word.size() + 1);
+    key.remove_prefix(own.size() + 1);
+  }
+}
+
+std::string text_of(const TomlValue& value) {
+  if (const auto* text = value.string()) return *text;
+  const auto* array = value.array();
+  if (array == nullptr) return to_toml(value);
+  std::string text;
+  for (const auto& one : *array) text += (text.empty() ? "" : ", ") + text_of(one);
+  return text;
+}
+
+class Parameters {
+ public:
+  // @param domain  what the study called its domain before it was frozen; may be empty.
+  void add_study(const TomlTable& root, const std::string& domain) {
+    for (const auto& entry : root.entries()) {
+      if (entry.value.table() != nullptr) continue;
+      add("study", entry.key, entry.key == "domain" && !domain.empty() ? domain : text_of(entry.value));
+    }
+    for (const auto& entry : root.entries()) {
+      const auto* table = entry.value.table();
+      if (table == nullptr) continue;
+      if (entry.key != "learner") {
+        add_table(entry.key, "", *table);
+        continue;
+      }
+      for (const auto& type : table->entries()) add_table("learner." + type.key, "", *type.value.table());
+    }
+  }
+
+  void add_domain(const Domain& domain) {
+    const auto& names = domain.feature_names();
+    std::string features, weights, prior;
+    for (std::size_t k = 0; k < domain.num_features(); ++k) {
+      features += (k == 0 ? "" : ", ") + names[k];
+      weights += (k == 0 ? "" : ", ") + shortest(domain.weights().raw[k]);
+    }
+    for (const auto& half_space : domain.prior()) {
+      prior += prior.empty() ? "" : "; ";
+      for (std::size_t k = 0; k < domain.num_features(); ++k) {
+        prior += (k == 0 ? "" : " ") + std::to_string(half_space.normal()[k]);
+      }
+    }
+    add_fact("id", domain.id(), "the domain");
+    add_fact("features", features, "what the reward counts");
+    add_fact("weights", weights, "the robot's reward weights, as the domain file has them");
+    add_fact("prior", prior, "normals of the half-spaces that everybody is assumed to know");
+    add_fact("mdps", std::to_string(domain.num_mdps()), "worlds: combinations of what is optional in the domain");
+    add_fact("starts", std::to_string(domain.num_starts()), "start states of all worlds: candidate demonstrations");
+  }
+
+  [[nodiscard]] Json take() && { return std::move(table_).take(); }
+
+ private:
+  void add_table(const std::string& group, const std::string& prefix, const TomlTable& table) {
+    for (const auto& entry : table.entries()) {
+      if (const auto* inner = entry.value.table()) {
+        add_table(group, prefix + entry.key + ".", *inner);
+      } else {
+        add(group, prefix + entry.key, text_of(entry.value));
+      }
+    }
+  }
+  void add(const std::string& group, const std::string& key, const std::string& value) {
+    const auto meaning = meaning_of(group + "." + key);
+    table_.add(Json::array({group, key, value, std::string{meaning.value_or("")}}));
+  }
+  void add_fact(const std::string& key, const std::string& value, const std::string& meaning) {
+    table_.add(Json::array({"domain", key, value, meaning}));
+  }
+
+  JsonTable table_{{"group", "key", "value", "meaning"}};
+};
+
+}  // namespace
+
+std::optional<std::string_view> meaning_of(std::string_view key) {
+  for (const auto& meaning : kMeanings) {
+    if (matches(key, meaning.key)) return meaning.words;
+  }
+  return std::nullopt;
+}
+
+Json parameters_table(const RunFiles& run) {
+  Parameters parameters;
+  parameters.add_study(parse_toml(run.study_toml, "study.toml").document.value().root, manifest_text(run, "domain"));
+  parameters.add_domain(run.domain);
+  return std::move(parameters).take();
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+}  // namespace kith::detail

@@ -1,0 +1,255 @@
+#include "kith/report/report.hpp"
+
+#include <algorithm>
+
+#include "beliefs.hpp"
+#include "kith/analysis/analysis.hpp"
+#include "kith/belief/particle_belief.hpp"
+#include "methods.hpp"
+#include "parameters.hpp"
+#include "people_tables.hpp"
+#include "team_tables.hpp"
+
+namespace kith {
+namespace detail {
+namespace {
+
+constexpr std::size_t kMaxPoints = 6'000;  // teams listed one by one, in all
+
+Json labels_of(const RunFiles& run, const ReportDesign& design) {
+  Json strategies = Json::object(), types = Json::object();
+  for (const auto& series : design.series) strategies[series.code] = series.label;
+  for (const auto& type : run.types()) {
+    const std::string letter{type.letter};
+    types[letter] = type.population.label.empty() ? letter : type.population.label;
+  }
+  const Json columns{{"strategy", "Strategy"},
+                     {"composition", "Composition"},
+                     {"type", "Learner type"},
+                     {"kc", "Component"},
+                     {"teams", "Teams"},
+                     {"team", "Team"},
+                     {"replicate", "Replicate"},
+                     {"completed", "Completed"},
+                     {"people", "People still taught"},
+                     {"answers", "Answers"},
+                     {"period", "Period"},
+                     {"period_of_kc", "Period of the component"},
+                     {"periods", "Periods"},
+                     {"periods_mean", "Periods, mean"},
+                     {"periods_sd", "Periods, sd"},
+                     {"periods_low", "Periods, 95 % low"},
+                     {"periods_high", "Periods, 95 % high"},
+                     {"knowledge", "Knowledge"},
+                     {"knowledge_mean", "Knowledge, mean"},
+                     {"knowledge_sd", "Knowledge, sd"},
+                     {"knowledge_low", "Knowledge, 95 % low"},
+                     {"knowledge_high", "Knowledge, 95 % high"},
+                     {"area_mean", "Area (sr), mean"},
+                     {"area_sd", "Area (sr), sd"},
+                     {"area_low", "Area (sr), 95 % low"},
+                     {"area_high", "Area (sr), 95 % high"},
+                     {"mean_area_sr", "Area (sr), mean"},
+                     {"mean_log_area", "Log area, mean"},
+                     {"mean_periods", "Periods, mean"},
+                     {"mean", "Mean"},
+                     {"share", "Share"},
+                     {"low", "95 % low"},
+                     {"high", "95 % high"},
+                     {"n", "Teams"},
+                     {"done", "Done"},
+                     {"at_risk", "At risk"},
+                     {"phase", "Phase"},
+                     {"seconds", "Seconds"},
+                     {"group", "Group"},
+                     {"key", "Key"},
+                     {"value", "Value"},
+                     {"meaning", "Meaning"}};
+  return {{"strategies", std::move(strategies)}, {"types", std::move(types)}, {"columns", columns}};
+}
+
+Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData& data) {
+  Json strategies = Json::array(), factors = Json::array();
+  for (const auto& series : design.series) strategies.push_back(series.code);
+  for (const auto& factor : run.spec().factors) factors.push_back(factor.key);
+  const auto completed =
+      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.completed; });
+  return {{"teams", data.teams.size()},
+          {"people", design.people},
+          {"completed", completed},
+          {"replicates", run.spec().replicates},
+          {"seed", std::to_string(run.spec().seed)},
+          {"strategies", std::move(strategies)},
+          {"compositions", run.spec().compositions},
+          {"factors", std::move(factors)},
+          {"headlines", headlines(design, data)}};
+}
+
+// timings.csv, if there is one; it does not bear on results, so that a run may come without it.
+std::optional<Json> timings_table(const RunFiles& run, std::vector<std::string>& notes) {
+  const auto file = run.folder / "timings.csv";
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    notes.emplace_back("timings.csv is missing, so it is not known how long the run took.");
+    return std::nullopt;
+  }
+  const std::vector<Column> columns{{"phase", ColumnType::kText, "", "", true},
+                                    {"seconds", ColumnType::kReal, "", "s", true}};
+  JsonTable table{{"phase", "seconds"}};
+  for (const auto& row : read_csv_file(file, columns).rows) {
+    table.add(Json::array({std::get<std::string>(row[0]), number(std::get<double>(row[1]))}));
+  }
+  return std::move(table).take();
+}
+
+// By learner type: mass of a belief in the policy's class before teaching.
+std::vector<double> mass_before(const RunFiles& run, const Atlas& atlas) {
+  std::vector<double> masses;
+  for (const auto& type : run.types()) {
+    auto prior = atlas.prior_cone();
+    if (type.prior) prior = Cone::intersection(*type.prior).value_or(prior);
+    masses.push_back(ParticleBelief{prior, type.filter}.mass_in(atlas.policy_bec_half_spaces()));
+  }
+  return masses;
+}
+
+Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& data, const Atlas& atlas,
+               std::size_t points, std::vector<std::string>& notes) {
+  Json tables{{"cells", cells_table(design, data)},
+              {"teams", teams_table(run, design, data, points)},
+              {"completion", completion_table(design, data)}};
+  if (data.has_periods) {
+    tables["area"] = area_table(design, data);
+  }
+  tables["area_cells"] = area_cells_table(design, data);
+  if (data.has_periods) {
+    tables["knowledge_by_period"] = knowledge_by_period_table(run, design, data, mass_before(run, atlas));
+    tables["ability_by_period"] = ability_by_period_table(run, design, data);
+    tables["correct_by_period"] = correct_by_period_table(run, design, data);
+    tables["periods_by_component"] = periods_by_component_table(design, data);
+  }
+  if (auto timings = timings_table(run, notes)) tables["timings"] = *std::move(timings);
+  tables["parameters"] = parameters_table(run);
+  return tables;
+}
+
+// What a reader should know about the data.
+void note_data(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points,
+               std::vector<std::string>& notes) {
+  const auto censored = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed; });
+  if (censored > 0) {
+    notes.push_back(std::to_string(censored) + " of " + std::to_string(data.teams.size()) +
+                    " teams reached the limit of " + std::to_string(run.spec().teaching.max_periods) +
+                    " periods before everything was learned. They count as censored in the completion curves and with "
+                    "the periods they had in all means.");
+  }
+  if (!data.has_periods) {
+    notes.emplace_back(
+        "Only teams were recorded (record.level = \"team\"), so that there are no figures over periods. Run the study "
+        "with record.level = \"period\" to get them.");
+  }
+  const auto most =
+      std::max_element(design.cells.begin(), design.cells.end(), [](auto& a, auto& b) { return a.teams < b.teams; });
+  if (most->teams > points) {
+    notes.push_back("Single teams are shown for the first " + std::to_string(points) +
+                    " replicates of every cell; means, intervals and tests are of all teams.");
+  }
+  if (!run.spec().factors.empty()) {
+    notes.emplace_back(
+        "The study varies keys: every strategy appears once per setting. Headlines are over all settings.");
+  }
+}
+
+Json to_json(const ResultTable& table) {
+  Json columns = Json::array();
+  for (const auto& column : table.columns) columns.push_back(column.name);
+  return {{"caption", table.caption}, {"columns", std::move(columns)}, {"rows", formatted_rows(table)}};
+}
+
+Json findings_of(const Analysis& analysis) {
+  Json findings = Json::array();
+  for (const auto& finding : analysis.findings) {
+    Json tables = Json::array();
+    for (const auto& table : finding.tables) tables.push_back(to_json(table));
+    findings.push_back({{"id", finding.id},
+                        {"title", finding.title},
+                        {"question", finding.question},
+                        {"sentence", finding.sentence},
+                        {"warnings", finding.warnings},
+                        {"tables", std::move(tables)}});
+  }
+  return findings;
+}
+
+// A design in which nothing can be compared has no findings, and that is no error.
+Analysis analyse(const RunFiles& run, std::vector<std::string>& notes) try {
+  auto analysis = analyze_run(run.folder, {});
+  for (const auto& note : analysis.notes) notes.push_back("Findings: " + note + ".");
+  return analysis;
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::kInfeasible) throw;
+  notes.push_back(std::string{"Nothing was tested: "} + error.what() + ".");
+  return {};
+}
+
+Json reproduction_of(const RunFiles& run) {
+  auto version = "kith " + manifest_text(run, "version");
+  const auto git = manifest_text(run, "git");
+  if (!git.empty() && git != "unknown") version += " (git " + git + ")";
+  Json hashes = Json::object();
+  for (const auto* folder : {"inputs", "tables"}) {
+    const auto found = run.manifest.find(folder);
+    if (found == run.manifest.end() || !found->is_object()) continue;
+    for (const auto& [name, hash] : found->items()) hashes[std::string{folder} + "/" + name] = hash;
+  }
+  return {{"command", "kith study study.toml -o DIR"},
+          {"version", version},
+          {"study_toml", run.study_toml},
+          {"domain_toml", run.domain_toml},
+          {"hashes", std::move(hashes)}};
+}
+
+Json document_of(const std::filesystem::path& folder, const ReportOptions& options) {
+  const auto step = [&](std::string_view text) {
+    if (options.on_step) options.on_step(text);
+  };
+  const auto run = open_run(folder);
+  const auto design = design_of(run);
+  step("planning the robot's paths");
+  const Atlas atlas{run.domain};
+  auto data = read_run_data(run, design, atlas.knowledge_components().size(), step);
+  auto notes = std::move(data.notes);
+  const auto points = std::min(options.points_per_cell, std::max<std::size_t>(1, kMaxPoints / design.cells.size()));
+  note_data(run, design, data, points, notes);
+  step("computing tables");
+  auto tables = tables_of(run, design, data, atlas, points, notes);
+  step("analysing");
+  const auto analysis = analyse(run, notes);
+  step("teaching three teams again");
+  auto beliefs = belief_spheres(run, design, data, atlas, options.sphere_particles, notes);
+  const auto& spec = run.spec();
+  Json document{{"schema", "kith.report/1"},
+                {"title", spec.title.empty() ? spec.id : spec.title},
+                {"study", spec.id},
+                {"domain", run.domain.id()},
+                {"version", manifest_text(run, "version")},
+                {"created", manifest_text(run, "stopped")},
+                {"labels", labels_of(run, design)},
+                {"overview", overview_of(run, design, data)},
+                {"notes", notes},
+                {"tables", std::move(tables)},
+                {"findings", findings_of(analysis)},
+                {"methods", methods_of(run, design, data, analysis)},
+                {"reproduce", reproduction_of(run)}};
+  if (beliefs) document["beliefs"] = *std::move(beliefs);
+  return document;
+}
+
+}  // namespace
+}  // namespace detail
+
+std::string build_report(const std::filesystem::path& run_folder, const ReportOptions& options) {
+  return detail::document_of(run_folder, options).dump(-1, ' ', true, detail::Json::error_handler_t::replace);
+}
+
+}  // namespace kith

@@ -1,0 +1,207 @@
+#include "team_tables.hpp"
+
+#include <cmath>
+#include <span>
+
+#include "kith/stats/effect_size.hpp"
+#include "kith/stats/survival.hpp"
+
+namespace kith::detail {
+namespace {
+
+using Values = std::vector<double>;
+using Quantity = double TeamValues::*;
+
+struct Spread {
+  double mean = 0.0;
+  std::optional<double> sd;
+};
+
+// @pre values is not empty.
+Spread spread_of(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  Spread result{sum / n, {}};
+  if (values.size() < 2) return result;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  result.sd = std::sqrt(squares / (n - 1.0));
+  return result;
+}
+
+void add_ends(Json& row, std::span<const double> values) {
+  const auto interval = mean_interval(values);
+  row.push_back(interval ? number(interval->low) : Json(nullptr));
+  row.push_back(interval ? number(interval->high) : Json(nullptr));
+}
+
+// The values of every cell, or of every series.
+std::vector<Values> by_cell(const ReportDesign& design, const RunData& data, Quantity quantity) {
+  std::vector<Values> result(design.cells.size());
+  for (std::size_t i = 0; i < data.teams.size(); ++i) {
+    result[design.cell_of_team[i]].push_back(data.teams[i].*quantity);
+  }
+  return result;
+}
+
+Json cell_keys(const ReportDesign& design, std::size_t cell) {
+  return Json::array({design.series[design.cells[cell].series].code, design.cells[cell].composition});
+}
+
+Json headline(const std::string& label, const Values& values) {
+  const auto [mean, sd] = spread_of(values);
+  const auto interval = mean_interval(values);
+  return {{"label", label},
+          {"value", number(mean)},
+          {"sd", number(sd)},
+          {"low", interval ? number(interval->low) : Json(nullptr)},
+          {"high", interval ? number(interval->high) : Json(nullptr)},
+          {"n", values.size()}};
+}
+
+}  // namespace
+
+void add_interval(Json& row, std::span<const double> values) {
+  row.push_back(number(spread_of(values).mean));
+  add_ends(row, values);
+}
+
+Json headlines(const ReportDesign& design, const RunData& data) {
+  Json result = Json::array();
+  const auto add = [&](const std::string& label, Quantity quantity, bool baseline) {
+    Values values;
+    for (std::size_t i = 0; i < data.teams.size(); ++i) {
+      const auto& series = design.series[design.cells[design.cell_of_team[i]].series];
+      if ((series.strategy == Strategy::kBaseline) == baseline) values.push_back(data.teams[i].*quantity);
+    }
+    if (!values.empty()) result.push_back(headline(label + (baseline ? ", baseline" : ", group strategies"), values));
+  };
+  for (const bool baseline : {false, true}) add("Periods", &TeamValues::periods, baseline);
+  for (const bool baseline : {false, true}) add("Knowledge", &TeamValues::knowledge, baseline);
+  return result;
+}
+
+Json cells_table(const ReportDesign& design, const RunData& data) {
+  std::vector<std::string> columns{"strategy", "composition", "teams", "completed"};
+  for (const std::string quantity : {"periods", "knowledge", "area"}) {
+    for (const auto* statistic : {"_mean", "_sd", "_low", "_high"}) columns.push_back(quantity + statistic);
+  }
+  JsonTable table{columns};
+  std::vector<std::size_t> completed(design.cells.size());
+  for (std::size_t i = 0; i < data.teams.size(); ++i) {
+    if (data.teams[i].completed) ++completed[design.cell_of_team[i]];
+  }
+  const std::vector<std::vector<Values>> quantities{by_cell(design, data, &TeamValues::periods),
+                                                    by_cell(design, data, &TeamValues::knowledge),
+                                                    by_cell(design, data, &TeamValues::area_sr)};
+  for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
+    auto row = cell_keys(design, cell);
+    row.push_back(design.cells[cell].teams);
+    row.push_back(completed[cell]);
+    for (const auto& quantity : quantities) {
+      const auto [mean, sd] = spread_of(quantity[cell]);
+      row.push_back(number(mean));
+      row.push_back(number(sd));
+      add_ends(row, quantity[cell]);
+    }
+    table.add(std::move(row));
+  }
+  return std::move(table).take();
+}
+
+Json teams_table(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points) {
+  JsonTable table{{"strategy", "composition", "replicate", "team", "periods", "knowledge", "completed"}};
+  for (std::size_t i = 0; i < data.teams.size(); ++i) {
+    const auto& address = run.teams.addresses[i];
+    if (address.replicate > points) continue;  // replicates are exchangeable: the first ones are as good as any
+    auto row = cell_keys(design, design.cell_of_team[i]);
+    row.push_back(address.replicate);
+    row.push_back(address.team);
+    row.push_back(static_cast<std::size_t>(data.teams[i].periods));
+    row.push_back(number(data.teams[i].knowledge));
+    row.push_back(data.teams[i].completed);
+    table.add(std::move(row));
+  }
+  return std::move(table).take();
+}
+
+Json completion_table(const ReportDesign& design, const RunData& data) {
+  JsonTable table{{"strategy", "composition", "period", "done", "low", "high", "at_risk"}};
+  std::vector<Values> times(design.cells.size());
+  std::vector<std::vector<bool>> observed(design.cells.size());
+  for (std::size_t i = 0; i < data.teams.size(); ++i) {
+    // A team to which nothing had to be taught is done at 0; survival times must be positive.
+    times[design.cell_of_team[i]].push_back(data.teams[i].periods + 1.0);
+    observed[design.cell_of_team[i]].push_back(data.teams[i].completed);
+  }
+  for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
+    const auto curve = kaplan_meier(times[cell], observed[cell]);
+    const auto add = [&](double time, double done, double low, double high, std::size_t at_risk) {
+      auto row = cell_keys(design, cell);
+      row.push_back(static_cast<std::size_t>(time) - 1);
+      for (const double value : {done, low, high}) row.push_back(number(value));
+      row.push_back(at_risk);
+      table.add(std::move(row));
+    };
+    if (curve.steps.empty() || curve.steps.front().time > 1.0) add(1.0, 0.0, 0.0, 0.0, times[cell].size());
+    for (const auto& step : curve.steps) {
+      add(step.time, 1.0 - step.survival, 1.0 - step.high, 1.0 - step.low, step.at_risk);
+    }
+  }
+  return std::move(table).take();
+}
+
+Json area_cells_table(const ReportDesign& design, const RunData& data) {
+  JsonTable table{{"strategy", "composition", "mean_area_sr", "low", "high", "n"}};
+  const auto values = by_cell(design, data, &TeamValues::area_sr);
+  for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
+    auto row = cell_keys(design, cell);
+    add_interval(row, values[cell]);
+    row.push_back(values[cell].size());
+    table.add(std::move(row));
+  }
+  return std::move(table).take();
+}
+
+Json area_table(const ReportDesign& design, const RunData& data) {
+  JsonTable table{{"strategy", "kc", "mean_log_area", "low", "high", "mean_area_sr", "n"}};
+  for (std::size_t series = 0; series < design.series.size(); ++series) {
+    for (std::size_t kc = 0; kc < data.num_components; ++kc) {
+      Values logs, areas;  // one value per team: its periods are not independent of each other
+      for (std::size_t i = 0; i < data.teams.size(); ++i) {
+        const auto& values = data.components[i * data.num_components + kc];
+        if (design.cells[design.cell_of_team[i]].series != series || values.later_periods == 0) continue;
+        logs.push_back(values.log_area_sum / static_cast<double>(values.later_periods));
+        areas.push_back(values.area_sum / static_cast<double>(values.later_periods));
+      }
+      if (logs.empty()) continue;
+      auto row = Json::array({design.series[series].code, kc + 1});
+      add_interval(row, logs);
+      row.push_back(number(spread_of(areas).mean));
+      row.push_back(logs.size());
+      table.add(std::move(row));
+    }
+  }
+  return std::move(table).take();
+}
+
+Json periods_by_component_table(const ReportDesign& design, const RunData& data) {
+  JsonTable table{{"strategy", "composition", "kc", "mean_periods", "low", "high"}};
+  for (std::size_t kc = 0; kc < data.num_components; ++kc) {
+    std::vector<Values> values(design.cells.size());
+    for (std::size_t i = 0; i < data.teams.size(); ++i) {
+      values[design.cell_of_team[i]].push_back(
+          static_cast<double>(data.components[i * data.num_components + kc].periods));
+    }
+    for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
+      auto row = cell_keys(design, cell);
+      row.push_back(kc + 1);
+      add_interval(row, values[cell]);
+      table.add(std::move(row));
+    }
+  }
+  return std::move(table).take();
+}
+
+}  // namespace kith::detail

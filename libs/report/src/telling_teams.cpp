@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "beliefs.hpp"
+#include "parameters.hpp"
+
+namespace kith::detail {
+namespace {
+
+// Two decimals; for masses.
+std::string rounded(double value) {
+  const auto hundredths = std::lround(value * 100.0);
+  const auto digits = std::to_string(hundredths % 100);
+  return std::to_string(hundredths / 100) + (digits.size() < 2 ? ".0" : ".") + digits;
+}
+
+std::string counted_periods(double periods) { return shortest(periods) + (periods == 1.0 ? " period" : " periods"); }
+
+class Choice {
+ public:
+  Choice(const ReportDesign& design, const RunData& data) : design_{design}, data_{data} {
+    for (std::size_t i = 0; i < data.teams.size(); ++i) {
+      if (strategy_of(i) != Strategy::kBaseline) candidates_.push_back(i);
+    }
+    together_ = !candidates_.empty();
+    if (!together_) {
+      for (std::size_t i = 0; i < data.teams.size(); ++i) candidates_.push_back(i);
+    }
+  }
+
+  std::vector<TellingTeam> take() {
+    add_extreme(
+        [&](std::size_t team) { return data_.teams[team].knowledge; },
+        [&](std::size_t team) { return "the lowest final knowledge (" + rounded(data_.teams[team].knowledge) + ")"; });
+    add_extreme([&](std::size_t team) { return -data_.teams[team].periods; },
+                [&](std::size_t team) { return "the slowest (" + counted_periods(data_.teams[team].periods) + ")"; });
+    add_typical();
+    std::reverse(chosen_.begin(), chosen_.end());
+    return chosen_;
+  }
+
+ private:
+  [[nodiscard]] Strategy strategy_of(std::size_t team) const {
+    return design_.series[design_.cells[design_.cell_of_team[team]].series].strategy;
+  }
+
+  // The candidates of strategies without a chosen team; all others than those teams if there are none.
+  [[nodiscard]] std::vector<std::size_t> others() const {
+    std::vector<std::size_t> fresh, rest;
+    for (const auto team : candidates_) {
+      const auto same = [&](const auto& one) { return one.team == team; };
+      const auto alike = [&](const auto& one) { return strategy_of(one.team) == strategy_of(team); };
+      if (std::any_of(chosen_.begin(), chosen_.end(), same)) continue;
+      rest.push_back(team);
+      if (std::none_of(chosen_.begin(), chosen_.end(), alike)) fresh.push_back(team);
+    }
+    return fresh.empty() ? rest : fresh;
+  }
+
+  [[nodiscard]] std::string all_of_them(const std::vector<std::size_t>& among) const {
+    if (among.size() == candidates_.size()) return together_ ? " of the teams taught together" : " of all teams";
+    return " of the teams of other strategies";
+  }
+
+  void add_extreme(const std::function<double(std::size_t)>& size, const std::function<std::string(std::size_t)>& why) {
+    const auto among = others();
+    if (among.empty()) return;
+    const auto least = [&](std::size_t a, std::size_t b) { return size(a) < size(b); };
+    const auto overall = *std::min_element(candidates_.begin(), candidates_.end(), least);
+    const auto best = *std::min_element(among.begin(), among.end(), least);
+    chosen_.push_back({best, why(best) + all_of_them(size(best) <= size(overall) ? candidates_ : among)});
+  }
+
+  // Of the teams with the median number of periods the one whose knowledge is nearest to the median.
+  void add_typical() {
+    const auto among = others();
+    if (among.empty()) return;
+    const auto median = [&](double TeamValues::*quantity) {
+      std::vector<double> values;
+      for (const auto team : candidates_) values.push_back(data_.teams[team].*quantity);
+      std::sort(values.begin(), values.end());
+      return values[(values.size() - 1) / 2];
+    };
+    const double periods = median(&TeamValues::periods), knowledge = median(&TeamValues::knowledge);
+    const auto distance = [&](std::size_t team) {
+      return std::pair{std::abs(data_.teams[team].periods - periods),
+                       std::abs(data_.teams[team].knowledge - knowledge)};
+    };
+    const auto team = *std::min_element(among.begin(), among.end(),
+                                        [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+    const std::string near = distance(team).first == 0.0 ? "" : "near ";
+    chosen_.push_back({team, "typical: " + near + "the median of " + counted_periods(periods) + ", and knowledge (" +
+                                 rounded(data_.teams[team].knowledge) + ") near the median of " + rounded(knowledge)});
+  }
+
+  const ReportDesign& design_;
+  const RunData& data_;
+  std::vector<std::size_t> candidates_;
+  bool together_ = true;
+  std::vector<TellingTeam> chosen_;
+};
+
+}  // namespace
+
+std::vector<TellingTeam> telling_teams(const ReportDesign& design, const RunData& data) {
+  return Choice{design, data}.take();
+}
+
+}  // namespace kith::detail
