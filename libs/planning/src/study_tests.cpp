@@ -1,0 +1,344 @@
+#include "study_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kith/stats/anova.hpp"
+#include "kith/stats/distributions.hpp"
+#include "kith/stats/power.hpp"
+#include "kith/stats/tests.hpp"
+
+namespace kith {
+namespace {
+
+std::vector<std::size_t> group_positions(const TeamPool& pool) {
+  std::vector<std::size_t> groups;
+  for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
+    if (pool.strategies()[s] != Strategy::kBaseline) groups.push_back(s);
+  }
+  return groups;
+}
+
+bool in(const TeamPool& pool, const TeamSelection& teams, std::size_t s, std::size_t c) {
+  TeamAddress address;
+  address.strategy = pool.strategies()[s];
+  address.composition = pool.compositions()[c];
+  return teams.contains(address);
+}
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Mean over cells of the squared deviations from the cells' means, n - 1 in each.
+double variance_within(const TeamPool& pool, Quantity quantity, const std::vector<std::size_t>& strategies,
+                       const std::vector<std::size_t>& compositions) {
+  double sum = 0.0, df = 0.0;
+  for (const auto s : strategies) {
+    for (const auto c : compositions) {
+      const auto cell = pool.cell(quantity, s, c);
+      const double mean = mean_of(cell);
+      for (const double value : cell) sum += (value - mean) * (value - mean);
+      df += static_cast<double>(cell.size() - 1);
+    }
+  }
+  return sum / df;
+}
+
+std::vector<std::size_t> compositions_of(const TeamPool& pool, const Effect& effect) {
+  std::vector<std::size_t> all;
+  for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
+    if (effect.kind != Effect::Kind::kStrategyWithin || pool.compositions()[c] == effect.composition) all.push_back(c);
+  }
+  return all;
+}
+
+// What a term adds to the mean of each cell, shape [groups][compositions of the effect], by the cells' means.
+std::vector<std::vector<double>> term_effects(const std::vector<std::vector<double>>& means, Effect::Kind kind) {
+  const auto rows = means.size(), columns = means.front().size();
+  std::vector<double> row_mean(rows, 0.0), column_mean(columns, 0.0);
+  double mean = 0.0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      row_mean[i] += means[i][j] / static_cast<double>(columns);
+      column_mean[j] += means[i][j] / static_cast<double>(rows);
+      mean += means[i][j] / static_cast<double>(rows * columns);
+    }
+  }
+  auto effects = means;
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      switch (kind) {
+        case Effect::Kind::kComposition:
+          effects[i][j] = column_mean[j] - mean;
+          break;
+        case Effect::Kind::kInteraction:
+          effects[i][j] = means[i][j] - row_mean[i] - column_mean[j] + mean;
+          break;
+        default:
+          effects[i][j] = row_mean[i] - mean;
+      }
+    }
+  }
+  return effects;
+}
+
+double mean_square(const std::vector<std::vector<double>>& effects) {
+  double sum = 0.0, n = 0.0;
+  for (const auto& row : effects) {
+    for (const double x : row) {
+      sum += x * x;
+      n += 1.0;
+    }
+  }
+  return sum / n;
+}
+
+std::vector<std::vector<double>> cell_means(const TeamPool& pool, const Effect& effect,
+                                            const std::vector<std::size_t>& groups,
+                                            const std::vector<std::size_t>& compositions) {
+  std::vector<std::vector<double>> means;
+  for (const auto s : groups) {
+    means.emplace_back();
+    for (const auto c : compositions) means.back().push_back(mean_of(pool.cell(effect.quantity, s, c)));
+  }
+  return means;
+}
+
+std::size_t term_df(const Effect& effect, std::size_t groups, std::size_t compositions) {
+  switch (effect.kind) {
+    case Effect::Kind::kComposition:
+      return compositions - 1;
+    case Effect::Kind::kInteraction:
+      return (groups - 1) * (compositions - 1);
+    default:
+      return groups - 1;
+  }
+}
+
+}  // namespace
+
+// --- outcomes ---------------------------------------------------------------------
+
+EffectData::EffectData(const TeamPool& pool, const Effect& effect) : num_compositions_{pool.compositions().size()} {
+  for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
+    for (std::size_t c = 0; c < num_compositions_; ++c) {
+      cells_.push_back(pool.cell(effect.quantity, s, c));
+      mean_.push_back(mean_of(cells_.back()));
+    }
+  }
+  shift_.assign(cells_.size(), 0.0);
+  if (effect.imposed) impose(pool, effect);
+}
+
+void EffectData::impose(const TeamPool& pool, const Effect& effect) {
+  for (std::size_t i = 0; i < shift_.size(); ++i) shift_[i] = -mean_[i];
+  if (effect.kind == Effect::Kind::kContrast) {
+    for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
+      for (std::size_t c = 0; c < num_compositions_; ++c) {
+        auto& shift = shift_[s * num_compositions_ + c];
+        if (in(pool, effect.first, s, c)) shift += *effect.imposed / 2.0;
+        if (in(pool, effect.second, s, c)) shift -= *effect.imposed / 2.0;
+      }
+    }
+    return;
+  }
+  // The pattern of the pool's own means, or a ramp where they do not differ, at the size asked for.
+  const auto groups = group_positions(pool);
+  const auto compositions = compositions_of(pool, effect);
+  auto effects = term_effects(cell_means(pool, effect, groups, compositions), effect.kind);
+  const double variance = variance_within(pool, effect.quantity, groups, compositions);
+  if (mean_square(effects) <= 1e-24 * (variance + 1e-300)) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      for (std::size_t j = 0; j < compositions.size(); ++j)
+        effects[i][j] = (static_cast<double>(i) + 1.0) * (static_cast<double>(j) + 1.0);
+    }
+    effects = term_effects(effects, effect.kind);
+  }
+  const double wanted = variance * *effect.imposed / (1.0 - *effect.imposed);
+  const double scale = std::sqrt(wanted / mean_square(effects));
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (std::size_t j = 0; j < compositions.size(); ++j)
+      shift_[groups[i] * num_compositions_ + compositions[j]] += scale * effects[i][j];
+  }
+}
+
+// --- tests ------------------------------------------------------------------------
+
+StudyTests::StudyTests(const TeamPool& pool, std::size_t teams, bool paired)
+    : pool_{pool}, teams_{teams}, paired_{paired}, groups_{group_positions(pool)} {
+  Factor strategy{"strategy", {}, {}}, composition{"composition", {}, {}};
+  for (const auto s : groups_) strategy.levels.emplace_back(name_of(pool.strategies()[s]));
+  composition.levels = pool.compositions();
+  within_ = {"strategy", strategy.levels, {}};
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    within_.codes.insert(within_.codes.end(), teams, i);
+    for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
+      strategy.codes.insert(strategy.codes.end(), teams, i);
+      composition.codes.insert(composition.codes.end(), teams, c);
+    }
+  }
+  const bool strategies = strategy.levels.size() > 1, compositions = composition.levels.size() > 1;
+  if (strategies) {
+    factors_.push_back(strategy);
+    terms_.push_back({0});
+    term_kinds_.push_back(0);
+  }
+  if (compositions) {
+    terms_.push_back({factors_.size()});
+    factors_.push_back(composition);
+    term_kinds_.push_back(1);
+  }
+  if (strategies && compositions) {
+    terms_.push_back({0, 1});
+    term_kinds_.push_back(2);
+  }
+}
+
+std::array<double, 3> StudyTests::two_way(const EffectData& data, const Draw& draw) const {
+  const auto num_compositions = pool_.compositions().size();
+  std::vector<double> values;
+  values.reserve(groups_.size() * num_compositions * teams_);
+  for (const auto s : groups_) {
+    for (std::size_t c = 0; c < num_compositions; ++c) {
+      const auto& row = draw[s * num_compositions + c];
+      for (std::size_t k = 0; k < teams_; ++k) values.push_back(data.at(s, c, row[k]));
+    }
+  }
+  std::array<double, 3> p{1.0, 1.0, 1.0};
+  if (terms_.empty()) return p;
+  const auto table = anova(values, factors_, terms_, SumsOfSquares::kTypeII);
+  for (std::size_t t = 0; t < terms_.size(); ++t) {
+    if (table.terms[t].test) p[term_kinds_[t]] = table.terms[t].test->p;
+  }
+  return p;
+}
+
+double StudyTests::within(const Effect& effect, const EffectData& data, const Draw& draw) const {
+  const auto& all = pool_.compositions();
+  const auto c = static_cast<std::size_t>(std::find(all.begin(), all.end(), effect.composition) - all.begin());
+  std::vector<double> values;
+  for (const auto s : groups_) {
+    const auto& row = draw[s * all.size() + c];
+    for (std::size_t k = 0; k < teams_; ++k) values.push_back(data.at(s, c, row[k]));
+  }
+  const auto test = one_way_anova(values, within_);
+  return test ? std::min(1.0, test->p * static_cast<double>(all.size())) : 1.0;
+}
+
+std::vector<double> StudyTests::outcomes(const TeamSelection& teams, const EffectData& data, const Draw& draw) const {
+  const auto num_compositions = pool_.compositions().size();
+  std::vector<double> values;
+  for (std::size_t s = 0; s < pool_.strategies().size(); ++s) {
+    for (std::size_t c = 0; c < num_compositions; ++c) {
+      if (!in(pool_, teams, s, c)) continue;
+      const auto& row = draw[s * num_compositions + c];
+      for (std::size_t k = 0; k < teams_; ++k) values.push_back(data.at(s, c, row[k]));
+    }
+  }
+  return values;
+}
+
+double StudyTests::contrast(const Effect& effect, const EffectData& data, const Draw& draw) const {
+  const auto a = outcomes(effect.first, data, draw), b = outcomes(effect.second, data, draw);
+  const bool same_people = paired_ && effect.first.strategy && effect.second.strategy &&
+                           effect.first.composition == effect.second.composition;
+  const auto test = same_people ? paired_t_test(a, b) : welch_t_test(a, b);
+  return test ? test->test.p : 1.0;
+}
+
+double StudyTests::p_value(const Effect& effect, const EffectData& data, const Draw& draw) const {
+  switch (effect.kind) {
+    case Effect::Kind::kStrategy:
+    case Effect::Kind::kComposition:
+    case Effect::Kind::kInteraction:
+      return two_way(data, draw)[static_cast<std::size_t>(effect.kind)];
+    case Effect::Kind::kStrategyWithin:
+      return within(effect, data, draw);
+    case Effect::Kind::kContrast:
+      return contrast(effect, data, draw);
+  }
+  return 1.0;
+}
+
+// --- sizes ------------------------------------------------------------------------
+
+double effect_size(const TeamPool& pool, const Effect& effect) {
+  const auto groups = group_positions(pool);
+  if (effect.kind == Effect::Kind::kContrast) {
+    double sum[2] = {0.0, 0.0}, n[2] = {0.0, 0.0};
+    for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
+      for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
+        const double mean = mean_of(pool.cell(effect.quantity, s, c));
+        for (const int side : {0, 1}) {
+          if (!in(pool, side == 0 ? effect.first : effect.second, s, c)) continue;
+          sum[side] += mean;
+          n[side] += 1.0;
+        }
+      }
+    }
+    return sum[0] / n[0] - sum[1] / n[1];
+  }
+  const auto compositions = compositions_of(pool, effect);
+  const auto effects = term_effects(cell_means(pool, effect, groups, compositions), effect.kind);
+  const double variance = variance_within(pool, effect.quantity, groups, compositions);
+  const double cells = static_cast<double>(groups.size() * compositions.size());
+  const auto df = static_cast<double>(term_df(effect, groups.size(), compositions.size()));
+  // The cells' means vary by chance too: df * variance / (cells * replicates) of the mean square is noise.
+  const double noise = df * variance / (cells * static_cast<double>(pool.replicates()));
+  const double square = std::max(0.0, mean_square(effects) - noise);
+  return variance > 0.0 ? square / (square + variance) : 0.0;
+}
+
+namespace {
+
+// Mean and variance over the selected cells of the pool, cells of equal weight.
+struct Spread {
+  double variance = 0.0;
+  double cells = 0.0;
+};
+
+Spread spread_of(const TeamPool& pool, const Effect& effect, const TeamSelection& teams) {
+  double sum = 0.0, squares = 0.0, n = 0.0;
+  Spread spread;
+  const EffectData data{pool, effect};
+  for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
+    for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
+      if (!in(pool, teams, s, c)) continue;
+      spread.cells += 1.0;
+      for (std::size_t r = 0; r < pool.replicates(); ++r) {
+        const double value = data.at(s, c, r);
+        sum += value;
+        squares += value * value;
+        n += 1.0;
+      }
+    }
+  }
+  spread.variance = (squares - sum * sum / n) / (n - 1.0);
+  return spread;
+}
+
+}  // namespace
+
+std::optional<double> analytic_power(const TeamPool& pool, const Effect& effect, double size, std::size_t teams,
+                                     double alpha, bool paired) {
+  const auto groups = group_positions(pool).size();
+  const auto compositions = compositions_of(pool, effect).size();
+  const auto n = static_cast<double>(teams);
+  if (effect.kind == Effect::Kind::kContrast) {
+    const bool same_people = paired && effect.first.strategy && effect.second.strategy &&
+                             effect.first.composition == effect.second.composition;
+    if (same_people) return std::nullopt;  // depends on the correlation within people
+    const auto a = spread_of(pool, effect, effect.first), b = spread_of(pool, effect, effect.second);
+    const double va = a.variance / (n * a.cells), vb = b.variance / (n * b.cells);
+    if (!(va + vb > 0.0)) return std::nullopt;
+    const double df = (va + vb) * (va + vb) / (va * va / (n * a.cells - 1.0) + vb * vb / (n * b.cells - 1.0));
+    return non_central_f_upper(f_quantile(1.0 - alpha, 1.0, df), 1.0, df, size * size / (va + vb));
+  }
+  if (effect.kind == Effect::Kind::kStrategyWithin) alpha /= static_cast<double>(pool.compositions().size());
+  const auto cells = groups * compositions;
+  return f_test_power(size, term_df(effect, groups, compositions), cells, cells * teams, alpha);
+}
+
+}  // namespace kith
