@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
@@ -25,8 +25,6 @@ if (positionals.length !== 2) {
 const [template, sample] = positionals.map((file) => readFileSync(file, 'utf8'));
 const folder = mkdtempSync(join(tmpdir(), 'kith-report-'));
 let browser;
-before(async () => (browser = await launch(values.modules, values.chromium)));
-after(async () => browser?.close());
 
 async function withDocument(change, body) {
   const document = JSON.parse(sample);
@@ -45,65 +43,71 @@ async function withDocument(change, body) {
 const sections = (page) => page.$$eval('main section', (all) => all.map(({ id }) => id));
 const numbers = (page) => page.$$eval('figcaption strong', (all) => all.map(({ textContent }) => Number(/\d+/.exec(textContent)[0])));
 
-for (const name of Object.keys(JSON.parse(sample).tables)) {
-  test(`without the table ${name} the rest is shown`, async () => {
-    await withDocument((document) => delete document.tables[name], async ({ page }) => {
-      const shown = await numbers(page);
-      assert.deepEqual(shown, shown.map((_, i) => i + 1));
-      assert.ok(shown.length >= 9, `${shown.length} figures`);
+// In a suite, because Node.js 18 runs hooks only there, and for `it` alone.
+describe('a document', () => {
+  before(async () => (browser = await launch(values.modules, values.chromium)));
+  after(async () => browser?.close());
+
+  for (const name of Object.keys(JSON.parse(sample).tables)) {
+    it(`without the table ${name} the rest is shown`, async () => {
+      await withDocument((document) => delete document.tables[name], async ({ page }) => {
+        const shown = await numbers(page);
+        assert.deepEqual(shown, shown.map((_, i) => i + 1));
+        assert.ok(shown.length >= 9, `${shown.length} figures`);
+      });
+    });
+  }
+
+  it('a document with nothing but its overview is a page', async () => {
+    const bare = (document) => {
+      for (const key of ['notes', 'findings', 'methods', 'reproduce', 'beliefs', 'labels']) delete document[key];
+      document.tables = {};
+      document.overview.headlines = [];
+    };
+    await withDocument(bare, async ({ page }) => assert.deepEqual(await sections(page), ['summary', 'notices']));
+  });
+
+  it('of a study with further factors the first variant is shown, and a note says so', async () => {
+    const twice = (document) => {
+      document.overview.factors = ['particles'];
+      const { columns, rows } = document.tables.cells;
+      document.tables.cells = { columns: ['particles', ...columns], rows: [100, 1000].flatMap((value) => rows.map((row) => [value, ...row])) };
+    };
+    await withDocument(twice, async ({ page }) => {
+      assert.match(await page.textContent('#notes'), /also varies particles/);
+      await page.click('#figure-periods summary');
+      assert.equal(await page.$$eval('#figure-periods tbody tr', (rows) => rows.length), 20);
     });
   });
-}
 
-test('a document with nothing but its overview is a page', async () => {
-  const bare = (document) => {
-    for (const key of ['notes', 'findings', 'methods', 'reproduce', 'beliefs', 'labels']) delete document[key];
-    document.tables = {};
-    document.overview.headlines = [];
-  };
-  await withDocument(bare, async ({ page }) => assert.deepEqual(await sections(page), ['summary', 'notices']));
-});
-
-test('of a study with further factors the first variant is shown, and a note says so', async () => {
-  const twice = (document) => {
-    document.overview.factors = ['particles'];
-    const { columns, rows } = document.tables.cells;
-    document.tables.cells = { columns: ['particles', ...columns], rows: [100, 1000].flatMap((value) => rows.map((row) => [value, ...row])) };
-  };
-  await withDocument(twice, async ({ page }) => {
-    assert.match(await page.textContent('#notes'), /also varies particles/);
-    await page.click('#figure-periods summary');
-    assert.equal(await page.$$eval('#figure-periods tbody tr', (rows) => rows.length), 20);
+  it('missing values, single teams and unknown strategies do no harm', async () => {
+    const odd = (document) => {
+      const { cells, teams } = document.tables;
+      for (const name of ['periods_low', 'periods_high', 'knowledge_mean']) cells.rows[0][cells.columns.indexOf(name)] = null;
+      teams.rows = teams.rows.slice(0, 1);
+      const rename = (row) => row.map((cell) => (cell === 'joint' ? 'own-strategy' : cell));
+      for (const table of Object.values(document.tables)) table.rows = table.rows.map(rename);
+      document.overview.strategies = rename(document.overview.strategies);
+      document.beliefs.teams[0].mass[0][0] = null;
+    };
+    await withDocument(odd, async ({ page }) => assert.match(await page.textContent('#figure-periods svg'), /own-strategy/));
   });
-});
 
-test('missing values, single teams and unknown strategies do no harm', async () => {
-  const odd = (document) => {
-    const { cells, teams } = document.tables;
-    for (const name of ['periods_low', 'periods_high', 'knowledge_mean']) cells.rows[0][cells.columns.indexOf(name)] = null;
-    teams.rows = teams.rows.slice(0, 1);
-    const rename = (row) => row.map((cell) => (cell === 'joint' ? 'own-strategy' : cell));
-    for (const table of Object.values(document.tables)) table.rows = table.rows.map(rename);
-    document.overview.strategies = rename(document.overview.strategies);
-    document.beliefs.teams[0].mass[0][0] = null;
-  };
-  await withDocument(odd, async ({ page }) => assert.match(await page.textContent('#figure-periods svg'), /own-strategy/));
-});
-
-test('markup in a string of the document stays text', async () => {
-  const attack = '</script><img src=x onerror="window.attacked=1"><script>window.attacked=1</script>';
-  const hostile = (document) => {
-    document.title = attack;
-    document.notes = [attack];
-    document.labels.strategies.joint = attack;
-    document.findings[0].sentence = attack;
-    document.beliefs.teams[0].title = attack;
-  };
-  await withDocument(hostile, async ({ page }) => {
-    assert.equal(await page.textContent('h1'), attack);
-    assert.equal(await page.title(), attack);
-    assert.equal(await page.evaluate(() => window.attacked), undefined);
-    await page.hover('#figure-interaction svg .mark-symbol path');
-    assert.equal(await page.$('img'), null);
+  it('markup in a string of the document stays text', async () => {
+    const attack = '</script><img src=x onerror="window.attacked=1"><script>window.attacked=1</script>';
+    const hostile = (document) => {
+      document.title = attack;
+      document.notes = [attack];
+      document.labels.strategies.joint = attack;
+      document.findings[0].sentence = attack;
+      document.beliefs.teams[0].title = attack;
+    };
+    await withDocument(hostile, async ({ page }) => {
+      assert.equal(await page.textContent('h1'), attack);
+      assert.equal(await page.title(), attack);
+      assert.equal(await page.evaluate(() => window.attacked), undefined);
+      await page.hover('#figure-interaction svg .mark-symbol path');
+      assert.equal(await page.$('img'), null);
+    });
   });
 });

@@ -7,7 +7,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
-import { after, before, test } from 'node:test';
+import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
@@ -43,8 +43,6 @@ const kLooks = [
 ];
 
 let browser;
-before(async () => (browser = await launch(values.modules, values.chromium)));
-after(async () => browser?.close());
 
 async function withReport(look, body) {
   const report = await openReport(browser, address, look);
@@ -80,98 +78,104 @@ async function violations(page) {
     .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(' | ')}`);
 }
 
-for (const look of kLooks) {
-  test(`a reader at ${look.name} sees every chart, no overflow and no serious axe violation`, async () => {
-    await withReport(look, async ({ page }) => {
-      const charts = await page.$$eval('figure .drawing svg', (all) => all.map((svg) => svg.querySelectorAll('path, text').length));
-      assert.ok(charts.length > 0 && charts.every((marks) => marks > 10), `charts with marks: ${charts}`);
-      if (values.screenshots) {
-        mkdirSync(values.screenshots, { recursive: true });
-        await page.screenshot({ path: join(values.screenshots, `${look.name}.png`), fullPage: true });
-      }
-      await openDetails(page, { all: false });
-      assert.deepEqual(await violations(page), []);
-      await openDetails(page, { all: true });
-      const { page: body, view } = await page.evaluate(() => ({ page: document.documentElement.scrollWidth, view: document.documentElement.clientWidth }));
-      assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
-    });
-  });
-}
-
 async function saved(page, button) {
   const [download] = await Promise.all([page.waitForEvent('download'), button.click()]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
-test('every figure saves as SVG, PNG and CSV, drawn in light whatever the theme is', async () => {
-  await withReport({ width: 1280, dark: true }, async ({ page }) => {
-    const figures = await page.$$('figure');
-    for (const figure of figures) {
-      const id = await figure.getAttribute('id');
-      const svg = await saved(page, await figure.$('[data-save=svg]'));
-      assert.match(svg.name, /\.svg$/);
-      const text = svg.bytes.toString('utf8');
-      assert.match(text, /^<svg [^>]*xmlns/, id);
-      assert.ok(!text.includes('var(--'), `${id} leaves colours to a page`);
-      const png = await saved(page, await figure.$('[data-save=png]'));
-      assert.match(png.name, /\.png$/);
-      assert.deepEqual([...png.bytes.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47], id);
-      const csv = await saved(page, await figure.$('[data-save=csv]'));
-      assert.match(csv.name, /\.csv$/);
-      const lines = csv.bytes.toString('utf8').trimEnd().split('\n');
-      assert.ok(lines.length > 1 && lines.every((line) => line.includes(',')), `${id}: ${lines[0]}`);
-      if (values.screenshots) {
-        writeFileSync(join(values.screenshots, png.name), png.bytes);
-        writeFileSync(join(values.screenshots, svg.name), svg.bytes);
+// In a suite, because Node.js 18 runs hooks only there, and for `it` alone.
+describe('a report', () => {
+  before(async () => (browser = await launch(values.modules, values.chromium)));
+  after(async () => browser?.close());
+
+  for (const look of kLooks) {
+    it(`a reader at ${look.name} sees every chart, no overflow and no serious axe violation`, async () => {
+      await withReport(look, async ({ page }) => {
+        const charts = await page.$$eval('figure .drawing svg', (all) => all.map((svg) => svg.querySelectorAll('path, text').length));
+        assert.ok(charts.length > 0 && charts.every((marks) => marks > 10), `charts with marks: ${charts}`);
+        if (values.screenshots) {
+          mkdirSync(values.screenshots, { recursive: true });
+          await page.screenshot({ path: join(values.screenshots, `${look.name}.png`), fullPage: true });
+        }
+        await openDetails(page, { all: false });
+        assert.deepEqual(await violations(page), []);
+        await openDetails(page, { all: true });
+        const { page: body, view } = await page.evaluate(() => ({ page: document.documentElement.scrollWidth, view: document.documentElement.clientWidth }));
+        assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
+      });
+    });
+  }
+
+  it('every figure saves as SVG, PNG and CSV, drawn in light whatever the theme is', async () => {
+    await withReport({ width: 1280, dark: true }, async ({ page }) => {
+      const figures = await page.$$('figure');
+      for (const figure of figures) {
+        const id = await figure.getAttribute('id');
+        const svg = await saved(page, await figure.$('[data-save=svg]'));
+        assert.match(svg.name, /\.svg$/);
+        const text = svg.bytes.toString('utf8');
+        assert.match(text, /^<svg [^>]*xmlns/, id);
+        assert.ok(!text.includes('var(--'), `${id} leaves colours to a page`);
+        const png = await saved(page, await figure.$('[data-save=png]'));
+        assert.match(png.name, /\.png$/);
+        assert.deepEqual([...png.bytes.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47], id);
+        const csv = await saved(page, await figure.$('[data-save=csv]'));
+        assert.match(csv.name, /\.csv$/);
+        const lines = csv.bytes.toString('utf8').trimEnd().split('\n');
+        assert.ok(lines.length > 1 && lines.every((line) => line.includes(',')), `${id}: ${lines[0]}`);
+        if (values.screenshots) {
+          writeFileSync(join(values.screenshots, png.name), png.bytes);
+          writeFileSync(join(values.screenshots, svg.name), svg.bytes);
+        }
       }
-    }
+    });
   });
-});
 
-test('headings are in order, figures are numbered and every link of the contents leads somewhere', async () => {
-  await withReport({ width: 1280, dark: false }, async ({ page }) => {
-    const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));
-    assert.equal(levels.filter((level) => level === 1).length, 1);
-    levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
-    const captions = await page.$$eval('figcaption', (all) => all.map((caption) => caption.textContent));
-    captions.forEach((caption, i) => assert.ok(caption.startsWith(`Figure ${i + 1}. `), caption));
-    const lost = await page.$$eval('nav a', (all) => all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)));
-    assert.deepEqual(lost, []);
-    const names = await page.$$eval('.chart', (all) => all.map((chart) => chart.getAttribute('aria-label') ?? ''));
-    assert.ok(names.every((name) => name.length > 20), 'a chart without a text alternative');
+  it('headings are in order, figures are numbered and every link of the contents leads somewhere', async () => {
+    await withReport({ width: 1280, dark: false }, async ({ page }) => {
+      const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));
+      assert.equal(levels.filter((level) => level === 1).length, 1);
+      levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
+      const captions = await page.$$eval('figcaption', (all) => all.map((caption) => caption.textContent));
+      captions.forEach((caption, i) => assert.ok(caption.startsWith(`Figure ${i + 1}. `), caption));
+      const lost = await page.$$eval('nav a', (all) => all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)));
+      assert.deepEqual(lost, []);
+      const names = await page.$$eval('.chart', (all) => all.map((chart) => chart.getAttribute('aria-label') ?? ''));
+      assert.ok(names.every((name) => name.length > 20), 'a chart without a text alternative');
+    });
   });
-});
 
-test('the theme button changes the theme, and paper is light', async () => {
-  await withReport({ width: 1280, dark: false }, async ({ page }) => {
-    const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-    const light = await ground();
-    await page.click('.theme-toggle');
-    assert.notEqual(await ground(), light);
-    await page.emulateMedia({ media: 'print' });
-    assert.equal(await ground(), light);
-    assert.equal(await page.isVisible('.theme-toggle'), false);
-    if (values.screenshots) await page.pdf({ path: join(values.screenshots, 'print.pdf'), format: 'A4', printBackground: true });
+  it('the theme button changes the theme, and paper is light', async () => {
+    await withReport({ width: 1280, dark: false }, async ({ page }) => {
+      const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+      const light = await ground();
+      await page.click('.theme-toggle');
+      assert.notEqual(await ground(), light);
+      await page.emulateMedia({ media: 'print' });
+      assert.equal(await ground(), light);
+      assert.equal(await page.isVisible('.theme-toggle'), false);
+      if (values.screenshots) await page.pdf({ path: join(values.screenshots, 'print.pdf'), format: 'A4', printBackground: true });
+    });
   });
-});
 
-test('belief spheres follow the slider, the arrow keys and the choice of team', async () => {
-  await withReport({ width: 1280, dark: false, reducedMotion: true }, async ({ page }) => {
-    if (!(await page.$('#figure-beliefs'))) return;
-    const label = () => page.getAttribute('#figure-beliefs .chart', 'aria-label');
-    const path = () => page.$eval('#figure-beliefs svg', (svg) => svg.innerHTML);
-    assert.match(await label(), /before teaching/);
-    const first = await path();
-    await page.focus('#sphere-period');
-    await page.keyboard.press('ArrowRight');
-    assert.match(await label(), /after period 1/);
-    await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, first);
-    const second = await path();
-    await page.focus('#sphere-turn');
-    await page.keyboard.press('ArrowRight');
-    await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, second);
-    assert.equal(await page.locator('#figure-beliefs button', { hasText: 'Play' }).count(), 0, 'no motion for who asks for less');
-    await page.selectOption('#sphere-team', { index: (await page.$$('#sphere-team option')).length - 1 });
-    assert.match(await label(), /before teaching/);
+  it('belief spheres follow the slider, the arrow keys and the choice of team', async () => {
+    await withReport({ width: 1280, dark: false, reducedMotion: true }, async ({ page }) => {
+      if (!(await page.$('#figure-beliefs'))) return;
+      const label = () => page.getAttribute('#figure-beliefs .chart', 'aria-label');
+      const path = () => page.$eval('#figure-beliefs svg', (svg) => svg.innerHTML);
+      assert.match(await label(), /before teaching/);
+      const first = await path();
+      await page.focus('#sphere-period');
+      await page.keyboard.press('ArrowRight');
+      assert.match(await label(), /after period 1/);
+      await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, first);
+      const second = await path();
+      await page.focus('#sphere-turn');
+      await page.keyboard.press('ArrowRight');
+      await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, second);
+      assert.equal(await page.locator('#figure-beliefs button', { hasText: 'Play' }).count(), 0, 'no motion for who asks for less');
+      await page.selectOption('#sphere-team', { index: (await page.$$('#sphere-team option')).length - 1 });
+      assert.match(await label(), /before teaching/);
+    });
   });
 });
