@@ -5,7 +5,9 @@
 namespace kith {
 
 const std::vector<BuiltInStudy>& built_in_studies() {
-  static const std::vector<BuiltInStudy> kStudies{{"paper", detail::kPaperText}, {"quick", detail::kQuickText}};
+  static const std::vector<BuiltInStudy> kStudies{{"paper", detail::kPaperText},
+                                                  {"paper-uncalibrated", detail::kPaperUncalibratedText},
+                                                  {"quick", detail::kQuickText}};
   return kStudies;
 }
 

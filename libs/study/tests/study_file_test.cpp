@@ -273,8 +273,8 @@ TEST(StudyFile, DocumentsEveryIdAndUsesEveryDocumentedOne) {
 }
 
 TEST(StudyFile, NamesTheBuiltInStudiesWhereThereIsNoSuchFile) {
-  const std::vector<std::pair<std::string, std::string>> unknown{{"no-such-study.toml", "known: paper, quick"},
-                                                                 {"qick", "did you mean 'quick'?"}};
+  const std::vector<std::pair<std::string, std::string>> unknown{
+      {"no-such-study.toml", "known: paper, paper-uncalibrated, quick"}, {"qick", "did you mean 'quick'?"}};
   for (const auto& [name, hint] : unknown) {
     try {
       (void)load_study(name);
