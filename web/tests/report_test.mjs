@@ -173,6 +173,10 @@ describe('a report', () => {
       await page.focus('#sphere-turn');
       await page.keyboard.press('ArrowRight');
       await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, second);
+      const third = await path();
+      await page.focus('#sphere-zoom');
+      await page.keyboard.press('ArrowRight');
+      await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, third);
       assert.equal(await page.locator('#figure-beliefs button', { hasText: 'Play' }).count(), 0, 'no motion for who asks for less');
       await page.selectOption('#sphere-team', { index: (await page.$$('#sphere-team option')).length - 1 });
       assert.match(await label(), /before teaching/);

@@ -49,3 +49,14 @@ export function extent(values: (number | null)[], zero = false): [number, number
   const high = Math.max(...known);
   return low === high ? [low - 0.5, high + 0.5] : [low, high];
 }
+
+// A domain that ends at round ticks, so that the axes of neighbours reach equally high.
+export function roundTicks([low, high]: [number, number], count = 5): { domain: [number, number]; values: number[] } {
+  const rough = (high - low) / count;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * ([1, 2, 5].find((factor) => factor * power >= rough * 0.9) ?? 10);
+  const first = Math.floor(low / step + 1e-9);
+  const last = Math.ceil(high / step - 1e-9);
+  const values = Array.from({ length: last - first + 1 }, (_, i) => Number(((first + i) * step).toPrecision(12)));
+  return { domain: [values[0] ?? low, values[values.length - 1] ?? high], values };
+}

@@ -21,7 +21,7 @@ function formatP(value: number): string {
   return value < 0.001 ? '< 0.001' : value.toFixed(3);
 }
 
-const isP = (column: string): boolean => /^p($|_)|_p$/i.test(column);
+const isP = (column: string): boolean => /^p(\b|_)|_p$/i.test(column);
 
 export class Words {
   private readonly strategies: Record<string, string>;

@@ -13,14 +13,14 @@ function byComponent(study: Study): Figure[] {
   return [{
     id: 'area-component',
     title,
-    reading: 'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals.',
+    reading: 'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; every component has its own scale.',
     gist: `${title}. Mean log area: ${range(rows, 'mean_log_area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
     table,
     spec: (width) =>
       dots({
         looks: study.looks(rows),
         panels: study.codes(rows, 'kc').map((kc) => ({ title: componentName(kc), means: rows.filter((row) => String(row.kc) === kc) })),
-        mean: 'mean_log_area', low: 'low', high: 'high', xTitle: 'Mean log area, ln(sr)', zero: false,
+        mean: 'mean_log_area', low: 'low', high: 'high', xTitle: 'Mean log area, ln(sr)', zero: false, ownScales: true,
         strategyOf: (row) => study.words.strategy(row.strategy),
       }, width),
   }];

@@ -3,7 +3,7 @@ import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import type { Look } from '../palette';
 import { strategyLegend } from '../legend';
-import { type Place, extent, panels, yAxis } from '../panels';
+import { type Place, extent, panels, roundTicks, yAxis } from '../panels';
 
 export interface CurvesOptions {
   looks: Look[];
@@ -18,14 +18,14 @@ export interface CurvesOptions {
   maxColumns?: number;
 }
 
-function layers(options: CurvesOptions, rows: Row[], place: Place, domains: { x: [number, number]; y: [number, number] }): Spec {
+function layers(options: CurvesOptions, rows: Row[], place: Place, domains: { x: [number, number]; y: ReturnType<typeof roundTicks> }): Spec {
   const labels = options.looks.map((look) => look.label);
   const values = rows.map((row) => ({
     strategy: options.strategyOf(row), x: num(row[options.x]), y: num(row[options.y]), low: num(row.low), high: num(row.high),
   }));
   const x: Spec = { field: 'x', type: 'quantitative', scale: { domain: domains.x, nice: false }, axis: { title: place.lastRow ? options.xTitle : null, tickMinStep: 1, format: 'd', grid: false, labelFlush: false, tickCount: Math.floor(place.width / 36) } };
-  const yScale: Spec = { domain: domains.y, zero: false, nice: true };
-  const y: Spec = { type: 'quantitative', scale: yScale, axis: yAxis(place, { title: options.yTitle, tickCount: 5, domain: false, format: '.3~f' }, true) };
+  const yScale: Spec = { domain: domains.y.domain, zero: false, nice: false };
+  const y: Spec = { type: 'quantitative', scale: yScale, axis: yAxis(place, { title: options.yTitle, values: domains.y.values, domain: false, format: '.3~f' }, true) };
   const color: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.color) }, legend: null };
   const dash: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.dash) }, legend: null };
   const interpolate = options.step ? 'step-after' : 'linear';
@@ -45,7 +45,7 @@ export function curves(options: CurvesOptions, width: number): Spec {
   const all = options.panels.flatMap((panel) => panel.rows);
   const domains = {
     x: extent(all.map((row) => num(row[options.x]))),
-    y: options.yDomain ?? extent(all.flatMap((row) => [num(row[options.y]), num(row.low), num(row.high)])),
+    y: roundTicks(options.yDomain ?? extent(all.flatMap((row) => [num(row[options.y]), num(row.low), num(row.high)]))),
   };
   const legend = strategyLegend(options.looks, width - 60, options.step ? 'line' : 'mark');
   return { ...panels(options.panels.length, width, { left: 52, min: 190, max: options.maxColumns ?? 3, gap: 22, rowGap: 54 }, (i, place) => {

@@ -14,6 +14,7 @@ export interface DotsOptions {
   point?: string;
   xTitle: string;
   zero: boolean;
+  ownScales?: boolean; // panels that are not compared with each other
   strategyOf(row: Row): string; // its label
 }
 
@@ -25,7 +26,7 @@ function layers(options: DotsOptions, panel: DotsOptions['panels'][number], plac
   const labels = options.looks.map((look) => look.label);
   const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
   const y: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, paddingInner: 0.25, paddingOuter: 0.15 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelLimit: 116, labelPadding: 6, labelFontSize: 12, labelColor: 'var(--text)' }) };
-  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: place.lastRow ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false, labelFlush: false, format: '.3~f' } };
+  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: place.lastRow || options.ownScales ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false, labelFlush: false, format: '.3~f' } };
   const hue: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.color)), legend: null };
   const shape: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.shape)), legend: null };
   const means = panel.means.map((row) => ({
@@ -58,16 +59,20 @@ function layers(options: DotsOptions, panel: DotsOptions['panels'][number], plac
   };
 }
 
-export function dots(options: DotsOptions, width: number): Spec {
-  const values = options.panels.flatMap((panel) => [
+function domainOf(options: DotsOptions, list: DotsOptions['panels']): [number, number] {
+  const values = list.flatMap((panel) => [
     ...panel.means.flatMap((row) => [num(row[options.mean]), num(row[options.low]), num(row[options.high])]),
     ...(panel.points ?? []).map((row) => num(row[options.point ?? ''])),
   ]);
   const [least, most] = extent(values, options.zero);
   const margin = 0.03 * (most - least); // so that marks at the ends are whole
-  const domain: [number, number] = [options.zero ? least : least - margin, most + margin];
+  return [options.zero ? least : least - margin, most + margin];
+}
+
+export function dots(options: DotsOptions, width: number): Spec {
+  const shared = domainOf(options, options.panels);
   return panels(options.panels.length, width, { left: 104, min: 124, gap: 26 }, (i, place) => {
     const panel = options.panels[i];
-    return panel ? layers(options, panel, place, domain) : {};
+    return panel ? layers(options, panel, place, options.ownScales ? domainOf(options, [panel]) : shared) : {};
   });
 }

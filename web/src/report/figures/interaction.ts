@@ -5,7 +5,7 @@ import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import { strategyLegend } from '../legend';
 import type { Look } from '../palette';
-import { extent, panels } from '../panels';
+import { extent, panels, roundTicks } from '../panels';
 import { type Study, rowsOf } from '../study';
 import type { Figure } from './figure';
 import { range } from './gist';
@@ -41,9 +41,9 @@ function spec(study: Study, list: Panel[], compositions: string[], looks: Look[]
       const at = compositions.indexOf(String(row.composition));
       return { strategy, at: at + aside, composition: String(row.composition), mean: num(row[`${panel.column}_mean`]), low: num(row[`${panel.column}_low`]), high: num(row[`${panel.column}_high`]) };
     });
-    const domain = extent(values.flatMap((row) => [row.mean, row.low, row.high]));
+    const { domain, values: ticks } = roundTicks(extent(values.flatMap((row) => [row.mean, row.low, row.high])));
     const x: Spec = { field: 'at', type: 'quantitative', scale: { domain: [-0.4, compositions.length - 0.6], nice: false }, axis: { title: place.lastRow ? 'Composition' : null, values: compositions.map((_, k) => k), labelExpr: `${JSON.stringify(compositions)}[datum.value]`, grid: false, labelOverlap: false } };
-    const y: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: true }, axis: { title: null, domain: false, tickCount: 5 } };
+    const y: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: null, domain: false, values: ticks, format: '.6~f' } };
     const color: Spec = { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.color)), legend: null };
     const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'composition', title: 'Composition' }, { field: 'mean', title: panel.title, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
     return {

@@ -12,6 +12,7 @@ export interface SliderOptions {
   label: string;
   min: number;
   max: number;
+  step?: number;
   value: number;
   say(value: number): string;
   onInput(value: number): void;
@@ -19,7 +20,7 @@ export interface SliderOptions {
 
 export function slider(options: SliderOptions): Slider {
   const { id, label, min, max, value, say, onInput } = options;
-  const input = el('input', { type: 'range', id, min, max, step: 1, value });
+  const input = el('input', { type: 'range', id, min, max, step: options.step ?? 1, value });
   const output = el('output', { for: id });
   const tell = (): void => {
     output.textContent = say(input.valueAsNumber);
@@ -34,7 +35,7 @@ export function slider(options: SliderOptions): Slider {
     row: el('div', { class: 'control' }, el('label', { for: id }, label), input, output),
     input,
     set(next) {
-      input.valueAsNumber = Math.round(next);
+      input.valueAsNumber = next; // the input rounds to its step
       tell();
     },
   };

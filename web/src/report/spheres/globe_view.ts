@@ -11,12 +11,15 @@ import type { Spec } from '../chart';
 const kDegreesPerPixel = 0.5;
 
 // Halfway from the prior's middle to the true reward: the prior faces the viewer, and the region that
-// matters does not lie at the edge.
-export function firstTurn(beliefs: Beliefs): Turn {
+// matters does not lie at the edge. The larger the zoom, the nearer to the true reward, or it would leave
+// the window.
+export function turnFor(beliefs: Beliefs, zoom: number): Turn {
   const prior = beliefs.regions.find(({ label }) => label.toLowerCase().startsWith('prior')) ?? beliefs.regions[0];
   const [x, y, z] = prior ? middle(prior.outline) : beliefs.truth;
-  const [lambda, phi] = toLonLat([x + beliefs.truth[0], y + beliefs.truth[1], z + beliefs.truth[2]]);
-  return { lambda: Math.round(lambda), phi: Math.round(phi) };
+  const [a, b, c] = beliefs.truth;
+  const far = Math.max(0, 2 - zoom);
+  const [lambda, phi] = toLonLat([far * x + a, far * y + b, far * z + c]);
+  return { lambda: Math.round(lambda), phi: Math.round(phi), zoom };
 }
 
 export class GlobeView {
@@ -29,7 +32,7 @@ export class GlobeView {
 
   constructor(private readonly box: HTMLElement, private readonly beliefs: Beliefs, public team: BeliefTeam) {
     this.particles = new Particles(team);
-    this.turn = firstTurn(beliefs);
+    this.turn = turnFor(beliefs, 1);
   }
 
   spec(width: number): Spec {
@@ -71,7 +74,7 @@ export class GlobeView {
 
   setTurn(turn: Turn): void {
     this.turn = turn;
-    this.then(async () => this.drawing?.view.signal('lambda', this.turn.lambda).signal('phi', this.turn.phi).runAsync());
+    this.then(async () => this.drawing?.view.signal('lambda', this.turn.lambda).signal('phi', this.turn.phi).signal('zoom', this.turn.zoom).runAsync());
   }
 
   // Dragging turns the globes; `onTurn` lets the sliders follow.
@@ -83,9 +86,9 @@ export class GlobeView {
     });
     this.box.addEventListener('pointermove', (event) => {
       if (!from) return;
-      const lambda = from.turn.lambda - (event.clientX - from.x) * kDegreesPerPixel;
-      const phi = from.turn.phi + (event.clientY - from.y) * kDegreesPerPixel;
-      const turn = { lambda: ((((lambda + 180) % 360) + 360) % 360) - 180, phi: Math.max(-90, Math.min(90, phi)) };
+      const lambda = from.turn.lambda - ((event.clientX - from.x) * kDegreesPerPixel) / from.turn.zoom;
+      const phi = from.turn.phi + ((event.clientY - from.y) * kDegreesPerPixel) / from.turn.zoom;
+      const turn = { lambda: ((((lambda + 180) % 360) + 360) % 360) - 180, phi: Math.max(-90, Math.min(90, phi)), zoom: from.turn.zoom };
       this.setTurn(turn);
       onTurn(turn);
     });

@@ -1,5 +1,6 @@
 // One Vega specification with a globe per belief (orthographic projection). All globes share one
-// rotation, the signals `lambda` and `phi`: longitude and latitude that face the viewer, degrees.
+// rotation, the signals `lambda` and `phi`: longitude and latitude that face the viewer, degrees; above a
+// `zoom` of 1 a round window shows a part of them.
 import type { Json, Spec } from '../chart';
 import type { Beliefs, BeliefTeam, Vector } from '../document';
 import { color } from '../theme';
@@ -10,6 +11,7 @@ import type { Particles } from './particles';
 export interface Turn {
   lambda: number;
   phi: number;
+  zoom: number;
 }
 
 const kKinds = ['own', 'teacher', 'common', 'joint'];
@@ -53,8 +55,8 @@ function onGlobe(radius: number): Json[] {
   const away = 'datum.lon - lambda*PI/180';
   return [
     { type: 'formula', as: 'front', expr: `sin(phi*PI/180)*sin(datum.lat) + cos(phi*PI/180)*cos(datum.lat)*cos(${away})` },
-    { type: 'formula', as: 'px', expr: `${radius} + ${radius - 1}*cos(datum.lat)*sin(${away})` },
-    { type: 'formula', as: 'py', expr: `${radius} - ${radius - 1}*(cos(phi*PI/180)*sin(datum.lat) - sin(phi*PI/180)*cos(datum.lat)*cos(${away}))` },
+    { type: 'formula', as: 'px', expr: `${radius} + zoom*${radius - 1}*cos(datum.lat)*sin(${away})` },
+    { type: 'formula', as: 'py', expr: `${radius} - zoom*${radius - 1}*(cos(phi*PI/180)*sin(datum.lat) - sin(phi*PI/180)*cos(datum.lat)*cos(${away}))` },
   ];
 }
 
@@ -126,7 +128,7 @@ function globeMarks(): Spec[] {
     { type: 'symbol', from: { data: 'axes' }, encode: { update: { x: { field: 'px' }, y: { field: 'py' }, size: { value: 7 }, fill: { value: color('muted') }, opacity: { signal: 'datum.front > 0.05 ? 1 : 0' } } } },
     label({ stroke: { value: color('sphere') }, strokeWidth: { value: 3 }, strokeOpacity: { value: 0.85 }, fill: { value: color('sphere') } }),
     label({ fill: { value: color('muted') } }),
-    { type: 'symbol', from: { data: 'truth' }, encode: { update: { x: { field: 'px' }, y: { field: 'py' }, shape: { value: kStar }, size: { value: 190 }, fill: { value: color('truth') }, stroke: { value: color('ground') }, strokeWidth: { value: 1.2 }, opacity: { signal: 'datum.front > 0 ? 1 : 0' } } } },
+    { type: 'symbol', from: { data: 'truth' }, encode: { update: { x: { field: 'px' }, y: { field: 'py' }, shape: { value: kStar }, size: { value: 80 }, fill: { value: color('truth') }, stroke: { value: color('ground') }, strokeWidth: { value: 0.8 }, opacity: { signal: 'datum.front > 0 ? 1 : 0' } } } },
   ];
 }
 
@@ -146,8 +148,8 @@ export function sphereSpec(beliefs: Beliefs, team: BeliefTeam, particles: Partic
     $schema: 'https://vega.github.io/schema/vega/v5.json',
     width: columns * cell,
     height: legendTop + legend.lines * 20,
-    signals: [{ name: 'lambda', value: turn.lambda }, { name: 'phi', value: turn.phi }],
-    projections: [{ name: 'globe', type: 'orthographic', rotate: [{ signal: '-lambda' }, { signal: '-phi' }, 0], scale: radius - 1, translate: [radius, radius], precision: 0.3 }],
+    signals: [{ name: 'lambda', value: turn.lambda }, { name: 'phi', value: turn.phi }, { name: 'zoom', value: turn.zoom }],
+    projections: [{ name: 'globe', type: 'orthographic', rotate: [{ signal: '-lambda' }, { signal: '-phi' }, 0], scale: { signal: `zoom * ${radius - 1}` }, translate: [radius, radius], precision: 0.3 }],
     scales: [{ name: 'kind', type: 'ordinal', domain: kKinds, range: kKinds.map(color) }],
     data: [
       { name: 'sphere', values: [{ type: 'Sphere' }] },
@@ -169,7 +171,7 @@ export function sphereSpec(beliefs: Beliefs, team: BeliefTeam, particles: Partic
       {
         type: 'group',
         from: { facet: { name: 'cloud', data: 'particles', groupby: ['belief'] } },
-        encode: { update: { x: { signal: x }, y: { signal: `${y} + ${kTop}` } } },
+        encode: { update: { x: { signal: x }, y: { signal: `${y} + ${kTop}` }, width: { value: 2 * radius }, height: { value: 2 * radius }, cornerRadius: { value: radius }, clip: { signal: 'zoom > 1' }, stroke: { signal: `zoom > 1 ? '${color('line')}' : null` } } },
         marks: globeMarks(),
       },
       caption('mass', kTop + 2 * radius + 17, { fontSize: { value: 12 }, fill: { value: color('text') } }),

@@ -6,8 +6,9 @@ import { kPaperWidth, saveButtons } from '../figure_view';
 import { tableView } from '../table_view';
 import { formatFixed, type Words } from '../words';
 import { select, slider } from './controls';
-import { GlobeView, firstTurn } from './globe_view';
+import { GlobeView, turnFor } from './globe_view';
 import { playButton } from './play';
+import type { Turn } from './sphere_spec';
 
 const lastFrame = (team: BeliefTeam): number => team.mass.length - 1;
 
@@ -49,10 +50,15 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
   });
   const turn = slider({ id: 'sphere-turn', label: 'Turn', min: -180, max: 180, value: view.turn.lambda, say: (v) => `${v}\u00b0`, onInput: (lambda) => view.setTurn({ ...view.turn, lambda }) });
   const tilt = slider({ id: 'sphere-tilt', label: 'Tilt', min: -90, max: 90, value: view.turn.phi, say: (v) => `${v}\u00b0`, onInput: (phi) => view.setTurn({ ...view.turn, phi }) });
-  const showTurn = ({ lambda, phi }: { lambda: number; phi: number }): void => {
+  const zoom = slider({ id: 'sphere-zoom', label: 'Zoom', min: 1, max: 6, step: 0.5, value: 1, say: (v) => `${v}\u00d7`, onInput: (value) => face(value) });
+  const showTurn = ({ lambda, phi }: Turn): void => {
     turn.set(lambda);
     tilt.set(phi);
   };
+  function face(value: number): void {
+    view.setTurn(turnFor(beliefs, value));
+    showTurn(view.turn);
+  }
   function goTo(frame: number): void {
     view.setFrame(frame);
     tell();
@@ -71,8 +77,8 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     makeTables();
   };
   const reset = button('Reset view', () => {
-    view.setTurn(firstTurn(beliefs));
-    showTurn(view.turn);
+    zoom.set(1);
+    face(1);
   });
   const play = playButton(period.input, () => {
     period.set(period.input.valueAsNumber);
@@ -88,7 +94,7 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
   }).observe(drawing);
   const captionId = 'beliefs-caption';
   return el('figure', { id: 'figure-beliefs', 'aria-labelledby': captionId },
-    el('div', { class: 'controls' }, select('sphere-team', 'Team', beliefs.teams.map(({ title }) => title), chooseTeam), period.row, el('div', { class: 'pair' }, turn.row, tilt.row, reset)),
+    el('div', { class: 'controls' }, select('sphere-team', 'Team', beliefs.teams.map(({ title }) => title), chooseTeam), period.row, el('div', { class: 'pair' }, turn.row, tilt.row, zoom.row, reset)),
     about,
     chart,
     el('figcaption', { id: captionId }, el('strong', {}, `Figure ${number}. Beliefs about the reward, period by period.`),
