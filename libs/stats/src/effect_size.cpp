@@ -177,6 +177,20 @@ Estimable<Interval> bootstrap_hedges_g(std::span<const double> a, std::span<cons
   return percentile_interval(*estimate, std::move(resampled), options);
 }
 
+namespace {
+
+// Resampling adds its own noise to the sum of squares of a term, so shares of variance come out too large by as much on
+// average as they exceed the estimate; without this, intervals of small effects lie above the estimate.
+void take_out_bias(double estimate, std::vector<double>& shares) {
+  if (shares.empty()) return;
+  double sum = 0.0;
+  for (const double share : shares) sum += share;
+  const double bias = sum / static_cast<double>(shares.size()) - estimate;
+  for (double& share : shares) share = std::clamp(share - bias, 0.0, 1.0);
+}
+
+}  // namespace
+
 std::vector<Estimable<Interval>> bootstrap_partial_eta_squared(std::span<const double> response,
                                                                std::span<const Factor> factors,
                                                                std::span<const std::vector<std::size_t>> terms,
@@ -213,6 +227,7 @@ std::vector<Estimable<Interval>> bootstrap_partial_eta_squared(std::span<const d
   std::vector<Estimable<Interval>> intervals;
   for (std::size_t t = 0; t < table.terms.size(); ++t) {
     const auto& estimate = table.terms[t].partial_eta_squared;
+    if (estimate) take_out_bias(*estimate, resampled[t]);
     intervals.push_back(estimate ? percentile_interval(*estimate, std::move(resampled[t]), options)
                                  : Estimable<Interval>::impossible(estimate.reason()));
   }

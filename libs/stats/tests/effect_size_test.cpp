@@ -138,6 +138,18 @@ TEST(Bootstrap, IntervalOfPartialEtaSquaredCoversAtItsRate) {
   EXPECT_NEAR(covered / 200.0, 0.9, 4 * 0.0212);
 }
 
+// The other factor and the interaction have none.
+TEST(Bootstrap, IntervalsOfSmallEffectsHoldTheEstimate) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto design = make_design(10, 0.0, 9000 + seed);
+    for (const auto& interval : bootstrap_partial_eta_squared(
+             design.response, design.factors, kCrossed, SumsOfSquares::kTypeII, {200, 0.95}, RandomStream{seed})) {
+      EXPECT_LE(interval->low, interval->estimate);
+      EXPECT_GE(interval->high, interval->estimate);
+    }
+  }
+}
+
 TEST(Bootstrap, EstimatesAreThoseOfTheTableAndLieWithinTheResamples) {
   const auto design = make_design(10, 2.0, 8);
   for (const auto type : {SumsOfSquares::kTypeII, SumsOfSquares::kTypeIII}) {

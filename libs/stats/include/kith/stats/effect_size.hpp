@@ -35,7 +35,8 @@ struct BootstrapOptions {
 [[nodiscard]] Estimable<Interval> bootstrap_hedges_g(std::span<const double> a, std::span<const double> b,
                                                      const BootstrapOptions& options, RandomStream random);
 /// Partial eta squared of every term with its percentile bootstrap interval; observations are resampled within cells.
-/// Costs one pass over the data per resample.
+/// Resampling adds noise that makes every share of variance larger, so the resampled shares are first moved, all alike,
+/// until their mean is the estimate, and cut to [0, 1]. Costs one pass over the data per resample.
 [[nodiscard]] std::vector<Estimable<Interval>> bootstrap_partial_eta_squared(
     std::span<const double> response, std::span<const Factor> factors, std::span<const std::vector<std::size_t>> terms,
     SumsOfSquares type, const BootstrapOptions& options, RandomStream random);
