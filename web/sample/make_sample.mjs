@@ -28,7 +28,8 @@ const replicates = 15;
 const names = Object.keys(strategies);
 const numP = (composition) => [...composition].filter((letter) => letter === 'P').length;
 const table = (columns, rows) => ({ columns, rows });
-const each = (...lists) => lists.reduce((acc, list) => acc.flatMap((head) => list.map((item) => [...head, item])), [[]]);
+const each = (...lists) =>
+  lists.reduce((acc, list) => acc.flatMap((head) => list.map((item) => [...head, item])), [[]]);
 
 function meanInterval(values) {
   const n = values.length;
@@ -38,22 +39,41 @@ function meanInterval(values) {
   return { mean, sd, low: mean - half, high: mean + half };
 }
 
-const teams = each(names, compositions, [...Array(replicates).keys()]).map(([strategy, composition, replicate], team) => {
-  const p = numP(composition);
-  const base = strategy === 'baseline' ? 18.5 : 8.6;
-  const tilt = strategy === 'joint' ? 0.5 * (1.5 - p) : strategy === 'individual-high' ? 0.4 : 0;
-  const periods = Math.max(3, Math.round(base - 0.6 * p + tilt + 1.5 * random.normal()));
-  const knowledge = Math.min(0.99, Math.max(0.1, 0.5 + 0.05 * p + (strategy === 'common' ? 0.05 : 0) + 0.12 * random.normal()));
-  return { strategy, composition, replicate: replicate + 1, team, periods, knowledge: round(knowledge), completed: true };
-});
+const teams = each(names, compositions, [...Array(replicates).keys()]).map(
+  ([strategy, composition, replicate], team) => {
+    const p = numP(composition);
+    const base = strategy === 'baseline' ? 18.5 : 8.6;
+    const tilt = strategy === 'joint' ? 0.5 * (1.5 - p) : strategy === 'individual-high' ? 0.4 : 0;
+    const periods = Math.max(3, Math.round(base - 0.6 * p + tilt + 1.5 * random.normal()));
+    const knowledge = Math.min(
+      0.99,
+      Math.max(0.1, 0.5 + 0.05 * p + (strategy === 'common' ? 0.05 : 0) + 0.12 * random.normal()),
+    );
+    return {
+      strategy,
+      composition,
+      replicate: replicate + 1,
+      team,
+      periods,
+      knowledge: round(knowledge),
+      completed: true,
+    };
+  },
+);
 teams[42].completed = false;
 const cellOf = (strategy, composition) => teams.filter((t) => t.strategy === strategy && t.composition === composition);
 
 const cells = each(names, compositions).map(([strategy, composition]) => {
   const members = cellOf(strategy, composition);
   const k = names.indexOf(strategy);
-  const columns = [members.map((t) => t.periods), members.map((t) => t.knowledge), members.map(() => 0.5 + 0.1 * k + 0.05 * random.normal())];
-  const stats = columns.map(meanInterval).flatMap(({ mean, sd, low, high }) => [mean, sd, low, high].map((v) => round(v)));
+  const columns = [
+    members.map((t) => t.periods),
+    members.map((t) => t.knowledge),
+    members.map(() => 0.5 + 0.1 * k + 0.05 * random.normal()),
+  ];
+  const stats = columns
+    .map(meanInterval)
+    .flatMap(({ mean, sd, low, high }) => [mean, sd, low, high].map((v) => round(v)));
   return [strategy, composition, members.length, members.filter((t) => t.completed).length, ...stats];
 });
 
@@ -65,7 +85,15 @@ const completion = each(names, compositions).flatMap(([strategy, composition]) =
     const done = members.filter((t) => t.completed && t.periods <= period).length / members.length;
     const half = 1.96 * Math.sqrt((done * (1 - done)) / members.length);
     const atRisk = members.filter((t) => t.periods >= period).length;
-    rows.push([strategy, composition, period, round(done), round(Math.max(0, done - half)), round(Math.min(1, done + half)), atRisk]);
+    rows.push([
+      strategy,
+      composition,
+      period,
+      round(done),
+      round(Math.max(0, done - half)),
+      round(Math.min(1, done + half)),
+      atRisk,
+    ]);
   }
   return rows;
 });
@@ -79,13 +107,26 @@ function rising(start, ceiling, rate, period, people) {
 const peopleLeft = (period) => Math.max(10, Math.round(90 - 6 * period));
 const typeNames = Object.keys(types);
 const knowledgeByPeriod = each(names, typeNames, [...Array(10).keys()]).map(([s, t, period]) => [
-  s, t, period, ...rising(0.08, (t === 'P' ? 0.75 : 0.6) + 0.02 * names.indexOf(s), 0.22, period, peopleLeft(period)),
+  s,
+  t,
+  period,
+  ...rising(0.08, (t === 'P' ? 0.75 : 0.6) + 0.02 * names.indexOf(s), 0.22, period, peopleLeft(period)),
 ]);
 const abilityByPeriod = each(names, typeNames, components, [1, 2, 3, 4]).map(([s, t, kc, period]) => [
-  s, t, kc, period, ...rising(t === 'P' ? 0.79 : 0.69, 0.92, 0.25, period - 1 + 0.1 * names.indexOf(s), peopleLeft(period + 3 * kc)),
+  s,
+  t,
+  kc,
+  period,
+  ...rising(t === 'P' ? 0.79 : 0.69, 0.92, 0.25, period - 1 + 0.1 * names.indexOf(s), peopleLeft(period + 3 * kc)),
 ]);
 const correctByPeriod = each(names, typeNames, [...Array(9).keys()]).map(([s, t, period]) => {
-  const [share, low, high, answers] = rising(t === 'P' ? 0.72 : 0.6, 0.93, 0.3, period + 0.3 * names.indexOf(s), 2 * peopleLeft(period));
+  const [share, low, high, answers] = rising(
+    t === 'P' ? 0.72 : 0.6,
+    0.93,
+    0.3,
+    period + 0.3 * names.indexOf(s),
+    2 * peopleLeft(period),
+  );
   return [s, t, period + 1, share, low, high, answers];
 });
 const area = each(names, components).map(([strategy, kc]) => {
@@ -101,7 +142,12 @@ const periodsByComponent = each(names, compositions, components).map(([strategy,
   const mean = total * [0.22, 0.33, 0.45][kc - 1];
   return [strategy, composition, kc, round(mean), round(mean - 0.3), round(mean + 0.3)];
 });
-const timings = [['planning', 0.041], ['teaching', 0.196], ['responses', 0.027], ['tables', 0.035]];
+const timings = [
+  ['planning', 0.041],
+  ['teaching', 0.196],
+  ['responses', 0.027],
+  ['tables', 0.035],
+];
 const parameters = [
   ['study', 'seed', '20240424', 'the only source of randomness'],
   ['study', 'replicates', '15', 'teams per cell'],
@@ -129,10 +175,26 @@ const report = {
   domain: 'item-delivery',
   version: '0.0.0',
   created: '2000-01-01T00:00:00Z',
-  labels: { strategies, types, columns: { periods_mean: 'Periods, mean', periods_sd: 'Periods, sd', knowledge_mean: 'Knowledge, mean', mean_area_sr: 'Mean area (sr)', kc: 'Component' } },
+  labels: {
+    strategies,
+    types,
+    columns: {
+      periods_mean: 'Periods, mean',
+      periods_sd: 'Periods, sd',
+      knowledge_mean: 'Knowledge, mean',
+      mean_area_sr: 'Mean area (sr)',
+      kc: 'Component',
+    },
+  },
   overview: {
-    teams: teams.length, people: 3 * teams.length, completed: teams.filter((t) => t.completed).length, replicates, seed: '20240424',
-    strategies: names, compositions, factors: [],
+    teams: teams.length,
+    people: 3 * teams.length,
+    completed: teams.filter((t) => t.completed).length,
+    replicates,
+    seed: '20240424',
+    strategies: names,
+    compositions,
+    factors: [],
     headlines: [
       headline('Periods, group strategies', pick('periods', true)),
       headline('Periods, baseline', pick('periods', false)),
@@ -140,15 +202,33 @@ const report = {
       headline('Knowledge, baseline', pick('knowledge', false)),
     ],
   },
-  notes: ['These numbers are synthetic: they come from formulas, not from a study.', 'One team of 300 reached the limit of 50 periods and is censored.'],
+  notes: [
+    'These numbers are synthetic: they come from formulas, not from a study.',
+    'One team of 300 reached the limit of 50 periods and is censored.',
+  ],
   tables: {
-    cells: table(['strategy', 'composition', 'teams', 'completed', ...['periods', 'knowledge', 'area'].flatMap((q) => ['mean', 'sd', 'low', 'high'].map((s) => `${q}_${s}`))], cells),
-    teams: table(['strategy', 'composition', 'replicate', 'team', 'periods', 'knowledge', 'completed'], teams.map((t) => [t.strategy, t.composition, t.replicate, t.team, t.periods, t.knowledge, t.completed])),
+    cells: table(
+      [
+        'strategy',
+        'composition',
+        'teams',
+        'completed',
+        ...['periods', 'knowledge', 'area'].flatMap((q) => ['mean', 'sd', 'low', 'high'].map((s) => `${q}_${s}`)),
+      ],
+      cells,
+    ),
+    teams: table(
+      ['strategy', 'composition', 'replicate', 'team', 'periods', 'knowledge', 'completed'],
+      teams.map((t) => [t.strategy, t.composition, t.replicate, t.team, t.periods, t.knowledge, t.completed]),
+    ),
     completion: table(['strategy', 'composition', 'period', 'done', 'low', 'high', 'at_risk'], completion),
     area: table(['strategy', 'kc', 'mean_log_area', 'low', 'high', 'mean_area_sr', 'n'], area),
     area_cells: table(['strategy', 'composition', 'mean_area_sr', 'low', 'high', 'n'], areaCells),
     knowledge_by_period: table(['strategy', 'type', 'period', 'mean', 'low', 'high', 'people'], knowledgeByPeriod),
-    ability_by_period: table(['strategy', 'type', 'kc', 'period_of_kc', 'mean', 'low', 'high', 'people'], abilityByPeriod),
+    ability_by_period: table(
+      ['strategy', 'type', 'kc', 'period_of_kc', 'mean', 'low', 'high', 'people'],
+      abilityByPeriod,
+    ),
     correct_by_period: table(['strategy', 'type', 'period', 'share', 'low', 'high', 'answers'], correctByPeriod),
     periods_by_component: table(['strategy', 'composition', 'kc', 'mean_periods', 'low', 'high'], periodsByComponent),
     timings: table(['phase', 'seconds'], timings),

@@ -6,8 +6,9 @@ export function sampleTexts() {
         id: 'periods',
         title: 'Periods: strategy x composition',
         question: 'Do strategy or composition change how many periods a team needs?',
-        sentence: 'A two-way analysis of variance on 240 synthetic teams found an effect of composition, F(3, 224) = 4.67, p = 0.003, and none of strategy, F(3, 224) = 0.42, p = 0.74.',
-        warnings: ['The variances of the cells differ (Levene p = 0.02); Welch\'s test agrees.'],
+        sentence:
+          'A two-way analysis of variance on 240 synthetic teams found an effect of composition, F(3, 224) = 4.67, p = 0.003, and none of strategy, F(3, 224) = 0.42, p = 0.74.',
+        warnings: ["The variances of the cells differ (Levene p = 0.02); Welch's test agrees."],
         tables: [
           {
             caption: 'Analysis of variance (type II)',
@@ -19,13 +20,28 @@ export function sampleTexts() {
               ['residual', 224, 515.1, 2.2996, null, null, null],
             ],
           },
-          { caption: 'Tukey HSD of composition', columns: ['pair', 'difference', 'low', 'high', 'p'], rows: [['NNN - PPP', 1.8, 1.1, 2.5, 0.0000021], ['NNP - PPP', 1.2, 0.5, 1.9, 0.0003]] },
+          {
+            caption: 'Tukey HSD of composition',
+            columns: ['pair', 'difference', 'low', 'high', 'p'],
+            rows: [
+              ['NNN - PPP', 1.8, 1.1, 2.5, 0.0000021],
+              ['NNP - PPP', 1.2, 0.5, 1.9, 0.0003],
+            ],
+          },
         ],
       },
-      { id: 'knowledge', title: 'Knowledge: strategy x composition', question: 'Do strategy or composition change what people know at the end?', sentence: 'Composition mattered and strategy did not.', warnings: [], tables: [] },
+      {
+        id: 'knowledge',
+        title: 'Knowledge: strategy x composition',
+        question: 'Do strategy or composition change what people know at the end?',
+        sentence: 'Composition mattered and strategy did not.',
+        warnings: [],
+        tables: [],
+      },
     ],
     methods: {
-      paragraph: 'We simulated 300 teams of three (5 strategies x 4 compositions x 15 replicates) with kith 0.0.0. This paragraph is part of a synthetic sample.',
+      paragraph:
+        'We simulated 300 teams of three (5 strategies x 4 compositions x 15 replicates) with kith 0.0.0. This paragraph is part of a synthetic sample.',
       references: [
         {
           key: 'jayaraman2024',
@@ -37,7 +53,8 @@ export function sampleTexts() {
     reproduce: {
       command: 'kith study study.toml -o DIR',
       version: 'kith 0.0.0 (sample)',
-      study_toml: 'schema = "kith.study/1"\nid     = "sample"\ntitle  = "Group strategies and team compositions (synthetic sample), a long line that has to scroll in its own box"\n',
+      study_toml:
+        'schema = "kith.study/1"\nid     = "sample"\ntitle  = "Group strategies and team compositions (synthetic sample), a long line that has to scroll in its own box"\n',
       domain_toml: 'schema = "kith.domain/1"\nid     = "item-delivery"\n',
       hashes: { 'inputs/study.toml': 'ab'.repeat(32), 'tables/teams.csv': 'cd'.repeat(32) },
     },

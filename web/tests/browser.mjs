@@ -4,8 +4,13 @@ import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 
 const kFlags = [
-  '--headless', '--no-sandbox', '--disable-gpu', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync',
+  '--headless',
+  '--no-sandbox',
+  '--disable-gpu',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
 ];
 
 export function requireFrom(modules) {

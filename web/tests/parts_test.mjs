@@ -41,7 +41,8 @@ async function withDocument(change, body) {
 }
 
 const sections = (page) => page.$$eval('main section', (all) => all.map(({ id }) => id));
-const numbers = (page) => page.$$eval('figcaption strong', (all) => all.map(({ textContent }) => Number(/\d+/.exec(textContent)[0])));
+const numbers = (page) =>
+  page.$$eval('figcaption strong', (all) => all.map(({ textContent }) => Number(/\d+/.exec(textContent)[0])));
 
 // In a suite, because Node.js 18 runs hooks only there, and for `it` alone.
 describe('a document', () => {
@@ -50,11 +51,17 @@ describe('a document', () => {
 
   for (const name of Object.keys(JSON.parse(sample).tables)) {
     it(`without the table ${name} the rest is shown`, async () => {
-      await withDocument((document) => delete document.tables[name], async ({ page }) => {
-        const shown = await numbers(page);
-        assert.deepEqual(shown, shown.map((_, i) => i + 1));
-        assert.ok(shown.length >= 9, `${shown.length} figures`);
-      });
+      await withDocument(
+        (document) => delete document.tables[name],
+        async ({ page }) => {
+          const shown = await numbers(page);
+          assert.deepEqual(
+            shown,
+            shown.map((_, i) => i + 1),
+          );
+          assert.ok(shown.length >= 9, `${shown.length} figures`);
+        },
+      );
     });
   }
 
@@ -71,7 +78,10 @@ describe('a document', () => {
     const twice = (document) => {
       document.overview.factors = ['particles'];
       const { columns, rows } = document.tables.cells;
-      document.tables.cells = { columns: ['particles', ...columns], rows: [100, 1000].flatMap((value) => rows.map((row) => [value, ...row])) };
+      document.tables.cells = {
+        columns: ['particles', ...columns],
+        rows: [100, 1000].flatMap((value) => rows.map((row) => [value, ...row])),
+      };
     };
     await withDocument(twice, async ({ page }) => {
       assert.match(await page.textContent('#notes'), /also varies particles/);
@@ -83,14 +93,17 @@ describe('a document', () => {
   it('missing values, single teams and unknown strategies do no harm', async () => {
     const odd = (document) => {
       const { cells, teams } = document.tables;
-      for (const name of ['periods_low', 'periods_high', 'knowledge_mean']) cells.rows[0][cells.columns.indexOf(name)] = null;
+      for (const name of ['periods_low', 'periods_high', 'knowledge_mean'])
+        cells.rows[0][cells.columns.indexOf(name)] = null;
       teams.rows = teams.rows.slice(0, 1);
       const rename = (row) => row.map((cell) => (cell === 'joint' ? 'own-strategy' : cell));
       for (const table of Object.values(document.tables)) table.rows = table.rows.map(rename);
       document.overview.strategies = rename(document.overview.strategies);
       document.beliefs.teams[0].mass[0][0] = null;
     };
-    await withDocument(odd, async ({ page }) => assert.match(await page.textContent('#figure-periods svg'), /own-strategy/));
+    await withDocument(odd, async ({ page }) =>
+      assert.match(await page.textContent('#figure-periods svg'), /own-strategy/),
+    );
   });
 
   it('markup in a string of the document stays text', async () => {

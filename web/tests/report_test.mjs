@@ -24,7 +24,9 @@ const { values, positionals } = parseArgs({
   },
 });
 if (positionals.length !== 1) {
-  console.error('usage: node tests/report_test.mjs REPORT.html [--document FILE] [--screenshots DIR] [--modules DIR] [--chromium FILE]');
+  console.error(
+    'usage: node tests/report_test.mjs REPORT.html [--document FILE] [--screenshots DIR] [--modules DIR] [--chromium FILE]',
+  );
   process.exit(2);
 }
 let report = resolve(positionals[0]);
@@ -75,7 +77,13 @@ async function violations(page) {
   );
   return found
     .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(' | ')}`);
+    .map(
+      ({ id, nodes }) =>
+        `${id}: ${nodes
+          .slice(0, 3)
+          .map(({ html }) => html.slice(0, 160))
+          .join(' | ')}`,
+    );
 }
 
 async function saved(page, button) {
@@ -91,7 +99,9 @@ describe('a report', () => {
   for (const look of kLooks) {
     it(`a reader at ${look.name} sees every chart, no overflow and no serious axe violation`, async () => {
       await withReport(look, async ({ page }) => {
-        const charts = await page.$$eval('figure .drawing svg', (all) => all.map((svg) => svg.querySelectorAll('path, text').length));
+        const charts = await page.$$eval('figure .drawing svg', (all) =>
+          all.map((svg) => svg.querySelectorAll('path, text').length),
+        );
         assert.ok(charts.length > 0 && charts.every((marks) => marks > 10), `charts with marks: ${charts}`);
         if (values.screenshots) {
           mkdirSync(values.screenshots, { recursive: true });
@@ -100,7 +110,10 @@ describe('a report', () => {
         await openDetails(page, { all: false });
         assert.deepEqual(await violations(page), []);
         await openDetails(page, { all: true });
-        const { page: body, view } = await page.evaluate(() => ({ page: document.documentElement.scrollWidth, view: document.documentElement.clientWidth }));
+        const { page: body, view } = await page.evaluate(() => ({
+          page: document.documentElement.scrollWidth,
+          view: document.documentElement.clientWidth,
+        }));
         assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
       });
     });
@@ -138,10 +151,15 @@ describe('a report', () => {
       levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
       const captions = await page.$$eval('figcaption', (all) => all.map((caption) => caption.textContent));
       captions.forEach((caption, i) => assert.ok(caption.startsWith(`Figure ${i + 1}. `), caption));
-      const lost = await page.$$eval('nav a', (all) => all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)));
+      const lost = await page.$$eval('nav a', (all) =>
+        all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)),
+      );
       assert.deepEqual(lost, []);
       const names = await page.$$eval('.chart', (all) => all.map((chart) => chart.getAttribute('aria-label') ?? ''));
-      assert.ok(names.every((name) => name.length > 20), 'a chart without a text alternative');
+      assert.ok(
+        names.every((name) => name.length > 20),
+        'a chart without a text alternative',
+      );
     });
   });
 
@@ -154,7 +172,8 @@ describe('a report', () => {
       await page.emulateMedia({ media: 'print' });
       assert.equal(await ground(), light);
       assert.equal(await page.isVisible('.theme-toggle'), false);
-      if (values.screenshots) await page.pdf({ path: join(values.screenshots, 'print.pdf'), format: 'A4', printBackground: true });
+      if (values.screenshots)
+        await page.pdf({ path: join(values.screenshots, 'print.pdf'), format: 'A4', printBackground: true });
     });
   });
 
@@ -172,12 +191,19 @@ describe('a report', () => {
       const second = await path();
       await page.focus('#sphere-turn');
       await page.keyboard.press('ArrowRight');
-      await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, second);
+      await page.waitForFunction(
+        (before) => document.querySelector('#figure-beliefs svg').innerHTML !== before,
+        second,
+      );
       const third = await path();
       await page.focus('#sphere-zoom');
       await page.keyboard.press('ArrowRight');
       await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, third);
-      assert.equal(await page.locator('#figure-beliefs button', { hasText: 'Play' }).count(), 0, 'no motion for who asks for less');
+      assert.equal(
+        await page.locator('#figure-beliefs button', { hasText: 'Play' }).count(),
+        0,
+        'no motion for who asks for less',
+      );
       await page.selectOption('#sphere-team', { index: (await page.$$('#sphere-team option')).length - 1 });
       assert.match(await label(), /before teaching/);
     });

@@ -12,7 +12,15 @@ export type Spec = { [key: string]: Json };
 
 const kFont = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", sans-serif';
 
-const kText = { labelFont: kFont, titleFont: kFont, labelColor: color('muted'), titleColor: color('text'), labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal' };
+const kText = {
+  labelFont: kFont,
+  titleFont: kFont,
+  labelColor: color('muted'),
+  titleColor: color('text'),
+  labelFontSize: 11,
+  titleFontSize: 12,
+  titleFontWeight: 'normal',
+};
 
 const kConfig = {
   background: null,
@@ -20,9 +28,32 @@ const kConfig = {
   aria: false, // the figure has one text alternative; thousands of labelled points would drown it
   padding: 4,
   view: { stroke: null },
-  axis: { ...kText, gridColor: color('grid'), domainColor: color('line'), tickColor: color('line'), titlePadding: 8, labelOverlap: true },
-  legend: { ...kText, orient: 'top', title: null, symbolSize: 90, columnPadding: 14, labelFontSize: 12, labelColor: color('text') },
-  title: { font: kFont, color: color('text'), fontSize: 12, fontWeight: 600, anchor: 'start', frame: 'group', offset: 8 },
+  axis: {
+    ...kText,
+    gridColor: color('grid'),
+    domainColor: color('line'),
+    tickColor: color('line'),
+    titlePadding: 8,
+    labelOverlap: true,
+  },
+  legend: {
+    ...kText,
+    orient: 'top',
+    title: null,
+    symbolSize: 90,
+    columnPadding: 14,
+    labelFontSize: 12,
+    labelColor: color('text'),
+  },
+  title: {
+    font: kFont,
+    color: color('text'),
+    fontSize: 12,
+    fontWeight: 600,
+    anchor: 'start',
+    frame: 'group',
+    offset: 8,
+  },
   text: { font: kFont, fill: color('text') },
 };
 

@@ -23,12 +23,16 @@ async function copyText(text: string): Promise<boolean> {
 
 export function copyButton(what: string, text: string): HTMLButtonElement {
   const label = `Copy ${what}`;
-  const element = button(label, () => {
-    void copyText(text).then((done) => {
-      element.textContent = done ? 'Copied' : 'Copying failed';
-      announce(done ? `Copied ${what}` : `Copying ${what} failed`);
-      setTimeout(() => (element.textContent = label), 1600);
-    });
-  }, { class: 'copy' });
+  const element = button(
+    label,
+    () => {
+      void copyText(text).then((done) => {
+        element.textContent = done ? 'Copied' : 'Copying failed';
+        announce(done ? `Copied ${what}` : `Copying ${what} failed`);
+        setTimeout(() => (element.textContent = label), 1600);
+      });
+    },
+    { class: 'copy' },
+  );
   return element;
 }

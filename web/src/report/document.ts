@@ -113,7 +113,10 @@ export function firstVariant(table: Table, factors: string[]): Table {
   const first = table.rows[0];
   const places = factors.map((key) => table.columns.indexOf(key)).filter((place) => place >= 0);
   if (!first || places.length === 0) return table;
-  return { columns: table.columns, rows: table.rows.filter((row) => places.every((place) => row[place] === first[place])) };
+  return {
+    columns: table.columns,
+    rows: table.rows.filter((row) => places.every((place) => row[place] === first[place])),
+  };
 }
 
 export function toRows(table: Table): Row[] {

@@ -23,11 +23,23 @@ export function saveButtons(saves: Saves): HTMLElement {
   const kinds: { label: string; name: string; file: string; ending: string; make(): Promise<Blob> }[] = [
     { label: 'SVG', name: `Save ${saves.what} as SVG`, file: saves.file, ending: 'svg', make: saves.svg },
     { label: 'PNG', name: `Save ${saves.what} as PNG`, file: saves.file, ending: 'png', make: saves.png },
-    { label: 'CSV', name: `Save the data of ${saves.what} as CSV`, file: saves.file, ending: 'csv', make: () => Promise.resolve(toCsv(saves.table)) },
+    {
+      label: 'CSV',
+      name: `Save the data of ${saves.what} as CSV`,
+      file: saves.file,
+      ending: 'csv',
+      make: () => Promise.resolve(toCsv(saves.table)),
+    },
   ];
   const raw = saves.raw;
   if (raw) {
-    kinds.push({ label: `CSV of ${raw.what}`, name: `Save the ${raw.what} of ${saves.what} as CSV`, file: `${saves.file}-${raw.what}`, ending: 'csv', make: () => Promise.resolve(toCsv(raw.table)) });
+    kinds.push({
+      label: `CSV of ${raw.what}`,
+      name: `Save the ${raw.what} of ${saves.what} as CSV`,
+      file: `${saves.file}-${raw.what}`,
+      ending: 'csv',
+      make: () => Promise.resolve(toCsv(raw.table)),
+    });
   }
   const buttons = kinds.map(({ label, name, file, ending, make }) => {
     const save = async (): Promise<void> => {
@@ -70,7 +82,9 @@ export function figureView(figure: Figure, number: number, study: string, words:
   const drawing = el('div', { class: 'drawing', 'aria-hidden': 'true' });
   const chart = el('div', { class: 'chart', role: 'img', 'aria-label': figure.gist }, drawing);
   const captionId = `${figure.id}-caption`;
-  const view = el('figure', { id: `figure-${figure.id}`, 'aria-labelledby': captionId },
+  const view = el(
+    'figure',
+    { id: `figure-${figure.id}`, 'aria-labelledby': captionId },
     chart,
     el('figcaption', { id: captionId }, el('strong', {}, `Figure ${number}. ${figure.title}.`), ` ${figure.reading}`),
     saveButtons({
@@ -81,7 +95,8 @@ export function figureView(figure: Figure, number: number, study: string, words:
       table: figure.table,
       raw: figure.raw,
     }),
-    lazyDetails(`Data of ${what}`, () => tableView(figure.table, `Data of ${what}: ${figure.title}`, words)));
+    lazyDetails(`Data of ${what}`, () => tableView(figure.table, `Data of ${what}: ${figure.title}`, words)),
+  );
   keepDrawn(drawing, figure);
   return view;
 }

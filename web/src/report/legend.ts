@@ -15,8 +15,18 @@ function columnsFor(labels: string[], width: number): number {
 
 // `kind` line: a piece of the line with its dash; mark: the filled shape.
 export function strategyLegend(looks: Look[], width: number, kind: 'line' | 'mark'): Spec {
-  const columns = columnsFor(looks.map((look) => look.label), width);
+  const columns = columnsFor(
+    looks.map((look) => look.label),
+    width,
+  );
   return kind === 'line'
-    ? { columns, stroke: 'color', strokeDash: 'strokeDash', symbolType: 'stroke', symbolSize: 380, symbolStrokeWidth: 2.2 }
+    ? {
+        columns,
+        stroke: 'color',
+        strokeDash: 'strokeDash',
+        symbolType: 'stroke',
+        symbolSize: 380,
+        symbolStrokeWidth: 2.2,
+      }
     : { columns, fill: 'color', shape: 'shape', symbolStrokeWidth: 0 };
 }

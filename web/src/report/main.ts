@@ -18,8 +18,11 @@ function sectionView({ id, title, content }: Section): HTMLElement {
 }
 
 function contents(sections: Section[]): HTMLElement {
-  return el('nav', { class: 'contents', 'aria-label': 'Contents' },
-    el('ol', {}, ...sections.map(({ id, title }) => el('li', {}, el('a', { href: `#${id}` }, title)))));
+  return el(
+    'nav',
+    { class: 'contents', 'aria-label': 'Contents' },
+    el('ol', {}, ...sections.map(({ id, title }) => el('li', {}, el('a', { href: `#${id}` }, title)))),
+  );
 }
 
 function show(page: HTMLElement): void {
@@ -35,8 +38,18 @@ function show(page: HTMLElement): void {
     noticesSection(),
   ].filter((section): section is Section => section !== null);
   page.replaceChildren(
-    el('header', {}, el('div', { class: 'masthead' }, el('p', { class: 'kicker' }, 'kith report'), themeToggle()), el('h1', {}, study.report.title)),
-    el('div', { class: 'columns' }, contents(sections), el('main', { id: 'main', tabindex: -1 }, ...sections.map(sectionView))),
+    el(
+      'header',
+      {},
+      el('div', { class: 'masthead' }, el('p', { class: 'kicker' }, 'kith report'), themeToggle()),
+      el('h1', {}, study.report.title),
+    ),
+    el(
+      'div',
+      { class: 'columns' },
+      contents(sections),
+      el('main', { id: 'main', tabindex: -1 }, ...sections.map(sectionView)),
+    ),
   );
 }
 
@@ -47,7 +60,9 @@ if (page) {
   try {
     show(page);
   } catch (error) {
-    page.replaceChildren(el('main', { id: 'main' }, el('h1', {}, 'This report cannot be shown'), el('p', {}, String(error))));
+    page.replaceChildren(
+      el('main', { id: 'main' }, el('h1', {}, 'This report cannot be shown'), el('p', {}, String(error))),
+    );
     throw error;
   }
 }

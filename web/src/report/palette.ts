@@ -4,7 +4,16 @@ import type { Report } from './document';
 import type { Words } from './words';
 
 const kShapes = ['square', 'circle', 'triangle-up', 'diamond', 'triangle-down', 'cross', 'triangle-right', 'stroke'];
-const kDashes = [[1, 0], [1, 0], [6, 2], [2, 2], [8, 2, 2, 2], [4, 4], [10, 3], [3, 1]];
+const kDashes = [
+  [1, 0],
+  [1, 0],
+  [6, 2],
+  [2, 2],
+  [8, 2, 2, 2],
+  [4, 4],
+  [10, 3],
+  [3, 1],
+];
 const kKnown = ['baseline', 'individual-low', 'individual-high', 'common', 'joint'];
 
 export interface Look {

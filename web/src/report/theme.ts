@@ -7,16 +7,70 @@ type Scheme = Record<string, string>;
 // The hues of strategies follow Okabe and Ito's palette for all kinds of colour vision; some are
 // darkened (on white) or lightened (on black) until they contrast with the ground by 3 : 1.
 const kLight: Scheme = {
-  ground: '#ffffff', panel: '#f6f7f9', text: '#1c2127', muted: '#57606a', line: '#d5d9de', grid: '#e6e8eb', link: '#0b5cad', focus: '#0b5cad', warn: '#8a4b00', 'warn-panel': '#fff6e5',
-  s0: '#6b7280', s1: '#0072b2', s2: '#d55e00', s3: '#00875f', s4: '#b24a8b', s5: '#9a6f00', s6: '#2b8cbe', s7: '#1c2127',
-  k0: '#a9c3dc', k1: '#5b8db8', k2: '#1f5a8c', k3: '#0b2f52', k4: '#c9b79c', k5: '#7d6a4b',
-  bec: '#e69f00', truth: '#1c2127', own: '#0072b2', teacher: '#6b7280', common: '#00875f', joint: '#b24a8b', sphere: '#fafbfc',
+  ground: '#ffffff',
+  panel: '#f6f7f9',
+  text: '#1c2127',
+  muted: '#57606a',
+  line: '#d5d9de',
+  grid: '#e6e8eb',
+  link: '#0b5cad',
+  focus: '#0b5cad',
+  warn: '#8a4b00',
+  'warn-panel': '#fff6e5',
+  s0: '#6b7280',
+  s1: '#0072b2',
+  s2: '#d55e00',
+  s3: '#00875f',
+  s4: '#b24a8b',
+  s5: '#9a6f00',
+  s6: '#2b8cbe',
+  s7: '#1c2127',
+  k0: '#a9c3dc',
+  k1: '#5b8db8',
+  k2: '#1f5a8c',
+  k3: '#0b2f52',
+  k4: '#c9b79c',
+  k5: '#7d6a4b',
+  bec: '#e69f00',
+  truth: '#1c2127',
+  own: '#0072b2',
+  teacher: '#6b7280',
+  common: '#00875f',
+  joint: '#b24a8b',
+  sphere: '#fafbfc',
 };
 const kDark: Scheme = {
-  ground: '#14171b', panel: '#1c2127', text: '#e8eaed', muted: '#aab2bd', line: '#3a424c', grid: '#2a3038', link: '#7cb8f2', focus: '#7cb8f2', warn: '#ffc56b', 'warn-panel': '#33280f',
-  s0: '#aab2bd', s1: '#56b4e9', s2: '#f28a3c', s3: '#2fc18f', s4: '#e08fc0', s5: '#e3b505', s6: '#9ad0f5', s7: '#f4f4f4',
-  k0: '#2f5f8a', k1: '#5f97c7', k2: '#a3cbee', k3: '#dcecfa', k4: '#8a7651', k5: '#cbb68f',
-  bec: '#e6a817', truth: '#ffffff', own: '#56b4e9', teacher: '#aab2bd', common: '#2fc18f', joint: '#e08fc0', sphere: '#191d22',
+  ground: '#14171b',
+  panel: '#1c2127',
+  text: '#e8eaed',
+  muted: '#aab2bd',
+  line: '#3a424c',
+  grid: '#2a3038',
+  link: '#7cb8f2',
+  focus: '#7cb8f2',
+  warn: '#ffc56b',
+  'warn-panel': '#33280f',
+  s0: '#aab2bd',
+  s1: '#56b4e9',
+  s2: '#f28a3c',
+  s3: '#2fc18f',
+  s4: '#e08fc0',
+  s5: '#e3b505',
+  s6: '#9ad0f5',
+  s7: '#f4f4f4',
+  k0: '#2f5f8a',
+  k1: '#5f97c7',
+  k2: '#a3cbee',
+  k3: '#dcecfa',
+  k4: '#8a7651',
+  k5: '#cbb68f',
+  bec: '#e6a817',
+  truth: '#ffffff',
+  own: '#56b4e9',
+  teacher: '#aab2bd',
+  common: '#2fc18f',
+  joint: '#e08fc0',
+  sphere: '#191d22',
 };
 
 export const color = (name: string): string => `var(--${name})`;
@@ -28,7 +82,9 @@ export function inLight<T>(spec: T): T {
 }
 
 function rules(scheme: Scheme): string {
-  return Object.entries(scheme).map(([name, value]) => `--${name}:${value}`).join(';');
+  return Object.entries(scheme)
+    .map(([name, value]) => `--${name}:${value}`)
+    .join(';');
 }
 
 export function installTheme(): void {
@@ -49,10 +105,14 @@ const prefersDark = (): boolean => window.matchMedia('(prefers-color-scheme: dar
 export function themeToggle(): HTMLButtonElement {
   const root = document.documentElement;
   const isDark = (): boolean => (root.dataset.theme ?? (prefersDark() ? 'dark' : 'light')) === 'dark';
-  const toggle = button('Dark theme', () => {
-    root.dataset.theme = isDark() ? 'light' : 'dark';
-    toggle.setAttribute('aria-pressed', String(isDark()));
-  }, { class: 'theme-toggle' });
+  const toggle = button(
+    'Dark theme',
+    () => {
+      root.dataset.theme = isDark() ? 'light' : 'dark';
+      toggle.setAttribute('aria-pressed', String(isDark()));
+    },
+    { class: 'theme-toggle' },
+  );
   toggle.setAttribute('aria-pressed', String(isDark()));
   window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     toggle.setAttribute('aria-pressed', String(isDark()));

@@ -10,20 +10,33 @@ function byComponent(study: Study): Figure[] {
   if (!table) return [];
   const rows = rowsOf(table);
   const title = 'Area of the demonstrations\u2019 constraints by strategy and component';
-  return [{
-    id: 'area-component',
-    title,
-    reading: 'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; every component has its own scale.',
-    gist: `${title}. Mean log area: ${range(rows, 'mean_log_area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
-    table,
-    spec: (width) =>
-      dots({
-        looks: study.looks(rows),
-        panels: study.codes(rows, 'kc').map((kc) => ({ title: componentName(kc), means: rows.filter((row) => String(row.kc) === kc) })),
-        mean: 'mean_log_area', low: 'low', high: 'high', xTitle: 'Mean log area, ln(sr)', zero: false, ownScales: true,
-        strategyOf: (row) => study.words.strategy(row.strategy),
-      }, width),
-  }];
+  return [
+    {
+      id: 'area-component',
+      title,
+      reading:
+        'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; every component has its own scale.',
+      gist: `${title}. Mean log area: ${range(rows, 'mean_log_area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
+      table,
+      spec: (width) =>
+        dots(
+          {
+            looks: study.looks(rows),
+            panels: study
+              .codes(rows, 'kc')
+              .map((kc) => ({ title: componentName(kc), means: rows.filter((row) => String(row.kc) === kc) })),
+            mean: 'mean_log_area',
+            low: 'low',
+            high: 'high',
+            xTitle: 'Mean log area, ln(sr)',
+            zero: false,
+            ownScales: true,
+            strategyOf: (row) => study.words.strategy(row.strategy),
+          },
+          width,
+        ),
+    },
+  ];
 }
 
 function byComposition(study: Study): Figure[] {
@@ -32,20 +45,32 @@ function byComposition(study: Study): Figure[] {
   const rows = rowsOf(table);
   const title = 'Area of the demonstrations\u2019 constraints by strategy and composition';
   const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
-  return [{
-    id: 'area-composition',
-    title,
-    reading: 'Further left conveys more: mean area over all periods in steradians, with 95\u00a0% intervals over teams.',
-    gist: `${title}. Mean area in steradians: ${range(rows, 'mean_area_sr', name)}`,
-    table,
-    spec: (width) =>
-      dots({
-        looks: study.looks(rows),
-        panels: study.compositions(rows).map((code) => ({ title: code, means: rows.filter((row) => row.composition === code) })),
-        mean: 'mean_area_sr', low: 'low', high: 'high', xTitle: 'Mean area (sr)', zero: false,
-        strategyOf: (row) => study.words.strategy(row.strategy),
-      }, width),
-  }];
+  return [
+    {
+      id: 'area-composition',
+      title,
+      reading:
+        'Further left conveys more: mean area over all periods in steradians, with 95\u00a0% intervals over teams.',
+      gist: `${title}. Mean area in steradians: ${range(rows, 'mean_area_sr', name)}`,
+      table,
+      spec: (width) =>
+        dots(
+          {
+            looks: study.looks(rows),
+            panels: study
+              .compositions(rows)
+              .map((code) => ({ title: code, means: rows.filter((row) => row.composition === code) })),
+            mean: 'mean_area_sr',
+            low: 'low',
+            high: 'high',
+            xTitle: 'Mean area (sr)',
+            zero: false,
+            strategyOf: (row) => study.words.strategy(row.strategy),
+          },
+          width,
+        ),
+    },
+  ];
 }
 
 export const areaFigures = (study: Study): Figure[] => [...byComponent(study), ...byComposition(study)];

@@ -18,25 +18,84 @@ export interface CurvesOptions {
   maxColumns?: number;
 }
 
-function layers(options: CurvesOptions, rows: Row[], place: Place, domains: { x: [number, number]; y: ReturnType<typeof roundTicks> }): Spec {
+function layers(
+  options: CurvesOptions,
+  rows: Row[],
+  place: Place,
+  domains: { x: [number, number]; y: ReturnType<typeof roundTicks> },
+): Spec {
   const labels = options.looks.map((look) => look.label);
   const values = rows.map((row) => ({
-    strategy: options.strategyOf(row), x: num(row[options.x]), y: num(row[options.y]), low: num(row.low), high: num(row.high),
+    strategy: options.strategyOf(row),
+    x: num(row[options.x]),
+    y: num(row[options.y]),
+    low: num(row.low),
+    high: num(row.high),
   }));
-  const x: Spec = { field: 'x', type: 'quantitative', scale: { domain: domains.x, nice: false }, axis: { title: place.lastRow ? options.xTitle : null, tickMinStep: 1, format: 'd', grid: false, labelFlush: false, tickCount: Math.floor(place.width / 36) } };
+  const x: Spec = {
+    field: 'x',
+    type: 'quantitative',
+    scale: { domain: domains.x, nice: false },
+    axis: {
+      title: place.lastRow ? options.xTitle : null,
+      tickMinStep: 1,
+      format: 'd',
+      grid: false,
+      labelFlush: false,
+      tickCount: Math.floor(place.width / 36),
+    },
+  };
   const yScale: Spec = { domain: domains.y.domain, zero: false, nice: false };
-  const y: Spec = { type: 'quantitative', scale: yScale, axis: yAxis(place, { title: options.yTitle, values: domains.y.values, domain: false, format: '.3~f' }, true) };
-  const color: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.color) }, legend: null };
-  const dash: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.dash) }, legend: null };
+  const y: Spec = {
+    type: 'quantitative',
+    scale: yScale,
+    axis: yAxis(place, { title: options.yTitle, values: domains.y.values, domain: false, format: '.3~f' }, true),
+  };
+  const color: Spec = {
+    field: 'strategy',
+    type: 'nominal',
+    scale: { domain: labels, range: options.looks.map((look) => look.color) },
+    legend: null,
+  };
+  const dash: Spec = {
+    field: 'strategy',
+    type: 'nominal',
+    scale: { domain: labels, range: options.looks.map((look) => look.dash) },
+    legend: null,
+  };
   const interpolate = options.step ? 'step-after' : 'linear';
-  const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'x', title: options.xTitle }, { field: 'y', title: options.yTitle, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
-  const shape: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, range: options.looks.map((look) => look.shape) }, legend: null };
+  const tooltip = [
+    { field: 'strategy', title: 'Strategy' },
+    { field: 'x', title: options.xTitle },
+    { field: 'y', title: options.yTitle, format: '.3~r' },
+    { field: 'low', title: '95 % from', format: '.3~r' },
+    { field: 'high', title: 'to', format: '.3~r' },
+  ];
+  const shape: Spec = {
+    field: 'strategy',
+    type: 'nominal',
+    scale: { domain: labels, range: options.looks.map((look) => look.shape) },
+    legend: null,
+  };
   const layer: Spec[] = [
-    { transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }], mark: { type: 'area', fillOpacity: 0.1, interpolate }, encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color } },
-    { mark: { type: 'line', strokeWidth: 2, interpolate, strokeJoin: 'round' }, encoding: { x, y: { ...y, field: 'y' }, color, strokeDash: dash } },
-options.step
-      ? { mark: { type: 'point', filled: true, size: 60, opacity: 0 }, encoding: { x, y: { ...y, field: 'y' }, tooltip } } // for tooltips only
-      : { mark: { type: 'point', filled: true, size: 36, opacity: 1 }, encoding: { x, y: { ...y, field: 'y' }, color, shape, tooltip } },
+    {
+      transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }],
+      mark: { type: 'area', fillOpacity: 0.1, interpolate },
+      encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color },
+    },
+    {
+      mark: { type: 'line', strokeWidth: 2, interpolate, strokeJoin: 'round' },
+      encoding: { x, y: { ...y, field: 'y' }, color, strokeDash: dash },
+    },
+    options.step
+      ? {
+          mark: { type: 'point', filled: true, size: 60, opacity: 0 },
+          encoding: { x, y: { ...y, field: 'y' }, tooltip },
+        } // for tooltips only
+      : {
+          mark: { type: 'point', filled: true, size: 36, opacity: 1 },
+          encoding: { x, y: { ...y, field: 'y' }, color, shape, tooltip },
+        },
   ];
   return { data: { values }, width: place.width, height: 190, layer };
 }
@@ -48,8 +107,16 @@ export function curves(options: CurvesOptions, width: number): Spec {
     y: roundTicks(options.yDomain ?? extent(all.flatMap((row) => [num(row[options.y]), num(row.low), num(row.high)]))),
   };
   const legend = strategyLegend(options.looks, width - 60, options.step ? 'line' : 'mark');
-  return { ...panels(options.panels.length, width, { left: 52, min: 190, max: options.maxColumns ?? 3, gap: 22, rowGap: 54 }, (i, place) => {
-    const panel = options.panels[i];
-    return panel ? { title: panel.title, ...layers(options, panel.rows, place, domains) } : {};
-  }), usermeta: { legend } };
+  return {
+    ...panels(
+      options.panels.length,
+      width,
+      { left: 52, min: 190, max: options.maxColumns ?? 3, gap: 22, rowGap: 54 },
+      (i, place) => {
+        const panel = options.panels[i];
+        return panel ? { title: panel.title, ...layers(options, panel.rows, place, domains) } : {};
+      },
+    ),
+    usermeta: { legend },
+  };
 }

@@ -22,15 +22,56 @@ export interface DotsOptions {
 // figure drawn twice is the same twice.
 const spread = (i: number): number => ((i * 0.618034) % 1) * 2 - 1;
 
-function layers(options: DotsOptions, panel: DotsOptions['panels'][number], place: Place, domain: [number, number]): Spec {
+function layers(
+  options: DotsOptions,
+  panel: DotsOptions['panels'][number],
+  place: Place,
+  domain: [number, number],
+): Spec {
   const labels = options.looks.map((look) => look.label);
   const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
-  const y: Spec = { field: 'strategy', type: 'nominal', scale: { domain: labels, paddingInner: 0.25, paddingOuter: 0.15 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelLimit: 116, labelPadding: 6, labelFontSize: 12, labelColor: 'var(--text)' }) };
-  const x: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: place.lastRow || options.ownScales ? options.xTitle : null, tickCount: Math.max(3, Math.floor(place.width / 45)), domain: false, labelFlush: false, format: '.3~f' } };
-  const hue: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.color)), legend: null };
-  const shape: Spec = { field: 'strategy', type: 'nominal', scale: scale(options.looks.map((look) => look.shape)), legend: null };
+  const y: Spec = {
+    field: 'strategy',
+    type: 'nominal',
+    scale: { domain: labels, paddingInner: 0.25, paddingOuter: 0.15 },
+    axis: yAxis(place, {
+      title: null,
+      ticks: false,
+      domain: false,
+      labelLimit: 116,
+      labelPadding: 6,
+      labelFontSize: 12,
+      labelColor: 'var(--text)',
+    }),
+  };
+  const x: Spec = {
+    type: 'quantitative',
+    scale: { domain, zero: false, nice: false },
+    axis: {
+      title: place.lastRow || options.ownScales ? options.xTitle : null,
+      tickCount: Math.max(3, Math.floor(place.width / 45)),
+      domain: false,
+      labelFlush: false,
+      format: '.3~f',
+    },
+  };
+  const hue: Spec = {
+    field: 'strategy',
+    type: 'nominal',
+    scale: scale(options.looks.map((look) => look.color)),
+    legend: null,
+  };
+  const shape: Spec = {
+    field: 'strategy',
+    type: 'nominal',
+    scale: scale(options.looks.map((look) => look.shape)),
+    legend: null,
+  };
   const means = panel.means.map((row) => ({
-    strategy: options.strategyOf(row), mean: num(row[options.mean]), low: num(row[options.low]), high: num(row[options.high]),
+    strategy: options.strategyOf(row),
+    mean: num(row[options.mean]),
+    low: num(row[options.low]),
+    high: num(row[options.high]),
   }));
   const seen = new Map<string, number>();
   const points = (panel.points ?? []).map((row) => {
@@ -39,11 +80,21 @@ function layers(options: DotsOptions, panel: DotsOptions['panels'][number], plac
     seen.set(strategy, i + 1);
     return { strategy, value: num(row[options.point ?? '']), spread: spread(i) };
   });
-  const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'mean', title: options.xTitle, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
+  const tooltip = [
+    { field: 'strategy', title: 'Strategy' },
+    { field: 'mean', title: options.xTitle, format: '.3~r' },
+    { field: 'low', title: '95 % from', format: '.3~r' },
+    { field: 'high', title: 'to', format: '.3~r' },
+  ];
   const raw: Spec = {
     data: { values: points },
     mark: { type: 'circle', size: 16, opacity: points.length > 600 ? 0.18 : 0.38 },
-    encoding: { y, x: { ...x, field: 'value' }, yOffset: { field: 'spread', type: 'quantitative', scale: { domain: [-1.05, 1.05] }, axis: null }, color: hue },
+    encoding: {
+      y,
+      x: { ...x, field: 'value' },
+      yOffset: { field: 'spread', type: 'quantitative', scale: { domain: [-1.05, 1.05] }, axis: null },
+      color: hue,
+    },
   };
   const known = means.filter((row) => row.low !== null && row.high !== null);
   return {
@@ -52,9 +103,23 @@ function layers(options: DotsOptions, panel: DotsOptions['panels'][number], plac
     height: options.looks.length * 32,
     layer: [
       ...(points.length > 0 ? [raw] : []),
-      { data: { values: known }, mark: { type: 'rule', strokeWidth: 2 }, encoding: { y, x: { ...x, field: 'low' }, x2: { field: 'high' }, color: hue } },
-      ...['low', 'high'].map((field): Spec => ({ data: { values: known }, mark: { type: 'tick', thickness: 2, size: 9 }, encoding: { y, x: { ...x, field }, color: hue } })),
-      { data: { values: means }, mark: { type: 'point', filled: true, size: 62, opacity: 1, stroke: 'var(--ground)', strokeWidth: 1 }, encoding: { y, x: { ...x, field: 'mean' }, color: hue, shape, tooltip } },
+      {
+        data: { values: known },
+        mark: { type: 'rule', strokeWidth: 2 },
+        encoding: { y, x: { ...x, field: 'low' }, x2: { field: 'high' }, color: hue },
+      },
+      ...['low', 'high'].map(
+        (field): Spec => ({
+          data: { values: known },
+          mark: { type: 'tick', thickness: 2, size: 9 },
+          encoding: { y, x: { ...x, field }, color: hue },
+        }),
+      ),
+      {
+        data: { values: means },
+        mark: { type: 'point', filled: true, size: 62, opacity: 1, stroke: 'var(--ground)', strokeWidth: 1 },
+        encoding: { y, x: { ...x, field: 'mean' }, color: hue, shape, tooltip },
+      },
     ],
   };
 }

@@ -30,34 +30,101 @@ function spec(study: Study, list: Panel[], compositions: string[], looks: Look[]
   const labels = looks.map((look) => look.label);
   const scale = (range: (string | number[])[]): Spec => ({ domain: labels, range });
   const legend = strategyLegend(looks, width - 60, 'mark');
-  return { ...panels(list.length, width, { left: 46, min: 170, gap: 58, rowGap: 64 }, (i, place) => {
-    const panel = list[i];
-    if (!panel) return {};
-    const local = study.looks(panel.rows);
-    const values = panel.rows.map((row) => {
-      const strategy = study.words.strategy(row.strategy);
-      // Side by side within a composition, so that intervals do not cover each other.
-      const aside = (local.findIndex((look) => look.label === strategy) - (local.length - 1) / 2) * 0.09;
-      const at = compositions.indexOf(String(row.composition));
-      return { strategy, at: at + aside, composition: String(row.composition), mean: num(row[`${panel.column}_mean`]), low: num(row[`${panel.column}_low`]), high: num(row[`${panel.column}_high`]) };
-    });
-    const { domain, values: ticks } = roundTicks(extent(values.flatMap((row) => [row.mean, row.low, row.high])));
-    const x: Spec = { field: 'at', type: 'quantitative', scale: { domain: [-0.4, compositions.length - 0.6], nice: false }, axis: { title: place.lastRow ? 'Composition' : null, values: compositions.map((_, k) => k), labelExpr: `${JSON.stringify(compositions)}[datum.value]`, grid: false, labelOverlap: false } };
-    const y: Spec = { type: 'quantitative', scale: { domain, zero: false, nice: false }, axis: { title: null, domain: false, values: ticks, format: '.6~f' } };
-    const color: Spec = { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.color)), legend: null };
-    const tooltip = [{ field: 'strategy', title: 'Strategy' }, { field: 'composition', title: 'Composition' }, { field: 'mean', title: panel.title, format: '.3~r' }, { field: 'low', title: '95 % from', format: '.3~r' }, { field: 'high', title: 'to', format: '.3~r' }];
-    return {
-      title: panel.title,
-      data: { values },
-      width: place.width,
-      height: 200,
-      layer: [
-        { transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }], mark: { type: 'rule', strokeWidth: 1.2, opacity: 0.7 }, encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color } },
-        { mark: { type: 'line', strokeWidth: 1.8 }, encoding: { x, y: { ...y, field: 'mean' }, color, strokeDash: { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.dash)), legend: null } } },
-        { mark: { type: 'point', filled: true, size: 60, opacity: 1 }, encoding: { x, y: { ...y, field: 'mean' }, color, shape: { field: 'strategy', type: 'nominal', scale: scale(looks.map((look) => look.shape)), legend: null }, tooltip } },
-      ],
-    };
-  }), usermeta: { legend } };
+  return {
+    ...panels(list.length, width, { left: 46, min: 170, gap: 58, rowGap: 64 }, (i, place) => {
+      const panel = list[i];
+      if (!panel) return {};
+      const local = study.looks(panel.rows);
+      const values = panel.rows.map((row) => {
+        const strategy = study.words.strategy(row.strategy);
+        // Side by side within a composition, so that intervals do not cover each other.
+        const aside = (local.findIndex((look) => look.label === strategy) - (local.length - 1) / 2) * 0.09;
+        const at = compositions.indexOf(String(row.composition));
+        return {
+          strategy,
+          at: at + aside,
+          composition: String(row.composition),
+          mean: num(row[`${panel.column}_mean`]),
+          low: num(row[`${panel.column}_low`]),
+          high: num(row[`${panel.column}_high`]),
+        };
+      });
+      const { domain, values: ticks } = roundTicks(extent(values.flatMap((row) => [row.mean, row.low, row.high])));
+      const x: Spec = {
+        field: 'at',
+        type: 'quantitative',
+        scale: { domain: [-0.4, compositions.length - 0.6], nice: false },
+        axis: {
+          title: place.lastRow ? 'Composition' : null,
+          values: compositions.map((_, k) => k),
+          labelExpr: `${JSON.stringify(compositions)}[datum.value]`,
+          grid: false,
+          labelOverlap: false,
+        },
+      };
+      const y: Spec = {
+        type: 'quantitative',
+        scale: { domain, zero: false, nice: false },
+        axis: { title: null, domain: false, values: ticks, format: '.6~f' },
+      };
+      const color: Spec = {
+        field: 'strategy',
+        type: 'nominal',
+        scale: scale(looks.map((look) => look.color)),
+        legend: null,
+      };
+      const tooltip = [
+        { field: 'strategy', title: 'Strategy' },
+        { field: 'composition', title: 'Composition' },
+        { field: 'mean', title: panel.title, format: '.3~r' },
+        { field: 'low', title: '95 % from', format: '.3~r' },
+        { field: 'high', title: 'to', format: '.3~r' },
+      ];
+      return {
+        title: panel.title,
+        data: { values },
+        width: place.width,
+        height: 200,
+        layer: [
+          {
+            transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }],
+            mark: { type: 'rule', strokeWidth: 1.2, opacity: 0.7 },
+            encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color },
+          },
+          {
+            mark: { type: 'line', strokeWidth: 1.8 },
+            encoding: {
+              x,
+              y: { ...y, field: 'mean' },
+              color,
+              strokeDash: {
+                field: 'strategy',
+                type: 'nominal',
+                scale: scale(looks.map((look) => look.dash)),
+                legend: null,
+              },
+            },
+          },
+          {
+            mark: { type: 'point', filled: true, size: 60, opacity: 1 },
+            encoding: {
+              x,
+              y: { ...y, field: 'mean' },
+              color,
+              shape: {
+                field: 'strategy',
+                type: 'nominal',
+                scale: scale(looks.map((look) => look.shape)),
+                legend: null,
+              },
+              tooltip,
+            },
+          },
+        ],
+      };
+    }),
+    usermeta: { legend },
+  };
 }
 
 export function interactionFigures(study: Study): Figure[] {
@@ -68,12 +135,15 @@ export function interactionFigures(study: Study): Figure[] {
   if (compositions.length < 2) return [];
   const title = 'Interaction of strategy and composition';
   const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
-  return [{
-    id: 'interaction',
-    title,
-    reading: 'Parallel lines mean that a strategy\u2019s advantage does not depend on who is in the team; bars are 95\u00a0% intervals.',
-    gist: `${title}. Mean periods: ${range(rows, 'periods_mean', name)} Mean knowledge: ${range(rows, 'knowledge_mean', name)}`,
-    table: cells,
-    spec: (width) => spec(study, panelsOf(rows), compositions, study.looks(rows), width),
-  }];
+  return [
+    {
+      id: 'interaction',
+      title,
+      reading:
+        'Parallel lines mean that a strategy\u2019s advantage does not depend on who is in the team; bars are 95\u00a0% intervals.',
+      gist: `${title}. Mean periods: ${range(rows, 'periods_mean', name)} Mean knowledge: ${range(rows, 'knowledge_mean', name)}`,
+      table: cells,
+      spec: (width) => spec(study, panelsOf(rows), compositions, study.looks(rows), width),
+    },
+  ];
 }

@@ -19,14 +19,16 @@ const kOutcomes: Outcome[] = [
     column: 'periods',
     title: 'Periods of teaching by strategy and composition',
     xTitle: 'Periods',
-    reading: 'Further left is faster; large marks are means with 95\u00a0% intervals, small dots single teams. The baseline counts the sum over members.',
+    reading:
+      'Further left is faster; large marks are means with 95\u00a0% intervals, small dots single teams. The baseline counts the sum over members.',
   },
   {
     id: 'knowledge',
     column: 'knowledge',
     title: 'Knowledge at the end by strategy and composition',
     xTitle: 'Knowledge',
-    reading: 'Further right is better; knowledge is the share of belief within the policy\u2019s region (BEC). Large marks are means with 95\u00a0% intervals, small dots single teams.',
+    reading:
+      'Further right is better; knowledge is the share of belief within the policy\u2019s region (BEC). Large marks are means with 95\u00a0% intervals, small dots single teams.',
   },
 ];
 
@@ -47,16 +49,21 @@ export function outcomeFigures(study: Study): Figure[] {
     table: cells,
     raw: teams ? { what: 'teams', table: teams } : undefined,
     spec: (width) =>
-      dots({
-        looks,
-        panels: study.compositions(means).map((code) => ({ title: code, means: within(means, code), points: within(points, code) })),
-        mean: `${column}_mean`,
-        low: `${column}_low`,
-        high: `${column}_high`,
-        point: column,
-        xTitle,
-        zero: true,
-        strategyOf: (row) => study.words.strategy(row.strategy),
-      }, width),
+      dots(
+        {
+          looks,
+          panels: study
+            .compositions(means)
+            .map((code) => ({ title: code, means: within(means, code), points: within(points, code) })),
+          mean: `${column}_mean`,
+          low: `${column}_low`,
+          high: `${column}_high`,
+          point: column,
+          xTitle,
+          zero: true,
+          strategyOf: (row) => study.words.strategy(row.strategy),
+        },
+        width,
+      ),
   }));
 }

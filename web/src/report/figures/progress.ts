@@ -8,7 +8,13 @@ import { ends } from './gist';
 type Words = Pick<Figure, 'id' | 'title' | 'reading'>;
 type Shape = Pick<CurvesOptions, 'x' | 'y' | 'xTitle' | 'yTitle' | 'step'> & Partial<CurvesOptions>;
 
-function figure(study: Study, table: Table, words: Words, shape: Shape, groups: (rows: Row[]) => CurvesOptions['panels']): Figure {
+function figure(
+  study: Study,
+  table: Table,
+  words: Words,
+  shape: Shape,
+  groups: (rows: Row[]) => CurvesOptions['panels'],
+): Figure {
   const rows = rowsOf(table);
   const list = groups(rows);
   const strategyOf = (row: Row): string => study.words.strategy(row.strategy);
@@ -24,47 +30,100 @@ function figure(study: Study, table: Table, words: Words, shape: Shape, groups: 
 export function completionFigures(study: Study): Figure[] {
   const table = study.table('completion');
   if (!table) return [];
-  return [figure(study, table, {
-    id: 'completion',
-    title: 'Teams that have learned everything, over periods',
-    reading: 'Steeper and further left is faster; one minus the Kaplan-Meier estimate with 95\u00a0% bands. The baseline counts the sum over members.',
-  }, { x: 'period', y: 'done', xTitle: 'Period', yTitle: 'Share of teams done', step: true, yDomain: [0, 1], maxColumns: 2 },
-  (rows) => study.compositions(rows).map((code) => ({ title: code, rows: rows.filter((row) => row.composition === code) })))];
+  return [
+    figure(
+      study,
+      table,
+      {
+        id: 'completion',
+        title: 'Teams that have learned everything, over periods',
+        reading:
+          'Steeper and further left is faster; one minus the Kaplan-Meier estimate with 95\u00a0% bands. The baseline counts the sum over members.',
+      },
+      {
+        x: 'period',
+        y: 'done',
+        xTitle: 'Period',
+        yTitle: 'Share of teams done',
+        step: true,
+        yDomain: [0, 1],
+        maxColumns: 2,
+      },
+      (rows) =>
+        study.compositions(rows).map((code) => ({ title: code, rows: rows.filter((row) => row.composition === code) })),
+    ),
+  ];
 }
 
-const byType = (study: Study) => (rows: Row[]): CurvesOptions['panels'] =>
-  study.types(rows).map((type) => ({ title: study.words.type(type), rows: rows.filter((row) => String(row.type) === type) }));
+const byType =
+  (study: Study) =>
+  (rows: Row[]): CurvesOptions['panels'] =>
+    study
+      .types(rows)
+      .map((type) => ({ title: study.words.type(type), rows: rows.filter((row) => String(row.type) === type) }));
 
 export function knowledgeFigures(study: Study): Figure[] {
   const table = study.table('knowledge_by_period');
   if (!table) return [];
-  return [figure(study, table, {
-    id: 'knowledge-periods',
-    title: 'Knowledge over periods by type of learner',
-    reading: 'Share of people\u2019s own belief within the policy\u2019s region (BEC), mean with 95\u00a0% bands; a line ends where too few people are still taught.',
-  }, { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false }, byType(study))];
+  return [
+    figure(
+      study,
+      table,
+      {
+        id: 'knowledge-periods',
+        title: 'Knowledge over periods by type of learner',
+        reading:
+          'Share of people\u2019s own belief within the policy\u2019s region (BEC), mean with 95\u00a0% bands; a line ends where too few people are still taught.',
+      },
+      { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false },
+      byType(study),
+    ),
+  ];
 }
 
 export function abilityFigures(study: Study): Figure[] {
   const table = study.table('ability_by_period');
   if (!table) return [];
-  return [figure(study, table, {
-    id: 'ability-periods',
-    title: 'Learning ability over the periods of a component',
-    reading: 'Ability while watching, mean with 95\u00a0% bands; it starts anew with every component and rises with feedback.',
-  }, { x: 'period_of_kc', y: 'mean', xTitle: 'Period of the component', yTitle: 'Ability', step: false },
-  (rows) => study.types(rows).flatMap((type) => study.codes(rows, 'kc').map((kc) => ({
-    title: `${study.words.type(type)}, ${componentName(kc).toLowerCase()}`,
-    rows: rows.filter((row) => String(row.type) === type && String(row.kc) === kc),
-  }))).filter((panel) => panel.rows.length > 0))];
+  return [
+    figure(
+      study,
+      table,
+      {
+        id: 'ability-periods',
+        title: 'Learning ability over the periods of a component',
+        reading:
+          'Ability while watching, mean with 95\u00a0% bands; it starts anew with every component and rises with feedback.',
+      },
+      { x: 'period_of_kc', y: 'mean', xTitle: 'Period of the component', yTitle: 'Ability', step: false },
+      (rows) =>
+        study
+          .types(rows)
+          .flatMap((type) =>
+            study.codes(rows, 'kc').map((kc) => ({
+              title: `${study.words.type(type)}, ${componentName(kc).toLowerCase()}`,
+              rows: rows.filter((row) => String(row.type) === type && String(row.kc) === kc),
+            })),
+          )
+          .filter((panel) => panel.rows.length > 0),
+    ),
+  ];
 }
 
 export function correctFigures(study: Study): Figure[] {
   const table = study.table('correct_by_period');
   if (!table) return [];
-  return [figure(study, table, {
-    id: 'correct-periods',
-    title: 'Right answers over periods by type of learner',
-    reading: 'Share of test answers that were right, with 95\u00a0% bands; later periods hold the teams that needed longest.',
-  }, { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false }, byType(study))];
+  return [
+    figure(
+      study,
+      table,
+      {
+        id: 'correct-periods',
+        title: 'Right answers over periods by type of learner',
+        reading:
+          'Share of test answers that were right, with 95\u00a0% bands; later periods hold the teams that needed longest.',
+      },
+      { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false },
+      byType(study),
+    ),
+  ];
 }

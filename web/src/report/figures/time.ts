@@ -25,14 +25,60 @@ function teachingSpec(study: Study, rows: Row[], width: number): Spec {
     title: compositions[i] ?? '',
     width: place.width,
     height: strategies.length * 26,
-    data: { values: rows.filter((row) => row.composition === compositions[i]).map((row) => ({ strategy: study.words.strategy(row.strategy), component: componentName(String(row.kc)), order: components.indexOf(String(row.kc)), periods: num(row.mean_periods) })) },
+    data: {
+      values: rows
+        .filter((row) => row.composition === compositions[i])
+        .map((row) => ({
+          strategy: study.words.strategy(row.strategy),
+          component: componentName(String(row.kc)),
+          order: components.indexOf(String(row.kc)),
+          periods: num(row.mean_periods),
+        })),
+    },
     mark: { type: 'bar', stroke: color('ground'), strokeWidth: 1.5 },
     encoding: {
-      y: { field: 'strategy', type: 'nominal', scale: { domain: strategies, paddingInner: 0.3 }, axis: yAxis(place, { title: null, ticks: false, domain: false, labelFontSize: 12, labelColor: color('text'), labelLimit: 116, labelPadding: 6 }) },
-      x: { field: 'periods', type: 'quantitative', stack: true, scale: { domain, nice: true }, axis: { title: place.lastRow ? 'Periods, mean' : null, domain: false, labelFlush: false, tickCount: Math.max(3, Math.floor(place.width / 45)) } },
+      y: {
+        field: 'strategy',
+        type: 'nominal',
+        scale: { domain: strategies, paddingInner: 0.3 },
+        axis: yAxis(place, {
+          title: null,
+          ticks: false,
+          domain: false,
+          labelFontSize: 12,
+          labelColor: color('text'),
+          labelLimit: 116,
+          labelPadding: 6,
+        }),
+      },
+      x: {
+        field: 'periods',
+        type: 'quantitative',
+        stack: true,
+        scale: { domain, nice: true },
+        axis: {
+          title: place.lastRow ? 'Periods, mean' : null,
+          domain: false,
+          labelFlush: false,
+          tickCount: Math.max(3, Math.floor(place.width / 45)),
+        },
+      },
       order: { field: 'order', type: 'quantitative' },
-      color: { field: 'component', type: 'nominal', scale: { domain: names, range: shades(names.length) }, legend: { title: null, symbolType: 'square', columns: Math.max(1, Math.min(names.length, Math.floor(width / 120))) } },
-      tooltip: [{ field: 'strategy', title: 'Strategy' }, { field: 'component', title: 'Part' }, { field: 'periods', title: 'Periods, mean', format: '.3~r' }],
+      color: {
+        field: 'component',
+        type: 'nominal',
+        scale: { domain: names, range: shades(names.length) },
+        legend: {
+          title: null,
+          symbolType: 'square',
+          columns: Math.max(1, Math.min(names.length, Math.floor(width / 120))),
+        },
+      },
+      tooltip: [
+        { field: 'strategy', title: 'Strategy' },
+        { field: 'component', title: 'Part' },
+        { field: 'periods', title: 'Periods, mean', format: '.3~r' },
+      ],
     },
   }));
 }
@@ -42,19 +88,27 @@ function teachingFigures(study: Study): Figure[] {
   if (!table) return [];
   const rows = rowsOf(table);
   const title = 'Where teaching time goes';
-  return [{
-    id: 'time-components',
-    title,
-    reading: 'Mean periods spent on each component; the length of a bar is the mean number of periods of a team. Intervals are in the data.',
-    gist: `${title}. Mean periods of one component: ${range(rows, 'mean_periods', (row) => `${study.words.strategy(row.strategy)}, ${String(row.composition)}, component ${String(row.kc)}`)}`,
-    table,
-    spec: (width) => teachingSpec(study, rows, width),
-  }];
+  return [
+    {
+      id: 'time-components',
+      title,
+      reading:
+        'Mean periods spent on each component; the length of a bar is the mean number of periods of a team. Intervals are in the data.',
+      gist: `${title}. Mean periods of one component: ${range(rows, 'mean_periods', (row) => `${study.words.strategy(row.strategy)}, ${String(row.composition)}, component ${String(row.kc)}`)}`,
+      table,
+      spec: (width) => teachingSpec(study, rows, width),
+    },
+  ];
 }
 
 function computingSpec(rows: Row[], width: number): Spec {
   const values = rows.map((row) => ({ phase: String(row.phase), seconds: num(row.seconds) }));
-  const y: Spec = { field: 'phase', type: 'nominal', sort: null, axis: { title: null, ticks: false, domain: false, labelFontSize: 12, labelColor: color('text'), labelPadding: 6 } };
+  const y: Spec = {
+    field: 'phase',
+    type: 'nominal',
+    sort: null,
+    axis: { title: null, ticks: false, domain: false, labelFontSize: 12, labelColor: color('text'), labelPadding: 6 },
+  };
   const x: Spec = { field: 'seconds', type: 'quantitative', axis: { title: 'Seconds', domain: false, tickCount: 5 } };
   return {
     $schema: 'https://vega.github.io/schema/vega-lite/v5.json',
@@ -63,7 +117,10 @@ function computingSpec(rows: Row[], width: number): Spec {
     data: { values },
     layer: [
       { mark: { type: 'bar', fill: color('k1') }, encoding: { y, x } },
-      { mark: { type: 'text', align: 'left', dx: 5, fontSize: 11, fill: color('text') }, encoding: { y, x, text: { field: 'seconds', type: 'quantitative', format: '.3~r' } } },
+      {
+        mark: { type: 'text', align: 'left', dx: 5, fontSize: 11, fill: color('text') },
+        encoding: { y, x, text: { field: 'seconds', type: 'quantitative', format: '.3~r' } },
+      },
     ],
   };
 }
@@ -73,14 +130,16 @@ function computingFigures(study: Study): Figure[] {
   if (!table) return [];
   const rows = rowsOf(table);
   const title = 'Where computing time goes';
-  return [{
-    id: 'time-computing',
-    title,
-    reading: 'Seconds per phase of the run, on the machine that ran it.',
-    gist: `${title}. ${rows.map((row) => `${String(row.phase)} ${String(row.seconds)} s`).join(', ')}.`,
-    table,
-    spec: (width) => computingSpec(rows, width),
-  }];
+  return [
+    {
+      id: 'time-computing',
+      title,
+      reading: 'Seconds per phase of the run, on the machine that ran it.',
+      gist: `${title}. ${rows.map((row) => `${String(row.phase)} ${String(row.seconds)} s`).join(', ')}.`,
+      table,
+      spec: (width) => computingSpec(rows, width),
+    },
+  ];
 }
 
 export const timeFigures = (study: Study): Figure[] => [...teachingFigures(study), ...computingFigures(study)];

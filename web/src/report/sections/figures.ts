@@ -11,9 +11,22 @@ import type { Study } from '../study';
 import type { Section } from './section';
 
 const kSections: { id: string; title: string; figures(study: Study): Figure[] }[] = [
-  { id: 'outcomes', title: 'Periods and knowledge', figures: (study) => [...outcomeFigures(study), ...interactionFigures(study)] },
+  {
+    id: 'outcomes',
+    title: 'Periods and knowledge',
+    figures: (study) => [...outcomeFigures(study), ...interactionFigures(study)],
+  },
   { id: 'manipulation', title: 'Manipulation check', figures: areaFigures },
-  { id: 'progress', title: 'Progress over periods', figures: (study) => [...completionFigures(study), ...knowledgeFigures(study), ...abilityFigures(study), ...correctFigures(study)] },
+  {
+    id: 'progress',
+    title: 'Progress over periods',
+    figures: (study) => [
+      ...completionFigures(study),
+      ...knowledgeFigures(study),
+      ...abilityFigures(study),
+      ...correctFigures(study),
+    ],
+  },
   { id: 'time', title: 'Where time goes', figures: timeFigures },
 ];
 

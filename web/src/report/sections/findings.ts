@@ -6,14 +6,22 @@ import type { Section } from './section';
 
 function finding(one: Finding, study: Study): HTMLElement {
   const tables = one.tables ?? [];
-  return el('article', { class: 'finding', id: `finding-${one.id}` },
+  return el(
+    'article',
+    { class: 'finding', id: `finding-${one.id}` },
     el('h3', {}, one.title),
     one.question ? el('p', { class: 'question' }, one.question) : null,
     el('p', {}, one.sentence),
     ...(one.warnings ?? []).map((text) => el('p', { class: 'warning' }, el('strong', {}, 'Warning: '), text)),
     tables.length > 0
-      ? el('details', {}, el('summary', {}, `Tests: ${one.title}`), ...tables.map((table) => tableView(table, table.caption, study.words)))
-      : null);
+      ? el(
+          'details',
+          {},
+          el('summary', {}, `Tests: ${one.title}`),
+          ...tables.map((table) => tableView(table, table.caption, study.words)),
+        )
+      : null,
+  );
 }
 
 export function findingsSection(study: Study): Section | null {

@@ -8,6 +8,13 @@ export function noticesSection(): Section | null {
   return {
     id: 'notices',
     title: 'Notices',
-    content: [el('details', { class: 'licences' }, el('summary', {}, 'Licences of the software inside this page'), notices.content)],
+    content: [
+      el(
+        'details',
+        { class: 'licences' },
+        el('summary', {}, 'Licences of the software inside this page'),
+        notices.content,
+      ),
+    ],
   };
 }

@@ -10,7 +10,10 @@ function byGroup(table: Table): [string, Table][] {
   if (at < 0) return [['Parameters', table]];
   const groups = [...new Set(table.rows.map((row) => String(row[at] ?? '')))];
   const without = <T>(row: T[]): T[] => row.filter((_, i) => i !== at);
-  return groups.map((group) => [group, { columns: without(table.columns), rows: table.rows.filter((row) => String(row[at] ?? '') === group).map(without) }]);
+  return groups.map((group) => [
+    group,
+    { columns: without(table.columns), rows: table.rows.filter((row) => String(row[at] ?? '') === group).map(without) },
+  ]);
 }
 
 export function parametersSection(study: Study): Section | null {

@@ -12,13 +12,18 @@ function card(headline: Headline): HTMLElement {
   const digits = digitsOf(headline);
   const details = [
     typeof sd === 'number' ? `sd ${formatFixed(sd, digits)}` : '',
-    typeof low === 'number' && typeof high === 'number' ? `95\u00a0% interval ${formatFixed(low, digits)} to ${formatFixed(high, digits)}` : '',
+    typeof low === 'number' && typeof high === 'number'
+      ? `95\u00a0% interval ${formatFixed(low, digits)} to ${formatFixed(high, digits)}`
+      : '',
     typeof n === 'number' ? plural(n, 'team') : '',
   ].filter(Boolean);
-  return el('div', { class: 'card' },
+  return el(
+    'div',
+    { class: 'card' },
     el('dt', {}, label),
     el('dd', { class: 'value' }, formatFixed(value, digits)),
-    ...details.map((text) => el('dd', {}, text)));
+    ...details.map((text) => el('dd', {}, text)),
+  );
 }
 
 function facts(study: Study): [string, string][] {
@@ -28,11 +33,19 @@ function facts(study: Study): [string, string][] {
     ['Domain', domain],
     ['Strategies', listOf(overview.strategies.map((code) => study.words.strategy(code)))],
     ['Compositions', listOf(overview.compositions)],
-    ['Teams', overview.completed === undefined ? count(overview.teams) : `${count(overview.teams)}, of which ${overview.completed} learned everything`],
+    [
+      'Teams',
+      overview.completed === undefined
+        ? count(overview.teams)
+        : `${count(overview.teams)}, of which ${overview.completed} learned everything`,
+    ],
     ['People', count(overview.people)],
     ['Replicates per cell', count(overview.replicates)],
     ['Seed', String(overview.seed ?? '')],
-    ['Made', [created?.replace('T', ' ').replace('Z', ' UTC'), version ? `by kith ${version}` : ''].filter(Boolean).join(' ')],
+    [
+      'Made',
+      [created?.replace('T', ' ').replace('Z', ' UTC'), version ? `by kith ${version}` : ''].filter(Boolean).join(' '),
+    ],
   ];
   return list.filter(([, value]) => value !== '');
 }
@@ -44,7 +57,11 @@ export function summarySection(study: Study): Section {
     title: 'Summary',
     content: [
       ...(headlines.length > 0 ? [el('dl', { class: 'cards' }, ...headlines.map(card))] : []),
-      el('dl', { class: 'facts' }, ...facts(study).map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value)))),
+      el(
+        'dl',
+        { class: 'facts' },
+        ...facts(study).map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value))),
+      ),
     ],
   };
 }
@@ -52,8 +69,14 @@ export function summarySection(study: Study): Section {
 export function notesSection(study: Study): Section | null {
   const notes = [...(study.report.notes ?? [])];
   if (study.factors.length > 0) {
-    notes.push(`The study also varies ${listOf(study.factors)}; where a table tells its variants apart, figures show the first one.`);
+    notes.push(
+      `The study also varies ${listOf(study.factors)}; where a table tells its variants apart, figures show the first one.`,
+    );
   }
   if (notes.length === 0) return null;
-  return { id: 'notes', title: 'Notes on the data', content: [el('ul', { class: 'notes' }, ...notes.map((note) => el('li', {}, note)))] };
+  return {
+    id: 'notes',
+    title: 'Notes on the data',
+    content: [el('ul', { class: 'notes' }, ...notes.map((note) => el('li', {}, note)))],
+  };
 }

@@ -15,7 +15,11 @@ export function toLonLat(v: Vector): LonLat {
   return [Math.atan2(y, x) * kDegrees, Math.asin(Math.max(-1, Math.min(1, z))) * kDegrees];
 }
 
-const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const cross = (a: Vector, b: Vector): Vector => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
 
 // Middle of a spherical polygon: the direction of its vector area, which also a hemisphere has
 // (whose corners have mean 0).

@@ -30,7 +30,11 @@ export class GlobeView {
   frame = 0;
   turn: Turn;
 
-  constructor(private readonly box: HTMLElement, private readonly beliefs: Beliefs, public team: BeliefTeam) {
+  constructor(
+    private readonly box: HTMLElement,
+    private readonly beliefs: Beliefs,
+    public team: BeliefTeam,
+  ) {
     this.particles = new Particles(team);
     this.turn = turnFor(beliefs, 1);
   }
@@ -66,7 +70,12 @@ export class GlobeView {
     this.then(async () => {
       const everything = (): boolean => true;
       await this.drawing?.view
-        .change('particles', changeset().remove(everything).insert(particleRows(this.particles, this.team, this.frame)))
+        .change(
+          'particles',
+          changeset()
+            .remove(everything)
+            .insert(particleRows(this.particles, this.team, this.frame)),
+        )
         .change('beliefs', changeset().remove(everything).insert(beliefRows(this.team, this.frame)))
         .runAsync();
     });
@@ -74,7 +83,13 @@ export class GlobeView {
 
   setTurn(turn: Turn): void {
     this.turn = turn;
-    this.then(async () => this.drawing?.view.signal('lambda', this.turn.lambda).signal('phi', this.turn.phi).signal('zoom', this.turn.zoom).runAsync());
+    this.then(async () =>
+      this.drawing?.view
+        .signal('lambda', this.turn.lambda)
+        .signal('phi', this.turn.phi)
+        .signal('zoom', this.turn.zoom)
+        .runAsync(),
+    );
   }
 
   // Dragging turns the globes; `onTurn` lets the sliders follow.
@@ -88,7 +103,11 @@ export class GlobeView {
       if (!from) return;
       const lambda = from.turn.lambda - ((event.clientX - from.x) * kDegreesPerPixel) / from.turn.zoom;
       const phi = from.turn.phi + ((event.clientY - from.y) * kDegreesPerPixel) / from.turn.zoom;
-      const turn = { lambda: ((((lambda + 180) % 360) + 360) % 360) - 180, phi: Math.max(-90, Math.min(90, phi)), zoom: from.turn.zoom };
+      const turn = {
+        lambda: ((((lambda + 180) % 360) + 360) % 360) - 180,
+        phi: Math.max(-90, Math.min(90, phi)),
+        zoom: from.turn.zoom,
+      };
       this.setTurn(turn);
       onTurn(turn);
     });

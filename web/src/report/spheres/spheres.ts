@@ -21,7 +21,11 @@ function moment(team: BeliefTeam, frame: number): string {
 function massTable(team: BeliefTeam): Table {
   return {
     columns: ['period', 'component', ...team.beliefs.map(({ name }) => name)],
-    rows: team.mass.map((masses, frame): Cell[] => [frame, frame === 0 ? null : (team.components[frame - 1] ?? null), ...masses]),
+    rows: team.mass.map((masses, frame): Cell[] => [
+      frame,
+      frame === 0 ? null : (team.components[frame - 1] ?? null),
+      ...masses,
+    ]),
   };
 }
 
@@ -44,13 +48,42 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     about.textContent = view.team.why ? `${view.team.title}: ${view.team.why}.` : `${view.team.title}.`;
   };
   const period = slider({
-    id: 'sphere-period', label: 'Period', min: 0, max: lastFrame(first), value: 0,
+    id: 'sphere-period',
+    label: 'Period',
+    min: 0,
+    max: lastFrame(first),
+    value: 0,
     say: (frame) => moment(view.team, frame),
     onInput: (frame) => goTo(frame),
   });
-  const turn = slider({ id: 'sphere-turn', label: 'Turn', min: -180, max: 180, value: view.turn.lambda, say: (v) => `${v}\u00b0`, onInput: (lambda) => view.setTurn({ ...view.turn, lambda }) });
-  const tilt = slider({ id: 'sphere-tilt', label: 'Tilt', min: -90, max: 90, value: view.turn.phi, say: (v) => `${v}\u00b0`, onInput: (phi) => view.setTurn({ ...view.turn, phi }) });
-  const zoom = slider({ id: 'sphere-zoom', label: 'Zoom', min: 1, max: 6, step: 0.5, value: 1, say: (v) => `${v}\u00d7`, onInput: (value) => face(value) });
+  const turn = slider({
+    id: 'sphere-turn',
+    label: 'Turn',
+    min: -180,
+    max: 180,
+    value: view.turn.lambda,
+    say: (v) => `${v}\u00b0`,
+    onInput: (lambda) => view.setTurn({ ...view.turn, lambda }),
+  });
+  const tilt = slider({
+    id: 'sphere-tilt',
+    label: 'Tilt',
+    min: -90,
+    max: 90,
+    value: view.turn.phi,
+    say: (v) => `${v}\u00b0`,
+    onInput: (phi) => view.setTurn({ ...view.turn, phi }),
+  });
+  const zoom = slider({
+    id: 'sphere-zoom',
+    label: 'Zoom',
+    min: 1,
+    max: 6,
+    step: 0.5,
+    value: 1,
+    say: (v) => `${v}\u00d7`,
+    onInput: (value) => face(value),
+  });
   const showTurn = ({ lambda, phi }: Turn): void => {
     turn.set(lambda);
     tilt.set(phi);
@@ -64,8 +97,19 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     tell();
   }
   const makeTables = (): void => {
-    const save = saveButtons({ file: `${study}-beliefs`, what, svg: () => toSvg(view.spec(kPaperWidth)), png: () => toPng(view.spec(kPaperWidth)), table: massTable(view.team) });
-    data.replaceChildren(save, lazyDetails(`Data of ${what}`, () => tableView(massTable(view.team), `Share of belief in the policy\u2019s region: ${view.team.title}`, words)));
+    const save = saveButtons({
+      file: `${study}-beliefs`,
+      what,
+      svg: () => toSvg(view.spec(kPaperWidth)),
+      png: () => toPng(view.spec(kPaperWidth)),
+      table: massTable(view.team),
+    });
+    data.replaceChildren(
+      save,
+      lazyDetails(`Data of ${what}`, () =>
+        tableView(massTable(view.team), `Share of belief in the policy\u2019s region: ${view.team.title}`, words),
+      ),
+    );
   };
   const chooseTeam = (index: number): void => {
     const team = beliefs.teams[index];
@@ -93,11 +137,29 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     if (String(width) !== drawing.dataset.drawn) view.redraw(width);
   }).observe(drawing);
   const captionId = 'beliefs-caption';
-  return el('figure', { id: 'figure-beliefs', 'aria-labelledby': captionId },
-    el('div', { class: 'controls' }, select('sphere-team', 'Team', beliefs.teams.map(({ title }) => title), chooseTeam), period.row, el('div', { class: 'pair' }, turn.row, tilt.row, zoom.row, reset)),
+  return el(
+    'figure',
+    { id: 'figure-beliefs', 'aria-labelledby': captionId },
+    el(
+      'div',
+      { class: 'controls' },
+      select(
+        'sphere-team',
+        'Team',
+        beliefs.teams.map(({ title }) => title),
+        chooseTeam,
+      ),
+      period.row,
+      el('div', { class: 'pair' }, turn.row, tilt.row, zoom.row, reset),
+    ),
     about,
     chart,
-    el('figcaption', { id: captionId }, el('strong', {}, `Figure ${number}. Beliefs about the reward, period by period.`),
-      ' Every point of a sphere is a direction of reward weights; dots are particles of equal weight, and p is the share of belief within the region (BEC) whose rewards all give the robot\u2019s policy.'),
-    data);
+    el(
+      'figcaption',
+      { id: captionId },
+      el('strong', {}, `Figure ${number}. Beliefs about the reward, period by period.`),
+      ' Every point of a sphere is a direction of reward weights; dots are particles of equal weight, and p is the share of belief within the region (BEC) whose rewards all give the robot\u2019s policy.',
+    ),
+    data,
+  );
 }
