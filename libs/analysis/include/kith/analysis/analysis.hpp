@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/analysis/dataset.hpp"
+#include "kith/analysis/finding.hpp"
+#include "kith/stats/anova.hpp"
+#include "kith/stats/multiple.hpp"
+
+namespace kith {
+
+struct AnalysisOptions {
+  double alpha = 0.05;  ///< In (0, 1): below it a p-value counts as evidence; intervals have level 1 - alpha.
+  Correction correction = Correction::kBonferroni;  ///< Of families of tests.
+  std::size_t permutations = 999;
+  std::size_t resamples = 1'000;  ///< Of bootstrap intervals.
+  std::uint64_t seed = 1;         ///< Of permutations and resamples.
+};
+
+/// The analyses of a study of teaching strategies, by the tables in a run folder:
+///
+///   periods, knowledge             strategy x composition without the baseline [jayaraman2024, section V]
+///   ...-within-composition         strategy within each composition, corrected for their number
+///   ...-paired                     strategies on the same simulated people, pair by pair
+///   demonstrations                 the manipulation check: how much the demonstrations convey, per component
+///   ...-baseline                   group strategies against teaching everybody alone
+///
+/// What a study's design does not allow is left out, and a note says why.
+/// @throws kith::Error kInvalidInput for a damaged table or an unfinished run, kIo if there is none, kInfeasible
+/// (E0906) if nothing can be analysed.
+[[nodiscard]] Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOptions& options);
+
+/// A model to be analysed on any tidy table.
+struct ModelQuestion {
+  std::string formula;                  ///< "knowledge ~ strategy*composition"
+  std::optional<std::string> observed;  ///< Column of true and false: false for a count that was cut off (censored).
+};
+/// @throws kith::Error kUsage for a formula that cannot be read, kInvalidInput for columns that are missing or not what
+/// the model needs, kInfeasible (E0905) if no row is complete.
+[[nodiscard]] Analysis analyze_table(const Dataset& data, const ModelQuestion& question,
+                                     const AnalysisOptions& options);
+
+}  // namespace kith

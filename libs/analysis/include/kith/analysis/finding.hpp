@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kith/table/csv_reader.hpp"
+
+namespace kith {
+
+/// What the cells of a column of results are, which decides how they are written.
+enum class ResultKind {
+  kText,
+  kCount,     ///< A whole number.
+  kNumber,    ///< Three decimals, or four significant digits if those are fewer.
+  kFraction,  ///< Three decimals: proportions, partial eta squared.
+  kP,         ///< A p-value: three decimals, "< 0.001" below.
+};
+
+struct ResultColumn {
+  std::string name;
+  ResultKind kind = ResultKind::kNumber;
+};
+
+/// A table of results. A missing number is one that cannot be estimated; the finding's notes say why.
+struct ResultTable {
+  std::string caption;
+  std::vector<ResultColumn> columns;
+  std::vector<std::vector<TableCell>> rows;
+};
+
+/// A cell as people read it; "not estimable" for a missing one.
+[[nodiscard]] std::string formatted(const TableCell& cell, ResultKind kind);
+/// All cells of a table, as people read them.
+[[nodiscard]] std::vector<std::vector<std::string>> formatted_rows(const ResultTable& table);
+/// "p = 0.032", "p < 0.001".
+[[nodiscard]] std::string p_text(double p);
+
+/// The answer to one question about a study.
+struct Finding {
+  std::string id{};  ///< "periods", "knowledge-within-composition", ...
+  std::string title{};
+  std::string question{};
+  std::string model{};                  ///< The formula, or what is compared.
+  std::string sentence{};               ///< What was tested, on what, and what it means.
+  std::vector<std::string> warnings{};  ///< Assumptions that do not hold, and what could not be estimated and why.
+  std::vector<ResultTable> tables{};
+};
+
+/// All that was found.
+struct Analysis {
+  std::string subject;             ///< What was analysed: a folder or a file.
+  std::vector<std::string> notes;  ///< What holds for all findings.
+  std::vector<Finding> findings;
+};
+
+}  // namespace kith

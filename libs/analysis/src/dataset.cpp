@@ -1,0 +1,178 @@
+#include "kith/analysis/dataset.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "kith/core/diagnostic.hpp"
+#include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
+#include "kith/table/csv_reader.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kMaxDiagnostics = 20;
+
+std::optional<double> number_of(const std::string& text) {
+  if (text == "true") return 1.0;
+  if (text == "false") return 0.0;
+  double value = 0.0;
+  const auto* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stopped != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace
+
+RowFilter parse_row_filter(std::string_view text) {
+  const auto sign = text.find('=');
+  const bool differs = sign != std::string_view::npos && sign > 0 && text[sign - 1] == '!';
+  const auto column = text.substr(0, differs ? sign - 1 : sign);
+  if (sign == std::string_view::npos || column.empty())
+    throw Error{ErrorKind::kUsage, "'" + std::string{text} + "' is no condition; write COLUMN=VALUE or COLUMN!=VALUE"};
+  return {std::string{column}, !differs, std::string{text.substr(sign + 1)}};
+}
+
+Dataset Dataset::parse(std::string_view text, const std::string& file, std::span<const std::string> wanted) {
+  Dataset data;
+  data.file_ = file;
+  std::vector<Column> columns;
+  if (wanted.empty()) {
+    columns = read_csv_header(text, file);
+  } else {
+    for (const auto& name : wanted) columns.push_back({.name = name});
+  }
+  for (const auto& column : columns) data.columns_.push_back(column.name);
+  data.cells_.resize(columns.size());
+  const auto keep = [&](const CsvRow& row) {
+    data.lines_.push_back(row.line);
+    for (std::size_t c = 0; c < row.cells.size(); ++c) {
+      const auto* const value = std::get_if<std::string>(&row.cells[c]);
+      const bool missing = value == nullptr || value->empty() || *value == "NA";
+      data.cells_[c].push_back(missing ? std::nullopt : std::optional{*value});
+    }
+  };
+  auto diagnostics = read_csv(text, file, columns, keep, OtherColumns::kIgnore);
+  if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
+  return data;
+}
+
+Dataset Dataset::read(const std::filesystem::path& path, std::span<const std::string> wanted) {
+  return parse(read_file(path), path.string(), wanted);
+}
+
+bool Dataset::has(std::string_view column) const {
+  return std::find(columns_.begin(), columns_.end(), column) != columns_.end();
+}
+
+std::size_t Dataset::index_of(std::string_view column) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
+  const auto nearest = nearest_word(std::string{column}, columns_);
+  throw Error{{Diagnostic{
+      .id = "E0901",
+      .message = "there is no column '" + std::string{column} + "'",
+      .file = file_,
+      .line = 1,
+      .column = 1,
+      .hint = nearest.empty() ? "the columns are " + listed(columns_) : "did you mean '" + nearest + "'?"}}};
+}
+
+const std::vector<std::optional<std::string>>& Dataset::cells(std::string_view column) const {
+  return cells_[index_of(column)];
+}
+
+std::vector<std::optional<double>> Dataset::numbers(std::string_view column) const {
+  const auto& texts = cells(column);
+  std::vector<std::optional<double>> values(texts.size());
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (!texts[i]) continue;
+    values[i] = number_of(*texts[i]);
+    if (values[i] || diagnostics.size() == kMaxDiagnostics) continue;
+    diagnostics.push_back({.id = "E0902",
+                           .message = "'" + *texts[i] + "' in column '" + std::string{column} + "' is not a number",
+                           .file = file_,
+                           .line = lines_[i],
+                           .column = 1,
+                           .hint = "write a number with a decimal point; leave the cell empty if there is none"});
+  }
+  if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
+  return values;
+}
+
+bool Dataset::is_numeric(std::string_view column) const {
+  bool any = false;
+  for (const auto& cell : cells(column)) {
+    if (!cell) continue;
+    if (*cell == "true" || *cell == "false" || !number_of(*cell)) return false;
+    any = true;
+  }
+  return any;
+}
+
+Factor Dataset::factor(std::string_view column) const {
+  const auto& texts = cells(column);
+  std::vector<std::string> values;
+  values.reserve(texts.size());
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (!texts[i]) {
+      throw Error{{Diagnostic{.id = "E0903",
+                              .message = "the cell in column '" + std::string{column} + "' is missing",
+                              .file = file_,
+                              .line = lines_[i],
+                              .column = 1,
+                              .hint = "fill the cell, or leave the row out"}}};
+    }
+    values.push_back(*texts[i]);
+  }
+  return make_factor(std::string{column}, values);
+}
+
+Dataset Dataset::where(std::span<const RowFilter> filters) const {
+  std::vector<std::size_t> rows;
+  std::vector<std::size_t> columns;
+  for (const auto& filter : filters) columns.push_back(index_of(filter.column));
+  for (std::size_t i = 0; i < num_rows(); ++i) {
+    bool keep = true;
+    for (std::size_t f = 0; f < filters.size(); ++f) {
+      keep = keep && (cells_[columns[f]][i].value_or("") == filters[f].value) == filters[f].equal;
+    }
+    if (keep) rows.push_back(i);
+  }
+  return select(rows);
+}
+
+Dataset Dataset::complete(std::span<const std::string> columns) const {
+  std::vector<std::size_t> rows;
+  std::vector<std::size_t> wanted;
+  for (const auto& column : columns) wanted.push_back(index_of(column));
+  for (std::size_t i = 0; i < num_rows(); ++i) {
+    const auto has_value = [&](std::size_t column) { return cells_[column][i].has_value(); };
+    if (std::all_of(wanted.begin(), wanted.end(), has_value)) rows.push_back(i);
+  }
+  return select(rows);
+}
+
+Dataset Dataset::select(const std::vector<std::size_t>& rows) const {
+  Dataset part;
+  part.file_ = file_;
+  part.columns_ = columns_;
+  part.cells_.resize(cells_.size());
+  for (const auto row : rows) part.lines_.push_back(lines_[row]);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    part.cells_[c].reserve(rows.size());
+    for (const auto row : rows) part.cells_[c].push_back(cells_[c][row]);
+  }
+  return part;
+}
+
+}  // namespace kith

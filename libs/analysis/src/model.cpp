@@ -1,0 +1,76 @@
+#include "model.hpp"
+
+#include "kith/stats/formula.hpp"
+#include "kith/stats/resampling.hpp"
+
+namespace kith {
+namespace {
+
+// The rank-based p-values; those of a single factor are Kruskal and Wallis's.
+std::vector<Estimable<double>> rank_p_values(const ModelData& data) {
+  std::vector<Estimable<double>> p(
+      data.terms.size(), Estimable<double>::impossible("aligned ranks need every interaction of the factors"));
+  if (data.factors.size() == 1 && data.terms.size() == 1) {
+    const auto test = kruskal_wallis(data.values, data.factors.front());
+    p[0] = test ? Estimable<double>{test->p} : Estimable<double>::impossible(test.reason());
+    return p;
+  }
+  if (data.terms.size() + 1 != std::size_t{1} << data.factors.size()) return p;
+  const auto table = aligned_rank_anova(data.values, data.factors);
+  for (std::size_t t = 0; t < data.terms.size(); ++t) {
+    for (const auto& row : table.terms) {
+      std::string name;
+      for (const auto factor : data.terms[t]) name += (name.empty() ? "" : ":") + data.factors[factor].name;
+      if (row.name != name) continue;
+      p[t] = row.test ? Estimable<double>{row.test->p} : Estimable<double>::impossible(row.test.reason());
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+std::string formula_text(const ModelData& data) {
+  Formula formula{data.response, {}, data.terms};
+  for (const auto& factor : data.factors) formula.factors.push_back(factor.name);
+  return to_string(formula);
+}
+
+ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random) {
+  const auto type = SumsOfSquares::kTypeII;
+  ModelResult result{anova(data.values, data.factors, data.terms, type), {}, {}, rank_p_values(data)};
+  const BootstrapOptions bootstrap{options.resamples, 1.0 - options.alpha};
+  result.eta_squared = bootstrap_partial_eta_squared(data.values, data.factors, data.terms, type, bootstrap,
+                                                     random.split("partial eta squared"));
+  const auto permuted = permutation_anova(data.values, data.factors, data.terms, type, options.permutations,
+                                          random.split("permutations"));
+  for (const auto& term : permuted.terms) {
+    result.permutation_p.push_back(term.test ? Estimable<double>{term.test->p}
+                                             : Estimable<double>::impossible(term.test.reason()));
+  }
+  return result;
+}
+
+Finding analyze_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random) {
+  const auto result = fit_model(data, options, random);
+  Finding finding;
+  finding.id = data.response;
+  finding.model = formula_text(data);
+  finding.title = finding.model;
+  finding.question = "Does " + data.response + " depend on the factors of the model?";
+  finding.sentence = sentence_of(data, result, options.alpha);
+  finding.warnings = warnings_of(data, result, options.alpha);
+  finding.tables = anova_tables(data, result, options);
+  add_count_results(data, options, finding);
+  return finding;
+}
+
+TableCell number_cell(double value) { return TableCell{value}; }
+TableCell cell_of(const Estimable<double>& value) {
+  if (value) return number_cell(*value);
+  return {};
+}
+TableCell text_cell(std::string text) { return TableCell{std::move(text)}; }
+TableCell count_cell(std::size_t count) { return TableCell{static_cast<std::int64_t>(count)}; }
+
+}  // namespace kith

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kith/analysis/analysis.hpp"
+#include "kith/analysis/finding.hpp"
+#include "kith/random/stream.hpp"
+#include "kith/stats/anova.hpp"
+#include "kith/stats/effect_size.hpp"
+#include "kith/stats/factor.hpp"
+
+namespace kith {
+
+// One response and the factors that may explain it.
+struct ModelData {
+  std::string response{};             // its name
+  std::string observations = "rows";  // what one value is, in the plural
+  std::vector<double> values{};
+  std::vector<Factor> factors{};                  // used by some term each
+  std::vector<std::vector<std::size_t>> terms{};  // as in Formula
+  std::vector<bool> observed{};                   // false: a count that was cut off; empty: nothing is cut off
+};
+
+// Analyses of variance of one model with their intervals and distribution-free counterparts.
+struct ModelResult {
+  AnovaTable table;                              // type II
+  std::vector<Estimable<Interval>> eta_squared;  // per term
+  std::vector<Estimable<double>> permutation_p;  // per term
+  std::vector<Estimable<double>> rank_p;         // per term; of Kruskal and Wallis for a single factor
+};
+[[nodiscard]] ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random);
+
+// "periods ~ strategy + composition"
+[[nodiscard]] std::string formula_text(const ModelData& data);
+
+// Every term in words: what was found about it.
+[[nodiscard]] std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha);
+// What is doubtful about the model, and what could not be estimated.
+[[nodiscard]] std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha);
+
+// Means, analysis of variance, pairs of levels.
+[[nodiscard]] std::vector<ResultTable> anova_tables(const ModelData& data, const ModelResult& result,
+                                                    const AnalysisOptions& options);
+
+// Counts that may be cut off: rate ratios, survival. Adds to the finding if the response is a count.
+void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
+
+// All of the above.
+[[nodiscard]] Finding analyze_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random);
+
+// Numbers as cells; missing where they cannot be estimated.
+[[nodiscard]] TableCell cell_of(const Estimable<double>& value);
+[[nodiscard]] TableCell number_cell(double value);
+[[nodiscard]] TableCell text_cell(std::string text);
+[[nodiscard]] TableCell count_cell(std::size_t count);
+template <typename T>
+[[nodiscard]] TableCell cell_of(const Estimable<T>& value, double T::*part) {
+  if (value) return number_cell((*value).*part);
+  return {};
+}
+// "F(3, 224) = 0.20, p = 0.898"
+[[nodiscard]] std::string test_text(const TestResult& test);
+
+}  // namespace kith

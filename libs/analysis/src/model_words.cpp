@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model.hpp"
+
+namespace kith {
+namespace {
+
+constexpr double kUnequalSpread = 2.0;   // ratio of standard deviations that people should know about
+constexpr double kSkewed = 1.0;          // of residuals
+constexpr double kHeavyTails = 2.0;      // excess kurtosis
+constexpr std::size_t kFewPerCell = 10;  // below it F tests lean on normality
+
+std::string degrees_text(double df) {
+  return df == std::floor(df) ? fmt::format("{:.0f}", df) : fmt::format("{:.1f}", df);
+}
+
+// The factors of a term joined to one whose levels are its cells.
+Factor cells_of(const ModelData& data, const std::vector<std::size_t>& term) {
+  Factor cells = data.factors.at(term.front());
+  for (std::size_t i = 1; i < term.size(); ++i) cells = interaction(cells, data.factors.at(term[i]));
+  return cells;
+}
+
+Factor all_cells(const ModelData& data) {
+  std::vector<std::size_t> every;
+  for (std::size_t f = 0; f < data.factors.size(); ++f) every.push_back(f);
+  return cells_of(data, every);
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double sd(const std::vector<double>& values) {
+  const double centre = mean(values);
+  double squares = 0.0;
+  for (const double value : values) squares += (value - centre) * (value - centre);
+  return std::sqrt(squares / (static_cast<double>(values.size()) - 1.0));
+}
+
+// "from 6.70 (PPP) to 8.53 (NNN)"
+std::string range_text(const ModelData& data, const Factor& factor) {
+  const auto groups = split_by(data.values, factor);
+  std::size_t low = groups.size(), high = groups.size();
+  for (std::size_t level = 0; level < groups.size(); ++level) {
+    if (groups[level].empty()) continue;
+    if (low == groups.size() || mean(groups[level]) < mean(groups[low])) low = level;
+    if (high == groups.size() || mean(groups[level]) > mean(groups[high])) high = level;
+  }
+  return fmt::format("from {} ({}) to {} ({})", formatted(mean(groups[low]), ResultKind::kNumber), factor.levels[low],
+                     formatted(mean(groups[high]), ResultKind::kNumber), factor.levels[high]);
+}
+
+std::string evidence_text(const AnovaTerm& term, const Estimable<Interval>& eta) {
+  std::string text = test_text(*term.test);
+  if (!eta) return text;
+  return text + fmt::format(", partial eta squared {:.3f} [{:.3f}, {:.3f}]", eta->estimate, eta->low, eta->high);
+}
+
+// How large an effect is, in the words of [cohen1988, section 8.2].
+std::string size_text(double eta_squared) {
+  if (eta_squared < 0.01) return "a negligible effect";
+  if (eta_squared < 0.06) return "a small effect";
+  return eta_squared < 0.14 ? "a medium effect" : "a large effect";
+}
+
+// "strategy and composition"
+std::string joined_names(const ModelData& data, std::size_t t) {
+  std::string text;
+  for (std::size_t i = 0; i < data.terms[t].size(); ++i)
+    text += (i == 0 ? "" : i + 1 == data.terms[t].size() ? " and " : ", ") + data.factors[data.terms[t][i]].name;
+  return text;
+}
+
+std::string term_sentence(const ModelData& data, const ModelResult& result, std::size_t t, double alpha) {
+  const auto& term = result.table.terms[t];
+  if (!term.test) return fmt::format("{}: not estimable, because {}.", term.name, term.test.reason());
+  const auto evidence = evidence_text(term, result.eta_squared[t]);
+  const bool found = term.test->p < alpha;
+  const auto size = term.partial_eta_squared ? ", " + size_text(*term.partial_eta_squared) : std::string{};
+  if (data.terms[t].size() > 1) {
+    return found
+               ? fmt::format("What one of {} does depends on the other{} ({}).", joined_names(data, t), size, evidence)
+               : fmt::format("No sign that {} depend on each other ({}).", joined_names(data, t), evidence);
+  }
+  if (!found) return fmt::format("No effect of {} was found ({}).", term.name, evidence);
+  return fmt::format("It differs by {}{} ({}): {}.", term.name, size, evidence,
+                     range_text(data, data.factors[data.terms[t].front()]));
+}
+
+void add_cell_warnings(const ModelData& data, const ModelResult& result, double alpha,
+                       std::vector<std::string>& warnings) {
+  const auto cells = drop_unused(all_cells(data));
+  const auto groups = split_by(data.values, cells);
+  std::size_t least = groups.front().size(), most = 0;
+  double smallest = INFINITY, largest = 0.0;
+  for (const auto& group : groups) {
+    least = std::min(least, group.size());
+    most = std::max(most, group.size());
+    if (group.size() < 2) continue;
+    smallest = std::min(smallest, sd(group));
+    largest = std::max(largest, sd(group));
+  }
+  if (result.table.empty_cells > 0) {
+    warnings.push_back(fmt::format("{} combinations of levels have no {}: type II and III answer different questions",
+                                   result.table.empty_cells, data.observations));
+  } else if (least != most) {
+    warnings.push_back(fmt::format("cells have {} to {} {}: the design is not balanced, so type III is shown too",
+                                   least, most, data.observations));
+  }
+  if (least < kFewPerCell)
+    warnings.push_back(fmt::format(
+        "with {} in the smallest cell, F tests lean on normal residuals; the permutation test does not", least));
+  const auto spread = brown_forsythe(data.values, cells);
+  if (spread && spread->p < alpha && largest > kUnequalSpread * smallest) {
+    warnings.push_back(fmt::format(
+        "standard deviations differ between cells ({} to {}; Brown-Forsythe {}): prefer the tests by permutation and "
+        "by ranks",
+        formatted(smallest, ResultKind::kNumber), formatted(largest, ResultKind::kNumber), test_text(*spread)));
+  }
+}
+
+void add_shape_warnings(const ModelResult& result, double alpha, std::vector<std::string>& warnings) {
+  const auto shape = check_normality(result.table.residuals);
+  if (!shape || shape->test.p >= alpha) return;
+  if (std::abs(shape->skewness) < kSkewed && std::abs(shape->excess_kurtosis) < kHeavyTails) return;
+  warnings.push_back(fmt::format("residuals are not normal (skewness {:.2f}, excess kurtosis {:.2f})", shape->skewness,
+                                 shape->excess_kurtosis));
+}
+
+// Where tests with weaker assumptions come to another verdict.
+void add_disagreements(const ModelResult& result, double alpha, std::vector<std::string>& warnings) {
+  for (std::size_t t = 0; t < result.table.terms.size(); ++t) {
+    const auto& term = result.table.terms[t];
+    if (!term.test) continue;
+    const bool found = term.test->p < alpha;
+    const auto compare = [&](const Estimable<double>& p, const std::string& name) {
+      if (!p || (*p < alpha) == found) return;
+      warnings.push_back(fmt::format("{}: the test by {} disagrees at this level ({} against {})", term.name, name,
+                                     p_text(*p), p_text(term.test->p)));
+    };
+    compare(result.permutation_p[t], "permutation");
+    compare(result.rank_p[t], "ranks");
+  }
+}
+
+}  // namespace
+
+std::string test_text(const TestResult& test) {
+  std::string df;
+  for (const double value : test.df) df += (df.empty() ? "" : ", ") + degrees_text(value);
+  const auto brackets = df.empty() ? std::string{} : "(" + df + ")";
+  return fmt::format("{}{} = {:.2f}, {}", test.statistic_name, brackets, test.statistic, p_text(test.p));
+}
+
+std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha) {
+  std::string text =
+      fmt::format("Analysis of variance of {} on {} {}.", data.response, data.values.size(), data.observations);
+  for (std::size_t t = 0; t < data.terms.size(); ++t) text += " " + term_sentence(data, result, t, alpha);
+  return text;
+}
+
+std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha) {
+  std::vector<std::string> warnings;
+  if (data.factors.empty()) return warnings;
+  add_cell_warnings(data, result, alpha, warnings);
+  add_shape_warnings(result, alpha, warnings);
+  add_disagreements(result, alpha, warnings);
+  return warnings;
+}
+
+}  // namespace kith

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <unordered_map>
+
+#include "kith/core/error.hpp"
+#include "run_findings.hpp"
+
+namespace kith {
+namespace {
+
+using Kind = ResultKind;
+
+const std::vector<std::string> kColumns{"team", "period", "kc", "area_sr"};
+
+// The strategies from the one that conveys most (the smallest area) to the one that conveys least.
+std::string ranking(const std::vector<double>& values, const Factor& strategy) {
+  std::vector<std::pair<double, std::string>> means;
+  const auto groups = split_by(values, strategy);
+  for (std::size_t level = 0; level < groups.size(); ++level) {
+    double sum = 0.0;
+    for (const double value : groups[level]) sum += value;
+    means.emplace_back(sum / static_cast<double>(groups[level].size()), strategy.levels[level]);
+  }
+  std::sort(means.begin(), means.end());
+  std::string text;
+  for (const auto& [mean, name] : means) text += (text.empty() ? "" : ", ") + fmt::format("{} {:.3f}", name, mean);
+  return text;
+}
+
+}  // namespace
+
+ConveyedAreas read_areas(const RunTeams& teams, const std::filesystem::path& run_folder) {
+  std::unordered_map<std::string, std::size_t> position;
+  for (std::size_t i = 0; i < teams.size(); ++i) position.emplace(teams.team[i], i);
+  ConveyedAreas areas;
+  std::error_code failure;
+  const auto file = run_folder / "tables" / "periods.csv";
+  if (!std::filesystem::exists(file, failure)) return areas;
+  const auto data = Dataset::read(file, kColumns);
+  const auto team = data.factor("team");
+  const auto component = data.factor("kc");
+  const auto area = data.numbers("area_sr");
+  double sum = 0.0;
+  std::size_t n = 0;  // periods of the component so far
+  const auto finish = [&](std::size_t row) {
+    const auto found = position.find(team.levels[team.codes[row]]);
+    if (found == position.end()) return;
+    if (n < 2 || teams.is_baseline(found->second)) return;
+    areas.team.push_back(found->second);
+    areas.component.push_back(component.levels[component.codes[row]]);
+    areas.mean_log_area.push_back(sum / static_cast<double>(n - 1));
+  };
+  for (std::size_t i = 0; i < data.num_rows(); ++i) {
+    const bool begins = i == 0 || team.codes[i] != team.codes[i - 1] || component.codes[i] != component.codes[i - 1];
+    if (begins) {
+      if (i > 0) finish(i - 1);
+      sum = 0.0;
+      n = 0;
+    }
+    if (++n > 1 && area[i] && *area[i] > 0.0) sum += std::log(*area[i]);
+  }
+  if (data.num_rows() > 0) finish(data.num_rows() - 1);
+  return areas;
+}
+
+std::optional<Finding> demonstrations(const RunTeams& teams, const std::filesystem::path& run_folder,
+                                      const AnalysisOptions& options) {
+  const auto rows = group_teams(teams);
+  const auto model = team_model(teams, rows, "area_sr", teams.area_sr);
+  if (selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
+  const auto as_published = fit_model(model, options, RandomStream{options.seed}.split("area_sr"));
+  Finding finding{.id = "demonstrations",
+                  .title = "Manipulation check: how much the demonstrations convey",
+                  .question = "Do the strategies choose demonstrations that differ in what they convey?",
+                  .model = formula_text(model)};
+  finding.sentence = "A smaller area means that fewer reward weights fit what was shown. " +
+                     sentence_of(model, as_published, options.alpha);
+  finding.tables = anova_tables(model, as_published, options);
+  const auto areas = read_areas(teams, run_folder);
+  if (areas.team.empty()) {
+    finding.warnings.push_back("periods were not recorded, so components cannot be told apart");
+    return finding;
+  }
+  const auto components = make_factor("kc", areas.component);
+  for (std::size_t level = 0; level < components.levels.size(); ++level) {
+    std::vector<std::size_t> part_teams;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < areas.team.size(); ++i) {
+      if (components.codes[i] != level) continue;
+      part_teams.push_back(areas.team[i]);
+      values.push_back(areas.mean_log_area[i]);
+    }
+    const auto strategy = selected(teams.strategy, part_teams);
+    const auto test = one_way_anova(values, strategy);
+    if (!test) {
+      finding.warnings.push_back(
+          fmt::format("component {}: not estimable, because {}", components.levels[level], test.reason()));
+      continue;
+    }
+    finding.sentence += fmt::format(" Component {}, periods after the first, mean logarithm of the area: {} ({}).",
+                                    components.levels[level], ranking(values, strategy), test_text(*test));
+    ModelData one{
+        .response = "log area", .observations = "teams", .values = values, .factors = {strategy}, .terms = {{0}}};
+    const auto result = fit_model(one, options, RandomStream{options.seed}.split("log area").split(level));
+    for (auto& table : anova_tables(one, result, options)) {
+      table.caption =
+          "Component " + components.levels[level] + ", mean log area after its first period: " + table.caption;
+      finding.tables.push_back(std::move(table));
+    }
+  }
+  return finding;
+}
+
+}  // namespace kith

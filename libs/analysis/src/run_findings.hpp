@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "run_tables.hpp"
+
+namespace kith {
+
+// Each answers one question about a run, or says by its absence that the design
+// does not allow it.
+
+// strategy x composition, group strategies only.
+[[nodiscard]] std::optional<Finding> effects(const RunTeams& teams, const std::string& response,
+                                             const std::vector<double>& values, const AnalysisOptions& options);
+// strategy within every composition, corrected for their number.
+[[nodiscard]] std::optional<Finding> effects_within(const RunTeams& teams, const std::string& response,
+                                                    const std::vector<double>& values, const AnalysisOptions& options);
+// Pairs of group strategies that taught the same simulated people.
+[[nodiscard]] std::optional<Finding> paired(const RunTeams& teams, const std::string& response,
+                                            const std::vector<double>& values, const AnalysisOptions& options);
+// Group strategies against teaching everybody alone.
+[[nodiscard]] std::optional<Finding> against_baseline(const RunTeams& teams, const std::string& response,
+                                                      const std::vector<double>& values,
+                                                      const AnalysisOptions& options);
+// How much the demonstrations convey: the manipulation check.
+[[nodiscard]] std::optional<Finding> demonstrations(const RunTeams& teams, const std::filesystem::path& run_folder,
+                                                    const AnalysisOptions& options);
+
+// One value per team and knowledge component: the mean logarithm of the area of what the demonstrations of a period
+// convey, over the component's periods but the first, which is alike for all.
+struct ConveyedAreas {
+  std::vector<std::size_t> team;       // position in RunTeams
+  std::vector<std::string> component;  // its number
+  std::vector<double> mean_log_area;
+};
+[[nodiscard]] ConveyedAreas read_areas(const RunTeams& teams, const std::filesystem::path& run_folder);
+
+}  // namespace kith

@@ -1,0 +1,129 @@
+#include "run_tables.hpp"
+
+#include <algorithm>
+
+#include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
+#include "kith/table/csv_reader.hpp"
+
+namespace kith {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kTeamColumns{"strategy",  "composition", "replicate", "team",   "seed_address",
+                                            "completed", "periods",     "knowledge", "area_sr"};
+
+fs::path teams_file(const fs::path& run_folder) {
+  std::error_code failure;
+  if (!fs::is_directory(run_folder, failure))
+    throw Error{ErrorKind::kIo, "there is no folder " + run_folder.string() + "; make one with: kith study STUDY -o " +
+                                    run_folder.string()};
+  auto file = run_folder / "tables" / "teams.csv";
+  if (fs::exists(file, failure)) return file;
+  const bool begun = fs::exists(run_folder / "inputs", failure) || fs::exists(run_folder / "study.sqlite", failure);
+  const std::string path = run_folder.string();
+  throw Error{ErrorKind::kInvalidInput, begun ? path +
+                                                    " holds an unfinished study: it has no tables/teams.csv yet; "
+                                                    "repeat the `kith study` command that began it"
+                                              : path +
+                                                    " is no run folder: it has no tables/teams.csv; `kith study STUDY "
+                                                    "-o DIR` makes one"};
+}
+
+// The study's varied keys stand between composition and replicate.
+std::vector<std::string> varied_keys(const std::vector<Column>& columns) {
+  std::vector<std::string> keys;
+  bool between = false;
+  for (const auto& column : columns) {
+    if (column.name == "replicate") break;
+    if (between) keys.push_back(column.name);
+    between = between || column.name == "composition";
+  }
+  return keys;
+}
+
+std::vector<double> required_numbers(const Dataset& data, const std::string& column) {
+  std::vector<double> values;
+  const auto numbers = data.numbers(column);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!numbers[i]) (void)data.factor(column);  // complains about the cell
+    values.push_back(*numbers[i]);
+  }
+  return values;
+}
+
+std::vector<std::string> required_texts(const Dataset& data, const std::string& column) {
+  const auto factor = data.factor(column);
+  std::vector<std::string> texts;
+  texts.reserve(factor.codes.size());
+  for (const auto code : factor.codes) texts.push_back(factor.levels[code]);
+  return texts;
+}
+
+}  // namespace
+
+RunTeams read_teams(const fs::path& run_folder) {
+  const auto file = teams_file(run_folder);
+  const auto text = read_file(file);
+  const auto keys = varied_keys(read_csv_header(text, file.string()));
+  auto wanted = kTeamColumns;
+  wanted.insert(wanted.end(), keys.begin(), keys.end());
+  const auto data = Dataset::parse(text, file.string(), wanted);
+  RunTeams teams;
+  teams.strategy = data.factor("strategy");
+  teams.composition = data.factor("composition");
+  teams.setting.resize(data.num_rows());
+  for (const auto& key : keys) {
+    teams.varied.push_back(data.factor(key));
+    const auto& factor = teams.varied.back();
+    for (std::size_t i = 0; i < data.num_rows(); ++i)
+      teams.setting[i] += key + "=" + factor.levels[factor.codes[i]] + " ";
+  }
+  teams.replicate = required_texts(data, "replicate");
+  teams.team = required_texts(data, "team");
+  teams.seed_address = required_texts(data, "seed_address");
+  for (const double value : required_numbers(data, "completed")) teams.completed.push_back(value != 0.0);
+  teams.periods = required_numbers(data, "periods");
+  teams.knowledge = required_numbers(data, "knowledge");
+  teams.area_sr = required_numbers(data, "area_sr");
+  if (teams.size() == 0)
+    throw Error{{Diagnostic{.id = "E0906",
+                            .message = "the study has no teams",
+                            .file = file.string(),
+                            .hint = "run the study again",
+                            .infeasible = true}}};
+  return teams;
+}
+
+std::vector<std::size_t> group_teams(const RunTeams& teams) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < teams.size(); ++i) {
+    if (!teams.is_baseline(i)) rows.push_back(i);
+  }
+  return rows;
+}
+
+Factor selected(const Factor& factor, const std::vector<std::size_t>& rows) {
+  return drop_unused({factor.name, factor.levels, selected(factor.codes, rows)});
+}
+
+ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows, const std::string& response,
+                     const std::vector<double>& values) {
+  ModelData data{.response = response, .observations = "teams", .values = selected(values, rows)};
+  const auto add = [&](const Factor& factor) {
+    auto part = selected(factor, rows);
+    if (part.levels.size() < 2) return false;
+    data.terms.push_back({data.factors.size()});
+    data.factors.push_back(std::move(part));
+    return true;
+  };
+  const bool strategies = add(teams.strategy);
+  const bool compositions = add(teams.composition);
+  for (const auto& key : teams.varied) add(key);
+  if (strategies && compositions) data.terms.push_back({0, 1});
+  if (response == "periods") data.observed = selected(teams.completed, rows);
+  return data;
+}
+
+}  // namespace kith

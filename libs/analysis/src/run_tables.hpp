@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kith/analysis/analysis.hpp"
+#include "kith/analysis/dataset.hpp"
+#include "model.hpp"
+
+namespace kith {
+
+// The name that teaching everybody alone has in tables.
+inline constexpr const char* kBaselineName = "baseline";
+
+// The teams of a run, column by column; one element per team.
+struct RunTeams {
+  Factor strategy;
+  Factor composition;
+  std::vector<Factor> varied;        // the study's varied keys
+  std::vector<std::string> setting;  // all of the varied keys together, "" without any
+  std::vector<std::string> replicate;
+  std::vector<std::string> seed_address;
+  std::vector<std::string> team;
+  std::vector<bool> completed;
+  std::vector<double> periods;
+  std::vector<double> knowledge;
+  std::vector<double> area_sr;
+
+  [[nodiscard]] std::size_t size() const noexcept { return team.size(); }
+  [[nodiscard]] bool is_baseline(std::size_t i) const { return strategy.levels[strategy.codes[i]] == kBaselineName; }
+};
+
+// @throws kith::Error as analyze_run does.
+[[nodiscard]] RunTeams read_teams(const std::filesystem::path& run_folder);
+
+// The positions of teams that were taught as groups.
+[[nodiscard]] std::vector<std::size_t> group_teams(const RunTeams& teams);
+
+template <typename T>
+[[nodiscard]] std::vector<T> selected(const std::vector<T>& values, const std::vector<std::size_t>& rows) {
+  std::vector<T> part;
+  part.reserve(rows.size());
+  for (const auto row : rows) part.push_back(values[row]);
+  return part;
+}
+// The factor of these rows; levels that none of them has are dropped.
+[[nodiscard]] Factor selected(const Factor& factor, const std::vector<std::size_t>& rows);
+
+// strategy * composition, and varied keys as main effects, each only if it has levels to compare.
+[[nodiscard]] ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows,
+                                   const std::string& response, const std::vector<double>& values);
+
+}  // namespace kith

@@ -1,0 +1,264 @@
+#include "kith/analysis/analysis.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
+
+namespace kith {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+AnalysisOptions quick() {
+  AnalysisOptions options;
+  options.permutations = 199;
+  options.resamples = 200;
+  return options;
+}
+
+Finding finding(const Analysis& analysis, const std::string& id) {
+  for (const auto& one : analysis.findings) {
+    if (one.id == id) return one;
+  }
+  throw std::out_of_range{"no finding " + id};
+}
+
+bool has_finding(const Analysis& analysis, const std::string& id) {
+  return std::any_of(analysis.findings.begin(), analysis.findings.end(), [&](const auto& one) { return one.id == id; });
+}
+
+// The number in a table of a finding, by the texts of its row's first cell and of its column.
+double number(const Finding& finding, std::size_t table, const std::string& row, const std::string& column) {
+  const auto found = finding.tables.at(table);
+  for (const auto& cells : found.rows) {
+    if (std::get<std::string>(cells.front()) != row) continue;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (found.columns[c].name == column) return std::get<double>(cells[c]);
+    }
+  }
+  throw std::out_of_range{"no cell " + row + "/" + column};
+}
+
+std::pair<ErrorKind, std::string> failure_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return {error.kind(), error.diagnostics().empty() ? "" : error.diagnostics().front().id};
+  }
+  return {ErrorKind::kPartial, "nothing was thrown"};
+}
+
+// Three groups of three; F(2, 6) = 27 and partial eta squared 0.9 by hand: between 54, within 6.
+constexpr const char* kGroups = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\nc,7\nc,8\nc,9\n";
+
+TEST(AnalyzeTable, TestsAModelOnAnyTable) {
+  const auto analysis = analyze_table(Dataset::parse(kGroups, "t.csv"), {"y ~ g", {}}, quick());
+  const auto found = finding(analysis, "y");
+  EXPECT_DOUBLE_EQ(number(found, 0, "g", "F"), 27.0);
+  EXPECT_DOUBLE_EQ(number(found, 0, "g", "partial eta squared"), 0.9);
+  EXPECT_NEAR(number(found, 0, "g", "p"), 0.001, 1e-12);  // F = 27: p = (1 + F / 3)^-3
+  EXPECT_THAT(found.sentence, HasSubstr("It differs by g, a large effect (F(2, 6) = 27.00, p = 0.001"));
+  EXPECT_THAT(found.sentence, HasSubstr("from 2.000 (a) to 8.000 (c)"));
+}
+
+TEST(AnalyzeTable, SaysWhatItDoesNotFind) {
+  const auto analysis =
+      analyze_table(Dataset::parse("g,y\na,1\na,2\na,3\nb,3\nb,1\nb,2\n", "t.csv"), {"y ~ g", {}}, quick());
+  EXPECT_THAT(finding(analysis, "y").sentence, HasSubstr("No effect of g was found (F(1, 4) = 0.00, p = 1.000"));
+}
+
+TEST(AnalyzeTable, LeavesOutIncompleteRowsAndSaysSo) {
+  const auto analysis =
+      analyze_table(Dataset::parse(std::string{kGroups} + "a,\n,4\n", "t.csv"), {"y ~ g", {}}, quick());
+  EXPECT_THAT(analysis.notes, Contains("2 of 11 rows lack a value and were left out"));
+  EXPECT_DOUBLE_EQ(number(finding(analysis, "y"), 0, "g", "F"), 27.0);
+}
+
+TEST(AnalyzeTable, GivesAReasonInsteadOfNaN) {
+  const auto flat = analyze_table(Dataset::parse("g,y\na,1\na,1\nb,1\nb,1\n", "t.csv"), {"y ~ g", {}}, quick());
+  EXPECT_THAT(finding(flat, "y").sentence, HasSubstr("g: not estimable, because"));
+  const auto single = analyze_table(Dataset::parse("g,y\na,1\nb,2\n", "t.csv"), {"y ~ g", {}}, quick());
+  EXPECT_THAT(finding(single, "y").sentence, HasSubstr("g: not estimable, because"));
+  for (const auto* analysis : {&flat, &single}) {
+    const auto tables = finding(*analysis, "y").tables;
+    for (const auto& table : tables) {
+      for (const auto& row : table.rows) {
+        for (const auto& cell : row) {
+          const auto* const value = std::get_if<double>(&cell);
+          EXPECT_TRUE(value == nullptr || std::isfinite(*value)) << table.caption;
+        }
+      }
+    }
+  }
+}
+
+TEST(AnalyzeTable, WarnsOfUnequalSpreadAndOfUnbalancedCells) {
+  std::string text = "g,y\n";
+  for (int i = 0; i < 30; ++i) text += "a," + std::to_string(0.01 * (i % 5)) + "\n";
+  for (int i = 0; i < 25; ++i) text += "b," + std::to_string(10.0 * (i % 5)) + "\n";
+  const auto warnings = analyze_table(Dataset::parse(text, "t.csv"), {"y ~ g", {}}, quick()).findings.front().warnings;
+  EXPECT_THAT(warnings, Contains(HasSubstr("standard deviations differ")));
+  EXPECT_THAT(warnings, Contains(HasSubstr("cells have 25 to 30 rows")));
+}
+
+TEST(AnalyzeTable, TreatsCensoredCountsAsSuch) {
+  std::string text = "g,n,done\n";
+  for (int i = 0; i < 12; ++i) text += "a," + std::to_string(3 + i % 4) + ",true\n";
+  for (int i = 0; i < 12; ++i) text += "b," + std::to_string(9) + (i % 2 == 0 ? ",false\n" : ",true\n");
+  const auto analysis = analyze_table(Dataset::parse(text, "t.csv"), {"n ~ g", "done"}, quick());
+  const auto found = finding(analysis, "n");
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("6 of 24 rows were stopped before they were finished")));
+  EXPECT_THAT(found.sentence, HasSubstr("Log-rank for g: "));
+}
+
+TEST(AnalyzeTable, RefusesWhatItCannotAnalyse) {
+  const auto analyse = [](const char* text, const char* formula) {
+    return failure_of([&] { (void)analyze_table(Dataset::parse(text, "t.csv"), {formula, {}}, quick()); });
+  };
+  EXPECT_EQ(analyse(kGroups, "y ~~ g").first, ErrorKind::kUsage);
+  EXPECT_EQ(analyse(kGroups, "y ~ h"), (std::pair{ErrorKind::kInvalidInput, std::string{"E0901"}}));
+  EXPECT_EQ(analyse("g,y\na,one\n", "y ~ g"), (std::pair{ErrorKind::kInvalidInput, std::string{"E0902"}}));
+  EXPECT_EQ(analyse("g,y\na,1\na,2\n", "y ~ g"), (std::pair{ErrorKind::kInfeasible, std::string{"E0904"}}));
+  EXPECT_EQ(analyse("g,y\na,\n,2\n", "y ~ g"), (std::pair{ErrorKind::kInfeasible, std::string{"E0905"}}));
+  std::string many = "g,y\n";
+  for (int i = 0; i < 201; ++i) many += "level" + std::to_string(i) + ",1\n";
+  EXPECT_EQ(analyse(many.c_str(), "y ~ g"), (std::pair{ErrorKind::kInvalidInput, std::string{"E0907"}}));
+}
+
+// A run folder written by hand: two group strategies and the baseline, two compositions, four replicates. The
+// strategy "joint" saves exactly one period for every group of people; knowledge does not depend on it.
+class RunTest : public testing::Test {
+ protected:
+  RunTest() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "tables");
+  }
+  ~RunTest() override { fs::remove_all(folder_); }
+
+  static std::string row(const std::string& strategy, const std::string& composition, int replicate, int team,
+                         int periods, double knowledge) {
+    return strategy + "," + composition + "," + std::to_string(replicate) + "," + std::to_string(team) + ",7/" +
+           composition + "/" + std::to_string(replicate) + ",true," + std::to_string(periods) + "," +
+           std::to_string(knowledge) + ",0.3\n";
+  }
+  static std::string teams() {
+    std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+    int team = 0;
+    for (const std::string strategy : {"baseline", "common", "joint"}) {
+      for (const std::string composition : {"NNN", "PPP"}) {
+        for (int replicate = 1; replicate <= 4; ++replicate) {
+          ++team;
+          const int people = (composition == "NNN" ? 9 : 6) + replicate % 3;
+          const int periods = strategy == "baseline" ? 2 * people : people - (strategy == "joint" ? 1 : 0);
+          text += row(strategy, composition, replicate, team, periods, 0.5 + 0.01 * ((replicate * 7 + team) % 5));
+        }
+      }
+    }
+    return text;
+  }
+  void write(const std::string& name, const std::string& text) const {
+    write_file_atomically(folder_ / "tables" / name, text);
+  }
+  [[nodiscard]] Analysis analyse() const { return analyze_run(folder_, quick()); }
+
+  fs::path folder_ = fs::path{testing::TempDir()} /
+                     ("kith analysis " + std::string{testing::UnitTest::GetInstance()->current_test_info()->name()});
+};
+
+TEST_F(RunTest, AnswersTheQuestionsOfTheStudy) {
+  write("teams.csv", teams());
+  const auto analysis = analyse();
+  for (const auto* id :
+       {"periods", "knowledge", "periods-within-composition", "knowledge-within-composition", "periods-paired",
+        "knowledge-paired", "demonstrations", "periods-baseline", "knowledge-baseline"})
+    EXPECT_TRUE(has_finding(analysis, id)) << id;
+  EXPECT_THAT(finding(analysis, "periods").sentence, HasSubstr("on 16 teams"));
+  EXPECT_THAT(finding(analysis, "periods").sentence, HasSubstr("It differs by composition"));
+}
+
+TEST_F(RunTest, ComparesStrategiesOnTheSamePeople) {
+  write("teams.csv", teams());
+  const auto found = finding(analyse(), "periods-paired");
+  // Every pair differs by exactly one: the difference is certain and has no spread, which no t test can judge.
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("common - joint: not estimable")));
+}
+
+TEST_F(RunTest, ComparesGroupsWithTeachingAlone) {
+  write("teams.csv", teams());
+  EXPECT_THAT(finding(analyse(), "periods-baseline").sentence,
+              HasSubstr("16 groups that were taught together came to 8.000 periods on average, 8 groups whose members "
+                        "were taught one after the other to 17.00; they differ"));
+}
+
+TEST_F(RunTest, AveragesTheAreasOfAComponentWithoutItsFirstPeriod) {
+  write("teams.csv", teams());
+  std::string periods = "team,period,kc,area_sr\n";
+  for (int team = 9; team <= 24; ++team) {  // the groups
+    const double area = team <= 16 ? 0.5 + 0.001 * team : 0.25 + 0.001 * team;
+    periods += std::to_string(team) + ",1,1,9\n" + std::to_string(team) + ",2,1," + std::to_string(area) + "\n" +
+               std::to_string(team) + ",3,1," + std::to_string(area) + "\n";
+  }
+  write("periods.csv", periods);
+  const auto found = finding(analyse(), "demonstrations");
+  EXPECT_THAT(found.sentence, HasSubstr("Component 1, periods after the first, mean logarithm of the area: joint -1."));
+  EXPECT_THAT(found.sentence, Not(HasSubstr("2.197")));  // log 9 would be in it
+}
+
+TEST_F(RunTest, IsTheSameForTheSameSeed) {
+  write("teams.csv", teams());
+  const auto a = analyse(), b = analyse();
+  ASSERT_EQ(a.findings.size(), b.findings.size());
+  for (std::size_t i = 0; i < a.findings.size(); ++i) {
+    EXPECT_EQ(a.findings[i].sentence, b.findings[i].sentence);
+    for (std::size_t t = 0; t < a.findings[i].tables.size(); ++t)
+      EXPECT_EQ(a.findings[i].tables[t].rows, b.findings[i].tables[t].rows);
+  }
+}
+
+TEST_F(RunTest, RefusesFoldersWithoutResults) {
+  EXPECT_EQ(failure_of([&] { (void)analyze_run(folder_ / "nowhere", quick()); }).first, ErrorKind::kIo);
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }).first, ErrorKind::kInvalidInput);  // no run folder
+  fs::create_directories(folder_ / "inputs");
+  try {
+    (void)analyse();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+    EXPECT_THAT(error.what(), HasSubstr("unfinished study"));
+  }
+}
+
+TEST_F(RunTest, RefusesDamagedTables) {
+  write("teams.csv", "strategy,composition,replicate,team,seed_address,completed,periods,knowledge\n");
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0502"}}));
+  auto text = teams();
+  text.replace(text.find("7/NNN/1,true,"), 14, "7/NNN/1,true,x");
+  write("teams.csv", text);
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0902"}}));
+  write("teams.csv", teams() + row("joint", "PPP", 5, 25, 5, 0.5).replace(0, 5, ""));
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0903"}}));
+}
+
+TEST_F(RunTest, SaysWhatADesignDoesNotAllow) {
+  std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+  for (int i = 1; i <= 3; ++i) text += row("joint", "NNN", i, i, 7 + i, 0.5);
+  write("teams.csv", text);
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInfeasible, std::string{"E0906"}}));
+  for (int i = 1; i <= 3; ++i) text += row("joint", "PPP", i, 3 + i, 5 + i, 0.6);
+  write("teams.csv", text);
+  const auto analysis = analyse();
+  EXPECT_TRUE(has_finding(analysis, "periods"));
+  EXPECT_FALSE(has_finding(analysis, "periods-paired"));
+  EXPECT_THAT(analysis.notes, Contains(HasSubstr("no two strategies taught the same people")));
+}
+
+}  // namespace
+}  // namespace kith

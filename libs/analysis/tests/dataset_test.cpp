@@ -1,0 +1,90 @@
+#include "kith/analysis/dataset.hpp"
+
+#include <gtest/gtest.h>
+
+#include "kith/core/error.hpp"
+
+namespace kith {
+namespace {
+
+constexpr const char* kText =
+    "team,strategy,score,done\n"
+    "1,joint,0.5,true\n"
+    "2,low,NA,false\n"
+    "3,joint,,true\n"
+    "4,low,2,true\n";
+
+Diagnostic diagnostic_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    if (!error.diagnostics().empty()) return error.diagnostics().front();
+  }
+  return {};
+}
+
+TEST(Dataset, ReadsColumnsByName) {
+  const auto data = Dataset::parse(kText, "people.csv");
+  EXPECT_EQ(data.num_rows(), 4u);
+  EXPECT_EQ(data.columns(), (std::vector<std::string>{"team", "strategy", "score", "done"}));
+  EXPECT_EQ(data.factor("strategy").levels, (std::vector<std::string>{"joint", "low"}));
+  EXPECT_EQ(data.line(3), 5u);
+}
+
+TEST(Dataset, TakesEmptyCellsAndNaAsMissing) {
+  const auto data = Dataset::parse(kText, "people.csv");
+  EXPECT_EQ(data.numbers("score"), (std::vector<std::optional<double>>{0.5, std::nullopt, std::nullopt, 2.0}));
+  EXPECT_EQ(data.complete(std::vector<std::string>{"score"}).num_rows(), 2u);
+}
+
+TEST(Dataset, TakesTruthAsOneAndZero) {
+  const auto data = Dataset::parse(kText, "people.csv");
+  EXPECT_EQ(data.numbers("done"), (std::vector<std::optional<double>>{1.0, 0.0, 1.0, 1.0}));
+  EXPECT_FALSE(data.is_numeric("done"));
+  EXPECT_TRUE(data.is_numeric("score"));
+  EXPECT_FALSE(data.is_numeric("strategy"));
+}
+
+TEST(Dataset, KeepsTheRowsThatPassEveryFilter) {
+  const auto data = Dataset::parse(kText, "people.csv");
+  const std::vector<RowFilter> filters{parse_row_filter("strategy=joint"), parse_row_filter("team!=3")};
+  const auto part = data.where(filters);
+  EXPECT_EQ(part.num_rows(), 1u);
+  EXPECT_EQ(part.line(0), 2u);
+}
+
+TEST(Dataset, FiltersAreColumnSignValue) {
+  EXPECT_EQ(parse_row_filter("a!=b=c").value, "b=c");
+  EXPECT_FALSE(parse_row_filter("a!=b").equal);
+  EXPECT_TRUE(parse_row_filter("a=").equal);
+  for (const auto* text : {"strategy", "=x", "!=x"}) EXPECT_THROW((void)parse_row_filter(text), Error) << text;
+}
+
+TEST(Dataset, NamesTheNearestColumnForAMissingOne) {
+  const auto found = diagnostic_of([] { (void)Dataset::parse(kText, "people.csv").cells("stratgy"); });
+  EXPECT_EQ(found.id, "E0901");
+  EXPECT_EQ(found.hint, "did you mean 'strategy'?");
+}
+
+TEST(Dataset, NamesFileAndRowOfATextAmongNumbers) {
+  const auto found = diagnostic_of([] { (void)Dataset::parse("score\n1\ntwo\n", "people.csv").numbers("score"); });
+  EXPECT_EQ(found.id, "E0902");
+  EXPECT_EQ(found.file, "people.csv");
+  EXPECT_EQ(found.line, 3u);
+}
+
+TEST(Dataset, RefusesNumbersThatAreNotFinite) {
+  for (const auto* cell : {"nan", "inf", "1e999", "1,5", "0x10"}) {
+    const auto text = "score\n\"" + std::string{cell} + "\"\n";
+    EXPECT_EQ(diagnostic_of([&] { (void)Dataset::parse(text, "people.csv").numbers("score"); }).id, "E0902") << cell;
+  }
+}
+
+TEST(Dataset, NamesTheRowOfALevelThatIsMissing) {
+  const auto found = diagnostic_of([] { (void)Dataset::parse("a,b\n1,x\n2,\n", "people.csv").factor("b"); });
+  EXPECT_EQ(found.id, "E0903");
+  EXPECT_EQ(found.line, 3u);
+}
+
+}  // namespace
+}  // namespace kith
