@@ -288,11 +288,11 @@ CalibrationOptions search_options(const CalibrateOptions& options) {
   if (options.quick) {
     search.rounds = 2;
     search.points = 36;
-    search.teams = 6;
+    search.teams = 8;
     search.frontier_points = 5;
   }
   if (options.teams) search.teams = *options.teams;
-  search.confirm_teams = options.confirm.value_or(10 * search.teams);
+  search.confirm_teams = options.confirm.value_or(5 * search.teams);
   search.seed = options.seed.value_or(1);
   search.threads = options.threads;
   return search;

@@ -12,9 +12,13 @@ int run_validate(const ValidateOptions& options, Console& console);
 int run_inspect(const InspectOptions& options, Console& console);
 int run_teach(const TeachOptions& options, Console& console);
 int run_study(const StudyOptions& options, Console& console);
+int run_analyze(const AnalyzeOptions& options, Console& console);
+int run_report(const ReportCommandOptions& options, Console& console);
+int run_fit(const FitCommandOptions& options, Console& console);
 int run_doctor(Console& console);
 int run_completion(const CompletionOptions& options, Console& console);
 int run_version(Console& console);
 int run_calibrate(const CalibrateOptions& options, Console& console);
+int run_power(const PowerCommandOptions& options, Console& console);
 
 }  // namespace kith::cli

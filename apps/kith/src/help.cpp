@@ -64,12 +64,21 @@ const std::vector<std::string>& examples_of(const std::string& command) {
       {"study",
        {"kith study studies/paper.toml -o results/paper",
         "kith study quick -o results/quick --set replicates=10 --set teacher.process_noise=0.5"}},
+      {"analyze",
+       {"kith analyze results/paper",
+        "kith analyze people.csv --model 'knowledge ~ strategy*composition' --correct holm"}},
+      {"report", {"kith report results/paper", "kith report results/paper -o paper.html"}},
+      {"fit",
+       {"kith fit results/paper -o fit.json", "kith fit trials.csv --types 2", "kith fit results/paper --method grid"}},
       {"doctor", {"kith doctor", "kith doctor --json"}},
       {"completion",
        {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion zsh)"}},
       {"calibrate",
        {"kith calibrate paper-uncalibrated --targets studies/paper-targets.toml -o mine.toml",
         "kith calibrate studies/paper.toml --targets studies/paper-targets.toml --quick --json"}},
+      {"power",
+       {"kith power studies/paper.toml --effect 'knowledge: joint - common = 0.05' --target 0.9",
+        "kith power studies/paper.toml --findings studies/paper-targets.toml"}},
       {"version", {"kith --version", "kith --version --json"}}};
   return kExamples.at(command);
 }

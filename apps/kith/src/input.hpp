@@ -16,8 +16,11 @@ struct InputText {
 };
 
 /// The file's text, or that of standard input for "-". At most a little more than
-/// a file may have is read. @throws kith::Error (kIo).
+/// a domain or study file may have is read. @throws kith::Error (kIo).
 [[nodiscard]] InputText read_input(const std::string& file);
+
+/// All of standard input.
+[[nodiscard]] InputText read_standard_input();
 
 /// The study of a built-in name, a file or "-", with its overrides; warnings are
 /// returned, errors thrown.

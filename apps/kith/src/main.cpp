@@ -28,6 +28,12 @@ int run(const Options& options, Console& console) {
       return run_teach(options.teach, console);
     case Command::kStudy:
       return run_study(options.study, console);
+    case Command::kAnalyze:
+      return run_analyze(options.analyze, console);
+    case Command::kReport:
+      return run_report(options.report, console);
+    case Command::kFit:
+      return run_fit(options.fit, console);
     case Command::kDoctor:
       return run_doctor(console);
     case Command::kCompletion:
@@ -36,6 +42,8 @@ int run(const Options& options, Console& console) {
       return run_version(console);
     case Command::kCalibrate:
       return run_calibrate(options.calibrate, console);
+    case Command::kPower:
+      return run_power(options.power, console);
   }
   return kInternalError;
 }

@@ -137,6 +137,44 @@ void add_study(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_analyze(CLI::App& app, Options& options) {
+  auto& analyze = options.analyze;
+  auto& command = *app.add_subcommand("analyze", "Test what a study found, or a model on any table");
+  command.add_option("input", analyze.input, "Run folder, CSV file, or '-' for standard input")
+      ->required()
+      ->type_name("DIR|CSV");
+  auto* model =
+      command.add_option("--model", analyze.model, "What explains what, such as 'knowledge ~ strategy*composition'")
+          ->type_name("FORMULA");
+  takes_word(*command.add_option("--table", analyze.table, "Table of the run folder that the model is about")
+                  ->capture_default_str()
+                  ->needs(model),
+             "NAME", {"teams", "learners", "periods", "responses", "demonstrations", "progress"});
+  command.add_option("--where", analyze.where, "Rows to keep, COLUMN=VALUE or COLUMN!=VALUE (may be repeated)")
+      ->allow_extra_args(false)
+      ->type_name("CONDITION");
+  command.add_option("--observed", analyze.observed, "Column that is false where a count was cut off")
+      ->type_name("COLUMN")
+      ->needs(model);
+  command.add_flag("--brief", analyze.brief, "Only what was found, in words, without tables");
+  command.add_option("--alpha", analyze.alpha, "Level of tests; intervals have one minus it")
+      ->capture_default_str()
+      ->check([](const std::string& text) { return wrong_fraction(text); })
+      ->type_name("P");
+  takes_word(
+      *command.add_option("--correct", analyze.correction, "Correction of families of tests")->capture_default_str(),
+      "HOW", {"bonferroni", "holm", "none"});
+  takes_integer(*command.add_option("--permutations", analyze.permutations, "Shuffles of permutation tests")
+                     ->capture_default_str(),
+                99, 1'000'000);
+  takes_integer(
+      *command.add_option("--resamples", analyze.resamples, "Resamples of bootstrap intervals")->capture_default_str(),
+      100, 1'000'000);
+  takes_integer(*command.add_option("--seed", analyze.seed, "Root of shuffles and resamples")->capture_default_str(),
+                0);
+  add_common(command, options.common);
+}
+
 void add_progress(CLI::App& command, ProgressMode& mode) {
   add_mode<ProgressMode>(command, "--progress", mode, "How to show progress, on stderr", "HOW",
                          {{"auto", ProgressMode::kAuto},
@@ -159,10 +197,11 @@ void add_calibrate(CLI::App& app, Options& options) {
                 1, 1024);
   takes_integer(*command.add_option("--seed", calibrate.seed, "Root of all random streams of the search (default: 1)"),
                 0);
-  takes_integer(*command.add_option("--teams", calibrate.teams, "Teams per cell for each setting tried (default: 20)"),
+  takes_integer(*command.add_option("--teams", calibrate.teams,
+                                    "Teams per cell for each setting of the last design (default: 40)"),
                 2, 100'000);
   takes_integer(*command.add_option("--confirm", calibrate.confirm,
-                                    "Teams per cell to confirm the best settings (default: ten times --teams)"),
+                                    "Teams per cell to confirm the best settings (default: five times --teams)"),
                 2, 1'000'000);
   command.add_flag("--quick", calibrate.quick, "A coarse search in a tenth of the time");
   command.add_option("--set", calibrate.set, "Set a key of the study (may be repeated)")
@@ -170,6 +209,89 @@ void add_calibrate(CLI::App& app, Options& options) {
       ->type_name("KEY=VALUE");
   command.add_flag("--yes", calibrate.yes, "Replace the file of -o if there is one");
   add_progress(command, calibrate.progress);
+  add_common(command, options.common);
+}
+
+void add_report(CLI::App& app, Options& options) {
+  auto& command = *app.add_subcommand("report", "Write a run's figures, tables, findings and methods as one web page");
+  command.add_option("folder", options.report.folder, "Run folder")->required()->type_name("DIR");
+  command.add_option("-o,--out", options.report.out, "The page to write (default: report.html in DIR); '-' is stdout")
+      ->type_name("FILE");
+  add_common(command, options.common);
+}
+
+void add_fit(CLI::App& app, Options& options) {
+  auto& fit = options.fit;
+  auto& command = *app.add_subcommand("fit", "Estimate how people learn from what they saw and answered");
+  command.add_option("logs", fit.logs, "Run folders, tables with a row per trial, or the tables of 2021")
+      ->required()
+      ->type_name("LOGS");
+  takes_word(*command.add_option("--method", fit.method, "How to fit")->capture_default_str(), "HOW",
+             {"likelihood", "grid"});
+  takes_word(
+      *command.add_option("--answers", fit.answers, "What of an answer counts: the path, or whether it is right")
+           ->capture_default_str(),
+      "WHAT", {"path", "verdict"});
+  takes_integer(*command.add_option("--types", fit.types, "Types of people without labels (default: as labelled)"), 1,
+                6);
+  takes_integer(
+      *command.add_option("--folds", fit.folds, "Parts of the cross-validation; 0: none")->capture_default_str(), 0,
+      1000);
+  takes_integer(*command.add_option("--replicates", fit.replicates, "Runs of the particle filter per person")
+                     ->capture_default_str(),
+                1, 1000);
+  takes_integer(*command.add_option("--seed", fit.seed, "Root of all random streams")->capture_default_str(), 0);
+  takes_integer(*command.add_option("-j,--threads", fit.threads,
+                                    "Worker threads (default: one per core); never changes a result"),
+                1, 1024);
+  command.add_option("-o,--out", fit.out, "Write the result to this file, as JSON")->type_name("FILE");
+  command.add_flag("--yes", fit.yes, "Replace the file of -o if there is one");
+  add_mode<ProgressMode>(command, "--progress", fit.progress, "How to show progress, on stderr", "HOW",
+                         {{"auto", ProgressMode::kAuto},
+                          {"bar", ProgressMode::kBar},
+                          {"json", ProgressMode::kJson},
+                          {"none", ProgressMode::kNone}});
+  add_common(command, options.common);
+}
+
+void add_power(CLI::App& app, Options& options) {
+  auto& power = options.power;
+  auto& command = *app.add_subcommand("power", "Say how many teams a study needs to show an effect");
+  command.add_option("study", power.study, "Built-in study or file; '-' is standard input")
+      ->required()
+      ->type_name("STUDY");
+  auto* effects = command
+                      .add_option("--effect", power.effects,
+                                  "Such as 'periods: strategy eta2 = 0.02' (may be repeated; default: all tests)")
+                      ->allow_extra_args(false)
+                      ->type_name("EFFECT");
+  command.add_option("--target", power.target, "Power wanted")->capture_default_str()->type_name("P");
+  command.add_option("--alpha", power.alpha, "Level of the tests")->capture_default_str()->type_name("P");
+  takes_integer(*command.add_option("--teams", power.teams, "Teams per cell, separated by commas")
+                     ->delimiter(',')
+                     ->allow_extra_args(false),
+                2, 100'000);
+  takes_integer(*command.add_option("--pool", power.pool, "Teams per cell to draw studies from (default: 1000)"), 4,
+                1'000'000);
+  takes_integer(*command.add_option("--draws", power.draws, "Studies drawn of each size")->capture_default_str(), 10,
+                1'000'000);
+  command.add_flag("--paired", power.paired, "Every strategy teaches the same people");
+  auto* findings = command
+                       .add_option("--findings", power.findings,
+                                   "Repeat the study and say how often the findings of this targets file come out")
+                       ->type_name("FILE");
+  findings->excludes(effects);
+  takes_integer(*command.add_option("--studies", power.studies, "Repetitions for --findings")->capture_default_str(), 2,
+                100'000);
+  takes_integer(*command.add_option("-j,--threads", power.threads,
+                                    "Worker threads (default: one per core); never changes a result"),
+                1, 1024);
+  takes_integer(*command.add_option("--seed", power.seed, "Root of all random streams (default: that of the study)"),
+                0);
+  command.add_option("--set", power.set, "Set a key of the study (may be repeated)")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  add_progress(command, power.progress);
   add_common(command, options.common);
 }
 
@@ -195,15 +317,20 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_teach(*app, options);
   add_study(*app, options);
   add_calibrate(*app, options);
+  add_power(*app, options);
+  add_analyze(*app, options);
+  add_report(*app, options);
+  add_fit(*app, options);
   add_others(*app, options);
   return app;
 }
 
 Command command_of(const std::string& name) {
   static const std::map<std::string, Command> kCommands{
-      {"validate", Command::kValidate}, {"inspect", Command::kInspect},    {"teach", Command::kTeach},
-      {"study", Command::kStudy},       {"doctor", Command::kDoctor},      {"completion", Command::kCompletion},
-      {"version", Command::kVersion},   {"calibrate", Command::kCalibrate}};
+      {"report", Command::kReport},   {"validate", Command::kValidate},   {"inspect", Command::kInspect},
+      {"teach", Command::kTeach},     {"study", Command::kStudy},         {"analyze", Command::kAnalyze},
+      {"fit", Command::kFit},         {"doctor", Command::kDoctor},       {"completion", Command::kCompletion},
+      {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower}};
   return kCommands.at(name);
 }
 

@@ -71,6 +71,14 @@ std::string wrong_integer(const std::string& text, std::int64_t min, std::int64_
          ", not '" + text + "'";
 }
 
+std::string wrong_fraction(const std::string& text) {
+  double value = 0.0;
+  const auto* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec == std::errc{} && result.ptr == end && value > 0.0 && value < 1.0) return "";
+  return "must be a number between 0 and 1, not '" + text + "'";
+}
+
 std::string wrong_word(const std::string& text, const std::vector<std::string>& words) {
   if (std::find(words.begin(), words.end(), text) != words.end()) return "";
   const auto nearest = nearest_word(text, words);

@@ -13,6 +13,9 @@ namespace kith::cli {
 [[nodiscard]] std::string wrong_integer(const std::string& text, std::int64_t min,
                                         std::int64_t max = std::numeric_limits<std::int64_t>::max());
 
+/// Why the text is no number between 0 and 1, both excluded, or nothing.
+[[nodiscard]] std::string wrong_fraction(const std::string& text);
+
 /// Why the text is none of the words; behind a line break the nearest of them. Or nothing.
 [[nodiscard]] std::string wrong_word(const std::string& text, const std::vector<std::string>& words);
 

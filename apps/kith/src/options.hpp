@@ -7,7 +7,20 @@
 
 namespace kith::cli {
 
-enum class Command { kValidate, kInspect, kTeach, kStudy, kDoctor, kCompletion, kVersion, kCalibrate };
+enum class Command {
+  kReport,
+  kValidate,
+  kInspect,
+  kTeach,
+  kStudy,
+  kDoctor,
+  kCompletion,
+  kVersion,
+  kCalibrate,
+  kPower,
+  kAnalyze,
+  kFit
+};
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
 
@@ -53,6 +66,39 @@ struct StudyOptions {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
+struct AnalyzeOptions {
+  std::string input;               ///< Run folder, CSV file, or "-" for standard input.
+  std::string model;               ///< A formula; empty: the analyses of a study.
+  std::string table = "teams";     ///< Of a run folder, for the model.
+  std::string observed;            ///< Column that tells counts that were not cut off; empty: none was.
+  std::vector<std::string> where;  ///< Rows to keep, "COLUMN=VALUE" or "COLUMN!=VALUE".
+  double alpha = 0.05;
+  std::string correction = "bonferroni";
+  std::uint64_t seed = 1;
+  std::size_t permutations = 999;
+  std::size_t resamples = 1000;
+  bool brief = false;  ///< Findings in words, without tables.
+};
+
+struct ReportCommandOptions {
+  std::string folder;
+  std::string out;  ///< "-" is standard output; empty: report.html in the folder.
+};
+
+struct FitCommandOptions {
+  std::vector<std::string> logs;  ///< Run folders, tables of trials, or the tables of 2021.
+  std::string method = "likelihood";
+  std::string answers = "path";  ///< What of an answer counts: "path" or "verdict".
+  std::string out;               ///< File for the JSON result; empty: none.
+  std::size_t types = 0;         ///< Types without labels; 0: as labelled.
+  std::size_t folds = 5;         ///< Of the cross-validation; 0: none.
+  std::size_t replicates = 2;    ///< Runs of the filter per person.
+  std::uint64_t seed = 1;
+  std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
+  bool yes = false;         ///< Replace an existing file.
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
 struct CompletionOptions {
   std::string shell;
 };
@@ -71,6 +117,23 @@ struct CalibrateOptions {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
+struct PowerCommandOptions {
+  std::string study;
+  std::vector<std::string> effects;
+  std::string target = "0.8";
+  std::string alpha = "0.05";
+  std::vector<std::uint32_t> teams;  ///< Per cell; empty: a range of sizes, or those of the study.
+  std::optional<std::size_t> pool;   ///< Teams per cell to draw studies from.
+  std::size_t draws = 1000;
+  bool paired = false;
+  std::string findings;  ///< A targets file: repeat the study and look for its findings.
+  std::size_t studies = 200;
+  std::optional<std::uint64_t> seed;
+  std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
+  std::vector<std::string> set;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
 /// One command line, understood.
 struct Options {
   Command command = Command::kVersion;
@@ -79,8 +142,12 @@ struct Options {
   InspectOptions inspect;
   TeachOptions teach;
   StudyOptions study;
+  AnalyzeOptions analyze;
+  ReportCommandOptions report;
   CompletionOptions completion;
   CalibrateOptions calibrate;
+  PowerCommandOptions power;
+  FitCommandOptions fit;
 };
 
 /// What `kith inspect --show` can show.

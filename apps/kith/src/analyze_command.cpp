@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "input.hpp"
+#include "json.hpp"
+#include "kith/analysis/analysis.hpp"
+#include "kith/core/error.hpp"
+#include "wrapped.hpp"
+
+namespace kith::cli {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+
+AnalysisOptions analysis_options(const AnalyzeOptions& options) {
+  AnalysisOptions result;
+  result.alpha = options.alpha;
+  result.correction = options.correction == "holm"   ? Correction::kHolm
+                      : options.correction == "none" ? Correction::kNone
+                                                     : Correction::kBonferroni;
+  result.seed = options.seed;
+  result.permutations = options.permutations;
+  result.resamples = options.resamples;
+  return result;
+}
+
+// The table that the model is about: a file, standard input, or one of a run folder.
+Dataset dataset_of(const AnalyzeOptions& options) {
+  namespace fs = std::filesystem;
+  if (options.input == "-") {
+    const auto input = read_standard_input();
+    return Dataset::parse(input.text, input.name);
+  }
+  std::error_code failure;
+  if (!fs::is_directory(options.input, failure)) return Dataset::read(options.input);
+  const auto file = fs::path{options.input} / "tables" / (options.table + ".csv");
+  if (fs::exists(file, failure)) return Dataset::read(file);
+  throw Error{ErrorKind::kInvalidInput,
+              options.input + " has no tables/" + options.table + ".csv; it is no finished run folder"};
+}
+
+Analysis analysis_of(const AnalyzeOptions& options) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const bool is_run = options.input != "-" && !fs::is_regular_file(options.input, failure);
+  if (options.model.empty()) {
+    if (!is_run) throw Error{ErrorKind::kUsage, "a table needs --model, such as --model 'knowledge ~ strategy'"};
+    if (!options.where.empty()) throw Error{ErrorKind::kUsage, "--where needs --model"};
+    return analyze_run(options.input, analysis_options(options));
+  }
+  std::vector<RowFilter> filters;
+  for (const auto& text : options.where) filters.push_back(parse_row_filter(text));
+  ModelQuestion question{options.model, {}};
+  if (!options.observed.empty()) question.observed = options.observed;
+  return analyze_table(dataset_of(options).where(filters), question, analysis_options(options));
+}
+
+std::string text_of(const ResultTable& table, const Console& console) {
+  std::string alignment;
+  std::vector<std::string> header;
+  for (const auto& column : table.columns) {
+    alignment += column.kind == ResultKind::kText ? 'l' : 'r';
+    header.push_back(column.name);
+  }
+  TextTable text{alignment};
+  text.add(header);
+  for (auto& row : formatted_rows(table)) text.add(std::move(row));
+  return "\n" + console.dim(table.caption) + "\n" + text.text(console);
+}
+
+std::string text_of(const Finding& finding, bool brief, const Console& console) {
+  std::string text = console.bold(finding.title) + "\n";
+  text += console.dim(finding.model) + "\n";
+  text += wrapped(finding.sentence, kWidth) + "\n";
+  for (const auto& warning : finding.warnings) text += wrapped("Note: " + warning + ".", kWidth, "      ") + "\n";
+  if (brief) return text;
+  for (const auto& table : finding.tables) text += text_of(table, console);
+  return text;
+}
+
+Json cell_json(const TableCell& cell) {
+  return std::visit(
+      [](const auto& value) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
+          return nullptr;
+        } else {
+          return value;
+        }
+      },
+      cell);
+}
+
+Json to_json(const ResultTable& table) {
+  Json columns = Json::array();
+  for (const auto& column : table.columns) columns.push_back(column.name);
+  Json rows = Json::array();
+  for (const auto& row : table.rows) {
+    Json cells = Json::array();
+    for (const auto& cell : row) cells.push_back(cell_json(cell));
+    rows.push_back(std::move(cells));
+  }
+  return {{"caption", table.caption}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
+Json to_json(const Analysis& analysis, const AnalyzeOptions& options) {
+  Json findings = Json::array();
+  for (const auto& finding : analysis.findings) {
+    Json tables = Json::array();
+    for (const auto& table : finding.tables) tables.push_back(to_json(table));
+    findings.push_back({{"id", finding.id},
+                        {"title", finding.title},
+                        {"question", finding.question},
+                        {"model", finding.model},
+                        {"sentence", finding.sentence},
+                        {"warnings", finding.warnings},
+                        {"tables", std::move(tables)}});
+  }
+  return {{"schema", "kith.analyze/1"},
+          {"subject", analysis.subject},
+          {"alpha", options.alpha},
+          {"correction", options.correction},
+          {"permutations", options.permutations},
+          {"resamples", options.resamples},
+          {"seed", options.seed},
+          {"notes", analysis.notes},
+          {"findings", std::move(findings)}};
+}
+
+}  // namespace
+
+int run_analyze(const AnalyzeOptions& options, Console& console) {
+  const auto analysis = analysis_of(options);
+  if (console.json()) {
+    console.print_json(to_json(analysis, options));
+    return 0;
+  }
+  std::string text;
+  for (const auto& note : analysis.notes) text += wrapped("Note: " + note + ".", kWidth, "      ") + "\n";
+  for (const auto& finding : analysis.findings)
+    text += (text.empty() ? "" : "\n") + text_of(finding, options.brief, console);
+  console.print(text);
+  return 0;
+}
+
+}  // namespace kith::cli

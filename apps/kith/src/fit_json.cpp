@@ -1,0 +1,129 @@
+#include "fit_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace kith::cli {
+namespace {
+
+constexpr const char* kSchema = "kith.fit/1";
+
+// An end that the data leave open is null.
+Json parameter(double value, const FitInterval& interval) {
+  return {{"estimate", value},
+          {"lower", interval.lower_open ? Json{} : Json{interval.lower}},
+          {"upper", interval.upper_open ? Json{} : Json{interval.upper}}};
+}
+
+Json parameter(const ParameterPosterior& posterior) {
+  return {{"mean", posterior.mean},
+          {"sd", posterior.sd},
+          {"lower", posterior.lower},
+          {"upper", posterior.upper},
+          {"contraction", posterior.contraction()}};
+}
+
+Json type_to_json(const TypeReport& type) {
+  const auto& p = type.fit.parameters;
+  const auto& known = type.identifiability;
+  return {{"name", type.name},
+          {"people", type.fit.people},
+          {"share", type.share},
+          {"log_likelihood", type.fit.log_likelihood},
+          {"ability_mean", parameter(p.ability_mean, type.fit.ability_mean)},
+          {"ability_sd", parameter(p.ability_sd, type.fit.ability_sd)},
+          {"confirm_gain_scale", parameter(p.confirm_scale, type.fit.confirm_scale)},
+          {"correct_gain_scale", parameter(p.correct_scale, type.fit.correct_scale)},
+          {"identifiability",
+           {{"gains_apart", known.gains_apart},
+            {"gains_statistic", known.gains.statistic},
+            {"gains_p", known.gains.p},
+            {"contraction",
+             {{"ability", known.ability},
+              {"confirm_gain", known.confirm_gain},
+              {"correct_gain", known.correct_gain},
+              {"difference", known.difference}}},
+            {"gain_correlation", known.gain_correlation},
+            {"sentences", known.sentences}}}};
+}
+
+Json person_to_json(const PersonReport& person) {
+  Json result{{"id", person.id},
+              {"type", person.type.empty() ? Json{} : Json{person.type}},
+              {"periods", person.periods},
+              {"answered", person.answered},
+              {"correct", person.correct},
+              {"ability", parameter(person.posterior.ability)},
+              {"confirm_gain", parameter(person.posterior.confirm_gain)},
+              {"correct_gain", parameter(person.posterior.correct_gain)},
+              {"gain_correlation", person.posterior.gain_correlation}};
+  if (!person.type_probabilities.empty()) {
+    result["type_probabilities"] = person.type_probabilities;
+    result["type_unclear"] = person.type_unclear;
+  }
+  return result;
+}
+
+}  // namespace
+
+Json to_json(const FitReport& report, const std::vector<Diagnostic>& notes) {
+  Json document{{"schema", kSchema}, {"method", "likelihood"}};
+  document["types"] = Json::array();
+  for (const auto& type : report.types) document["types"].push_back(type_to_json(type));
+  document["people"] = Json::array();
+  for (const auto& person : report.people) document["people"].push_back(person_to_json(person));
+  document["cross_validation"] = Json::array();
+  for (const auto& model : report.cross_validation) {
+    document["cross_validation"].push_back({{"model", model.model},
+                                            {"log_density", model.log_density},
+                                            {"difference", model.difference},
+                                            {"difference_se", model.difference_se}});
+  }
+  document["sentences"] = report.sentences;
+  document["notes"] = Json::array();
+  for (const auto& note : notes) document["notes"].push_back(to_json(note));
+  return document;
+}
+
+Json to_json(const AccuracyFit& fit) {
+  Json document{
+      {"schema", kSchema}, {"method", "accuracy"}, {"ability_sd", fit.ability_sd}, {"reliability", fit.reliability}};
+  document["people"] = Json::array();
+  for (const auto& person : fit.people) {
+    document["people"].push_back({{"id", person.id},
+                                  {"answered", person.answered},
+                                  {"correct", person.correct},
+                                  {"ability", person.ability},
+                                  {"sd", person.sd},
+                                  {"lower", person.lower},
+                                  {"upper", person.upper}});
+  }
+  document["items"] = Json::array();
+  for (const auto& item : fit.items) {
+    document["items"].push_back(
+        {{"id", item.id}, {"answered", item.answered}, {"correct", item.correct}, {"difficulty", item.difficulty}});
+  }
+  return document;
+}
+
+Json to_json(const std::vector<GridSearchGroup>& groups) {
+  Json document{{"schema", kSchema}, {"method", "grid"}};
+  document["groups"] = Json::array();
+  for (const auto& group : groups) {
+    document["groups"].push_back({{"name", group.name},
+                                  {"people", group.people},
+                                  {"points", group.points},
+                                  {"kept", group.kept},
+                                  {"least_error", group.least_error},
+                                  {"best",
+                                   {{"ability", group.best.ability},
+                                    {"confirm_gain", group.best.confirm_gain},
+                                    {"correct_gain", group.best.correct_gain}}},
+                                  {"ability_mean", group.ability_mean},
+                                  {"ability_sd", group.ability_sd},
+                                  {"confirm_gain_scale", group.confirm_scale},
+                                  {"correct_gain_scale", group.correct_scale}});
+  }
+  return document;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,143 @@
+#include "fit_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kith::cli {
+namespace {
+
+constexpr std::size_t kShown = 30;
+
+std::string interval_text(const FitInterval& interval) {
+  const auto lower = interval.lower_open ? std::string{"?"} : fmt::format("{:.3f}", interval.lower);
+  const auto upper = interval.upper_open ? std::string{"?"} : fmt::format("{:.3f}", interval.upper);
+  return lower + " to " + upper;
+}
+
+std::string populations(const FitReport& report, const Console& console) {
+  TextTable table{"lrrlrlrlrl"};
+  table.add({"type", "people", "mean ability", "", "sd", "", "confirm gain", "", "correct gain", ""});
+  for (const auto& type : report.types) {
+    const auto& p = type.fit.parameters;
+    table.add({type.name, fmt::format("{:.0f}", type.fit.people), fmt::format("{:.3f}", p.ability_mean),
+               interval_text(type.fit.ability_mean), fmt::format("{:.3f}", p.ability_sd),
+               interval_text(type.fit.ability_sd), fmt::format("{:.3f}", p.confirm_scale),
+               interval_text(type.fit.confirm_scale), fmt::format("{:.3f}", p.correct_scale),
+               interval_text(type.fit.correct_scale)});
+  }
+  return console.bold("Populations") + "\n" + table.text(console) +
+         console.dim(
+             "gains: scale of a half-normal; intervals of 95 % by profile likelihood; ?: the data set no limit") +
+         "\n";
+}
+
+std::string what_can_be_told(const FitReport& report, const Console& console) {
+  std::string text = "\n" + console.bold("What these data can tell") + "\n";
+  for (const auto& type : report.types) {
+    for (const auto& sentence : type.identifiability.sentences) {
+      text += "  " + (report.types.size() > 1 ? type.name + ": " : "") + sentence + "\n";
+    }
+  }
+  for (const auto& sentence : report.sentences) text += "  " + sentence + "\n";
+  return text;
+}
+
+std::string posterior_text(const ParameterPosterior& posterior) {
+  return fmt::format("{:.3f} ({:.3f} to {:.3f})", posterior.mean, posterior.lower, posterior.upper);
+}
+
+std::string type_text(const PersonReport& person) {
+  if (person.type_probabilities.empty()) return person.type.empty() ? "-" : person.type;
+  const auto likeliest = std::max_element(person.type_probabilities.begin(), person.type_probabilities.end());
+  const auto number = likeliest - person.type_probabilities.begin() + 1;
+  return fmt::format("{} ({:.2f}){}", number, *likeliest, person.type_unclear ? " cannot tell yet" : "");
+}
+
+std::string people(const FitReport& report, const Console& console) {
+  TextTable table{"llrlll"};
+  table.add({"person", "type", "right", "ability", "confirm gain", "correct gain"});
+  for (std::size_t i = 0; i < std::min(report.people.size(), kShown); ++i) {
+    const auto& person = report.people[i];
+    table.add({person.id, type_text(person), fmt::format("{}/{}", person.correct, person.answered),
+               posterior_text(person.posterior.ability), posterior_text(person.posterior.confirm_gain),
+               posterior_text(person.posterior.correct_gain)});
+  }
+  auto text = "\n" + console.bold("People") + " (means and 95 % intervals)\n" + table.text(console);
+  if (report.people.size() > kShown) {
+    text +=
+        console.dim(fmt::format("... and {} more; all of them are in the JSON", report.people.size() - kShown)) + "\n";
+  }
+  return text;
+}
+
+std::string models(const FitReport& report, const Console& console) {
+  if (report.cross_validation.empty()) return "";
+  TextTable table{"lrrr"};
+  table.add({"model", "log density", "difference", "se"});
+  for (const auto& model : report.cross_validation) {
+    table.add({model.model, fmt::format("{:.1f}", model.log_density), fmt::format("{:.1f}", model.difference),
+               fmt::format("{:.1f}", model.difference_se)});
+  }
+  return "\n" + console.bold("Models, by people who were held out") + "\n" + table.text(console);
+}
+
+// A letter for the type: its label if that is one.
+char letter_of(const TypeReport& type, std::size_t k) {
+  const bool letter = type.name.size() == 1 &&
+                      ((type.name[0] >= 'A' && type.name[0] <= 'Z') || (type.name[0] >= 'a' && type.name[0] <= 'z'));
+  return letter ? type.name[0] : static_cast<char>('A' + static_cast<char>(k));
+}
+
+}  // namespace
+
+std::string text_of(const FitReport& report, const Console& console) {
+  auto text = populations(report, console) + what_can_be_told(report, console) + models(report, console) +
+              people(report, console);
+  text += "\n" + console.bold("For a study file") + "\n";
+  for (std::size_t k = 0; k < report.types.size(); ++k) {
+    text += (k == 0 ? "" : "\n") + learner_section(letter_of(report.types[k], k), report.types[k]);
+  }
+  return text;
+}
+
+std::string text_of(const AccuracyFit& fit, const Console& console) {
+  std::string text = fmt::format(
+      "{} people, {} questions. These data tell who answered what, not what people saw between answers:\n"
+      "abilities below are log-odds of being right. They are silent about the gains from feedback, and about the\n"
+      "learning ability of kith's learners.\n\n"
+      "abilities vary between people with a standard deviation of {:.2f} log-odds; reliability {:.2f}\n\n",
+      fit.people.size(), fit.items.size(), fit.ability_sd, fit.reliability);
+  TextTable table{"lrrl"};
+  table.add({"person", "right", "ability", ""});
+  for (std::size_t i = 0; i < std::min(fit.people.size(), kShown); ++i) {
+    const auto& person = fit.people[i];
+    table.add({person.id, fmt::format("{}/{}", person.correct, person.answered), fmt::format("{:.2f}", person.ability),
+               fmt::format("{:.2f} to {:.2f}", person.lower, person.upper)});
+  }
+  text += table.text(console);
+  if (fit.people.size() > kShown) {
+    text += console.dim(fmt::format("... and {} more; all of them are in the JSON", fit.people.size() - kShown)) + "\n";
+  }
+  return text;
+}
+
+std::string text_of(const std::vector<GridSearchGroup>& groups, const Console& console) {
+  TextTable table{"lrrrrrrr"};
+  table.add({"type", "people", "kept", "least error", "ability", "sd", "confirm gain", "correct gain"});
+  for (const auto& group : groups) {
+    const auto figure = [&](double value) { return group.kept == 0 ? std::string{"-"} : fmt::format("{:.3f}", value); };
+    table.add({group.name, fmt::format("{}", group.people), fmt::format("{} of {}", group.kept, group.points),
+               fmt::format("{:.3f}", group.least_error), figure(group.ability_mean), figure(group.ability_sd),
+               figure(group.confirm_scale), figure(group.correct_scale)});
+  }
+  return table.text(console) +
+         console.dim(
+             "the published grid search: points whose mean error |final belief - share of final tests right| is at "
+             "most\n"
+             "0.2 are fitted as if they were people. It has no likelihood: the spread is that of the grid, not of "
+             "people") +
+         "\n";
+}
+
+}  // namespace kith::cli

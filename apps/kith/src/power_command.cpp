@@ -1,0 +1,303 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "json.hpp"
+#include "kith/core/error.hpp"
+#include "kith/planning/power.hpp"
+#include "planning_input.hpp"
+#include "progress.hpp"
+#include "words.hpp"
+
+namespace kith::cli {
+namespace {
+
+constexpr std::size_t kDefaultPool = 1'000;
+
+// --- input ------------------------------------------------------------------------
+
+double fraction(const std::string& text, const std::string& option) {
+  double value = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(value > 0.0 && value < 1.0))
+    throw Error{ErrorKind::kUsage, option + " must be a number between 0 and 1, not '" + text + "'"};
+  return value;
+}
+
+Effect effect_of(const std::string& text, const StudySpec& spec) {
+  auto reading = parse_effect(text, spec);
+  if (!reading.effect) {
+    Diagnostic diagnostic;
+    diagnostic.id = "E0809";
+    diagnostic.file = "--effect";
+    diagnostic.message = reading.problem;
+    diagnostic.hint = reading.hint;
+    throw Error{{diagnostic}};
+  }
+  return *reading.effect;
+}
+
+// What the default analyses test, as far as the design allows.
+std::vector<Effect> default_effects(const StudySpec& spec) {
+  std::vector<Effect> effects;
+  for (const auto* text : {"periods: strategy", "periods: composition", "periods: strategy x composition",
+                           "knowledge: strategy", "knowledge: composition", "knowledge: strategy x composition",
+                           "area_sr: strategy", "periods: group - baseline", "knowledge: group - baseline"}) {
+    if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
+  }
+  if (!effects.empty()) return effects;
+  throw Error{ErrorKind::kUsage, "nothing can be compared in this study: it has one cell, or only the baseline"};
+}
+
+std::vector<std::size_t> sizes_of(const PowerCommandOptions& options) {
+  std::vector<std::size_t> teams(options.teams.begin(), options.teams.end());
+  if (teams.empty()) teams = PowerOptions{}.teams;
+  std::sort(teams.begin(), teams.end());
+  teams.erase(std::unique(teams.begin(), teams.end()), teams.end());
+  return teams;
+}
+
+// --- text -------------------------------------------------------------------------
+
+std::string size_text(const Effect& effect, double size) {
+  const auto* const how = effect.imposed ? "imposed" : "as simulated";
+  if (effect.kind == Effect::Kind::kContrast) return fmt::format("difference {:.3g} {}", size, how);
+  return fmt::format("partial eta squared {:.2g} {}", size, how);
+}
+
+std::string needed_text(const PowerCurve& curve, const PowerOptions& options) {
+  const auto& needed = curve.needed;
+  const auto largest = options.teams.back();
+  std::string text;
+  if (!needed.estimate) {
+    text = fmt::format("power {:g} takes more than {} teams per cell", options.target, largest);
+    if (needed.low) text += fmt::format(" (at least {:.0f})", std::ceil(*needed.low));
+  } else {
+    const bool smallest = *needed.estimate <= static_cast<double>(options.teams.front());
+    text = fmt::format("power {:g} {} {:.0f} teams per cell", options.target, smallest ? "with at most" : "from",
+                       std::ceil(*needed.estimate));
+    if (!smallest || !needed.high || *needed.high > *needed.estimate) {
+      text += fmt::format(
+          " ({:.0f} .. {})", std::ceil(*needed.low),
+          needed.high ? fmt::format("{:.0f}", std::ceil(*needed.high)) : fmt::format("more than {}", largest));
+    }
+  }
+  if (needed.analytic) text += fmt::format("; non-central F: {}", *needed.analytic);
+  return text;
+}
+
+// One line per size; the bar is the power, ':' the power wanted.
+std::string curve_text(const PowerCurve& curve, const PowerOptions& options, const Console& console) {
+  constexpr std::size_t kWidth = 40;
+  TextTable table{"rrlrl"};
+  table.add({"teams", "power", "95 % interval", "by F", "0" + std::string(kWidth - 2, ' ') + "1"});
+  for (const auto& point : curve.points) {
+    std::string bar(kWidth, ' ');
+    const auto full = static_cast<std::size_t>(std::lround(point.power * static_cast<double>(kWidth)));
+    std::fill_n(bar.begin(), full, '#');
+    const auto wanted = static_cast<std::size_t>(options.target * static_cast<double>(kWidth));
+    if (wanted >= full) bar[std::min(wanted, kWidth - 1)] = ':';
+    bar.resize(std::max(full, std::min(wanted, kWidth - 1) + 1));
+    table.add({fmt::format("{}", point.teams), fmt::format("{:.3f}", point.power),
+               fmt::format("{:.2f} .. {:.2f}", point.low, point.high),
+               point.analytic_power ? fmt::format("{:.3f}", *point.analytic_power) : "", bar});
+  }
+  return console.bold(to_string(curve.effect)) + ": " + size_text(curve.effect, curve.size) + "\n" +
+         needed_text(curve, options) + "\n" + table.text(console) + "\n";
+}
+
+std::string replication_text(const std::vector<Finding>& findings, const Replication& result, const StudySpec& spec,
+                             const Console& console) {
+  TextTable table{"llrlrrr"};
+  table.add({"finding", "published", "significant", "95 % interval", "eta2", "power by F", "power imposed"});
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const auto& finding = findings[i];
+    const auto& outcome = result.findings[i];
+    auto published = fmt::format("{}{:g}", finding.significant ? "p < " : "p >= ", finding.alpha);
+    if (finding.f) published += fmt::format(", F = {:g}", *finding.f);
+    table.add({to_string(finding.effect), published,
+               fmt::format("{:.1f} %",
+                           100.0 * static_cast<double>(outcome.significant) / static_cast<double>(result.studies)),
+               fmt::format("{:.1f} .. {:.1f} %", 100.0 * outcome.low, 100.0 * outcome.high),
+               outcome.published_eta_squared ? fmt::format("{:.3f}", *outcome.published_eta_squared) : "",
+               outcome.analytic_power ? fmt::format("{:.2f}", *outcome.analytic_power) : "",
+               outcome.imposed_power ? fmt::format("{:.2f}", outcome.imposed_power->power) : ""});
+  }
+  return fmt::format("{} of {} teams per cell, each with people of its own\n", counted(result.studies, "study run"),
+                     spec.replicates) +
+         table.text(console) +
+         console.dim(
+             "significant: share of the studies. eta2: partial eta squared of the published F; power: that of\n"
+             "such a study if this were the true effect, by the non-central F, and imposed on simulated teams") +
+         fmt::format("\n\nAll findings as published: {} of {} studies; on average {:.1f} of {} findings.\n",
+                     result.all_agree, result.studies, result.mean_agreement, findings.size());
+}
+
+// --- JSON -------------------------------------------------------------------------
+
+template <typename T>
+Json known(const std::optional<T>& value) {
+  return value ? Json(*value) : Json{};
+}
+
+Json to_json(const PowerPoint& point) {
+  return {{"teams", point.teams}, {"power", point.power},           {"low", point.low},
+          {"high", point.high},   {"pool_error", point.pool_error}, {"analytic_power", known(point.analytic_power)}};
+}
+
+Json to_json(const PowerCurve& curve) {
+  Json points = Json::array();
+  for (const auto& point : curve.points) points.push_back(to_json(point));
+  return {{"effect", to_string(curve.effect)},
+          {"imposed", curve.effect.imposed.has_value()},
+          {"size", curve.size},
+          {"measure", curve.effect.kind == Effect::Kind::kContrast ? "difference" : "partial eta squared"},
+          {"points", points},
+          {"needed",
+           {{"estimate", known(curve.needed.estimate)},
+            {"low", known(curve.needed.low)},
+            {"high", known(curve.needed.high)},
+            {"analytic", known(curve.needed.analytic)}}}};
+}
+
+Json replication_json(const std::vector<Finding>& findings, const Replication& result) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const auto& outcome = result.findings[i];
+    list.push_back({{"effect", to_string(findings[i].effect)},
+                    {"alpha", findings[i].alpha},
+                    {"published_significant", findings[i].significant},
+                    {"published_f", known(findings[i].f)},
+                    {"significant", outcome.significant},
+                    {"low", outcome.low},
+                    {"high", outcome.high},
+                    {"published_eta_squared", known(outcome.published_eta_squared)},
+                    {"analytic_power", known(outcome.analytic_power)},
+                    {"imposed_power", outcome.imposed_power ? to_json(*outcome.imposed_power) : Json{}}});
+  }
+  return {{"studies", result.studies},
+          {"findings", list},
+          {"all_agree", result.all_agree},
+          {"mean_agreement", result.mean_agreement}};
+}
+
+int interrupted(Console& console) {
+  console.warning("interrupted; nothing was computed");
+  return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
+}
+
+int run_curves(const PowerCommandOptions& options, const Study& study, const Atlas& atlas, Progress& progress,
+               Console& console) {
+  const auto& spec = study.variants.front();
+  std::vector<Effect> effects;
+  for (const auto& text : options.effects) effects.push_back(effect_of(text, spec));
+  if (effects.empty()) effects = default_effects(spec);
+  PowerOptions power;
+  power.teams = sizes_of(options);
+  power.alpha = fraction(options.alpha, "--alpha");
+  power.target = fraction(options.target, "--target");
+  power.draws = options.draws;
+  power.paired = options.paired;
+  power.seed = options.seed.value_or(spec.seed);
+  auto pool_spec = spec;
+  pool_spec.replicates = options.pool.value_or(std::max(kDefaultPool, 2 * power.teams.back()));
+  pool_spec.seed = power.seed;
+  pool_spec.record = RecordLevel::kTeam;
+  if (pool_spec.replicates < 2 * power.teams.back())
+    throw Error{ErrorKind::kUsage, "--pool must be at least twice the largest of --teams"};
+  const Study pool_study{{pool_spec}};
+  const auto addresses = team_addresses(pool_study);
+  const auto run = run_teams(atlas, pool_study, addresses,
+                             {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
+                                progress.update(done, total);
+                                return stop_signal() == 0;
+                              }});
+  progress.finish();
+  if (run.teams.size() < addresses.size()) return interrupted(console);
+  const TeamPool pool{pool_spec, run.teams};
+  const auto curves = power_curves(pool, effects, power);
+  if (console.json()) {
+    Json list = Json::array();
+    for (const auto& curve : curves) list.push_back(to_json(curve));
+    console.print_json(Json{{"schema", "kith.power/1"},
+                            {"study", options.study},
+                            {"seed", power.seed},
+                            {"pool", pool_spec.replicates},
+                            {"draws", power.draws},
+                            {"alpha", power.alpha},
+                            {"target", power.target},
+                            {"paired", power.paired},
+                            {"effects", list}});
+    return 0;
+  }
+  std::string text;
+  for (const auto& curve : curves) text += curve_text(curve, power, console);
+  console.print(text +
+                console.dim(fmt::format("level {:g}; {} studies of each size drawn from {} teams per cell; "
+                                        "intervals hold the error of both",
+                                        power.alpha, power.draws, pool_spec.replicates)) +
+                "\n");
+  return 0;
+}
+
+int run_replication(const PowerCommandOptions& options, const Study& study, const StudyText& source, const Atlas& atlas,
+                    Progress& progress, Console& console) {
+  auto spec = study.variants.front();
+  if (options.teams.size() > 1)
+    throw Error{ErrorKind::kUsage, "--findings repeats a study of one size: give --teams one number"};
+  if (!options.teams.empty()) spec.replicates = options.teams.front();
+  const auto set = targets_of(options.findings, source);
+  if (set.findings.empty()) {
+    Diagnostic nothing;
+    nothing.id = "E0813";
+    nothing.file = options.findings;
+    nothing.message = "there is no [[finding]] to look for";
+    throw Error{{nothing}};
+  }
+  ReplicationOptions replication;
+  replication.studies = options.studies;
+  replication.seed = options.seed.value_or(spec.seed);
+  replication.threads = options.threads;
+  replication.on_progress = [&](std::size_t done, std::size_t total) {
+    progress.update(done, total);
+    return stop_signal() == 0;
+  };
+  const auto result = replicate_findings(atlas, spec, set.findings, replication);
+  progress.finish();
+  if (!result) return interrupted(console);
+  if (console.json()) {
+    auto document = Json{{"schema", "kith.power/1"},
+                         {"study", options.study},
+                         {"seed", replication.seed},
+                         {"teams_per_cell", spec.replicates}};
+    document["replication"] = replication_json(set.findings, *result);
+    console.print_json(document);
+    return 0;
+  }
+  console.print(replication_text(set.findings, *result, spec, console));
+  return 0;
+}
+
+}  // namespace
+
+int run_power(const PowerCommandOptions& options, Console& console) {
+  if (!options.findings.empty() && !options.effects.empty())
+    throw Error{ErrorKind::kUsage, "--findings names its own effects: leave out --effect"};
+  const StudyText source{options.study, options.set};
+  const auto reading = source.read({});
+  if (!console.quiet()) console.show(reading.diagnostics);
+  check_single_variant(options.study, *reading.study);
+  watch_signals();
+  const Atlas atlas{*reading.domain};
+  Progress progress{options.progress, console};
+  if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);
+  return run_curves(options, *reading.study, atlas, progress, console);
+}
+
+}  // namespace kith::cli

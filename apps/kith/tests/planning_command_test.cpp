@@ -1,0 +1,141 @@
+// kith calibrate and kith power.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+constexpr const char* kTarget = "[[target]]\nquantity = \"periods\"\nteams = \"group\"\nvalue = 6.0\ntolerance = 0.5\n";
+constexpr const char* kParameter =
+    "[[parameter]]\nname = \"scale\"\nkeys = [\"learner.*.ability_scale\"]\nmin = 0.7\nmax = 1.4\n";
+constexpr const char* kFinding = "[[finding]]\neffect = \"periods: group - baseline\"\nsignificant = true\n";
+
+std::string file_with(const Scratch& scratch, const std::string& name, const std::string& content) {
+  const auto path = scratch / name;
+  std::ofstream{path} << "schema = \"kith.targets/1\"\n" << content;
+  return path;
+}
+
+// Beliefs of 100 particles: a calibration in a moment.
+const std::vector<std::string> kSmall{"--set", "teacher.particles=100",  "--set", "learner.N.particles=100",
+                                      "--set", "learner.P.particles=100"};
+
+Ran run_small(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
+  return run_kith(arguments);
+}
+
+TEST(CalibrateCommand, WritesAStudyThatIsValid) {
+  const Scratch scratch;
+  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
+  const auto out = scratch / "out.toml";
+  const std::vector<std::string> arguments{"calibrate", "quick",     "--targets", targets, "--quick", "--teams",
+                                           "2",         "--confirm", "3",         "-o",    out};
+  const auto ran = run_small(arguments);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("parameter"), HasSubstr("periods of group, mean")));
+  EXPECT_THAT(text_of(out), AllOf(HasSubstr("# parameter"), HasSubstr("ability_scale = ")));
+  EXPECT_EQ(run_kith({"validate", out}).code, 0);
+  const auto again = run_small(arguments);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--yes replaces it"));
+}
+
+TEST(CalibrateCommand, PrintsOneDocumentTheSameOnAnyNumberOfThreads) {
+  const Scratch scratch;
+  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
+  const std::vector<std::string> arguments{"calibrate", "quick",     "--targets", targets,  "--quick", "--teams",
+                                           "2",         "--confirm", "3",         "--json", "-j",      "1"};
+  const auto one = run_small(arguments);
+  auto more = arguments;
+  more.back() = "3";
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(one.out, run_small(more).out);
+  const auto document = Json::parse(one.out);
+  EXPECT_EQ(document["schema"], "kith.calibration/1");
+  EXPECT_EQ(document["parameters"].size(), 1u);
+  EXPECT_EQ(document["targets"].size(), 1u);
+  EXPECT_GE(document["candidates"].size(), 2u);
+}
+
+TEST(CalibrateCommand, SaysWhatIsMissing) {
+  const Scratch scratch;
+  const auto empty = file_with(scratch, "empty.toml", kTarget);
+  EXPECT_THAT(run_kith({"calibrate", "quick"}).err, HasSubstr("needs --targets FILE"));
+  const auto nothing = run_kith({"calibrate", "quick", "--targets", empty});
+  EXPECT_EQ(nothing.code, 3);
+  EXPECT_THAT(nothing.err, AllOf(HasSubstr("E0811"), HasSubstr("no [[parameter]]")));
+  const auto wrong = run_kith({"calibrate", "quick", "--targets", file_with(scratch, "w.toml", "[[target]]\nx = 1\n")});
+  EXPECT_EQ(wrong.code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("w.toml:3:1: error[E0107]"));
+  EXPECT_EQ(run_kith({"calibrate", "quick", "--targets", scratch / "none.toml"}).code, 5);
+  EXPECT_EQ(run_kith({"calibrate", "no-such-study", "--targets", empty}).code, 3);
+  EXPECT_THAT(run_kith({"calibrate", "quick", "--targets", empty, "-o", empty, "--yes"}).err,
+              HasSubstr("must not be the input"));
+}
+
+TEST(CalibrateCommand, RefusesAStudyWhoseKeysVary) {
+  const Scratch scratch;
+  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
+  for (const auto& arguments : {std::vector<std::string>{"calibrate", "quick", "--targets", targets},
+                                std::vector<std::string>{"power", "quick"}}) {
+    auto all = arguments;
+    all.insert(all.end(), {"--set", "design.vary={\"stop.max_periods\"=[5,9]}"});
+    const auto ran = run_kith(all);
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_THAT(ran.err, HasSubstr("E0812"));
+  }
+}
+
+TEST(PowerCommand, DrawsACurveAndPrintsADocument) {
+  const std::vector<std::string> arguments{
+      "power", "quick", "--effect", "periods: group - baseline", "--teams", "3,6", "--pool", "12", "--draws", "20"};
+  const auto text = run_small(arguments);
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, AllOf(HasSubstr("periods: group - baseline: difference"), HasSubstr("power 0.8"),
+                              HasSubstr("95 % interval")));
+  auto with_json = arguments;
+  with_json.insert(with_json.end(), {"--json", "-j", "1"});
+  const auto one = run_small(with_json);
+  with_json.back() = "3";
+  EXPECT_EQ(one.out, run_small(with_json).out);
+  const auto document = Json::parse(one.out);
+  EXPECT_EQ(document["schema"], "kith.power/1");
+  EXPECT_EQ(document["effects"][0]["points"].size(), 2u);
+}
+
+TEST(PowerCommand, RepeatsAStudy) {
+  const Scratch scratch;
+  const auto findings = file_with(scratch, "findings.toml", kFinding);
+  const auto ran = run_small({"power", "quick", "--findings", findings, "--studies", "3"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("3 study runs"), HasSubstr("All findings as published")));
+}
+
+TEST(PowerCommand, SaysWhatIsWrong) {
+  const Scratch scratch;
+  const auto targets = file_with(scratch, "targets.toml", kTarget);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+      {{"power", "quick", "--effect", "periods: nobody - common"}, "E0809"},
+      {{"power", "quick", "--alpha", "2"}, "--alpha must be a number between 0 and 1, not '2'"},
+      {{"power", "quick", "--target", "x"}, "--target must be a number between 0 and 1, not 'x'"},
+      {{"power", "quick", "--teams", "10", "--pool", "12"}, "--pool must be at least twice"},
+      {{"power", "quick", "--findings", targets}, "E0813"}};
+  for (const auto& [arguments, message] : refused) {
+    const auto ran = run_kith(arguments);
+    EXPECT_THAT(ran.code, ::testing::AnyOf(2, 3)) << message;
+    EXPECT_THAT(ran.err, HasSubstr(message));
+  }
+}
+
+}  // namespace
+}  // namespace kith::testing
