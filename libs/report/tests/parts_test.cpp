@@ -1,0 +1,130 @@
+// The parts of a report, each by itself.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "beliefs.hpp"
+#include "bibliography.hpp"
+#include "outline.hpp"
+#include "parameters.hpp"
+
+namespace kith::detail {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr auto kBibtex = R"(% a comment
+@article{a2020,
+  author  = {Doe, Jane Q. and Roe, R.},
+  title   = {On {Things},
+             and Others},
+  journal = {A Journal},
+  volume  = {3},
+  number  = {2},
+  pages   = {1--4},
+  year    = {2020}
+}
+
+@misc{b1999,
+  author = {Poe, Edgar Allan and Doe, Jane and Roe, R.},
+  title  = {Notes},
+  year   = {1999}
+}
+)";
+
+TEST(Bibliography, WritesReferencesAsPeopleDo) {
+  const auto references = parse_bibtex(kBibtex);
+  ASSERT_EQ(references.size(), 2u);
+  EXPECT_EQ(reference_text(references[0]),
+            "Doe, J. Q., & Roe, R. (2020). On Things, and Others. A Journal, 3(2), 1-4.");
+  EXPECT_EQ(reference_text(references[1]), "Poe, E. A., Doe, J., & Roe, R. (1999). Notes.");
+  EXPECT_EQ(citation_text(references[0]), "Doe & Roe, 2020");
+  EXPECT_EQ(citation_text(references[1]), "Poe et al., 1999");
+  EXPECT_THAT(references[1].bibtex, ::testing::StartsWith("@misc{b1999,"));
+  EXPECT_THAT(references[1].bibtex, ::testing::EndsWith("}"));
+}
+
+TEST(Bibliography, OfTextWithoutEntriesIsEmpty) {
+  for (const auto* text : {"", "@", "@article{", "% only a comment"}) EXPECT_TRUE(parse_bibtex(text).empty()) << text;
+}
+
+TEST(Parameters, HaveMeaningsByKey) {
+  EXPECT_EQ(meaning_of("study.replicates"), "teams per cell (strategy and composition)");
+  EXPECT_EQ(meaning_of("learner.N.ability.sd"), "standard deviation of the initial ability");
+  EXPECT_EQ(meaning_of("learner.Q.ability.sd"), meaning_of("learner.N.ability.sd"));
+  EXPECT_TRUE(meaning_of("design.vary.teacher.process_noise").has_value());
+  for (const auto* unknown : {"", "study", "study.replicates.x", "learner.N.ability", "design.vary"}) {
+    EXPECT_FALSE(meaning_of(unknown).has_value()) << unknown;
+  }
+}
+
+TEST(Base64, AgreesWithItsDefinition) {
+  EXPECT_EQ(base64({}), "");
+  EXPECT_EQ(base64({'f'}), "Zg==");
+  EXPECT_EQ(base64({'f', 'o'}), "Zm8=");
+  EXPECT_EQ(base64({'f', 'o', 'o'}), "Zm9v");
+  EXPECT_EQ(base64({0xFF, 0xFF, 0xFE, 0x00}), "///+AA==");
+}
+
+// Corners on the border, in order round the inside, no two of them half a turn apart.
+void expect_outline(const Cone& cone) {
+  const auto corners = outline(cone);
+  ASSERT_GE(corners.size(), 3u);
+  const auto inside = cone.interior_direction();
+  const Eigen::Vector3d centre{static_cast<double>(inside[0]), static_cast<double>(inside[1]),
+                               static_cast<double>(inside[2])};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto& next = corners[(i + 1) % corners.size()];
+    EXPECT_NEAR(corners[i].norm(), 1.0, 1e-12);
+    EXPECT_GT(corners[i].dot(next), -0.999);
+    EXPECT_GT(corners[i].cross(next).dot(centre), 0.0);
+    double margin = 1.0;
+    for (const auto& facet : cone.facets()) margin = std::min(margin, facet.margin(corners[i]));
+    EXPECT_NEAR(margin, 0.0, 1e-9);
+  }
+}
+
+TEST(Outline, RunsCounterClockwiseAlongTheBorder) {
+  const HalfSpace a{IntegerVector{1, 0, 0}}, b{IntegerVector{1, 2, 0}}, c{IntegerVector{0, 1, 3}};
+  for (const auto& half_spaces : {std::vector{a}, std::vector{a, b}, std::vector{b, a}, std::vector{a, b, c},
+                                  std::vector{a, b.opposite()}, std::vector{a.opposite(), b, c.opposite()}}) {
+    expect_outline(Cone::intersection(half_spaces).value());
+  }
+}
+
+TEST(Outline, OfTheWholeSphereIsEmpty) { EXPECT_TRUE(outline(Cone{}).empty()); }
+
+TEST(TellingTeams, AreOfDifferentStrategiesWherePossible) {
+  ReportDesign design;
+  RunData data;
+  const auto add = [&](Strategy strategy, double periods, double knowledge) {
+    design.series.push_back({std::string{name_of(strategy)}, "", strategy, 0, {}});
+    design.cells.push_back({design.series.size() - 1, "NP", 1});
+    design.cell_of_team.push_back(design.cells.size() - 1);
+    data.teams.push_back({true, periods, knowledge, 1.0});
+  };
+  add(Strategy::kBaseline, 30.0, 0.01);  // not taught together
+  add(Strategy::kCommon, 9.0, 0.1);      // the lowest knowledge, and the slowest
+  add(Strategy::kJoint, 8.0, 0.5);       // the slowest of the others
+  add(Strategy::kIndividualLow, 7.0, 0.6);
+  add(Strategy::kIndividualLow, 2.0, 0.9);
+  const auto teams = telling_teams(design, data);
+  ASSERT_EQ(teams.size(), 3u);
+  EXPECT_EQ(teams[0].team, 3u);
+  EXPECT_THAT(teams[0].why, ::testing::StartsWith("typical"));
+  EXPECT_EQ(teams[1].team, 2u);
+  EXPECT_EQ(teams[1].why, "the slowest (8 periods) of the teams of other strategies");
+  EXPECT_EQ(teams[2].team, 1u);
+  EXPECT_EQ(teams[2].why, "the lowest final knowledge (0.10) of the teams taught together");
+}
+
+TEST(TellingTeams, AreTheOnlyTeamIfThereIsOne) {
+  ReportDesign design{{{"baseline", "Baseline", Strategy::kBaseline, 0, {}}}, {{0, "N", 1}}, {0}, 1};
+  RunData data;
+  data.teams = {{true, 3.0, 0.5, 1.0}};
+  EXPECT_EQ(telling_teams(design, data).size(), 1u);
+}
+
+}  // namespace
+}  // namespace kith::detail

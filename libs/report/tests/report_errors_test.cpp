@@ -1,0 +1,140 @@
+// Every way in which a folder can fail to be a finished run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kith/core/error.hpp"
+#include "kith/report/report.hpp"
+#include "kith/study/sha256.hpp"
+#include "runs.hpp"
+
+namespace kith {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using namespace kith::testing;
+
+// The first complaint: "ID FILE:LINE MESSAGE", and the exit code.
+struct Complaint {
+  std::string text;
+  int code = 0;
+};
+Complaint complaint_about(const fs::path& folder) {
+  try {
+    static_cast<void>(build_report(folder));
+  } catch (const Error& error) {
+    if (error.diagnostics().empty()) return {error.what(), error.exit_code()};
+    const auto& first = error.diagnostics().front();
+    return {first.id + " " + fs::path{first.file}.filename().string() + ":" + std::to_string(first.line) + " " +
+                first.message,
+            error.exit_code()};
+  }
+  return {"no complaint", 0};
+}
+
+class ReportErrors : public ::testing::Test {
+ protected:
+  ReportErrors() { publish(run_, tiny_study(), invented_teams()); }
+  void expect(const std::string& start, const std::string& part, int code = 3) const {
+    const auto complaint = complaint_about(run_);
+    EXPECT_THAT(complaint.text, AllOf(::testing::StartsWith(start), HasSubstr(part)));
+    EXPECT_EQ(complaint.code, code);
+  }
+  [[nodiscard]] fs::path table(const std::string& name) const { return run_ / "tables" / name; }
+
+  Scratch scratch_;
+  fs::path run_ = scratch_ / "run";
+};
+
+TEST_F(ReportErrors, NameAFolderThatIsNotThere) {
+  fs::remove_all(run_);
+  expect("E0601 run:0", "there is no such folder", 5);
+  std::ofstream{run_} << "a file";
+  expect("E0601 run:0", "this is a file", 5);
+}
+
+TEST_F(ReportErrors, NameAFolderThatIsNoRun) {
+  fs::remove_all(run_);
+  fs::create_directories(run_);
+  expect("E0602 run:0", "the folder is empty");
+  std::ofstream{run_ / "notes.txt"} << "text";
+  expect("E0602 run:0", "no run folder");
+}
+
+TEST_F(ReportErrors, NameARunThatHasNotFinished) {
+  fs::remove(run_ / "manifest.json");
+  expect("E0603 run:0", "it has no manifest.json");
+  fs::remove_all(run_);
+  fs::create_directories(run_ / ".kith-staging-17");
+  expect("E0603 run:0", "the study has not finished");
+}
+
+TEST_F(ReportErrors, NameARunThatStoppedEarly) {
+  edit(run_ / "manifest.json", "\"finished\"", "\"interrupted\"");
+  expect("E0603 manifest.json:0", "did not finish");
+}
+
+TEST_F(ReportErrors, NameAMissingTable) {
+  fs::remove(table("progress.csv"));
+  expect("E0604 progress.csv:0", "the table is missing");
+  fs::remove(table("teams.csv"));
+  expect("E0604 teams.csv:0", "the table is missing");
+}
+
+TEST_F(ReportErrors, NameADamagedManifest) {
+  std::ofstream{run_ / "manifest.json"} << "{";
+  expect("E0605 manifest.json:0", "no manifest");
+}
+
+TEST_F(ReportErrors, NameTeamsThatAreMissingOrTwice) {
+  const auto text = read_file(table("teams.csv"));
+  const auto last = text.rfind('\n', text.size() - 2) + 1;
+  std::ofstream{table("teams.csv")} << text.substr(0, last);
+  expect("E0606 teams.csv:0", "the table has 3 teams, the study 4");
+  std::ofstream{table("teams.csv")} << text + text.substr(last);
+  expect("E0606 teams.csv:6", "team 4 is there twice");
+}
+
+TEST_F(ReportErrors, NameTheRowOfATeamThatTheStudyDoesNotHave) {
+  edit(table("periods.csv"), "\ncommon,NP,1,3,", "\ncommon,NP,1,33,");
+  expect("E0620 periods.csv:5", "there is no team 33");
+  edit(table("periods.csv"), "\ncommon,NP,1,33,", "\ncommon,NN,1,3,");
+  expect("E0620 periods.csv:5", "does not say the same of team 3");
+}
+
+TEST_F(ReportErrors, NameTheRowOfAValueThatCannotBe) {
+  edit(table("periods.csv"), "common,NP,1,3,1,1,", "common,NP,1,3,1,9,");
+  expect("E0621 periods.csv:5", "9 is not from 1 to 3");
+}
+
+TEST_F(ReportErrors, NameTheRowOfAMassThatCannotBe) {
+  edit(table("progress.csv"), ",0.2,", ",1.2,");
+  expect("E0621 progress.csv:3", "from 0 to 1");
+}
+
+TEST_F(ReportErrors, NameRowsOfATeamThatAreNotTogether) {
+  const auto text = read_file(table("responses.csv"));
+  const auto begin = text.find('\n') + 1;
+  const auto row = text.substr(begin, text.find('\n', begin) + 1 - begin);
+  std::ofstream{table("responses.csv")} << text + row;
+  expect("E0622 responses.csv:7", "rows of team 3 are not together");
+}
+
+TEST_F(ReportErrors, NameTheRowOfTextInANumericColumn) {
+  edit(table("teams.csv"), ",true,4,", ",true,four,");
+  expect("E0506 teams.csv:4", "\"four\" in column \"periods\"");
+}
+
+TEST_F(ReportErrors, NameAMissingColumn) {
+  edit(table("periods.csv"), "area_sr", "area");
+  expect("E0502 periods.csv:1", "column \"area_sr\" is missing");
+}
+
+TEST_F(ReportErrors, ComeFromTheFrozenStudyToo) {
+  edit(run_ / "inputs/study.toml", "replicates = 2", "replicates = 0");
+  expect("E0110 study.toml:", "replicates");
+}
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,244 @@
+#include "kith/report/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "runs.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::Contains;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+using namespace kith::testing;
+
+constexpr double kTiny = 1e-12;
+constexpr double kStudent1 = 12.706204736432095;  // 97.5 % quantile of Student's t with 1 degree of freedom
+
+// The report of teams that were made up, computed once.
+class InventedReport : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const Scratch scratch;
+    publish(scratch / "run", tiny_study(), invented_teams());
+    document_ = new Json(Json::parse(build_report(scratch / "run")));
+  }
+  static void TearDownTestSuite() { delete document_; }
+  static std::vector<Json> rows(const std::string& table, const std::vector<Json>& keys) {
+    return rows_of(*document_, table, keys);
+  }
+  static Json* document_;
+};
+Json* InventedReport::document_ = nullptr;
+
+TEST_F(InventedReport, HasMeansWithIntervalsPerCell) {
+  const auto row = rows("cells", {"common", "NP"}).at(0);
+  EXPECT_EQ(row.at(2), 2);
+  EXPECT_EQ(row.at(3), 2);
+  EXPECT_NEAR(row.at(4).get<double>(), 5.0, kTiny);             // (4 + 6) / 2
+  EXPECT_NEAR(row.at(5).get<double>(), std::sqrt(2.0), kTiny);  // sd of two values 2 apart
+  EXPECT_NEAR(row.at(6).get<double>(), 5.0 - kStudent1, 1e-9);  // sd / sqrt(n) is 1
+  EXPECT_NEAR(row.at(7).get<double>(), 5.0 + kStudent1, 1e-9);
+  EXPECT_NEAR(row.at(8).get<double>(), 0.6, kTiny);             // knowledge
+  EXPECT_NEAR(row.at(12).get<double>(), 3.5, kTiny);            // area
+  EXPECT_EQ(rows("cells", {"baseline", "NP"}).at(0).at(3), 1);  // one of them did not complete
+}
+
+TEST_F(InventedReport, ListsEveryTeamAsItIsInItsTable) {
+  EXPECT_EQ(rows("teams", {"common"}).at(1), Json::parse(R"(["common", "NP", 2, 4, 6, 0.7, true])"));
+  EXPECT_EQ(rows("teams", {"baseline"}).at(1), Json::parse(R"(["baseline", "NP", 2, 2, 5, 0.4, false])"));
+}
+
+TEST_F(InventedReport, EstimatesCompletionWithCensoredTeams) {
+  const auto common = rows("completion", {"common", "NP"});
+  ASSERT_THAT(common, SizeIs(3));
+  EXPECT_EQ(common[0], Json::parse(R"(["common", "NP", 0, 0.0, 0.0, 0.0, 2])"));
+  EXPECT_EQ(common[1].at(2), 4);
+  EXPECT_NEAR(common[1].at(3).get<double>(), 0.5, kTiny);
+  EXPECT_EQ(common[2], Json::parse(R"(["common", "NP", 6, 1.0, 1.0, 1.0, 1])"));
+  const auto baseline = rows("completion", {"baseline", "NP"});
+  EXPECT_EQ(baseline.back().at(2), 5);
+  EXPECT_NEAR(baseline.back().at(3).get<double>(), 0.5, kTiny);  // the second team is censored at 5
+}
+
+TEST_F(InventedReport, LeavesOutTheFirstPeriodOfAComponentFromAreas) {
+  const auto first = rows("area", {"common", 1}).at(0);
+  EXPECT_NEAR(first.at(2).get<double>(), 1.5, kTiny);  // log areas 1 of one team and 2 of the other
+  EXPECT_NEAR(first.at(5).get<double>(), (std::exp(1.0) + std::exp(2.0)) / 2.0, 1e-9);
+  EXPECT_EQ(first.at(6), 2);
+  EXPECT_NEAR(rows("area", {"common", 2}).at(0).at(2).get<double>(), 3.0, kTiny);
+  EXPECT_THAT(rows("area", {"common", 3}), IsEmpty());
+  // In the baseline the first period of every member; one team is not enough for an interval.
+  const auto baseline = rows("area", {"baseline", 1}).at(0);
+  EXPECT_NEAR(baseline.at(2).get<double>(), 0.5, kTiny);
+  EXPECT_TRUE(baseline.at(3).is_null());
+}
+
+TEST_F(InventedReport, CountsThePeriodsOfComponents) {
+  EXPECT_NEAR(rows("periods_by_component", {"common", "NP", 1}).at(0).at(3).get<double>(), 3.0, kTiny);
+  EXPECT_NEAR(rows("periods_by_component", {"common", "NP", 2}).at(0).at(3).get<double>(), 2.0, kTiny);
+  EXPECT_NEAR(rows("periods_by_component", {"common", "NP", 3}).at(0).at(3).get<double>(), 0.0, kTiny);
+  EXPECT_NEAR(rows("periods_by_component", {"baseline", "NP", 1}).at(0).at(3).get<double>(), 1.5, kTiny);
+}
+
+TEST_F(InventedReport, FollowsPeopleOverPeriods) {
+  const auto knowledge = rows("knowledge_by_period", {"common", "N"});
+  ASSERT_THAT(knowledge, SizeIs(4));  // before teaching, and three periods
+  EXPECT_EQ(knowledge[0].at(2), 0);
+  EXPECT_EQ(knowledge[0].at(6), 2);
+  EXPECT_NEAR(knowledge[1].at(3).get<double>(), 0.2, kTiny);
+  EXPECT_NEAR(knowledge[2].at(3).get<double>(), 0.25, kTiny);
+  EXPECT_EQ(knowledge[2].at(6), 1);
+  const auto ability = rows("ability_by_period", {"common", "N", 1});
+  EXPECT_NEAR(ability.at(0).at(4).get<double>(), 0.75, kTiny);
+  EXPECT_NEAR(ability.at(1).at(4).get<double>(), 0.75, kTiny);
+  EXPECT_EQ(rows("ability_by_period", {"common", "N", 2}).at(0).at(3), 1);  // the third period is its first
+}
+
+TEST_F(InventedReport, CountsRightAnswers) {
+  const auto row = rows("correct_by_period", {"common", "N"}).at(0);
+  EXPECT_NEAR(row.at(3).get<double>(), 0.75, kTiny);
+  EXPECT_EQ(row.at(6), 4);
+  // Wilson's interval of 3 in 4: (p + z^2/2n -+ z sqrt(p q / n + z^2 / 4 n^2)) / (1 + z^2 / n) with z = 1.959964.
+  EXPECT_NEAR(row.at(4).get<double>(), 0.300642, 1e-6);
+  EXPECT_NEAR(row.at(5).get<double>(), 0.954413, 1e-6);
+}
+
+TEST_F(InventedReport, HasHeadlinesOfGroupsAndBaseline) {
+  const auto& headlines = document_->at("overview").at("headlines");
+  ASSERT_EQ(headlines.size(), 4u);
+  EXPECT_EQ(headlines.at(0).at("label"), "Periods, group strategies");
+  EXPECT_NEAR(headlines.at(0).at("value").get<double>(), 5.0, kTiny);
+  EXPECT_NEAR(headlines.at(1).at("value").get<double>(), 4.0, kTiny);
+  EXPECT_NEAR(headlines.at(3).at("value").get<double>(), 0.3, kTiny);
+}
+
+TEST_F(InventedReport, LeavesOutSpheresThatDoNotFitTheTables) {
+  EXPECT_FALSE(document_->contains("beliefs"));
+  EXPECT_THAT(document_->at("notes").dump(), HasSubstr("does not come out as in tables/teams.csv"));
+}
+
+TEST_F(InventedReport, CountsCensoredTeams) {
+  EXPECT_THAT(document_->at("notes").dump(), HasSubstr("1 of 4 teams reached the limit of 50 periods"));
+  EXPECT_EQ(document_->at("overview").at("completed"), 3);
+}
+
+// A report of a study that was run.
+class RealReport : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new Scratch;
+    run_tiny_study(*scratch_ / "run");
+    text_ = new std::string(build_report(*scratch_ / "run"));
+    document_ = new Json(Json::parse(*text_));
+  }
+  static void TearDownTestSuite() {
+    delete document_;
+    delete text_;
+    delete scratch_;
+  }
+  static Scratch* scratch_;
+  static std::string* text_;
+  static Json* document_;
+};
+Scratch* RealReport::scratch_ = nullptr;
+std::string* RealReport::text_ = nullptr;
+Json* RealReport::document_ = nullptr;
+
+TEST_F(RealReport, IsTheSameForEqualFoldersWhereverTheyAre) {
+  std::filesystem::copy(*scratch_ / "run", *scratch_ / "elsewhere", std::filesystem::copy_options::recursive);
+  EXPECT_EQ(build_report(*scratch_ / "elsewhere"), *text_);
+}
+
+TEST_F(RealReport, IsSmallAndPlain) {
+  EXPECT_LT(text_->size(), 400'000u);
+  for (const char c : *text_) ASSERT_TRUE(c >= ' ' && c <= '~');
+}
+
+TEST_F(RealReport, SaysWhenAndByWhatTheRunWasMade) {
+  EXPECT_EQ(document_->at("schema"), "kith.report/1");
+  EXPECT_EQ(document_->at("created"), "2026-01-31T12:00:00Z");
+  EXPECT_EQ(document_->at("reproduce").at("version"), "kith 1.2.3 (git abc)");
+  EXPECT_TRUE(document_->at("reproduce").at("hashes").contains("tables/progress.csv"));
+  EXPECT_EQ(document_->at("tables").at("timings").at("rows"), Json::parse(R"([["teach", 1.5]])"));
+}
+
+TEST_F(RealReport, GivesEveryParameterAMeaning) {
+  for (const auto& row : document_->at("tables").at("parameters").at("rows")) {
+    EXPECT_FALSE(row.at(3).get<std::string>().empty()) << row;
+  }
+}
+
+TEST_F(RealReport, WritesAMethodsParagraphWithItsReferences) {
+  const auto paragraph = document_->at("methods").at("paragraph").get<std::string>();
+  for (const auto* fact :
+       {"4 teams of 2 learners", "kith 1.2.3 (abc)", "seed 1.", "0.703 (novice) and 0.809 (proficient)", "60 particles",
+        "(Jayaraman et al., 2024)", "0.05 rad", "50 periods at the latest"}) {
+    EXPECT_THAT(paragraph, HasSubstr(fact));
+  }
+  for (const auto& reference : document_->at("methods").at("references")) {
+    EXPECT_THAT(reference.at("bibtex").get<std::string>(), HasSubstr(reference.at("key").get<std::string>()));
+  }
+}
+
+TEST_F(RealReport, ShowsTheBeliefsOfTeamsThatWereTaughtAgain) {
+  const auto& beliefs = document_->at("beliefs");
+  EXPECT_EQ(beliefs.at("regions").at(0).at("label"), "policy (BEC)");
+  ASSERT_GE(beliefs.at("teams").size(), 2u);
+  for (const auto& team : beliefs.at("teams")) {
+    EXPECT_EQ(team.at("strategy"), "common");
+    EXPECT_THAT(team.at("beliefs"), SizeIs(4));  // two members, common, joint
+    const auto frames = team.at("periods").get<std::size_t>() + 1;
+    EXPECT_THAT(team.at("mass"), SizeIs(frames));
+    EXPECT_THAT(team.at("components"), SizeIs(frames - 1));
+    const auto bytes = frames * 4 * team.at("particles").at("count").get<std::size_t>() * 6;
+    EXPECT_EQ(team.at("particles").at("data").get<std::string>().size(), (bytes + 2) / 3 * 4);
+    // What members know at the end is what their table says of the team.
+    const auto number = team.at("team").get<std::size_t>();
+    const auto row = rows_of(*document_, "teams", {"common", "NP", number - 2}).at(0);
+    const auto& last = team.at("mass").back();
+    EXPECT_NEAR((last.at(0).get<double>() + last.at(1).get<double>()) / 2.0, row.at(5).get<double>(), kTiny);
+  }
+}
+
+TEST_F(RealReport, NotesTablesThatWereChanged) {
+  std::filesystem::copy(*scratch_ / "run", *scratch_ / "changed", std::filesystem::copy_options::recursive);
+  edit(*scratch_ / "changed/tables/responses.csv", ",true,", ",false,");
+  const auto document = Json::parse(build_report(*scratch_ / "changed"));
+  EXPECT_THAT(document.at("notes").dump(), HasSubstr("tables/responses.csv was changed after the run"));
+}
+
+TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
+  const Scratch scratch;
+  run_tiny_study(scratch / "run", {"record.level=\"team\""});
+  const auto document = Json::parse(build_report(scratch / "run"));
+  std::set<std::string> tables;
+  for (const auto& [name, table] : document.at("tables").items()) tables.insert(name);
+  EXPECT_THAT(tables,
+              ::testing::UnorderedElementsAre("cells", "teams", "completion", "area_cells", "timings", "parameters"));
+  EXPECT_THAT(document.at("notes").dump(), HasSubstr("Only teams were recorded"));
+  EXPECT_TRUE(document.contains("beliefs"));  // these are computed again
+}
+
+TEST(Report, TellsSettingsOfVariedKeysApart) {
+  const Scratch scratch;
+  run_tiny_study(scratch / "run",
+                 {"replicates=1", "design.strategies=[\"common\"]", "design.vary={\"stop.max_periods\"=[1, 40]}"});
+  const auto document = Json::parse(build_report(scratch / "run"));
+  EXPECT_EQ(document.at("overview").at("strategies"),
+            Json::parse(R"(["common [stop.max_periods=1]", "common [stop.max_periods=40]"])"));
+  EXPECT_EQ(document.at("labels").at("strategies").at("common [stop.max_periods=1]"), "Common, stop.max_periods=1");
+  EXPECT_EQ(document.at("overview").at("factors"), Json::parse(R"(["stop.max_periods"])"));
+  // One team a cell has no spread.
+  EXPECT_TRUE(document.at("tables").at("cells").at("rows").at(0).at(5).is_null());
+}
+
+}  // namespace
+}  // namespace kith
