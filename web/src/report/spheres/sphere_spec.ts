@@ -6,7 +6,9 @@ import type { Beliefs, BeliefTeam, Vector } from '../document';
 import { color } from '../theme';
 import { formatFixed } from '../words';
 import { closedLine, polygon, toLonLat } from './geometry';
+import { globeMarks } from './globe_marks';
 import type { Particles } from './particles';
+import { kRegionDashes, keys, placedKeys } from './sphere_legend';
 
 export interface Turn {
   lambda: number;
@@ -15,8 +17,6 @@ export interface Turn {
 }
 
 const kKinds = ['own', 'teacher', 'common', 'joint'];
-const kStar =
-  'M0,-1L0.235,-0.324L0.951,-0.309L0.38,0.124L0.588,0.809L0,0.4L-0.588,0.809L-0.38,0.124L-0.951,-0.309L-0.235,-0.324Z';
 const kTop = 22; // name above a globe, px
 const kBottom = 26; // mass below it, px
 
@@ -81,135 +81,6 @@ function axisRows(features: string[]): Json[] {
       return { label: `${name} ${sign > 0 ? '+' : '\u2212'}`, ...inRadians(end) };
     }),
   );
-}
-
-interface Key {
-  label: string;
-  shape: string;
-  fill: string;
-  stroke: string;
-  dash: number[];
-}
-
-const kRegionDashes = [
-  [1, 0],
-  [4, 3],
-  [1.5, 2.5],
-  [7, 3],
-];
-
-function keys(beliefs: Beliefs): Key[] {
-  return [
-    ...beliefs.regions.map(({ label }, i) => ({
-      label,
-      shape: i === 0 ? 'square' : 'stroke',
-      fill: i === 0 ? color('bec') : 'transparent',
-      stroke: i === 0 ? color('bec') : color('muted'),
-      dash: kRegionDashes[i % 4] ?? [1, 0],
-    })),
-    { label: 'true reward', shape: kStar, fill: color('truth'), stroke: color('ground'), dash: [1, 0] },
-    { label: 'particle', shape: 'circle', fill: color('muted'), stroke: 'transparent', dash: [1, 0] },
-  ];
-}
-
-// Places of the legend's entries, broken into lines; widths are estimated, text is short.
-function placedKeys(list: Key[], width: number): { rows: Json[]; lines: number } {
-  let x = 0;
-  let line = 0;
-  const rows = list.map((key) => {
-    const size = 24 + key.label.length * 6.6;
-    if (x > 0 && x + size > width) {
-      x = 0;
-      ++line;
-    }
-    const placed = { ...key, x, line };
-    x += size + 10;
-    return placed;
-  });
-  return { rows: rows as unknown as Json[], lines: line + 1 };
-}
-
-const geoshape = (from: string, encode: Spec, pointRadius?: number): Spec => ({
-  type: 'shape',
-  from: { data: from },
-  encode: { update: encode },
-  transform: [{ type: 'geoshape', projection: 'globe', ...(pointRadius ? { pointRadius } : {}) }],
-});
-
-function globeMarks(): Spec[] {
-  const kindColor = { scale: 'kind', field: 'kind' };
-  const label = (extra: Spec): Spec => ({
-    type: 'text',
-    from: { data: 'axes' },
-    encode: {
-      update: {
-        x: { field: 'px' },
-        y: { field: 'py' },
-        dy: { value: -6 },
-        text: { field: 'label' },
-        align: { value: 'center' },
-        fontSize: { value: 9 },
-        opacity: { signal: 'datum.front > 0.05 ? 1 : 0' },
-        ...extra,
-      },
-    },
-  });
-  return [
-    geoshape('sphere', {
-      fill: { value: color('sphere') },
-      stroke: { value: color('line') },
-      strokeWidth: { value: 1 },
-    }),
-    geoshape('graticule', { stroke: { value: color('grid') }, strokeWidth: { value: 0.7 } }),
-    geoshape('region', {
-      fill: { value: color('bec') },
-      fillOpacity: { value: 0.28 },
-      stroke: { value: color('bec') },
-      strokeWidth: { value: 1.6 },
-    }),
-    geoshape('outlines', {
-      stroke: { value: color('muted') },
-      strokeWidth: { value: 1.1 },
-      strokeDash: { field: 'dash' },
-    }),
-    geoshape('cloud', { fill: kindColor, fillOpacity: { value: 0.42 } }, 1.8),
-    {
-      type: 'symbol',
-      from: { data: 'axes' },
-      encode: {
-        update: {
-          x: { field: 'px' },
-          y: { field: 'py' },
-          size: { value: 7 },
-          fill: { value: color('muted') },
-          opacity: { signal: 'datum.front > 0.05 ? 1 : 0' },
-        },
-      },
-    },
-    label({
-      stroke: { value: color('sphere') },
-      strokeWidth: { value: 3 },
-      strokeOpacity: { value: 0.85 },
-      fill: { value: color('sphere') },
-    }),
-    label({ fill: { value: color('muted') } }),
-    {
-      type: 'symbol',
-      from: { data: 'truth' },
-      encode: {
-        update: {
-          x: { field: 'px' },
-          y: { field: 'py' },
-          shape: { value: kStar },
-          size: { value: 80 },
-          fill: { value: color('truth') },
-          stroke: { value: color('ground') },
-          strokeWidth: { value: 0.8 },
-          opacity: { signal: 'datum.front > 0 ? 1 : 0' },
-        },
-      },
-    },
-  ];
 }
 
 export function sphereSpec(

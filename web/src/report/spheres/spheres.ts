@@ -1,14 +1,14 @@
 // The section's figure: what the members and the team believed, period by period.
 import { toPng, toSvg } from '../chart';
 import type { Beliefs, BeliefTeam, Cell, Table } from '../document';
-import { button, el, lazyDetails } from '../dom';
+import { el, lazyDetails } from '../dom';
 import { kPaperWidth, saveButtons } from '../figure_view';
 import { tableView } from '../table_view';
 import { formatFixed, type Words } from '../words';
 import { select, slider } from './controls';
-import { GlobeView, turnFor } from './globe_view';
+import { GlobeView } from './globe_view';
 import { playButton } from './play';
-import type { Turn } from './sphere_spec';
+import { turnControls } from './turn_controls';
 
 const lastFrame = (team: BeliefTeam): number => team.mass.length - 1;
 
@@ -56,42 +56,6 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     say: (frame) => moment(view.team, frame),
     onInput: (frame) => goTo(frame),
   });
-  const turn = slider({
-    id: 'sphere-turn',
-    label: 'Turn',
-    min: -180,
-    max: 180,
-    value: view.turn.lambda,
-    say: (v) => `${v}\u00b0`,
-    onInput: (lambda) => view.setTurn({ ...view.turn, lambda }),
-  });
-  const tilt = slider({
-    id: 'sphere-tilt',
-    label: 'Tilt',
-    min: -90,
-    max: 90,
-    value: view.turn.phi,
-    say: (v) => `${v}\u00b0`,
-    onInput: (phi) => view.setTurn({ ...view.turn, phi }),
-  });
-  const zoom = slider({
-    id: 'sphere-zoom',
-    label: 'Zoom',
-    min: 1,
-    max: 6,
-    step: 0.5,
-    value: 1,
-    say: (v) => `${v}\u00d7`,
-    onInput: (value) => face(value),
-  });
-  const showTurn = ({ lambda, phi }: Turn): void => {
-    turn.set(lambda);
-    tilt.set(phi);
-  };
-  function face(value: number): void {
-    view.setTurn(turnFor(beliefs, value));
-    showTurn(view.turn);
-  }
   function goTo(frame: number): void {
     view.setFrame(frame);
     tell();
@@ -120,16 +84,11 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     tell();
     makeTables();
   };
-  const reset = button('Reset view', () => {
-    zoom.set(1);
-    face(1);
-  });
   const play = playButton(period.input, () => {
     period.set(period.input.valueAsNumber);
     goTo(period.input.valueAsNumber);
   });
   if (play) period.row.append(play);
-  view.listenToDrags(showTurn);
   tell();
   makeTables();
   new ResizeObserver(() => {
@@ -150,7 +109,7 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
         chooseTeam,
       ),
       period.row,
-      el('div', { class: 'pair' }, turn.row, tilt.row, zoom.row, reset),
+      turnControls(view, beliefs),
     ),
     about,
     chart,
