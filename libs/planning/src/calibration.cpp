@@ -18,8 +18,9 @@ class Calibrator {
   Calibrator(const Atlas& atlas, const StudyMaker& make_study, const TargetSet& set, const CalibrationOptions& options)
       : set_{set}, options_{options}, random_{options.seed}, lab_{atlas, make_study, set, options} {
     for (const auto& parameter : set.parameters) present_.push_back(parameter.present);
-    lab_.expect(lab_.cost(options.rounds * options.points, options.teams) + lab_.cost(4, options.confirm_teams) +
-                lab_.cost(options.frontier_points, frontier_teams()));
+    std::size_t search = 0;
+    for (std::size_t round = 0; round < options.rounds; ++round) search += lab_.cost(options.points, teams_in(round));
+    lab_.expect(search + lab_.cost(5, options.confirm_teams) + lab_.cost(options.frontier_points, frontier_teams()));
   }
 
   std::optional<Calibration> run() {
@@ -37,6 +38,10 @@ class Calibrator {
 
  private:
   [[nodiscard]] std::size_t frontier_teams() const { return std::max<std::size_t>(2, options_.confirm_teams / 2); }
+  // The last design decides: it gets the teams in full, each one before half as many.
+  [[nodiscard]] std::size_t teams_in(std::size_t round) const {
+    return std::max<std::size_t>(2, options_.teams >> (options_.rounds - 1 - round));
+  }
   [[nodiscard]] RandomStream stream(std::string_view purpose, std::size_t number = 0) const {
     return random_.split(purpose).split(number);
   }
@@ -49,7 +54,7 @@ class Calibrator {
       units_.push_back(box.place(fraction));
       settings.push_back(to_values(set_.parameters, units_.back()));
     }
-    const auto evaluations = lab_.run(settings, options_.teams, random_.split("search").address());
+    const auto evaluations = lab_.run(settings, teams_in(round), random_.split("search").address());
     if (!evaluations) return false;
     evaluations_.insert(evaluations_.end(), evaluations->begin(), evaluations->end());
     return true;
@@ -72,7 +77,7 @@ class Calibrator {
     return [this](std::span<const double> unit) { return surfaces_->discrepancy_at(unit); };
   }
 
-  // Around the best tenth of the box, at least a quarter as wide as before, and a little beyond it.
+  // Around the best twentieth of the box, at least a quarter as wide as before, and a little beyond it.
   [[nodiscard]] Box smaller(const Box& box, std::size_t round) const {
     constexpr std::size_t kSample = 8192;
     auto points = latin_hypercube(kSample, present_.size(), 1, stream("shrink", round));
@@ -84,7 +89,7 @@ class Calibrator {
     std::vector<std::size_t> order(kSample);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    order.resize(kSample / 10);
+    order.resize(kSample / 20);
     Box next = box;
     for (std::size_t k = 0; k < present_.size(); ++k) {
       std::vector<double> coordinates;
@@ -162,17 +167,32 @@ class Calibrator {
     }
   }
 
-  // Numbers that people can read: no more digits than the range supports; what the study has stays as it is.
-  [[nodiscard]] std::vector<double> readable(const std::vector<double>& unit) const {
+  // How far one parameter alone may move from a point without a loss beyond the noise, in its own unit.
+  [[nodiscard]] double free_width(const Box& box, const std::vector<double>& unit, std::size_t k,
+                                  double allowed) const {
+    constexpr std::size_t kSteps = 200;
+    const double limit = surfaces_->discrepancy_at(unit) + allowed;
+    auto low = unit, high = unit;
+    for (std::size_t i = 0; i <= kSteps; ++i) {
+      auto point = unit;
+      point[k] = box.low[k] + (box.high[k] - box.low[k]) * static_cast<double>(i) / static_cast<double>(kSteps);
+      if (surfaces_->discrepancy_at(point) > limit) continue;
+      low[k] = std::min(low[k], point[k]);
+      high[k] = std::max(high[k], point[k]);
+    }
+    return to_values(set_.parameters, high)[k] - to_values(set_.parameters, low)[k];
+  }
+
+  // Numbers that people can read: no more digits than matter; what the study has stays as it is.
+  [[nodiscard]] std::vector<double> readable(const Box& box, const std::vector<double>& unit, double allowed) const {
     auto values = to_values(set_.parameters, unit);
     for (std::size_t k = 0; k < values.size(); ++k) {
       const auto& parameter = set_.parameters[k];
-      const auto& range = result_.ranges[k];
       if (std::abs(values[k] - present_[k]) <= 1e-9 * std::abs(present_[k])) {
         values[k] = present_[k];
       } else {
-        const double round = rounded(values[k], range.low, range.high, parameter.integer);
-        values[k] = std::clamp(round, parameter.min, parameter.max);
+        const double width = free_width(box, unit, k, allowed);
+        values[k] = std::clamp(rounded(values[k], 0.0, width, parameter.integer), parameter.min, parameter.max);
       }
     }
     return values;
@@ -191,37 +211,55 @@ class Calibrator {
     return units_[best];
   }
 
-  // The study as it is wins ties, then what changes least: the order of the candidates.
-  bool confirm(const Box& box) {
-    const auto best = minimum(objective(), box, Fixed(present_.size()), stream("minimum"));
-    const double noise = surfaces_->noise_at(best, stream("noise"));
-    find_ranges(box, best, noise);
-    std::vector<std::string> labels{"the study as it is"};
-    std::vector<std::vector<double>> settings{present_};
-    const auto propose = [&](std::string label, const std::vector<double>& unit) {
-      auto values = readable(unit);
-      if (std::find(settings.begin(), settings.end(), values) != settings.end()) return;
-      labels.push_back(std::move(label));
-      settings.push_back(std::move(values));
-    };
-    propose("fewest changes", frugal(box, best, noise));
-    propose("best of the surface", best);
-    propose("best simulated", best_simulated());
-    lab_.expect(lab_.done() + lab_.cost(settings.size(), options_.confirm_teams) +
-                lab_.cost(options_.frontier_points, frontier_teams()));
+  // Simulates candidates anew. All share their people and chance with each other, not with the designs.
+  bool confirm_some(const std::vector<std::pair<std::string, std::vector<double>>>& proposals) {
+    std::vector<std::vector<double>> settings;
+    std::vector<std::string> labels;
+    for (const auto& [label, values] : proposals) {
+      const auto known = [&](const CalibrationPoint& one) { return one.values == values; };
+      const auto& confirmed = result_.candidates;
+      if (std::any_of(confirmed.begin(), confirmed.end(), known)) continue;
+      if (std::find(settings.begin(), settings.end(), values) != settings.end()) continue;
+      settings.push_back(values);
+      labels.push_back(label);
+    }
+    if (settings.empty()) return true;
     const auto evaluations = lab_.run(settings, options_.confirm_teams, random_.split("confirm").address());
     if (!evaluations) return false;
-    std::size_t least = 0;
     for (std::size_t i = 0; i < settings.size(); ++i) {
       result_.candidates.push_back(point_of(set_.targets, (*evaluations)[i], settings[i], labels[i]));
-      if (result_.candidates[i].discrepancy < result_.candidates[least].discrepancy) least = i;
+      confirmed_.push_back((*evaluations)[i]);
     }
-    std::size_t chosen = 0;
-    while (chosen != least && result_.candidates[chosen].discrepancy - result_.candidates[least].discrepancy >
-                                  difference_error(set_.targets, (*evaluations)[chosen], (*evaluations)[least])) {
-      ++chosen;
-    }
-    result_.best = result_.candidates[chosen];
+    return true;
+  }
+
+  // @pre these values were confirmed.
+  [[nodiscard]] const Evaluation& confirmed_at(const std::vector<double>& values) const {
+    std::size_t i = 0;
+    while (result_.candidates[i].values != values) ++i;
+    return confirmed_[i];
+  }
+
+  // The designs share their people, so all figures are off alike: the surfaces are moved to what more teams say at the
+  // first minimum, and the minimum is looked for again.
+  bool confirm(const Box& box) {
+    const auto first = minimum(objective(), box, Fixed(present_.size()), stream("minimum"));
+    const double first_noise = surfaces_->noise_at(first, stream("noise"));
+    const auto first_values = readable(box, first, first_noise);
+    lab_.expect(lab_.done() + lab_.cost(5, options_.confirm_teams) +
+                lab_.cost(options_.frontier_points, frontier_teams()));
+    if (!confirm_some({{"the study as it is", present_},
+                       {"best simulated", readable(box, best_simulated(), first_noise)},
+                       {"first minimum", first_values}}))
+      return false;
+    surfaces_->correct(to_unit(set_.parameters, first_values), confirmed_at(first_values));
+    const auto best = minimum(objective(), box, Fixed(present_.size()), stream("minimum", 1));
+    const double noise = surfaces_->noise_at(best, stream("noise", 1));
+    find_ranges(box, best, noise);
+    if (!confirm_some({{"fewest changes", readable(box, frugal(box, best, noise), noise)},
+                       {"minimum", readable(box, best, noise)}}))
+      return false;
+    choose();
     for (std::size_t t = 0; t < set_.targets.size(); ++t) {
       result_.surface_error.push_back(surfaces_->error_of(t));
       result_.explained.push_back(surfaces_->surface(t).explained());
@@ -229,10 +267,33 @@ class Calibrator {
     return true;
   }
 
+  [[nodiscard]] std::size_t changes(const CalibrationPoint& point) const {
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < present_.size(); ++k) n += point.values[k] != present_[k] ? 1u : 0u;
+    return n;
+  }
+
+  // Of those that do not differ from the best beyond the noise the one that changes least.
+  void choose() {
+    const auto& all = result_.candidates;
+    std::size_t least = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].discrepancy < all[least].discrepancy) least = i;
+    }
+    auto chosen = least;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double worse = all[i].discrepancy - all[least].discrepancy;
+      const bool as_good = worse <= difference_error(set_.targets, confirmed_[i], confirmed_[least]);
+      if (as_good && changes(all[i]) < changes(all[chosen])) chosen = i;
+    }
+    result_.best = all[chosen];
+  }
+
   // --- what cannot be met together ----------------------------------------------
 
   bool explore_frontier() {
-    const Surfaces global{set_.targets, Box::whole(present_.size()), units_, evaluations_};
+    Surfaces global{set_.targets, Box::whole(present_.size()), units_, evaluations_};
+    global.correct(to_unit(set_.parameters, result_.best.values), confirmed_at(result_.best.values));
     result_.conflicts = find_conflicts(set_.targets, global, stream("conflicts"));
     const auto quantities = trade_off(set_.targets);
     if (!quantities || options_.frontier_points == 0) return true;
@@ -255,7 +316,8 @@ class Calibrator {
   std::vector<double> present_;
   std::vector<std::vector<double>> units_;  // of all settings simulated in the search
   std::vector<Evaluation> evaluations_;
-  std::optional<Surfaces> surfaces_;  // of the last box
+  std::vector<Evaluation> confirmed_;  // of the candidates
+  std::optional<Surfaces> surfaces_;   // of the last box
   Calibration result_;
 };
 

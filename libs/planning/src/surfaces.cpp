@@ -43,7 +43,7 @@ void improve(const Objective& objective, const Box& box, const Fixed& fixed, std
 
 Surfaces::Surfaces(std::span<const Target> targets, Box box, std::span<const std::vector<double>> points,
                    std::span<const Evaluation> evaluations)
-    : targets_{targets}, box_{std::move(box)} {
+    : targets_{targets}, box_{std::move(box)}, num_points_{points.size()}, offsets_(targets.size(), 0.0) {
   std::vector<std::vector<double>> local;
   for (const auto& point : points) local.push_back(box_.local(point));
   std::vector<double> values(points.size());
@@ -53,11 +53,17 @@ Surfaces::Surfaces(std::span<const Target> targets, Box box, std::span<const std
   }
 }
 
+void Surfaces::correct(std::span<const double> unit, const Evaluation& exact) {
+  const auto local = box_.local(unit);
+  for (std::size_t t = 0; t < targets_.size(); ++t)
+    offsets_[t] = scaled(targets_[t], exact.figures[t]) - surfaces_[t].at(local);
+}
+
 std::vector<double> Surfaces::misses_at(std::span<const double> unit) const {
   const auto local = box_.local(unit);
   std::vector<double> misses;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const double value = surfaces_[t].at(local);
+    const double value = surfaces_[t].at(local) + offsets_[t];
     misses.push_back(miss(targets_[t], targets_[t].is_factor ? std::exp(value) : value));
   }
   return misses;
@@ -71,6 +77,10 @@ double Surfaces::error_of(std::size_t target) const {
 
 double Surfaces::noise_at(std::span<const double> unit, RandomStream random) const {
   constexpr std::size_t kDraws = 400;
+  // The prediction's variance is the residual one times the leverage, whose mean is terms over points.
+  const auto d = static_cast<double>(unit.size());
+  const double terms = 1.0 + 2.0 * d + d * (d - 1.0) / 2.0;
+  const double leverage = std::min(1.0, terms / static_cast<double>(num_points_));
   const auto misses = misses_at(unit);
   const double here = discrepancy(targets_, misses);
   double sum = 0.0;
@@ -78,7 +88,7 @@ double Surfaces::noise_at(std::span<const double> unit, RandomStream random) con
     auto moved = misses;
     for (std::size_t t = 0; t < moved.size(); ++t) {
       const double one = targets_[t].is_factor ? std::log(targets_[t].tolerance) : targets_[t].tolerance;
-      moved[t] += surfaces_[t].error() / one * standard_normal(random);
+      moved[t] += std::sqrt(leverage) * surfaces_[t].error() / one * standard_normal(random);
     }
     const double change = discrepancy(targets_, moved) - here;
     sum += change * change;

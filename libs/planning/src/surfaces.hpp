@@ -19,12 +19,15 @@ class Surfaces {
   Surfaces(std::span<const Target> targets, Box box, std::span<const std::vector<double>> points,
            std::span<const Evaluation> evaluations);
 
+  // From now on every figure is higher by what a more exact simulation at this point says.
+  void correct(std::span<const double> unit, const Evaluation& exact);
+
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] const ResponseSurface& surface(std::size_t target) const { return surfaces_[target]; }
   [[nodiscard]] std::vector<double> misses_at(std::span<const double> unit) const;
   [[nodiscard]] double discrepancy_at(std::span<const double> unit) const;
   // How much the discrepancy at a point is uncertain: root mean square of its change when every figure is off by a
-  // normal error as large as the surface's.
+  // normal error as large as that of the surface's prediction, which averages over the points.
   [[nodiscard]] double noise_at(std::span<const double> unit, RandomStream random) const;
   // The surface's error in the figure's own unit; of a logarithmic one, at the target's value.
   [[nodiscard]] double error_of(std::size_t target) const;
@@ -32,7 +35,9 @@ class Surfaces {
  private:
   std::span<const Target> targets_;
   Box box_;
+  std::size_t num_points_ = 0;
   std::vector<ResponseSurface> surfaces_;
+  std::vector<double> offsets_;  // on the scale of the surfaces
 };
 
 // A function to be made small, and the least value found.

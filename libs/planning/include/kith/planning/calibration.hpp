@@ -96,10 +96,11 @@ struct Calibration {
 /// Fits the free parameters of a study to published figures by simulation.
 ///
 /// A maximin Latin hypercube over the box, simulated with common random numbers, gives a quadratic per target;
-/// where their discrepancy is small the next, smaller design is placed, and so on. The best of the last quadratic, the
-/// setting that leaves as many parameters as possible as they are, the best setting simulated, and the study as it
-/// is are then simulated with fresh seeds and more teams; among those that do not differ beyond the
-/// noise the one that changes least is the answer. Values are rounded to what their ranges support.
+/// where their discrepancy is small the next, smaller design is placed, with twice the teams, and so on. The minimum of
+/// the last quadratics is simulated with fresh seeds and more teams, the quadratics are moved to what that says, and
+/// their new minimum and the setting that leaves as many parameters as possible as they are get simulated, too. Among
+/// all candidates, the study as it is included, that do not differ beyond the noise, the one that changes least is the
+/// answer. Values are rounded to the digits that matter.
 /// @param targets  with at least one target and one parameter.
 /// @return nothing if on_progress stopped it.
 /// @throws std::invalid_argument without targets or parameters or with counts below 2 (teams) or 8 (points).

@@ -1,0 +1,156 @@
+#include "kith/planning/power.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "item_delivery.hpp"
+#include "kith/random/distributions.hpp"
+#include "kith/stats/power.hpp"
+#include "small_study.hpp"
+
+namespace kith {
+namespace {
+
+const std::vector<Strategy> kStrategies{Strategy::kIndividualLow, Strategy::kCommon, Strategy::kJoint};
+const std::vector<std::string> kCompositions{"NN", "NP"};
+
+// Standard normal outcomes without any effect but `raised` added to the last strategy.
+TeamPool normal_pool(std::size_t replicates, std::uint64_t seed, double raised = 0.0) {
+  RandomStream random{seed};
+  std::vector<std::vector<std::vector<double>>> values;
+  for (const auto strategy : kStrategies) {
+    values.emplace_back();
+    for (std::size_t c = 0; c < kCompositions.size(); ++c) {
+      values.back().emplace_back();
+      for (std::size_t r = 0; r < replicates; ++r)
+        values.back().back().push_back(standard_normal(random) + (strategy == Strategy::kJoint ? raised : 0.0));
+    }
+  }
+  return {kStrategies, kCompositions, values};
+}
+
+PowerOptions sizes(std::vector<std::size_t> teams, std::size_t draws) {
+  PowerOptions options;
+  options.teams = std::move(teams);
+  options.draws = draws;
+  return options;
+}
+
+Effect strategy_effect(std::optional<double> imposed = {}) {
+  return {.quantity = Quantity::kPeriods,
+          .kind = Effect::Kind::kStrategy,
+          .composition = {},
+          .first = {},
+          .second = {},
+          .imposed = imposed};
+}
+
+TEST(Power, EqualsTheLevelWithoutAnEffect) {
+  const auto pool = normal_pool(2'000, 1);
+  std::vector<Effect> effects{strategy_effect()};
+  effects.push_back(effects.front());
+  effects.back().kind = Effect::Kind::kInteraction;
+  effects.push_back(effects.front());
+  effects.back().kind = Effect::Kind::kContrast;
+  effects.back().first.strategy = Strategy::kCommon;
+  effects.back().second.strategy = Strategy::kJoint;
+  for (const auto& curve : power_curves(pool, effects, sizes({6}, 600))) {
+    // Four standard errors: of 600 draws 0.009, and of a pool of 2 000 / 6 disjoint studies at most 0.012.
+    EXPECT_NEAR(curve.points[0].power, 0.05, 4.0 * 0.015) << to_string(curve.effect);
+    EXPECT_LE(curve.points[0].low, 0.05 + 0.02);
+  }
+}
+
+TEST(Power, OfAnImposedEffectIsThatOfTheNonCentralF) {
+  const auto pool = normal_pool(1'000, 2);
+  const double eta = 0.1;
+  const std::vector<Effect> effects{strategy_effect(eta)};
+  const auto curve = power_curves(pool, effects, sizes({5, 10, 20, 40}, 500)).front();
+  EXPECT_EQ(curve.size, eta);
+  for (const auto& point : curve.points) {
+    const double exact = f_test_power(eta, 2, 6, 6 * point.teams, 0.05);
+    EXPECT_DOUBLE_EQ(*point.analytic_power, exact);
+    // Four standard errors of 500 draws, 0.022 at most; the pool's own spread is the effect's scale here.
+    EXPECT_NEAR(point.power, exact, 4.0 * 0.022) << point.teams;
+  }
+  ASSERT_TRUE(curve.needed.estimate && curve.needed.low && curve.needed.high && curve.needed.analytic);
+  EXPECT_NEAR(*curve.needed.estimate, static_cast<double>(*curve.needed.analytic), 4.0);
+  EXPECT_LE(*curve.needed.low, *curve.needed.estimate);
+  EXPECT_GE(*curve.needed.high, *curve.needed.estimate);
+}
+
+TEST(Power, OfAnImposedDifferenceIsThatOfTheT) {
+  const auto pool = normal_pool(1'000, 3);
+  auto effect = strategy_effect(0.8);
+  effect.kind = Effect::Kind::kContrast;
+  effect.first.strategy = Strategy::kCommon;
+  effect.second.strategy = Strategy::kJoint;
+  const auto curve = power_curves(pool, std::vector{effect}, sizes({5, 15}, 500)).front();
+  for (const auto& point : curve.points) EXPECT_NEAR(point.power, *point.analytic_power, 4.0 * 0.022);
+}
+
+TEST(Power, EstimatesTheSizeOfAnEffectWithoutBias) {
+  double sum = 0.0;
+  constexpr std::size_t kPools = 20;
+  for (std::size_t k = 0; k < kPools; ++k)
+    sum += power_curves(normal_pool(60, 100 + k, 0.5), std::vector{strategy_effect()}, sizes({2}, 10)).front().size;
+  // Effects -1/6, -1/6, 1/3 (mean square 1/18) against a variance of 1. Four standard errors of 20 pools.
+  EXPECT_NEAR(sum / kPools, (1.0 / 18.0) / (1.0 + 1.0 / 18.0), 4.0 * 0.005);
+}
+
+TEST(Power, KnowsHowUncertainTheFinitePoolMakesIt) {
+  constexpr std::size_t kPools = 30;
+  double sum = 0.0, squares = 0.0, claimed = 0.0;
+  for (std::size_t k = 0; k < kPools; ++k) {
+    const auto pool = normal_pool(60, 200 + k, 0.7);
+    const auto point = power_curves(pool, std::vector{strategy_effect()}, sizes({12}, 150)).front().points.front();
+    sum += point.power / kPools;
+    squares += point.power * point.power / kPools;
+    claimed += (point.pool_error * point.pool_error + point.power * (1.0 - point.power) / 150.0) / kPools;
+  }
+  const double observed = (squares - sum * sum) * kPools / (kPools - 1.0);
+  EXPECT_GT(claimed / observed, 0.4);  // 30 pools tell a variance within a factor of 1.8 (95 %)
+  EXPECT_LT(claimed / observed, 2.5);
+}
+
+TEST(Power, SaysThatAnEffectIsBeyondTheSizesTried) {
+  const auto curve = power_curves(normal_pool(100, 4), std::vector{strategy_effect(0.001)}, sizes({3, 6}, 50)).front();
+  EXPECT_FALSE(curve.needed.estimate);
+  ASSERT_TRUE(curve.needed.analytic);
+  EXPECT_GT(*curve.needed.analytic, 1'000u);
+}
+
+TEST(Power, RefusesNonsense) {
+  const auto pool = normal_pool(20, 5);
+  const std::vector effects{strategy_effect()};
+  EXPECT_THROW((void)power_curves(pool, effects, sizes({1}, 10)), std::invalid_argument);
+  EXPECT_THROW((void)power_curves(pool, effects, sizes({6, 3}, 10)), std::invalid_argument);
+  EXPECT_THROW((void)power_curves(pool, effects, sizes({11}, 10)), std::invalid_argument);
+  auto options = sizes({3}, 10);
+  options.alpha = 1.0;
+  EXPECT_THROW((void)power_curves(pool, effects, options), std::invalid_argument);
+}
+
+TEST(ReplicateFindings, FindsThatTeachingEverybodyAloneTakesLonger) {
+  const auto spec = testing::small_study({"replicates=4"}).study->variants.front();
+  const auto effect = *parse_effect("periods: group - baseline", spec).effect;
+  Finding finding;
+  finding.effect = effect;
+  finding.significant = true;
+  const std::vector<Finding> findings{finding};
+  ReplicationOptions options;
+  options.studies = 5;
+  options.threads = 1;
+  const auto one = replicate_findings(testing::item_delivery(), spec, findings, options);
+  options.threads = 2;
+  const auto two = replicate_findings(testing::item_delivery(), spec, findings, options);
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(one->findings[0].significant, two->findings[0].significant);
+  EXPECT_EQ(one->all_agree, one->findings[0].significant);
+  EXPECT_GE(one->findings[0].significant, 1u);
+}
+
+}  // namespace
+}  // namespace kith
