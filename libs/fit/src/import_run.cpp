@@ -65,6 +65,9 @@ class RunImport {
     read_demonstrations();
     read_responses();
     detail::throw_if_errors(logs_.notes);
+    if (types_.empty() || answers_.empty()) {
+      throw Error{{detail::fault("E0705", "there is not a single answer", tables_ / "responses.csv", 0)}};
+    }
     for (const auto& [seat, type] : types_) add_person(seat, type);
     add_notes();
     logs_.policy = atlas_.policy_bec_half_spaces();
@@ -290,9 +293,6 @@ class RunImport {
 
   void add_notes() {
     const auto responses = tables_ / "responses.csv";
-    if (logs_.people.empty() || answers_.empty()) {
-      throw Error{{detail::fault("E0705", "there is not a single answer", responses, 0)}};
-    }
     if (num_unknown_paths_ > 0) {
       logs_.notes.push_back(detail::note("W0706",
                                          std::to_string(num_unknown_paths_) +

@@ -234,16 +234,20 @@ PopulationMasses masses_of(const LikelihoodSurface& surface, const PopulationPar
 }
 
 double log_marginal(const LikelihoodSurface& surface, std::size_t person, const PopulationMasses& masses) {
+  constexpr double kNegligible = 1e-14;
   const auto& likelihood = surface.relative(person);
   const auto num_pairs = masses.gains.size();
-  double sum = 0.0;
+  // Summed pair by pair first: a loop that the compiler can vectorise.
+  std::vector<double> of_pair(num_pairs, 0.0);
+  double* const sums = of_pair.data();
   for (std::size_t a = 0; a < masses.abilities.size(); ++a) {
-    if (masses.abilities[a] <= 0.0) continue;
+    const double mass = masses.abilities[a];
+    if (mass < kNegligible) continue;
     const double* const row = likelihood.data() + a * num_pairs;
-    double of_gains = 0.0;
-    for (std::size_t g = 0; g < num_pairs; ++g) of_gains += row[g] * masses.gains[g];
-    sum += masses.abilities[a] * of_gains;
+    for (std::size_t g = 0; g < num_pairs; ++g) sums[g] += mass * row[g];
   }
+  double sum = 0.0;
+  for (std::size_t g = 0; g < num_pairs; ++g) sum += sums[g] * masses.gains[g];
   return surface.log_top(person) + std::log(std::max(sum, 1e-300));
 }
 

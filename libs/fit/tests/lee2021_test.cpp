@@ -143,7 +143,7 @@ TEST(Lee2021, NamesRowAndColumnOfABadResponse) {
   EXPECT_EQ(ids(header + "1,two_goal,two_goal_000,2,1,up up,x\n"), "");
   EXPECT_EQ(ids(header + "1,two_goal,two_goal_000,high,1,up up,x\n"), "E0506:2 ");
   EXPECT_EQ(ids("participant,domain,mdp_id,test_difficulty,moves\n"), "E0502:1 ");
-  EXPECT_EQ(ids(""), "E0501:0 ");
+  EXPECT_EQ(ids(""), "E0501:1 ");
 }
 
 }  // namespace

@@ -1,0 +1,286 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "kith/core/error.hpp"
+#include "kith/fit/fit.hpp"
+#include "kith/fit/import_logs.hpp"
+#include "kith/fit/import_trials.hpp"
+#include "kith/table/atomic_file.hpp"
+#include "simulated_people.hpp"
+
+namespace kith {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kTypes =
+    "[learner.N]\nability = { mean = 0.62, sd = 0.01, min = 0.55 }\nconfirm_gain = { value = 0.0 }\n"
+    "correct_gain = { value = 0.02 }\nparticles = 50\n[stop]\nmax_periods = 4\n";
+
+// "E0708 responses.csv:3", or "none".
+std::string fault_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    if (error.diagnostics().empty()) return error.what();
+    const auto& first = error.diagnostics().front();
+    return first.id + " " + fs::path{first.file}.filename().string() + ":" + std::to_string(first.line);
+  }
+  return "none";
+}
+
+std::string import_fault(const fs::path& path) {
+  return fault_of([&] { static_cast<void>(import_logs({path}, AnswerDetail::kPath)); });
+}
+
+class RunFolderImport : public ::testing::Test {
+ protected:
+  void SetUp() override { testing::run_into(run_, testing::study_text("NN", 2, kTypes)); }
+
+  // Replaces the first occurrence in a table.
+  void spoil(const std::string& table, const std::string& from, const std::string& to) {
+    const auto path = run_ / "tables" / table;
+    auto text = read_file(path);
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write_file_atomically(path, text.replace(at, from.size(), to));
+  }
+
+  testing::TemporaryFolder folder_;
+  fs::path run_ = folder_.path() / "run";
+};
+
+TEST_F(RunFolderImport, ReadsEverybodyWithTheirPeriods) {
+  const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
+  ASSERT_EQ(logs.people.size(), 4u);
+  EXPECT_EQ(logs.people[0].id, "1/1");
+  EXPECT_EQ(logs.people[3].id, "2/2");
+  EXPECT_TRUE(logs.notes.empty());
+  EXPECT_FALSE(logs.policy.empty());
+  for (const auto& person : logs.people) {
+    EXPECT_EQ(person.type, "N");
+    EXPECT_FALSE(person.periods.empty());
+    EXPECT_EQ(logs.models.at(person.model).filter.particles, 50u);
+    std::size_t answers = 0;
+    for (const auto& period : person.periods) {
+      EXPECT_FALSE(period.conveyed.empty());
+      EXPECT_TRUE(period.feedback);
+      answers += period.answers.size();
+    }
+    EXPECT_EQ(answers, person.answered);
+  }
+}
+
+TEST_F(RunFolderImport, PutsSeveralRunsTogether) {
+  const auto other = folder_.path() / "other";
+  testing::run_into(other, testing::study_text("N", 3, kTypes));
+  const auto logs = import_logs({run_, other}, AnswerDetail::kVerdict).logs;
+  ASSERT_EQ(logs.people.size(), 7u);
+  EXPECT_EQ(logs.people[0].id, "1:1/1");
+  EXPECT_EQ(logs.people[6].id, "2:3/1");
+  EXPECT_EQ(logs.models.size(), 2u);
+  EXPECT_EQ(logs.people[6].model, 1u);
+}
+
+TEST_F(RunFolderImport, NamesFileAndRowOfWhatItCannotRead) {
+  const auto answers = read_file(run_ / "tables" / "responses.csv");
+  spoil("responses.csv", ",correct,", ",verdict,");
+  EXPECT_EQ(import_fault(run_), "E0502 responses.csv:1");
+  write_file_atomically(run_ / "tables" / "responses.csv", answers);
+  spoil("responses.csv", "\ncommon,NN,1,1,1", "\ncommon,NN,1,1,one");
+  EXPECT_EQ(import_fault(run_), "E0506 responses.csv:2");
+  write_file_atomically(run_ / "tables" / "responses.csv", answers);
+  spoil("responses.csv", "\ncommon,NN,1,1,", "\ncommon,NN,1,77,");
+  EXPECT_EQ(import_fault(run_), "E0708 responses.csv:2");
+}
+
+TEST_F(RunFolderImport, RefusesCellsThatAreNoHalfSpaces) {
+  spoil("demonstrations.csv", "-1 0", "-1 zero");
+  EXPECT_EQ(import_fault(run_).substr(0, 24), "E0707 demonstrations.csv");
+}
+
+TEST_F(RunFolderImport, RefusesAnUnknownType) {
+  spoil("learners.csv", ",1,1,1,N,", ",1,1,1,X,");
+  EXPECT_EQ(import_fault(run_), "E0708 learners.csv:2");
+}
+
+TEST_F(RunFolderImport, RefusesARunThatIsNotFinished) {
+  fs::remove(run_ / "manifest.json");
+  EXPECT_EQ(import_fault(run_), "E0704 run:0");
+}
+
+TEST_F(RunFolderImport, RefusesARunWithoutAnswers) {
+  write_file_atomically(run_ / "tables" / "responses.csv",
+                        "team,period,kc,test,member,mdp,start,correct,answer,covered\n");
+  EXPECT_EQ(import_fault(run_), "E0705 responses.csv:0");
+}
+
+TEST_F(RunFolderImport, CountsAPathThatIsBestForNobodyByItsVerdict) {
+  auto text = read_file(run_ / "tables" / "responses.csv");
+  std::string spoiled;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const auto end = text.find('\n', begin);
+    auto line = text.substr(begin, end - begin);
+    if (begin > 0) {  // the thirteenth cell is the answer
+      std::size_t at = 0;
+      for (int comma = 0; comma < 12; ++comma) at = line.find(',', at) + 1;
+      line.replace(at, line.find(',', at) - at, "9 9 99");
+    }
+    spoiled += line + "\n";
+    begin = end + 1;
+  }
+  write_file_atomically(run_ / "tables" / "responses.csv", spoiled);
+  const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
+  ASSERT_EQ(logs.notes.size(), 1u);
+  EXPECT_EQ(logs.notes[0].id, "W0706");
+}
+
+TEST_F(RunFolderImport, CountsTestsWithoutAnAnswerAsSayingNothing) {
+  spoil("responses.csv", "0 ", "");
+  auto text = read_file(run_ / "tables" / "responses.csv");
+  const auto row = text.find('\n') + 1;
+  std::size_t at = row;
+  for (int comma = 0; comma < 12; ++comma) at = text.find(',', at) + 1;
+  text.replace(at, text.find(',', at) - at, "");
+  write_file_atomically(run_ / "tables" / "responses.csv", text);
+  const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
+  ASSERT_FALSE(logs.notes.empty());
+  EXPECT_EQ(logs.notes.back().id, "W0707");
+}
+
+TEST(RunImport, RefusesRecordsOfTeamsOnlyAndCounterfactualsOfPeoplesOwn) {
+  const testing::TemporaryFolder folder;
+  testing::run_into(folder.path() / "teams", testing::study_text("N", 2, kTypes + "[record]\nlevel = \"team\"\n"));
+  EXPECT_EQ(import_fault(folder.path() / "teams"), "E0705 study.toml:0");
+  testing::run_into(folder.path() / "own",
+                    testing::study_text("N", 2, kTypes + "[teacher]\nlearner_counterfactuals = \"self\"\n"));
+  EXPECT_EQ(import_fault(folder.path() / "own"), "E0706 study.toml:0");
+}
+
+TEST(RunImport, WarnsOfPeopleWhoAreInSeveralTeams) {
+  const testing::TemporaryFolder folder;
+  testing::run_into(
+      folder.path() / "run",
+      "schema = \"kith.study/1\"\nid = \"paired\"\ndomain = \"item-delivery\"\nseed = 3\nreplicates = 2\n[design]\n"
+      "strategies = [\"baseline\", \"common\"]\ncompositions = [\"NN\"]\n" +
+          kTypes);
+  const auto logs = import_logs({folder.path() / "run"}, AnswerDetail::kPath).logs;
+  EXPECT_EQ(logs.people.size(), 8u);
+  for (const auto& person : logs.people) EXPECT_FALSE(person.periods.empty()) << person.id;
+  ASSERT_EQ(logs.notes.size(), 1u);
+  EXPECT_EQ(logs.notes[0].id, "W0704");
+}
+
+TEST(ImportLogs, RefusesWhatItDoesNotKnow) {
+  const testing::TemporaryFolder folder;
+  EXPECT_EQ(import_fault(folder.path()).substr(0, 5), "E0703");
+  EXPECT_EQ(import_fault(folder.write("a.csv", "team,score\n1,2\n")), "E0703 a.csv:1");
+  EXPECT_EQ(import_fault(folder.write("b.csv", "")), "E0501 b.csv:1");
+  EXPECT_NE(import_fault(folder.path() / "nowhere").find("nowhere"), std::string::npos);
+}
+
+// Rows of our own in the layout of the studies with one row per trial.
+constexpr const char* kHeader =
+    "user_id,loop_condition,domain,interaction_type,iteration,is_opt_response,mdp_parameters\n";
+constexpr const char* kToll = R"("{""constraints"": [[[-1, 0, 2.0]]], ""variable_filter"": [0, 1, 0]}")";
+
+std::string row(const std::string& who, const std::string& condition, const std::string& what,
+                const std::string& right) {
+  return who + "," + condition + ",at," + what + ",0," + right + "," + kToll + "\n";
+}
+
+std::string session(const std::string& who, const std::string& condition, std::size_t finals) {
+  std::string text = row(who, condition, "demo", "") + row(who, condition, "diagnostic test", "0") +
+                     row(who, condition, "diagnostic feedback", "") + row(who, condition, "remedial demo", "") +
+                     row(who, condition, "remedial test", "1");
+  for (std::size_t i = 0; i < finals; ++i) text += row(who, condition, "final test", i % 2 == 0 ? "1" : "True");
+  return text;
+}
+
+std::multiset<std::string> note_ids(const ResponseLogs& logs) {
+  std::multiset<std::string> ids;
+  for (const auto& note : logs.notes) ids.insert(note.id);
+  return ids;
+}
+
+TEST(Trials, BecomePeriodsInOrder) {
+  const testing::TemporaryFolder folder;
+  const auto logs = import_trials(folder.write("trials.csv", kHeader + session("a", "cl", 2)));
+  ASSERT_EQ(logs.people.size(), 1u);
+  const auto& person = logs.people[0];
+  EXPECT_EQ(person.id, "a/at");
+  EXPECT_EQ(person.answered, 4u);
+  EXPECT_EQ(person.correct, 3u);
+  EXPECT_EQ(person.final_tests, 2u);
+  ASSERT_EQ(person.periods.size(), 4u);
+  const std::vector<HalfSpace> shown{HalfSpace{IntegerVector{-1, 0, 2}}};
+  EXPECT_EQ(person.periods[0].conveyed, shown);
+  EXPECT_FALSE(person.periods[0].all_correct);
+  EXPECT_TRUE(person.periods[0].feedback);
+  EXPECT_EQ(person.periods[0].taught, shown);
+  EXPECT_TRUE(person.periods[1].feedback);  // a right answer whose feedback row is missing
+  EXPECT_FALSE(person.periods[2].feedback);
+  EXPECT_TRUE(person.periods[3].conveyed.empty());
+  EXPECT_EQ(note_ids(logs), std::multiset<std::string>{"W0703"});
+}
+
+TEST(Trials, KnownFaultsAreNotedAndNothingIsDroppedInSilence) {
+  const testing::TemporaryFolder folder;
+  const std::string text = kHeader + session("a", "cl", 12) + session("b", "cl", 12) + session("c", "cl", 11) +
+                           session("d", "open", 12) + session("e", "wt", 12) + row("f", "cl", "demo", "") +
+                           row("f", "cl", "diagnostic test", "0") + row("f", "open", "final test", "0");
+  const auto logs = import_trials(folder.write("trials.csv", text));
+  EXPECT_EQ(logs.people.size(), 5u);
+  EXPECT_EQ(note_ids(logs), (std::multiset<std::string>{"W0701", "W0701", "W0701", "W0702", "W0702", "W0703", "W0703",
+                                                        "W0703", "W0703", "W0705"}));
+  for (const auto& note : logs.notes) {
+    EXPECT_EQ(note.severity, Severity::kWarning);
+    EXPECT_GT(note.line, 0u);
+  }
+}
+
+TEST(Trials, CanBeFitted) {
+  const testing::TemporaryFolder folder;
+  std::string text = kHeader;
+  for (const char who : {'a', 'b', 'c', 'd'}) text += session(std::string{who}, "cl", 4);
+  const auto imported = import_logs({folder.write("trials.csv", text)}, AnswerDetail::kPath);
+  FitOptions options{.replicates = 1};
+  options.num_abilities = 5;
+  options.num_gains = 3;
+  options.num_draws = 10;
+  options.folds = 0;
+  const auto report = fit_learners(imported.logs, options);
+  ASSERT_EQ(report.types.size(), 1u);
+  EXPECT_EQ(report.types[0].name, "all");
+  EXPECT_EQ(report.people.size(), 4u);
+}
+
+TEST(Trials, NameRowAndFaultOfWhatCannotBeRead) {
+  const testing::TemporaryFolder folder;
+  const auto fault = [&](const std::string& text) { return import_fault(folder.write("t.csv", text)); };
+  const std::string good = session("a", "cl", 1);
+  EXPECT_EQ(fault(kHeader + good), "none");
+  EXPECT_EQ(fault("user_id,domain,is_opt_response\na,at,1\n"), "E0502 t.csv:1");
+  EXPECT_EQ(fault(kHeader + good + row("a", "cl", "final tests", "1")), "E0709 t.csv:8");
+  EXPECT_EQ(fault(kHeader + row("a", "loop", "demo", "")), "E0709 t.csv:2");
+  EXPECT_EQ(fault(kHeader + row("a", "cl", "final test", "maybe")), "E0709 t.csv:2");
+  EXPECT_EQ(fault(kHeader + std::string{"a,cl,at,demo,0,,{\n"}), "E0707 t.csv:2");
+  EXPECT_EQ(fault(kHeader + std::string{"a,cl,at,demo,0,,\"{\"\"constraints\"\": [[0.5, 0, 1]]}\"\n"}),
+            "E0707 t.csv:2");
+  EXPECT_EQ(fault(kHeader + std::string{"a,cl,at\n"}), "E0505 t.csv:2");
+}
+
+TEST(ImportLogs, KeepsDataWithAndWithoutExposuresApart) {
+  const testing::TemporaryFolder folder;
+  const auto trials = folder.write("trials.csv", kHeader + session("a", "cl", 1));
+  const auto answers = folder.write(
+      "answers.csv", "participant,domain,mdp_id,test_difficulty,optimal_response,moves\n1,two_goal,w,0,1,up\n");
+  EXPECT_EQ(import_logs({answers}, AnswerDetail::kPath).accuracy.size(), 1u);
+  const auto fault = fault_of([&] { static_cast<void>(import_logs({trials, answers}, AnswerDetail::kPath)); });
+  EXPECT_EQ(fault.substr(0, 5), "E0703");
+}
+
+}  // namespace
+}  // namespace kith

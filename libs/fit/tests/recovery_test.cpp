@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include "kith/fit/fit.hpp"
+#include "simulated_people.hpp"
+
+namespace kith {
+namespace {
+
+// Long sessions: everybody must answer three sets of tests rightly four times in a row.
+constexpr const char* kLongSessions =
+    "[stop]\nconsecutive_correct = 4\nduplicate_sets = 3\nmax_periods = 40\n"
+    "[learner.N]\nability = { mean = 0.72, sd = 0.05, min = 0.55 }\nconfirm_gain = { half_normal = 0.02 }\n"
+    "correct_gain = { half_normal = 0.08 }\ngain_max = 0.16\nordered_gains = false\nparticles = 200\n";
+
+struct Covered {
+  int ability = 0;
+  int confirm_gain = 0;
+  int correct_gain = 0;
+};
+
+bool within(double value, const ParameterPosterior& posterior) {
+  return posterior.lower <= value && value <= posterior.upper;
+}
+
+Covered covered(const FitReport& report, const std::vector<LearnerParameters>& truth) {
+  Covered result;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const auto& posterior = report.people[i].posterior;
+    result.ability += within(truth[i].ability, posterior.ability) ? 1 : 0;
+    result.confirm_gain += within(truth[i].confirm_gain, posterior.confirm_gain) ? 1 : 0;
+    result.correct_gain += within(truth[i].correct_gain, posterior.correct_gain) ? 1 : 0;
+  }
+  return result;
+}
+
+void expect_within(double value, const FitInterval& interval, const char* what) {
+  EXPECT_TRUE(interval.lower_open || interval.lower <= value) << what << " " << interval.lower;
+  EXPECT_TRUE(interval.upper_open || value <= interval.upper) << what << " " << interval.upper;
+}
+
+// Of 60 intervals of 95 % at least 51 hold the truth, but for one case in 900: P(X <= 50) for X ~ B(60, 0.95) is
+// 0.0009.
+constexpr int kFewestOf60 = 51;
+
+void expect_recovery(const FitOptions& options) {
+  const auto people = testing::simulate(testing::study_text("N", 60, kLongSessions));
+  ASSERT_EQ(people.logs.people.size(), 60u);
+  const auto report = fit_learners(people.logs, options);
+  const auto hits = covered(report, people.truth);
+  EXPECT_GE(hits.ability, kFewestOf60);
+  EXPECT_GE(hits.confirm_gain, kFewestOf60);
+  EXPECT_GE(hits.correct_gain, kFewestOf60);
+  ASSERT_EQ(report.types.size(), 1u);
+  const auto& fit = report.types[0].fit;
+  expect_within(0.72, fit.ability_mean, "mean");
+  expect_within(0.05, fit.ability_sd, "sd");
+  expect_within(0.02, fit.confirm_scale, "confirm");
+  expect_within(0.08, fit.correct_scale, "correct");
+  // The data do say something: an interval that held everything would recover anything.
+  EXPECT_GT(report.types[0].identifiability.ability, 0.15);
+  EXPECT_LT(fit.ability_mean.upper - fit.ability_mean.lower, 0.25);
+  EXPECT_FALSE(fit.ability_mean.upper_open);
+}
+
+TEST(Recovery, SixtySimulatedPeopleComeBackWithinTheirIntervals) {
+  if (kSanitized) GTEST_SKIP() << "too long under sanitizers; Fitting* runs the same code on fewer people";
+  FitOptions options;
+  options.replicates = 1;
+  options.folds = 0;
+  options.num_abilities = 10;
+  options.num_draws = 60;
+  expect_recovery(options);
+}
+
+TEST(RecoverySlow, SixtySimulatedPeopleComeBackWithinTheirIntervalsOnAFineGrid) {
+  FitOptions options;
+  options.replicates = 4;
+  options.folds = 0;
+  options.num_abilities = 23;
+  options.num_gains = 9;
+  options.num_draws = 200;
+  expect_recovery(options);
+}
+
+}  // namespace
+}  // namespace kith
