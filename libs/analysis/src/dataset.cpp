@@ -105,8 +105,15 @@ std::vector<std::optional<double>> Dataset::numbers(std::string_view column) con
                            .column = 1,
                            .hint = "write a number with a decimal point; leave the cell empty if there is none"});
   }
-  if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
-  return values;
+  if (diagnostics.empty()) return values;
+  if (std::none_of(values.begin(), values.end(), [](const auto& value) { return value.has_value(); })) {
+    diagnostics.resize(1);  // a column of text: one complaint says it all
+    const auto text = std::find_if(texts.begin(), texts.end(), [](const auto& cell) { return cell.has_value(); });
+    diagnostics.front().message =
+        "column '" + std::string{column} + "' holds text, such as '" + **text + "', no numbers";
+    diagnostics.front().hint = "choose a column of numbers";
+  }
+  throw Error{std::move(diagnostics)};
 }
 
 bool Dataset::is_numeric(std::string_view column) const {

@@ -73,6 +73,16 @@ TEST(Dataset, NamesFileAndRowOfATextAmongNumbers) {
   EXPECT_EQ(found.line, 3u);
 }
 
+TEST(Dataset, ComplainsOnceOfAColumnOfText) {
+  try {
+    (void)Dataset::parse(kText, "people.csv").numbers("strategy");
+    FAIL();
+  } catch (const Error& error) {
+    ASSERT_EQ(error.diagnostics().size(), 1u);
+    EXPECT_EQ(error.diagnostics()[0].message, "column 'strategy' holds text, such as 'joint', no numbers");
+  }
+}
+
 TEST(Dataset, RefusesNumbersThatAreNotFinite) {
   for (const auto* cell : {"nan", "inf", "1e999", "1,5", "0x10"}) {
     const auto text = "score\n\"" + std::string{cell} + "\"\n";

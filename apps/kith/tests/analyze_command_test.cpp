@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+// A finished run of 40 teams, made once.
+class AnalyzeCommand : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new Scratch;
+    ASSERT_EQ(run_kith({"study", "paper", "-o", *scratch_ / "run", "-q", "--set", "replicates=2"}).code, 0);
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  static std::string folder() { return *scratch_ / "run"; }
+  static std::string file(const std::string& name, const std::string& text) {
+    const auto path = *scratch_ / name;
+    std::ofstream{path} << text;
+    return path;
+  }
+  static Scratch* scratch_;
+};
+Scratch* AnalyzeCommand::scratch_ = nullptr;
+
+TEST_F(AnalyzeCommand, AnswersTheQuestionsOfAStudyInWordsAndTables) {
+  const auto ran = run_kith({"analyze", folder()});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("periods by strategy and composition"), HasSubstr("on 32 teams"),
+                             HasSubstr("p, permutation"), HasSubstr("Kaplan-Meier"), HasSubstr("Manipulation check"),
+                             HasSubstr("Groups against teaching everybody alone: knowledge")));
+  EXPECT_THAT(ran.out, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+}
+
+TEST_F(AnalyzeCommand, IsBriefWhenAsked) {
+  const auto ran = run_kith({"analyze", folder(), "--brief"});
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("No effect of strategy was found"), Not(HasSubstr("p, permutation"))));
+}
+
+TEST_F(AnalyzeCommand, PrintsOneDocument) {
+  const auto ran = run_kith({"analyze", folder(), "--json"});
+  const auto document = Json::parse(ran.out);
+  EXPECT_EQ(document.at("schema"), "kith.analyze/1");
+  EXPECT_EQ(document.at("findings").at(0).at("id"), "periods");
+  const auto& table = document.at("findings").at(0).at("tables").at(0);
+  EXPECT_EQ(table.at("columns").at(0), "term");
+  EXPECT_TRUE(table.at("rows").at(0).at(4).is_number());
+}
+
+TEST_F(AnalyzeCommand, TestsAModelOnATableOfARun) {
+  const auto ran = run_kith(
+      {"analyze", folder(), "--table", "learners", "--model", "p_bec ~ type", "--where", "strategy!=baseline"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("Analysis of variance of p_bec on 96 rows."));
+}
+
+TEST_F(AnalyzeCommand, TestsAModelOnStandardInput) {
+  const auto ran = run_kith({"analyze", "-", "--model", "y ~ g"}, {.input = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\n"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("F(1, 4) = 13.50"));
+}
+
+TEST_F(AnalyzeCommand, NamesFileAndRowOfBadInput) {
+  const auto text = file("people.csv", "g,y\na,1\nb,two\nb,3\na,4\n");
+  const auto model = [&](const std::string& formula) { return run_kith({"analyze", text, "--model", formula}); };
+  const auto number = model("y ~ g");
+  EXPECT_EQ(number.code, 3);
+  EXPECT_THAT(number.err, HasSubstr("people.csv:3:1: error[E0902]: 'two' in column 'y' is not a number"));
+  const auto column = model("y ~ h");
+  EXPECT_EQ(column.code, 3);
+  EXPECT_THAT(column.err, HasSubstr("people.csv:1:1: error[E0901]: there is no column 'h'"));
+  const auto formula = model("y ~");
+  EXPECT_EQ(formula.code, 2);
+  EXPECT_THAT(formula.err, HasSubstr("model 'y ~', character"));
+  const auto single = run_kith({"analyze", text, "--model", "y ~ g", "--where", "y!=two", "--where", "g=a"});
+  EXPECT_EQ(single.code, 4);
+  EXPECT_THAT(single.err, HasSubstr("error[E0904]: column 'g' is 'a' in every row"));
+}
+
+TEST_F(AnalyzeCommand, RefusesFoldersWithoutFinishedResults) {
+  std::filesystem::create_directories(*scratch_ / "half/inputs");
+  const auto half = run_kith({"analyze", *scratch_ / "half"});
+  EXPECT_EQ(half.code, 3);
+  EXPECT_THAT(half.err, HasSubstr("holds an unfinished study"));
+  std::filesystem::create_directories(*scratch_ / "empty");
+  EXPECT_EQ(run_kith({"analyze", *scratch_ / "empty"}).code, 3);
+  EXPECT_EQ(run_kith({"analyze", *scratch_ / "nowhere"}).code, 5);
+}
+
+TEST_F(AnalyzeCommand, ExplainsOptionsThatDoNotGoTogether) {
+  const auto table = run_kith({"analyze", file("t.csv", "g,y\na,1\n")});
+  EXPECT_EQ(table.code, 2);
+  EXPECT_THAT(table.err, HasSubstr("a table needs --model"));
+  EXPECT_EQ(run_kith({"analyze", folder(), "--where", "a=b"}).code, 2);
+  EXPECT_EQ(run_kith({"analyze", folder(), "--model", "y ~ g", "--where", "nonsense"}).code, 2);
+  EXPECT_EQ(run_kith({"analyze", folder(), "--alpha", "2"}).code, 2);
+}
+
+}  // namespace
+}  // namespace kith::testing
