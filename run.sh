@@ -11,7 +11,8 @@ root=$PWD
 
 usage() {
   cat <<'TEXT'
-usage: ./run.sh            build kith, run the paper's study into results/paper, print its tables
+usage: ./run.sh            build kith, run the paper's study into results/paper, print its table and
+                           what was found, and write results/paper/report.html
        ./run.sh --setup    install what is missing and build, no more
        ./run.sh ARGS...    the same, then `kith ARGS...` (./run.sh help: what kith can do)
 
@@ -41,7 +42,14 @@ case ${1:-} in
   '')
     say "Running the paper's study: kith study studies/paper.toml -o results/paper"
     "$kith" study studies/paper.toml -o results/paper || exit
+    say
+    say "What it found: kith analyze results/paper --brief (without --brief: every table)"
+    "$kith" analyze results/paper --brief || exit
+    say
+    say "Figures, tables, methods: kith report results/paper -o results/paper/report.html"
+    "$kith" report results/paper -o results/paper/report.html || exit
     say "Tables: results/paper/tables/*.csv, every column explained in results/paper/tables/codebook.json"
+    say "Report: $root/results/paper/report.html"
     ;;
   *)
     cd "${OLDPWD:-$root}" && exec "$kith" "$@"

@@ -9,8 +9,9 @@ packages_to_build=(
   g++ cmake ninja-build
   libeigen3-dev librandom123-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
   libssl-dev libboost-math-dev
+  nodejs npm
 )
-packages_to_test=(libgtest-dev libgmock-dev)
+packages_to_test=(libgtest-dev libgmock-dev chromium)
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev libbenchmark-dev)
 
 # ensure_packages NAME...: installs those that are not installed; does nothing,
