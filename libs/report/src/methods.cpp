@@ -1,6 +1,7 @@
 #include "methods.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "bibliography.hpp"
@@ -103,8 +104,8 @@ class Paragraph {
         (types.empty() ? "" : " (" + types + ")") + ", at " + counted(spec_.replicates, "team") + " per cell.");
     if (!spec_.factors.empty()) say(variation());
     say(spec_.pairing == Pairing::kReplicate
-            ? "The same simulated people were taught with every strategy (common random numbers" + cite_("salmon2011") +
-                  ")."
+            ? "The same simulated people were taught with every strategy (common random numbers; " +
+                  cite_.inside("salmon2011") + ")."
             : "Every cell had simulated people of its own, drawn from counter-based random streams" +
                   cite_("salmon2011") + ".");
   }
@@ -238,10 +239,25 @@ class Paragraph {
         " with Greenwood's variance on the log scale.");
     if (analysis_.findings.empty()) return;
     const AnalysisOptions options;
-    std::vector<std::string> titles;
-    for (const auto& finding : analysis_.findings) titles.push_back("'" + finding.title + "'");
     say("Tests were made at the level " + shortest(options.alpha) + ", families of them with the correction of " +
-        (options.correction == Correction::kHolm ? "Holm" : "Bonferroni") + ": " + listed(titles) + ".");
+        (options.correction == Correction::kHolm ? "Holm" : "Bonferroni") + ": " + questions() + ".");
+  }
+
+  // The findings' titles; those that differ in what is measured only ("...: periods") are one.
+  [[nodiscard]] std::string questions() const {
+    std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+    for (const auto& finding : analysis_.findings) {
+      const auto colon = finding.title.rfind(": ");
+      auto title = finding.title.substr(0, colon);
+      title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+      if (groups.empty() || groups.back().first != title) groups.push_back({title, {}});
+      if (colon != std::string::npos) groups.back().second.push_back(finding.title.substr(colon + 2));
+    }
+    std::string text;
+    for (const auto& [title, quantities] : groups) {
+      text += (text.empty() ? "" : "; ") + title + (quantities.empty() ? "" : " (" + listed(quantities) + ")");
+    }
+    return text;
   }
 
   const RunFiles& run_;

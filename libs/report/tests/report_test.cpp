@@ -178,9 +178,9 @@ TEST_F(RealReport, GivesEveryParameterAMeaning) {
 
 TEST_F(RealReport, WritesAMethodsParagraphWithItsReferences) {
   const auto paragraph = document_->at("methods").at("paragraph").get<std::string>();
-  for (const auto* fact :
-       {"4 teams of 2 learners", "kith 1.2.3 (abc)", "seed 1.", "0.703 (novice) and 0.809 (proficient)", "60 particles",
-        "(Jayaraman et al., 2024)", "0.05 rad", "50 periods at the latest"}) {
+  for (const auto* fact : {"4 teams of 2 learners", "kith 1.2.3 (abc)", "seed 1.",
+                           "0.703 (novice) and 0.809 (proficient)", "60 particles", "(Jayaraman et al., 2024)",
+                           "common random numbers; Salmon et al., 2011)", "0.05 rad", "50 periods at the latest"}) {
     EXPECT_THAT(paragraph, HasSubstr(fact));
   }
   for (const auto& reference : document_->at("methods").at("references")) {
