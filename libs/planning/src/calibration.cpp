@@ -233,6 +233,10 @@ class Calibrator {
     return true;
   }
 
+  // A loss that is worth fewer digits or fewer changes: within the noise, and at most a fiftieth of a tolerance of the
+  // most important target.
+  [[nodiscard]] static double worth(double noise) { return std::min(noise, 0.02); }
+
   // @pre these values were confirmed.
   [[nodiscard]] const Evaluation& confirmed_at(const std::vector<double>& values) const {
     std::size_t i = 0;
@@ -245,19 +249,19 @@ class Calibrator {
   bool confirm(const Box& box) {
     const auto first = minimum(objective(), box, Fixed(present_.size()), stream("minimum"));
     const double first_noise = surfaces_->noise_at(first, stream("noise"));
-    const auto first_values = readable(box, first, first_noise);
+    const auto first_values = readable(box, first, worth(first_noise));
     lab_.expect(lab_.done() + lab_.cost(5, options_.confirm_teams) +
                 lab_.cost(options_.frontier_points, frontier_teams()));
     if (!confirm_some({{"the study as it is", present_},
-                       {"best simulated", readable(box, best_simulated(), first_noise)},
+                       {"best simulated", readable(box, best_simulated(), worth(first_noise))},
                        {"first minimum", first_values}}))
       return false;
     surfaces_->correct(to_unit(set_.parameters, first_values), confirmed_at(first_values));
     const auto best = minimum(objective(), box, Fixed(present_.size()), stream("minimum", 1));
     const double noise = surfaces_->noise_at(best, stream("noise", 1));
     find_ranges(box, best, noise);
-    if (!confirm_some({{"fewest changes", readable(box, frugal(box, best, noise), noise)},
-                       {"minimum", readable(box, best, noise)}}))
+    if (!confirm_some({{"fewest changes", readable(box, frugal(box, best, worth(noise)), worth(noise))},
+                       {"minimum", readable(box, best, worth(noise))}}))
       return false;
     choose();
     for (std::size_t t = 0; t < set_.targets.size(); ++t) {

@@ -1,6 +1,7 @@
 #include "surfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -69,7 +70,33 @@ std::vector<double> Surfaces::misses_at(std::span<const double> unit) const {
   return misses;
 }
 
-double Surfaces::discrepancy_at(std::span<const double> unit) const { return discrepancy(targets_, misses_at(unit)); }
+// The prediction's variance is the residual one times the leverage, whose mean is terms over points.
+double Surfaces::miss_error(std::size_t target) const {
+  const auto d = static_cast<double>(box_.low.size());
+  const double terms = 1.0 + 2.0 * d + d * (d - 1.0) / 2.0;
+  const double leverage = std::min(1.0, terms / static_cast<double>(num_points_));
+  const auto& one = targets_[target];
+  const double tolerance = one.is_factor ? std::log(one.tolerance) : one.tolerance;
+  return std::sqrt(leverage) * surfaces_[target].error() / tolerance;
+}
+
+double Surfaces::discrepancy_at(std::span<const double> unit) const {
+  // The middles of ten slices of equal probability of a standard normal, for the mean over one target's error; the
+  // discrepancy is a sum over targets.
+  constexpr std::array<double, 5> kSlices{0.1257, 0.3853, 0.6745, 1.0364, 1.6449};
+  const auto misses = misses_at(unit);
+  double sum = 0.0;
+  for (std::size_t t = 0; t < misses.size(); ++t) {
+    const double error = miss_error(t);
+    for (const double slice : kSlices) {
+      for (const double sign : {-1.0, 1.0}) {
+        const double miss = misses[t] + sign * slice * error;
+        sum += 0.1 * discrepancy(targets_.subspan(t, 1), std::span{&miss, 1});
+      }
+    }
+  }
+  return sum;
+}
 
 double Surfaces::error_of(std::size_t target) const {
   return surfaces_[target].error() * (targets_[target].is_factor ? targets_[target].value : 1.0);
@@ -77,18 +104,13 @@ double Surfaces::error_of(std::size_t target) const {
 
 double Surfaces::noise_at(std::span<const double> unit, RandomStream random) const {
   constexpr std::size_t kDraws = 400;
-  // The prediction's variance is the residual one times the leverage, whose mean is terms over points.
-  const auto d = static_cast<double>(unit.size());
-  const double terms = 1.0 + 2.0 * d + d * (d - 1.0) / 2.0;
-  const double leverage = std::min(1.0, terms / static_cast<double>(num_points_));
   const auto misses = misses_at(unit);
   const double here = discrepancy(targets_, misses);
   double sum = 0.0;
   for (std::size_t i = 0; i < kDraws; ++i) {
     auto moved = misses;
     for (std::size_t t = 0; t < moved.size(); ++t) {
-      const double one = targets_[t].is_factor ? std::log(targets_[t].tolerance) : targets_[t].tolerance;
-      moved[t] += std::sqrt(leverage) * surfaces_[t].error() / one * standard_normal(random);
+      moved[t] += miss_error(t) * standard_normal(random);
     }
     const double change = discrepancy(targets_, moved) - here;
     sum += change * change;

@@ -25,6 +25,8 @@ class Surfaces {
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] const ResponseSurface& surface(std::size_t target) const { return surfaces_[target]; }
   [[nodiscard]] std::vector<double> misses_at(std::span<const double> unit) const;
+  // The discrepancy expected at a point, the surfaces' errors being normal: a setting at the edge of a tolerance is
+  // worse than one in the middle, because it may be outside.
   [[nodiscard]] double discrepancy_at(std::span<const double> unit) const;
   // How much the discrepancy at a point is uncertain: root mean square of its change when every figure is off by a
   // normal error as large as that of the surface's prediction, which averages over the points.
@@ -33,6 +35,9 @@ class Surfaces {
   [[nodiscard]] double error_of(std::size_t target) const;
 
  private:
+  // Standard error of the prediction of a target's miss.
+  [[nodiscard]] double miss_error(std::size_t target) const;
+
   std::span<const Target> targets_;
   Box box_;
   std::size_t num_points_ = 0;
