@@ -184,11 +184,13 @@ Json findings_of(const Analysis& analysis) {
 // A design in which nothing can be compared has no findings, and that is no error.
 Analysis analyse(const RunFiles& run, std::vector<std::string>& notes) try {
   auto analysis = analyze_run(run.folder, {});
-  for (const auto& note : analysis.notes) notes.push_back("Findings: " + note + ".");
+  // The first note is the size of the design, which the overview says.
+  for (std::size_t i = 1; i < analysis.notes.size(); ++i) notes.push_back("Findings: " + analysis.notes[i] + ".");
   return analysis;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::kInfeasible) throw;
-  notes.push_back(std::string{"Nothing was tested: "} + error.what() + ".");
+  if (error.diagnostics().empty()) throw;
+  notes.push_back("Nothing was tested: " + error.diagnostics().front().message + ".");
   return {};
 }
 

@@ -10,8 +10,6 @@
 namespace kith {
 namespace {
 
-using ::testing::Contains;
-using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -238,6 +236,17 @@ TEST(Report, TellsSettingsOfVariedKeysApart) {
   EXPECT_EQ(document.at("overview").at("factors"), Json::parse(R"(["stop.max_periods"])"));
   // One team a cell has no spread.
   EXPECT_TRUE(document.at("tables").at("cells").at("rows").at(0).at(5).is_null());
+}
+
+TEST(Report, OfOneCellHasNothingToTest) {
+  const Scratch scratch;
+  run_tiny_study(scratch / "run", {"design.strategies=[\"common\"]"});
+  const auto document = Json::parse(build_report(scratch / "run"));
+  EXPECT_THAT(document.at("findings"), IsEmpty());
+  EXPECT_THAT(document.at("notes"),
+              ElementsAre(::testing::ResultOf([](const Json& note) { return note.get<std::string>(); },
+                                              ::testing::StartsWith("Nothing was tested: "))));
+  EXPECT_THAT(document.at("notes").dump(), Not(HasSubstr("teams.csv")));
 }
 
 }  // namespace
