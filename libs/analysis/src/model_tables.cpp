@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/stats/moments.hpp"
 #include "model.hpp"
 
 namespace kith {
@@ -10,15 +11,6 @@ constexpr std::size_t kMostCells = 60;   // more make no table that people read
 constexpr std::size_t kMostLevels = 12;  // for all pairs
 
 using Kind = ResultKind;
-
-Estimable<double> standard_deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return Estimable<double>::impossible("fewer than two values");
-  double sum = 0.0, squares = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / static_cast<double>(values.size());
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / (static_cast<double>(values.size()) - 1.0));
-}
 
 ResultTable means_table(const ModelData& data, double confidence) {
   ResultTable table{"Means", {}, {}};
@@ -36,11 +28,13 @@ ResultTable means_table(const ModelData& data, double confidence) {
       rest /= factor->levels.size();
     }
     row.push_back(count_cell(groups[cell].size()));
-    const auto mean = mean_interval(groups[cell], confidence);
-    row.push_back(groups[cell].size() == 1 ? number_cell(groups[cell].front()) : cell_of(mean, &Interval::estimate));
-    row.push_back(cell_of(standard_deviation(groups[cell])));
-    row.push_back(cell_of(mean, &Interval::low));
-    row.push_back(cell_of(mean, &Interval::high));
+    const auto interval = mean_interval(groups[cell], confidence);
+    row.push_back(groups[cell].size() == 1 ? number_cell(groups[cell].front())
+                                           : cell_of(interval, &Interval::estimate));
+    const auto sd = standard_deviation(groups[cell]);
+    row.push_back(sd ? number_cell(*sd) : cell_of(interval, &Interval::low));
+    row.push_back(cell_of(interval, &Interval::low));
+    row.push_back(cell_of(interval, &Interval::high));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -96,9 +90,7 @@ void add_tukey(const ModelData& data, const ModelResult& result, double confiden
     std::vector<double> means;
     std::vector<std::size_t> counts;
     for (const auto& group : split_by(data.values, factor)) {
-      double sum = 0.0;
-      for (const double value : group) sum += value;
-      means.push_back(group.empty() ? 0.0 : sum / static_cast<double>(group.size()));
+      means.push_back(group.empty() ? 0.0 : mean(group));
       counts.push_back(group.size());
     }
     const auto df = static_cast<double>(result.table.residual_df);

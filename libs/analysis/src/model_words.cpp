@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/stats/moments.hpp"
 #include "model.hpp"
 
 namespace kith {
@@ -28,19 +29,6 @@ Factor all_cells(const ModelData& data) {
   std::vector<std::size_t> every;
   for (std::size_t f = 0; f < data.factors.size(); ++f) every.push_back(f);
   return cells_of(data, every);
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double sd(const std::vector<double>& values) {
-  const double centre = mean(values);
-  double squares = 0.0;
-  for (const double value : values) squares += (value - centre) * (value - centre);
-  return std::sqrt(squares / (static_cast<double>(values.size()) - 1.0));
 }
 
 // "from 6.70 (PPP) to 8.53 (NNN)"
@@ -103,8 +91,8 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
     least = std::min(least, group.size());
     most = std::max(most, group.size());
     if (group.size() < 2) continue;
-    smallest = std::min(smallest, sd(group));
-    largest = std::max(largest, sd(group));
+    smallest = std::min(smallest, *standard_deviation(group));
+    largest = std::max(largest, *standard_deviation(group));
   }
   if (result.table.empty_cells > 0) {
     warnings.push_back(fmt::format("{} combinations of levels have no {}: type II and III answer different questions",

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "kith/core/error.hpp"
+#include "kith/stats/moments.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -18,13 +19,11 @@ std::string ranking(const std::vector<double>& values, const Factor& strategy) {
   std::vector<std::pair<double, std::string>> means;
   const auto groups = split_by(values, strategy);
   for (std::size_t level = 0; level < groups.size(); ++level) {
-    double sum = 0.0;
-    for (const double value : groups[level]) sum += value;
-    means.emplace_back(sum / static_cast<double>(groups[level].size()), strategy.levels[level]);
+    means.emplace_back(mean(groups[level]), strategy.levels[level]);
   }
   std::sort(means.begin(), means.end());
   std::string text;
-  for (const auto& [mean, name] : means) text += (text.empty() ? "" : ", ") + fmt::format("{} {:.3f}", name, mean);
+  for (const auto& [value, name] : means) text += (text.empty() ? "" : ", ") + fmt::format("{} {:.3f}", name, value);
   return text;
 }
 

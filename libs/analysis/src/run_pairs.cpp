@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "kith/stats/moments.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -187,10 +188,7 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
     row[7] = size->low;
     row[8] = size->high;
   }
-  const auto mean_text = [](const std::vector<double>& sample) {
-    const auto mean = mean_interval(sample);
-    return formatted(mean ? mean->estimate : sample.front(), Kind::kNumber);
-  };
+  const auto mean_text = [](const std::vector<double>& sample) { return formatted(mean(sample), Kind::kNumber); };
   finding.sentence = fmt::format(
       "{} groups that were taught together came to {} {} on average, {} groups whose members were taught one after "
       "the other to {}",
