@@ -10,8 +10,8 @@ constexpr const char* kSchema = "kith.fit/1";
 // An end that the data leave open is null.
 Json parameter(double value, const FitInterval& interval) {
   return {{"estimate", value},
-          {"lower", interval.lower_open ? Json{} : Json{interval.lower}},
-          {"upper", interval.upper_open ? Json{} : Json{interval.upper}}};
+          {"lower", interval.lower_open ? Json(nullptr) : Json(interval.lower)},
+          {"upper", interval.upper_open ? Json(nullptr) : Json(interval.upper)}};
 }
 
 Json parameter(const ParameterPosterior& posterior) {
@@ -33,6 +33,11 @@ Json type_to_json(const TypeReport& type) {
           {"ability_sd", parameter(p.ability_sd, type.fit.ability_sd)},
           {"confirm_gain_scale", parameter(p.confirm_scale, type.fit.confirm_scale)},
           {"correct_gain_scale", parameter(p.correct_scale, type.fit.correct_scale)},
+          {"typical",
+           {{"ability_mean", type.typical.ability_mean},
+            {"ability_sd", type.typical.ability_sd},
+            {"confirm_gain_scale", type.typical.confirm_scale},
+            {"correct_gain_scale", type.typical.correct_scale}}},
           {"identifiability",
            {{"gains_apart", known.gains_apart},
             {"gains_statistic", known.gains.statistic},
@@ -48,7 +53,7 @@ Json type_to_json(const TypeReport& type) {
 
 Json person_to_json(const PersonReport& person) {
   Json result{{"id", person.id},
-              {"type", person.type.empty() ? Json{} : Json{person.type}},
+              {"type", person.type.empty() ? Json(nullptr) : Json(person.type)},
               {"periods", person.periods},
               {"answered", person.answered},
               {"correct", person.correct},

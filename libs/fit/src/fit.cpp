@@ -65,6 +65,18 @@ std::vector<Members> mixed_members(const MixtureFit& mixture) {
   return result;
 }
 
+double median(const std::vector<PopulationParameters>& draws, double PopulationParameters::*parameter) {
+  std::vector<double> values;
+  for (const auto& draw : draws) values.push_back(draw.*parameter);
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+PopulationParameters medians(const std::vector<PopulationParameters>& draws) {
+  return {median(draws, &PopulationParameters::ability_mean), median(draws, &PopulationParameters::ability_sd),
+          median(draws, &PopulationParameters::confirm_scale), median(draws, &PopulationParameters::correct_scale)};
+}
+
 // Contraction below this is called nothing.
 constexpr double kNothing = 0.1;
 
@@ -104,20 +116,20 @@ class Fitting {
     for (std::size_t i = 0; i < logs_.people.size(); ++i) add_person(i);
     for (std::size_t k = 0; k < members_.size(); ++k) add_identifiability(k);
     compare_models();
+    warn_of_noise();
     return std::move(report_);
   }
 
  private:
   void add_type(const Members& members) {
-    TypeReport type{.name = members.name, .fit = {}, .share = members.share, .identifiability = {}};
+    TypeReport type{.name = members.name, .fit = {}, .typical = {}, .share = members.share, .identifiability = {}};
     type.fit = fit_with_intervals(surface_, members.weights, limits_, GainModel::kFree);
     type.identifiability.gains = compare_gain_scales(surface_, members.weights, limits_);
     auto& masses = masses_.emplace_back();
     const auto random = RandomStream{options_.seed}.split("populations").split(members.name);
-    for (const auto& population :
-         draw_populations(surface_, members.weights, limits_, type.fit, options_.num_draws, random)) {
-      masses.push_back(masses_of(surface_, population, limits_, GainModel::kFree));
-    }
+    const auto draws = draw_populations(surface_, members.weights, limits_, type.fit, options_.num_draws, random);
+    for (const auto& population : draws) masses.push_back(masses_of(surface_, population, limits_, GainModel::kFree));
+    type.typical = medians(draws);
     report_.types.push_back(std::move(type));
   }
 
@@ -168,6 +180,16 @@ class Fitting {
     describe(result);
   }
 
+  // The average over few runs of a small filter is noisy, and noise passes for a difference between people.
+  void warn_of_noise() {
+    constexpr std::size_t kEnough = 500;
+    std::size_t fewest = kEnough;
+    for (const auto& model : logs_.models) fewest = std::min(fewest, model.filter.particles * options_.replicates);
+    if (fewest >= kEnough) return;
+    report_.sentences.push_back("with few particles and " + std::to_string(options_.replicates) +
+                                " replicates the likelihood is noisy; more replicates make it surer");
+  }
+
   void compare_models() {
     const auto folds = std::min(options_.folds, logs_.people.size());
     if (folds < 2) return;
@@ -204,7 +226,7 @@ class Fitting {
 FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
   constexpr std::size_t kFewest = 3;
   if (logs.people.size() < kFewest) {
-    too_few(std::to_string(logs.people.size()) + " people are too few to fit a population; 3 are the least");
+    too_few("too few people to fit a population: " + std::to_string(logs.people.size()) + ", and 3 are the least");
   }
   if (options.num_types == 0) static_cast<void>(labelled_members(logs));  // complain before the work
   const auto grid = make_grid(options.ability_first, options.ability_last, options.num_abilities, options.gain_last,
@@ -217,7 +239,7 @@ FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
 }
 
 std::string learner_section(char letter, const TypeReport& type) {
-  const auto& p = type.fit.parameters;
+  const auto& p = type.typical;
   std::string text = std::string{"[learner."} + letter + "]\n";
   text += "label = \"" + type.name + " (fitted to " + figure(type.fit.people, 0) + " people)\"\n";
   text += "ability = { mean = " + figure(p.ability_mean, 3) + ", sd = " + figure(p.ability_sd, 3) + ", min = 0.51 }\n";

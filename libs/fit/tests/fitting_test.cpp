@@ -155,7 +155,8 @@ TEST(Fitting, ComparesModelsByPeopleWhoWereHeldOut) {
   EXPECT_EQ(models, (std::set<std::string>{"full", "equal gains", "no gains", "two types", "types as labelled"}));
   EXPECT_EQ(report.cross_validation.at(0).model, "full");
   EXPECT_EQ(report.cross_validation.at(0).difference, 0.0);
-  EXPECT_EQ(report.sentences.size(), 4u);
+  EXPECT_EQ(report.sentences.size(), 5u);  // the last one says that 60 particles are few
+  EXPECT_NE(report.sentences.back().find("noisy"), std::string::npos);
 }
 
 TEST(Fitting, StopsWhenAsked) {

@@ -38,6 +38,9 @@ struct Identifiability {
 struct TypeReport {
   std::string name;  ///< The label, "all", or "type 1", ...
   PopulationFit fit;
+  /// Medians of the populations that the answers leave possible: unlike the best one never at an edge, so that people
+  /// drawn from it are like people.
+  PopulationParameters typical;
   double share = 1.0;
   Identifiability identifiability;
 };
@@ -66,7 +69,7 @@ struct FitReport {
 /// @throws kith::Error (kInfeasible, E0710) with fewer than 3 people, or a type with fewer than 2.
 [[nodiscard]] FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options);
 
-/// A section of a study file for a population: "[learner.N]" and its keys, ready to paste.
+/// A section of a study file for a population: "[learner.N]" and its keys with the typical values, ready to paste.
 [[nodiscard]] std::string learner_section(char letter, const TypeReport& type);
 
 }  // namespace kith
