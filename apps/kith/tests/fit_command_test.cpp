@@ -1,0 +1,112 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+// Some people in a run folder, made once.
+class FitCommand : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = std::make_unique<Scratch>();
+    const auto ran = run_kith({"study", "quick", "-o", *scratch_ / "run", "-q", "--set", "learner.N.particles=100",
+                               "--set", "learner.P.particles=100"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+  }
+  static void TearDownTestSuite() { scratch_.reset(); }
+
+  static Ran fit(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"fit", *scratch_ / "run", "--folds", "0", "--replicates", "1"});
+    return run_kith(arguments);
+  }
+
+  static std::unique_ptr<Scratch> scratch_;
+};
+std::unique_ptr<Scratch> FitCommand::scratch_;
+
+TEST_F(FitCommand, SaysWhatItFoundAndWhatCannotBeTold) {
+  const auto ran = fit({});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("What these data can tell"));
+  EXPECT_THAT(ran.out, HasSubstr("these data cannot tell the gains apart"));
+  EXPECT_THAT(ran.out, HasSubstr("[learner.N]"));
+  EXPECT_THAT(ran.err, HasSubstr("W0704"));
+}
+
+TEST_F(FitCommand, WritesTheSameJsonToFileAndOutput) {
+  const auto file = *scratch_ / "fit.json";
+  const auto ran = fit({"--json", "-q", "-o", file});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+  const auto document = Json::parse(ran.out);
+  EXPECT_EQ(document, Json::parse(text_of(file)));
+  EXPECT_EQ(document["schema"], "kith.fit/1");
+  EXPECT_EQ(document["people"].size(), 12u);
+  EXPECT_TRUE(document["types"][0]["ability_mean"]["estimate"].is_number());
+  const auto& upper = document["types"][0]["confirm_gain_scale"]["upper"];
+  EXPECT_TRUE(upper.is_null() || upper.is_number());
+  EXPECT_EQ(document["notes"].size(), 1u);
+
+  const auto again = fit({"-o", file});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--yes"));
+  EXPECT_EQ(fit({"-q", "-o", file, "--yes"}).code, 0);
+}
+
+TEST_F(FitCommand, DoesNotDependOnThreads) {
+  EXPECT_EQ(fit({"--json", "-q", "-j", "1"}).out, fit({"--json", "-q", "-j", "3"}).out);
+}
+
+TEST_F(FitCommand, SearchesTheGrid) {
+  const auto ran = fit({"--method", "grid", "--json", "-q"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const auto document = Json::parse(ran.out);
+  EXPECT_EQ(document["method"], "grid");
+  EXPECT_EQ(document["groups"][0]["points"], 315);
+}
+
+TEST_F(FitCommand, TellsTypesWithoutLabels) {
+  const auto ran = fit({"--types", "2", "-q"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("type 2"));
+}
+
+TEST_F(FitCommand, FitsAnswersWithoutExposures) {
+  const Scratch scratch;
+  std::string text = "participant,domain,mdp_id,test_difficulty,optimal_response,moves\n";
+  for (const auto* answer :
+       {"1,two_goal,a,0,1,up", "1,two_goal,b,2,0,up", "2,two_goal,a,0,1,up", "2,two_goal,b,2,1,up"})
+    text += std::string{answer} + "\n";
+  std::ofstream{scratch / "answers.csv"} << text;
+  const auto ran = run_kith({"fit", scratch / "answers.csv"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("silent about the gains from feedback"));
+  EXPECT_EQ(run_kith({"fit", scratch / "answers.csv", "--method", "grid"}).code, 2);
+  const auto json = run_kith({"fit", scratch / "answers.csv", "--json"});
+  EXPECT_EQ(Json::parse(json.out)["method"], "accuracy");
+}
+
+TEST_F(FitCommand, ExitsWithTheCodeOfTheFault) {
+  const Scratch scratch;
+  EXPECT_EQ(run_kith({"fit"}).code, 2);
+  EXPECT_EQ(run_kith({"fit", scratch / "nowhere"}).code, 5);
+  std::filesystem::create_directory(scratch / "empty");
+  const auto empty = run_kith({"fit", scratch / "empty"});
+  EXPECT_EQ(empty.code, 3);
+  EXPECT_THAT(empty.err, HasSubstr("error[E0703]"));
+  std::ofstream{scratch / "t.csv"} << "user_id,domain,interaction_type,is_opt_response\na,at,final test,1\n";
+  const auto few = run_kith({"fit", scratch / "t.csv"});
+  EXPECT_EQ(few.code, 4);
+  EXPECT_THAT(few.err, HasSubstr("too few people"));
+}
+
+}  // namespace
+}  // namespace kith::testing
