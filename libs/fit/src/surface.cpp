@@ -165,39 +165,44 @@ PersonPosterior compare(const CellDistribution& posterior, const CellDistributio
 
 namespace {
 
-// Where a refined value lies among the coarse ones.
-struct Between {
-  std::size_t below;
-  double t;
-};
-
-Between between(std::size_t i, std::size_t refine, std::size_t num_coarse) {
-  const auto below = std::min(i / refine, num_coarse - 2);
-  return {below, static_cast<double>(i - below * refine) / static_cast<double>(refine)};
-}
-
 std::vector<double> refined(const std::vector<double>& coarse, std::size_t refine) {
   std::vector<double> values;
   const auto n = (coarse.size() - 1) * refine + 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto [below, t] = between(i, refine, coarse.size());
-    values.push_back(coarse[below] + t * (coarse[below + 1] - coarse[below]));
-  }
+  const double step = (coarse.back() - coarse.front()) / static_cast<double>(n - 1);
+  for (std::size_t i = 0; i < n; ++i) values.push_back(coarse.front() + step * static_cast<double>(i));
   return values;
 }
 
-// The table of a person, linear in each parameter between the points of the grid.
-double interpolated(const std::vector<double>& row, std::size_t n, const Between& a, const Between& c,
-                    const Between& i) {
-  double value = 0.0;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    const std::size_t da = corner >> 2U & 1U;
-    const std::size_t dc = corner >> 1U & 1U;
-    const std::size_t di = corner & 1U;
-    const double weight = (da == 1 ? a.t : 1.0 - a.t) * (dc == 1 ? c.t : 1.0 - c.t) * (di == 1 ? i.t : 1.0 - i.t);
-    if (weight > 0.0) value += weight * row[((a.below + da) * n + c.below + dc) * n + i.below + di];
+// Cubic interpolation between the second and the third of four equally spaced values [catmull1974].
+double cubic(double before, double left, double right, double after, double t) {
+  const double slope = 0.5 * (right - before);
+  const double end_slope = 0.5 * (after - left);
+  const double rise = right - left;
+  return left + t * (slope + t * (3.0 * rise - 2.0 * slope - end_slope + t * (slope + end_slope - 2.0 * rise)));
+}
+
+// A table of shape [outer, n, inner] with refine times as many steps along its middle axis. Not linear between points:
+// that would put a small peak on every point, and populations would gather there.
+std::vector<double> refined_axis(const std::vector<double>& values, std::size_t outer, std::size_t n, std::size_t inner,
+                                 std::size_t refine) {
+  const auto fine = (n - 1) * refine + 1;
+  std::vector<double> result(outer * fine * inner);
+  for (std::size_t o = 0; o < outer; ++o) {
+    for (std::size_t k = 0; k < inner; ++k) {
+      const auto at = [&](std::size_t i) { return values[(o * n + i) * inner + k]; };
+      for (std::size_t i = 0; i < fine; ++i) {
+        const auto left = std::min(i / refine, n - 2);
+        const double t = static_cast<double>(i - left * refine) / static_cast<double>(refine);
+        // Beyond an end the parabola through the last three points goes on; two points have a straight line only.
+        const double before = left > 0 ? at(left - 1) : n > 2 ? 3.0 * at(0) - 3.0 * at(1) + at(2) : 2.0 * at(0) - at(1);
+        const double after = left + 2 < n ? at(left + 2)
+                             : n > 2      ? 3.0 * at(n - 1) - 3.0 * at(n - 2) + at(n - 3)
+                                          : 2.0 * at(1) - at(0);
+        result[(o * fine + i) * inner + k] = cubic(before, at(left), at(left + 1), after, t);
+      }
+    }
   }
-  return value;
+  return result;
 }
 
 }  // namespace
@@ -212,18 +217,12 @@ LikelihoodSurface::LikelihoodSurface(const LikelihoodTable& table, std::size_t r
   abilities_ = refined(table.grid.abilities, refine);
   gains_ = refined(table.grid.confirm_gains, kRefineGains);
   for (const auto& row : table.log_likelihood) {
-    const double top = *std::max_element(row.begin(), row.end());
-    auto& values = relative_.emplace_back();
-    values.reserve(abilities_.size() * gains_.size() * gains_.size());
-    for (std::size_t a = 0; a < abilities_.size(); ++a) {
-      for (std::size_t c = 0; c < gains_.size(); ++c) {
-        for (std::size_t i = 0; i < gains_.size(); ++i) {
-          const double log_value = interpolated(row, n, between(a, refine, num_abilities), between(c, kRefineGains, n),
-                                                between(i, kRefineGains, n));
-          values.push_back(std::exp(log_value - top));
-        }
-      }
-    }
+    auto values = refined_axis(row, num_abilities * n, n, 1, kRefineGains);
+    values = refined_axis(values, num_abilities, n, gains_.size(), kRefineGains);
+    values = refined_axis(values, 1, num_abilities, gains_.size() * gains_.size(), refine);
+    const double top = *std::max_element(values.begin(), values.end());
+    for (double& value : values) value = std::exp(value - top);
+    relative_.push_back(std::move(values));
     log_top_.push_back(top);
   }
 }

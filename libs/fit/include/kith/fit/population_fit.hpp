@@ -35,7 +35,7 @@ enum class GainModel {
 };
 
 /// The people's likelihoods on a refined grid, on which everything about populations is computed: log-likelihoods are
-/// interpolated linearly in every parameter, between the points where the filter was run.
+/// interpolated by cubics [catmull1974] in every parameter, between the points where the filter was run.
 class LikelihoodSurface {
  public:
   /// @param refine  points of the new grid per step of abilities; of gains there are 2.
