@@ -8,18 +8,49 @@
 
 namespace kith {
 
-std::string sha256(std::string_view bytes) {
+struct Sha256::State {
+  State() : context{EVP_MD_CTX_new()} { KITH_ASSERT(context != nullptr); }  // fails only without memory
+  ~State() { EVP_MD_CTX_free(context); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  EVP_MD_CTX* context;
+};
+
+Sha256::Sha256() : state_{std::make_unique<State>()} {
+  const int ok = EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr);
+  KITH_ASSERT(ok == 1);
+}
+Sha256::~Sha256() = default;
+Sha256::Sha256(Sha256&&) noexcept = default;
+Sha256& Sha256::operator=(Sha256&&) noexcept = default;
+
+void Sha256::update(std::string_view bytes) {
+  const int ok = EVP_DigestUpdate(state_->context, bytes.data(), bytes.size());
+  KITH_ASSERT(ok == 1);
+}
+
+std::string Sha256::digest() && {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
-  const int ok = EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr);
-  KITH_ASSERT(ok == 1 && length == 32);  // fails only without memory
+  const int ok = EVP_DigestFinal_ex(state_->context, digest.data(), &length);
+  KITH_ASSERT(ok == 1 && length == 32);
+  return {digest.begin(), digest.begin() + length};
+}
+
+std::string Sha256::hex() && {
   static constexpr char kHex[] = "0123456789abcdef";
   std::string text;
-  for (std::size_t i = 0; i < length; ++i) {
-    text += kHex[digest[i] >> 4];
-    text += kHex[digest[i] & 0xFu];
+  for (const char byte : std::move(*this).digest()) {
+    text += kHex[static_cast<unsigned char>(byte) >> 4];
+    text += kHex[static_cast<unsigned char>(byte) & 0xFu];
   }
   return text;
+}
+
+std::string sha256(std::string_view bytes) {
+  Sha256 hash;
+  hash.update(bytes);
+  return std::move(hash).hex();
 }
 
 }  // namespace kith

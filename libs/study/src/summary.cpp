@@ -1,12 +1,12 @@
 #include "kith/study/summary.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace kith {
 namespace {
 
-// The values of one cell, gathered before anything is computed.
+// The values of the teams of one cell, gathered before anything is computed.
 struct Gathered {
   CellSummary cell;
   std::vector<double> periods, knowledge, area_sr;
@@ -18,53 +18,86 @@ struct Gathered {
     knowledge.push_back(team.knowledge);
     area_sr.push_back(team.area_sr);
   }
+  [[nodiscard]] bool contains(const TeamAddress& address) const {
+    return cell.variant == address.variant && cell.strategy == address.strategy &&
+           cell.composition == address.composition;
+  }
 };
 
-// Two passes: no cancellation. @pre values is not empty.
-MeanSd mean_sd(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
+using Cells = std::vector<const Gathered*>;
+
+// Two passes: no cancellation. The values are those of the cells, one cell after the other.
+MeanSd mean_sd(const Cells& cells, std::size_t n, std::vector<double> Gathered::*values) {
   double sum = 0.0;
-  for (const double value : values) sum += value;
-  MeanSd result{sum / n, {}};
-  if (values.size() < 2) return result;
+  for (const auto* cell : cells) {
+    for (const double value : cell->*values) sum += value;
+  }
+  MeanSd result{sum / static_cast<double>(n), {}};
+  if (n < 2) return result;
   double squares = 0.0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  result.sd = std::sqrt(squares / (n - 1.0));
+  for (const auto* cell : cells) {
+    for (const double value : cell->*values) squares += (value - result.mean) * (value - result.mean);
+  }
+  result.sd = std::sqrt(squares / (static_cast<double>(n) - 1.0));
   return result;
 }
 
-std::optional<CellSummary> finish(Gathered gathered) {
-  if (gathered.cell.teams == 0) return std::nullopt;
-  gathered.cell.periods = mean_sd(gathered.periods);
-  gathered.cell.knowledge = mean_sd(gathered.knowledge);
-  gathered.cell.area_sr = mean_sd(gathered.area_sr);
-  return gathered.cell;
+// All teams of these cells together, without saying which cells they are.
+std::optional<CellSummary> pooled(const Cells& cells) {
+  CellSummary summary;
+  for (const auto* cell : cells) {
+    summary.teams += cell->cell.teams;
+    summary.completed += cell->cell.completed;
+  }
+  if (summary.teams == 0) return std::nullopt;
+  summary.periods = mean_sd(cells, summary.teams, &Gathered::periods);
+  summary.knowledge = mean_sd(cells, summary.teams, &Gathered::knowledge);
+  summary.area_sr = mean_sd(cells, summary.teams, &Gathered::area_sr);
+  return summary;
 }
 
 }  // namespace
 
-StudySummary summarize(std::span<const TeamRecord> teams) {
+struct StudySummarizer::State {
   std::vector<Gathered> cells;
-  Gathered group, baseline;
-  for (const auto& team : teams) {
-    const auto& address = team.address;
-    const bool same = !cells.empty() && cells.back().cell.variant == address.variant &&
-                      cells.back().cell.strategy == address.strategy &&
-                      cells.back().cell.composition == address.composition;
-    if (!same) {
-      cells.emplace_back();
-      cells.back().cell.variant = address.variant;
-      cells.back().cell.strategy = address.strategy;
-      cells.back().cell.composition = address.composition;
-    }
-    cells.back().add(team);
-    (address.strategy == Strategy::kBaseline ? baseline : group).add(team);
+};
+
+StudySummarizer::StudySummarizer() : state_{std::make_unique<State>()} {}
+StudySummarizer::~StudySummarizer() = default;
+StudySummarizer::StudySummarizer(StudySummarizer&&) noexcept = default;
+StudySummarizer& StudySummarizer::operator=(StudySummarizer&&) noexcept = default;
+
+void StudySummarizer::add(const TeamRecord& team) {
+  auto& cells = state_->cells;
+  if (cells.empty() || !cells.back().contains(team.address)) {
+    cells.emplace_back();
+    cells.back().cell.variant = team.address.variant;
+    cells.back().cell.strategy = team.address.strategy;
+    cells.back().cell.composition = team.address.composition;
   }
+  cells.back().add(team);
+}
+
+StudySummary StudySummarizer::summary() const {
   StudySummary summary;
-  for (auto& cell : cells) summary.cells.push_back(*finish(std::move(cell)));
-  summary.group = finish(std::move(group));
-  summary.baseline = finish(std::move(baseline));
+  Cells group, baseline;
+  for (const auto& cell : state_->cells) {
+    auto one = *pooled({&cell});
+    one.variant = cell.cell.variant;
+    one.strategy = cell.cell.strategy;
+    one.composition = cell.cell.composition;
+    summary.cells.push_back(std::move(one));
+    (cell.cell.strategy == Strategy::kBaseline ? baseline : group).push_back(&cell);
+  }
+  summary.group = pooled(group);
+  summary.baseline = pooled(baseline);
   return summary;
+}
+
+StudySummary summarize(std::span<const TeamRecord> teams) {
+  StudySummarizer summarizer;
+  for (const auto& team : teams) summarizer.add(team);
+  return summarizer.summary();
 }
 
 }  // namespace kith

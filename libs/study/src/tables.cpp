@@ -309,8 +309,17 @@ class Tables {
 }  // namespace
 
 void write_study_tables(const Study& study, std::span<const TeamRecord> teams, const TableSink& sink) {
+  write_study_tables(
+      study,
+      [&](const std::function<void(const TeamRecord& team)>& visit) {
+        for (const auto& team : teams) visit(team);
+      },
+      sink);
+}
+
+void write_study_tables(const Study& study, const TeamSource& teams, const TableSink& sink) {
   Tables tables{study, sink};
-  for (const auto& team : teams) tables.add(team);
+  teams([&](const TeamRecord& team) { tables.add(team); });
   tables.flush();
 }
 

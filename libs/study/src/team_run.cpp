@@ -19,8 +19,13 @@ struct Person {
 class TeamRun {
  public:
   TeamRun(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
-          TeamObserver* observer)
-      : atlas_{atlas}, cache_{cache}, spec_{spec}, observer_{observer}, stream_{team_stream(spec, address)} {
+          TeamObserver* observer, std::function<bool()> stopped)
+      : stopped_{std::move(stopped)},
+        atlas_{atlas},
+        cache_{cache},
+        spec_{spec},
+        observer_{observer},
+        stream_{team_stream(spec, address)} {
     record_.address = address;
     record_.seed_address = readable_address(spec, address);
     options_ = spec.teaching;
@@ -32,13 +37,15 @@ class TeamRun {
     draw_people();
   }
 
-  TeamRecord run() {
+  // Nothing if it was stopped.
+  std::optional<TeamRecord> run() {
     record_.completed = true;
     if (record_.address.strategy == Strategy::kBaseline) {
       for (const auto& person : people_) run_session({person}, person.stream.split("alone"), person.member);
     } else {
       run_session(people_, stream_.split("teacher"), 0);
     }
+    if (was_stopped_) return std::nullopt;
     summarize();
     return std::move(record_);
   }
@@ -94,6 +101,8 @@ class TeamRun {
     if (observer_ != nullptr) observer_->on_session(session, member);
     std::optional<std::size_t> component;
     while (!session.finished()) {
+      was_stopped_ = was_stopped_ || (stopped_ && stopped_());
+      if (was_stopped_) return;
       if (component != session.lesson().component) {
         component = session.lesson().component;
         for (auto& one : learners) one.begin_component();
@@ -280,6 +289,8 @@ class TeamRun {
     record_.area_sr = record_.periods > 0 ? area_sum_ / static_cast<double>(record_.periods) : 0.0;
   }
 
+  std::function<bool()> stopped_;
+  bool was_stopped_ = false;
   const Atlas& atlas_;
   TeachingCache& cache_;
   const StudySpec& spec_;
@@ -295,7 +306,12 @@ class TeamRun {
 
 TeamRecord run_team(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
                     TeamObserver* observer) {
-  return TeamRun{atlas, cache, spec, address, observer}.run();
+  return TeamRun{atlas, cache, spec, address, observer, {}}.run().value();
+}
+
+std::optional<TeamRecord> run_team_unless(const std::function<bool()>& stopped, const Atlas& atlas,
+                                          TeachingCache& cache, const StudySpec& spec, const TeamAddress& address) {
+  return TeamRun{atlas, cache, spec, address, nullptr, stopped}.run();
 }
 
 }  // namespace kith

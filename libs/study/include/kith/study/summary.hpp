@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,5 +35,20 @@ struct StudySummary {
   std::optional<CellSummary> baseline;
 };
 [[nodiscard]] StudySummary summarize(std::span<const TeamRecord> teams);
+
+/// The same for teams that come one by one, in the order of the tables: keeps three numbers of each.
+class StudySummarizer {
+ public:
+  StudySummarizer();
+  ~StudySummarizer();
+  StudySummarizer(StudySummarizer&&) noexcept;
+  StudySummarizer& operator=(StudySummarizer&&) noexcept;
+  void add(const TeamRecord& team);
+  [[nodiscard]] StudySummary summary() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace kith

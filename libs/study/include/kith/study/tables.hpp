@@ -22,6 +22,11 @@ using TableSink = std::function<void(std::string_view file, std::string_view pie
 /// bytes depend on the study and its teams only.
 void write_study_tables(const Study& study, std::span<const TeamRecord> teams, const TableSink& sink);
 
+/// Hands every team of a run to what it is given, in the order of their numbers.
+using TeamSource = std::function<void(const std::function<void(const TeamRecord& team)>& visit)>;
+/// The same for teams that come one by one; none is kept.
+void write_study_tables(const Study& study, const TeamSource& teams, const TableSink& sink);
+
 /// The tables of a run of the study, in the order in which they are written: the one place where columns are defined.
 [[nodiscard]] std::vector<TableDescription> study_tables(const Study& study);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "kith/learners/simulated_learner.hpp"
 #include "kith/study/records.hpp"
@@ -33,5 +34,10 @@ class TeamObserver {
 /// @param observer  may be null. With an observer, all beliefs are kept up to date.
 [[nodiscard]] TeamRecord run_team(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec,
                                   const TeamAddress& address, TeamObserver* observer = nullptr);
+
+/// The same, given up as soon as `stopped` says so, which is asked before every period: then nothing. May be empty.
+[[nodiscard]] std::optional<TeamRecord> run_team_unless(const std::function<bool()>& stopped, const Atlas& atlas,
+                                                        TeachingCache& cache, const StudySpec& spec,
+                                                        const TeamAddress& address);
 
 }  // namespace kith
