@@ -277,7 +277,12 @@ class Calibrator {
     return n;
   }
 
-  // Of those that do not differ from the best beyond the noise the one that changes least.
+  [[nodiscard]] static std::ptrdiff_t missed(const CalibrationPoint& point) {
+    return std::count_if(point.targets.begin(), point.targets.end(),
+                         [](const TargetOutcome& one) { return std::abs(one.miss) > 1.0; });
+  }
+
+  // Of those that do not differ from the best beyond the noise, and miss no more targets, the one that changes least.
   void choose() {
     const auto& all = result_.candidates;
     std::size_t least = 0;
@@ -287,7 +292,8 @@ class Calibrator {
     auto chosen = least;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const double worse = all[i].discrepancy - all[least].discrepancy;
-      const bool as_good = worse <= difference_error(set_.targets, confirmed_[i], confirmed_[least]);
+      const bool as_good = worse <= difference_error(set_.targets, confirmed_[i], confirmed_[least]) &&
+                           missed(all[i]) <= missed(all[least]);
       if (as_good && changes(all[i]) < changes(all[chosen])) chosen = i;
     }
     result_.best = all[chosen];

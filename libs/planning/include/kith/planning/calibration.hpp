@@ -99,8 +99,8 @@ struct Calibration {
 /// where their discrepancy is small the next, smaller design is placed, with twice the teams, and so on. The minimum of
 /// the last quadratics is simulated with fresh seeds and more teams, the quadratics are moved to what that says, and
 /// their new minimum and the setting that leaves as many parameters as possible as they are get simulated, too. Among
-/// all candidates, the study as it is included, that do not differ beyond the noise, the one that changes least is the
-/// answer. Values are rounded to the digits that matter.
+/// all candidates, the study as it is included, that do not differ beyond the noise and miss no more targets, the one
+/// that changes least is the answer. Values are rounded to the digits that matter.
 /// @param targets  with at least one target and one parameter.
 /// @return nothing if on_progress stopped it.
 /// @throws std::invalid_argument without targets or parameters or with counts below 2 (teams) or 8 (points).
