@@ -85,7 +85,7 @@ TEST(StudyFile, ReadsTheBuiltInStudiesWithoutAComplaint) {
   }
   const auto paper = load_study("paper");
   EXPECT_EQ(team_addresses(*paper.study).size(), 300u);
-  EXPECT_EQ(learner_type(paper.study->variants.front(), 'P').population.ability_scale, 0.9);
+  EXPECT_EQ(learner_type(paper.study->variants.front(), 'P').population.ability_scale, 0.92);
 }
 
 struct Mistake {
