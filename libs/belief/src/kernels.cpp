@@ -19,7 +19,7 @@ constexpr std::size_t kBlock = 256;
 // The sum of term(i) for i in [0, n), in kLanes interleaved partial sums that
 // are then added pairwise.
 template <typename Term>
-double lane_sum(std::size_t n, Term term) {
+[[gnu::always_inline]] inline double lane_sum(std::size_t n, Term term) {
   std::array<double, kLanes> lane{};
   std::size_t i = 0;
   for (; i + kLanes <= n; i += kLanes) {
@@ -29,9 +29,24 @@ double lane_sum(std::size_t n, Term term) {
   return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
+// The largest of the values, in any order: there is nothing to round.
+[[gnu::always_inline]] inline double largest_of(std::span<const double> values) {
+  std::array<double, kLanes> lane;
+  lane.fill(-std::numeric_limits<double>::infinity());
+  const double* const v = values.data();
+  std::size_t i = 0;
+  for (; i + kLanes <= values.size(); i += kLanes) {
+    for (std::size_t l = 0; l < kLanes; ++l) lane[l] = v[i + l] > lane[l] ? v[i + l] : lane[l];
+  }
+  for (; i < values.size(); ++i) lane[0] = v[i] > lane[0] ? v[i] : lane[0];
+  double top = lane[0];
+  for (const double candidate : lane) top = candidate > top ? candidate : top;
+  return top;
+}
+
 // exp(y) for -708 <= y <= 0: y = k ln 2 + r with |r| <= ln(2) / 2, Taylor's
 // polynomial of degree 13 in r, and k added to the exponent bits.
-double exp_reduced(double y) noexcept {
+[[gnu::always_inline]] inline double exp_reduced(double y) noexcept {
   constexpr double kRound = 0x1.8p52;  // adding it leaves the nearest integer in the low bits
   constexpr double kLn2High = 0x1.62e42fee00000p-1;
   constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
@@ -57,7 +72,7 @@ double exp_reduced(double y) noexcept {
 
 // arcsin(sqrt(v))^2 / v on [0, 1/2], relative error below 6e-13: the Chebyshev
 // interpolant of degree 13 in powers of v.
-double square_arcsine_ratio(double v) noexcept {
+[[gnu::always_inline]] inline double square_arcsine_ratio(double v) noexcept {
   double p = 0.8916180467849655;
   p = p * v - 2.1519280692625338;
   p = p * v + 2.5434297399649264;
@@ -76,23 +91,21 @@ double square_arcsine_ratio(double v) noexcept {
 
 }  // namespace
 
-std::vector<Plane> planes_of(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) {
-  std::vector<const HalfSpace*> sorted;
-  sorted.reserve(half_spaces.size());
-  for (const HalfSpace& h : half_spaces) sorted.push_back(&h);
+Planes::Planes(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood)
+    : planes_{half_spaces.size()} {
+  Scratch<const HalfSpace*, 32> pointers{half_spaces.size()};
+  const std::span<const HalfSpace*> sorted = pointers.values();
+  std::transform(half_spaces.begin(), half_spaces.end(), sorted.begin(), [](const HalfSpace& h) { return &h; });
   std::sort(sorted.begin(), sorted.end(), [](const HalfSpace* a, const HalfSpace* b) { return *a < *b; });
-  std::vector<Plane> planes;
-  planes.reserve(sorted.size());
   for (std::size_t i = 0; i < sorted.size();) {
     std::size_t next = i + 1;
     while (next < sorted.size() && *sorted[next] == *sorted[i]) ++next;
     const Eigen::Vector3d& u = sorted[i]->unit_normal();
     const auto times = static_cast<double>(next - i);
     // Not times * log_far where that is 0 * infinity: both factors are never such here, as times >= 1.
-    planes.push_back({u.x(), u.y(), u.z(), times * likelihood.log_far(), times * likelihood.concentration()});
+    planes_.values()[size_++] = {u.x(), u.y(), u.z(), times * likelihood.log_far(), times * likelihood.concentration()};
     i = next;
   }
-  return planes;
 }
 
 KITH_VECTOR_CLONES void log_relative_products(const Points& points, std::span<const Plane> planes,
@@ -105,12 +118,46 @@ KITH_VECTOR_CLONES void log_relative_products(const Points& points, std::span<co
   std::fill(out.begin(), out.end(), 0.0);
   for (const Plane& plane : planes) {
     const Plane p = plane;
+    KITH_INDEPENDENT_LOOP
     for (std::size_t i = 0; i < n; ++i) {
       const double t = p.ux * x[i] + p.uy * y[i] + p.uz * z[i];
       const double far = p.log_far + p.kappa * t;  // meaningless, perhaps NaN, on the near side
       sum[i] += t < 0.0 ? far : 0.0;
     }
   }
+}
+
+KITH_VECTOR_CLONES double add(std::span<const double> terms, std::span<double> sums) {
+  const double* const from = terms.data();
+  double* const to = sums.data();
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < sums.size(); ++i) to[i] += from[i];
+  return largest_of(sums);
+}
+
+KITH_VECTOR_CLONES void raise(std::span<const double> others, std::span<double> values) {
+  const double* const from = others.data();
+  double* const to = values.data();
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < values.size(); ++i) to[i] = from[i] > to[i] ? from[i] : to[i];
+}
+
+void gather(std::span<const double> values, std::span<const std::uint32_t> index, std::span<double> out) {
+  const double* const from = values.data();
+  const std::uint32_t* const at = index.data();
+  double* const to = out.data();
+  for (std::size_t i = 0; i < out.size(); ++i) to[i] = from[at[i]];
+}
+
+KITH_VECTOR_CLONES void subtract(double shift, std::span<double> values) {
+  double* const to = values.data();
+  for (std::size_t i = 0; i < values.size(); ++i) to[i] -= shift;
+}
+
+KITH_VECTOR_CLONES double rescale(double scale, std::span<double> values) {
+  double* const v = values.data();
+  for (std::size_t i = 0; i < values.size(); ++i) v[i] *= scale;
+  return lane_sum(values.size(), [v](std::size_t i) { return v[i] * v[i]; });
 }
 
 KITH_VECTOR_CLONES double exp_below(std::span<const double> in, double shift, std::span<double> out) {
@@ -125,22 +172,12 @@ KITH_VECTOR_CLONES double exp_below(std::span<const double> in, double shift, st
   return lane_sum(n, [to](std::size_t i) { return to[i]; });
 }
 
-double sum_of_squares(std::span<const double> values) {
+KITH_VECTOR_CLONES double sum_of_squares(std::span<const double> values) {
   const double* const v = values.data();
   return lane_sum(values.size(), [v](std::size_t i) { return v[i] * v[i]; });
 }
 
-double largest(std::span<const double> values) {
-  std::array<double, kLanes> lane;
-  lane.fill(-std::numeric_limits<double>::infinity());
-  const double* const v = values.data();
-  std::size_t i = 0;
-  for (; i + kLanes <= values.size(); i += kLanes) {
-    for (std::size_t l = 0; l < kLanes; ++l) lane[l] = v[i + l] > lane[l] ? v[i + l] : lane[l];
-  }
-  for (; i < values.size(); ++i) lane[0] = std::max(lane[0], v[i]);
-  return *std::max_element(lane.begin(), lane.end());
-}
+KITH_VECTOR_CLONES double largest(std::span<const double> values) { return largest_of(values); }
 
 KITH_VECTOR_CLONES Eigen::Vector3d weighted_sum(const Points& points, std::span<const double> weights) {
   const double* const w = weights.data();
@@ -171,11 +208,12 @@ KITH_VECTOR_CLONES double weighted_square_angles(const Points& points, std::span
       v[i] = 0.25 * ((x[i] - cx) * (x[i] - cx) + (y[i] - cy) * (y[i] - cy) + (z[i] - cz) * (z[i] - cz));
       out[i] = 4.0 * v[i] * square_arcsine_ratio(v[i]);
     }
-    for (std::size_t i = 0; i < n; ++i) {  // angles beyond a right angle, which are few: from the supplement
-      if (!(v[i] > 0.5)) continue;
-      const double rest = std::max(0.0, 1.0 - v[i]);
-      const double angle = std::numbers::pi - 2.0 * std::sqrt(rest * square_arcsine_ratio(rest));
-      out[i] = angle * angle;
+    if (largest_of({v, n}) > 0.5) {  // angles beyond a right angle, which are rare: from the supplement
+      for (std::size_t i = 0; i < n; ++i) {
+        const double rest = v[i] < 1.0 ? 1.0 - v[i] : 0.0;
+        const double angle = std::numbers::pi - 2.0 * std::sqrt(rest * square_arcsine_ratio(rest));
+        out[i] = v[i] > 0.5 ? angle * angle : out[i];
+      }
     }
     total += lane_sum(n, [out, w](std::size_t i) { return w[i] * out[i]; });
   }

@@ -9,6 +9,7 @@
 #include "kith/belief/likelihood.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/random/stream.hpp"
+#include "scratch.hpp"
 
 // The inner loops of the particle filter, over structures of arrays. They are
 // plain loops that the compiler vectorises; sums run in a fixed number of lanes,
@@ -32,34 +33,35 @@ struct Plane {
 
 // The half-spaces as planes, sorted, with repetitions merged into one of a
 // multiple weight: so the order of the list cannot change the rounding.
-[[nodiscard]] std::vector<Plane> planes_of(std::span<const HalfSpace> half_spaces,
-                                           const HalfSpaceLikelihood& likelihood);
+class Planes {
+ public:
+  Planes(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood);
+  [[nodiscard]] std::span<const Plane> list() { return planes_.values().first(size_); }
+
+ private:
+  Scratch<Plane, 32> planes_;
+  std::size_t size_ = 0;
+};
 
 // out[i] = the exponent of point i, summed over the planes: the log of the
 // product of relative likelihoods.
 void log_relative_products(const Points& points, std::span<const Plane> planes, std::span<double> out);
 
-// The small loops of the filter: without the checks of operator[].
-inline void add(std::span<const double> term, std::span<double> sum) {
-  const double* const from = term.data();
-  double* const to = sum.data();
-  for (std::size_t i = 0; i < sum.size(); ++i) to[i] += from[i];
-}
-inline void raise(std::span<const double> to_at_least, std::span<double> values) {
-  const double* const from = to_at_least.data();
-  double* const to = values.data();
-  for (std::size_t i = 0; i < values.size(); ++i) to[i] = from[i] > to[i] ? from[i] : to[i];
-}
-inline void gather(std::span<const double> values, std::span<const std::uint32_t> index, std::span<double> out) {
-  const double* const from = values.data();
-  const std::uint32_t* const at = index.data();
-  double* const to = out.data();
-  for (std::size_t i = 0; i < out.size(); ++i) to[i] = from[at[i]];
-}
+// sums[i] += terms[i]; returns the largest sum.
+double add(std::span<const double> terms, std::span<double> sums);
+// values[i] = max(values[i], others[i]).
+void raise(std::span<const double> others, std::span<double> values);
+// out[i] = values[index[i]].
+void gather(std::span<const double> values, std::span<const std::uint32_t> index, std::span<double> out);
 
 // out[i] = exp(in[i] - shift) for in[i] <= shift, with 0 below exp(-708);
 // relative error below 1e-15. Returns the sum.
 double exp_below(std::span<const double> in, double shift, std::span<double> out);
+
+// values[i] -= shift.
+void subtract(double shift, std::span<double> values);
+// values[i] *= scale; returns the sum of the squares of the products.
+double rescale(double scale, std::span<double> values);
 
 [[nodiscard]] double sum_of_squares(std::span<const double> values);
 [[nodiscard]] double largest(std::span<const double> values);

@@ -10,9 +10,9 @@
 namespace kith::detail {
 namespace {
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kBlock = NormalPairs::kBlock;
 constexpr int kRetries = 20;
-using Block = std::array<double, kBlock>;
+using Block = NormalPairs::Block;
 
 struct Step {
   double along, across;  // in the tangent plane, radians
@@ -41,9 +41,10 @@ bool inside(const Eigen::Vector3d& p, std::span<const Eigen::Vector3d> normals) 
   return std::all_of(normals.begin(), normals.end(), [&](const Eigen::Vector3d& u) { return u.dot(p) >= 0.0; });
 }
 
-// A block of moves at once: where each point would go, and the square of its angle.
+// A block of moves at once: where each point would go, the square of its
+// angle, and its smallest margin over the prior's normals there.
 struct Moves {
-  Block x, y, z, square;
+  Block x, y, z, square, margin;
 };
 
 // Series of cos(sqrt q) and sin(sqrt q) / sqrt q, accurate to 3e-16 for q <= 1;
@@ -98,18 +99,17 @@ KITH_VECTOR_CLONES void move_block(const MutablePoints& points, std::size_t begi
   }
 }
 
-// The smallest margin of each proposed point over the normals.
-KITH_VECTOR_CLONES void least_margins(const Moves& moves, std::size_t n, std::span<const Eigen::Vector3d> normals,
-                                      Block& margin) {
-  std::fill_n(margin.begin(), n, 1.0);
+KITH_VECTOR_CLONES void find_margins(std::size_t n, std::span<const Eigen::Vector3d> normals, Moves& moves) {
   const double* const x = moves.x.data();
   const double* const y = moves.y.data();
   const double* const z = moves.z.data();
-  double* const least = margin.data();
+  double* const least = moves.margin.data();
+  std::fill_n(least, n, 1.0);
   for (const Eigen::Vector3d& u : normals) {
     const double ux = u.x();
     const double uy = u.y();
     const double uz = u.z();
+    KITH_INDEPENDENT_LOOP
     for (std::size_t i = 0; i < n; ++i) {
       const double t = ux * x[i] + uy * y[i] + uz * z[i];
       least[i] = t < least[i] ? t : least[i];
@@ -129,37 +129,43 @@ Eigen::Vector3d redrawn(const Eigen::Vector3d& from, double angle, std::span<con
   return from;
 }
 
+// The few moves of a block that its loops cannot make: those farther than their
+// series reach, and those that would leave the prior.
+void mend(const MutablePoints& points, std::size_t begin, std::size_t n, double angle, const Block& along,
+          const Block& across, std::span<const Eigen::Vector3d> normals, RandomStream& random, Moves& moves) {
+  std::array<std::uint32_t, kBlock> which;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {  // written in any case, counted if so: nothing to predict
+    which[count] = static_cast<std::uint32_t>(i);
+    count += static_cast<std::size_t>(moves.square[i] > 1.0) | static_cast<std::size_t>(moves.margin[i] < 0.0);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = which[k];
+    const Eigen::Vector3d from{points.x[begin + i], points.y[begin + i], points.z[begin + i]};
+    const bool is_long = moves.square[i] > 1.0;
+    Eigen::Vector3d to = from;
+    if (is_long) to = moved(from, {angle * along[i], angle * across[i]});
+    if (!is_long || !inside(to, normals)) to = redrawn(from, angle, normals, random);
+    moves.x[i] = to.x();
+    moves.y[i] = to.y();
+    moves.z[i] = to.z();
+  }
+}
+
 }  // namespace
 
 void move_points(const MutablePoints& points, double angle, std::span<const Eigen::Vector3d> normals,
                  RandomStream& random) {
-  const std::size_t size = points.size();
-  std::vector<double> normal(2 * size);
-  batch_standard_normal(normal, random);
+  const NormalPairs normal{random};
+  Block along;
+  Block across;
   Moves moves;
-  Block margin;
-  for (std::size_t begin = 0; begin < size; begin += kBlock) {
-    const std::size_t n = std::min(kBlock, size - begin);
-    const double* const along = normal.data() + begin;
-    const double* const across = along + size;
-    move_block(points, begin, n, angle, along, across, moves);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!(moves.square[i] > 1.0)) continue;
-      const std::size_t k = begin + i;
-      const auto to = moved({points.x[k], points.y[k], points.z[k]}, {angle * along[i], angle * across[i]});
-      moves.x[i] = to.x();
-      moves.y[i] = to.y();
-      moves.z[i] = to.z();
-    }
-    least_margins(moves, n, normals, margin);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!(margin[i] < 0.0)) continue;
-      const std::size_t k = begin + i;
-      const auto to = redrawn({points.x[k], points.y[k], points.z[k]}, angle, normals, random);
-      moves.x[i] = to.x();
-      moves.y[i] = to.y();
-      moves.z[i] = to.z();
-    }
+  for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+    const std::size_t n = std::min(kBlock, points.size() - begin);
+    normal.fill(begin / kBlock, along, across);
+    move_block(points, begin, n, angle, along.data(), across.data(), moves);
+    find_margins(n, normals, moves);
+    mend(points, begin, n, angle, along, across, normals, random, moves);
     const auto offset = static_cast<std::ptrdiff_t>(begin);
     std::copy_n(moves.x.begin(), n, points.x.begin() + offset);
     std::copy_n(moves.y.begin(), n, points.y.begin() + offset);

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "kernels.hpp"
 #include "kith/core/error.hpp"
 #include "kith/random/distributions.hpp"
+#include "scratch.hpp"
 #include "systematic.hpp"
 
 namespace kith {
@@ -52,9 +52,9 @@ ParticleBelief::ParticleBelief(const PriorCover& cover, const FilterOptions& opt
 void ParticleBelief::observe(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
                              RandomStream random) {
   if (half_spaces.empty() || is_constant(likelihood)) return;
-  std::vector<double> factors(size());
-  detail::log_relative_products({x_, y_, z_}, detail::planes_of(half_spaces, likelihood), factors);
-  reweigh(std::move(factors), random);
+  detail::ParticleScratch<double> factors{size()};
+  detail::log_relative_products({x_, y_, z_}, detail::Planes{half_spaces, likelihood}.list(), factors.values());
+  reweigh(factors.values(), random);
 }
 
 void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alternatives,
@@ -62,47 +62,41 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
   const bool fits_everywhere =
       std::any_of(alternatives.begin(), alternatives.end(), [](const auto& list) { return list.empty(); });
   if (alternatives.empty() || fits_everywhere || is_constant(likelihood)) return;
-  std::vector<double> best(size());
-  std::vector<double> factors(size());
-  for (std::size_t a = 0; a < alternatives.size(); ++a) {
-    detail::log_relative_products({x_, y_, z_}, detail::planes_of(alternatives[a], likelihood),
-                                  a == 0 ? best : factors);
-    if (a == 0) continue;
-    detail::raise(factors, best);
+  detail::ParticleScratch<double> best{size()};
+  detail::ParticleScratch<double> factors{size()};
+  detail::log_relative_products({x_, y_, z_}, detail::Planes{alternatives[0], likelihood}.list(), best.values());
+  for (const auto& alternative : alternatives.subspan(1)) {
+    detail::log_relative_products({x_, y_, z_}, detail::Planes{alternative, likelihood}.list(), factors.values());
+    detail::raise(factors.values(), best.values());
   }
-  reweigh(std::move(best), random);
+  reweigh(best.values(), random);
 }
 
 // `factors` becomes the new log weights; nothing else changes before it is sure that some particle remains.
-void ParticleBelief::reweigh(std::vector<double> factors, RandomStream random) {
-  detail::add(log_weights_, factors);
-  const double top = detail::largest(factors);
+void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
+  const double top = detail::add(log_weights_, factors);
   if (!(top > -std::numeric_limits<double>::infinity())) {
     throw Error{ErrorKind::kInfeasible,
                 "the half-spaces exclude every particle of the belief, and learning ability 1 leaves no doubt"};
   }
-  for (double& factor : factors) factor -= top;
-  log_weights_.swap(factors);
-  normalise();
-  if (effective_sample_size() < options_.resample_below * static_cast<double>(size())) resample(random);
-}
-
-void ParticleBelief::normalise() {
+  detail::subtract(top, factors);
+  std::copy(factors.begin(), factors.end(), log_weights_.begin());
   const double sum = detail::exp_below(log_weights_, 0.0, weights_);
   log_sum_ = std::log(sum);
-  const double scale = 1.0 / sum;
-  for (double& weight : weights_) weight *= scale;
+  const double squares = detail::rescale(1.0 / sum, weights_);
+  if (effective_size(squares) < options_.resample_below * static_cast<double>(size())) resample(random);
 }
 
 void ParticleBelief::resample(RandomStream& random) {
   const auto count = static_cast<double>(size());
   const double angle =
       options_.process_noise > 0.0 ? options_.process_noise * spread() * std::pow(count, -1.0 / 6.0) : 0.0;
-  const auto index = detail::systematic_indices(weights_, size(), uniform01(random));
-  std::vector<double> drawn(size());
+  detail::ParticleScratch<std::uint32_t> index{size()};
+  detail::systematic_indices(weights_, uniform01(random), index.values());
+  detail::ParticleScratch<double> drawn{size()};
   for (auto* axis : {&x_, &y_, &z_}) {
-    detail::gather(*axis, index, drawn);
-    axis->swap(drawn);
+    detail::gather(*axis, index.values(), drawn.values());
+    std::copy(drawn.values().begin(), drawn.values().end(), axis->begin());
   }
   std::fill(log_weights_.begin(), log_weights_.end(), 0.0);
   std::fill(weights_.begin(), weights_.end(), 1.0 / count);
@@ -126,17 +120,21 @@ double ParticleBelief::mass_in(std::span<const HalfSpace> half_spaces) const {
 double ParticleBelief::log_evidence(std::span<const HalfSpace> half_spaces,
                                     const HalfSpaceLikelihood& likelihood) const {
   const double near = static_cast<double>(half_spaces.size()) * likelihood.log_density(0.0);
-  std::vector<double> factors(size());
-  detail::log_relative_products({x_, y_, z_}, detail::planes_of(half_spaces, likelihood), factors);
-  detail::add(log_weights_, factors);
-  const double top = detail::largest(factors);
+  detail::ParticleScratch<double> scratch{size()};
+  const std::span<double> factors = scratch.values();
+  detail::log_relative_products({x_, y_, z_}, detail::Planes{half_spaces, likelihood}.list(), factors);
+  const double top = detail::add(log_weights_, factors);
   if (!(top > -std::numeric_limits<double>::infinity())) return top;
   const double sum = detail::exp_below(factors, top, factors);
   return near + (top + std::log(sum) - log_sum_);
 }
 
+double ParticleBelief::effective_size(double sum_of_squares) const noexcept {
+  return std::clamp(1.0 / sum_of_squares, 1.0, static_cast<double>(size()));
+}
+
 double ParticleBelief::effective_sample_size() const noexcept {
-  return std::clamp(1.0 / detail::sum_of_squares(weights_), 1.0, static_cast<double>(size()));
+  return effective_size(detail::sum_of_squares(weights_));
 }
 
 Eigen::Vector3d ParticleBelief::mean_direction() const {
@@ -151,10 +149,15 @@ double ParticleBelief::spread() const {
 }
 
 std::vector<ParticleBelief::Draw> ParticleBelief::systematic_draws(std::size_t n, RandomStream random) const {
-  const auto counts = systematic_counts(weights_, n, uniform01(random));
+  detail::ParticleScratch<std::uint32_t> scratch{size()};
+  const std::span<std::uint32_t> ends = scratch.values();
+  detail::systematic_ends(weights_, n, uniform01(random), ends);
   std::vector<Draw> draws;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] > 0) draws.push_back({i, counts[i]});
+  draws.reserve(std::min(n, size()));
+  std::uint32_t begin = 0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i] > begin) draws.push_back({i, ends[i] - begin});
+    begin = ends[i];
   }
   return draws;
 }

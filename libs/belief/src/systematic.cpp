@@ -8,6 +8,7 @@
 
 #include "kith/belief/particle_belief.hpp"
 #include "kith/core/vector_clones.hpp"
+#include "scratch.hpp"
 
 namespace kith {
 namespace detail {
@@ -44,51 +45,53 @@ KITH_VECTOR_CLONES void count_below(std::span<const double> cumulative, double s
   return sum;
 }
 
+// Whether some weight is below zero; -0 is not.
+KITH_VECTOR_CLONES bool has_negative(std::span<const double> weights) {
+  const double* const w = weights.data();
+  std::uint64_t signs = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) signs |= std::bit_cast<std::uint64_t>(w[i]);
+  return (signs >> 63) != 0 && std::any_of(weights.begin(), weights.end(), [](double x) { return x < 0.0; });
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> systematic_ends(std::span<const double> weights, std::size_t n, double u) {
+void systematic_ends(std::span<const double> weights, std::size_t n, double u, std::span<std::uint32_t> ends) {
   if (!(u >= 0.0 && u < 1.0)) throw std::invalid_argument("systematic_counts: the offset must lie in [0, 1)");
   if (n > std::numeric_limits<std::int32_t>::max()) throw std::invalid_argument("systematic_counts: too many draws");
-  const double* const weight = weights.data();
-  std::uint64_t signs = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) signs |= std::bit_cast<std::uint64_t>(weight[i]);
-  const bool negative =
-      (signs >> 63) != 0 && std::any_of(weights.begin(), weights.end(), [](double w) { return w < 0.0; });
-  std::vector<double> cumulative(weights.size());
-  const double sum = cumulate(weights, cumulative);
-  if (negative || !(sum > 0.0 && std::isfinite(sum))) {
+  ParticleScratch<double> cumulative{weights.size()};
+  const double sum = cumulate(weights, cumulative.values());
+  if (has_negative(weights) || !(sum > 0.0 && std::isfinite(sum))) {
     throw std::invalid_argument("systematic_counts: the weights must be >= 0 with a positive, finite sum");
   }
   std::size_t last = weights.size() - 1;
-  while (weight[last] == 0.0) --last;
-  std::vector<std::uint32_t> ends(weights.size());
-  count_below(cumulative, static_cast<double>(n) / sum, u, static_cast<double>(n), ends);
+  while (weights[last] == 0.0) --last;
+  count_below(cumulative.values(), static_cast<double>(n) / sum, u, static_cast<double>(n), ends);
   std::fill(ends.begin() + static_cast<std::ptrdiff_t>(last), ends.end(), static_cast<std::uint32_t>(n));
-  return ends;
 }
 
-std::vector<std::uint32_t> systematic_indices(std::span<const double> weights, std::size_t n, double u) {
-  const std::vector<std::uint32_t> ends = systematic_ends(weights, n, u);
+void systematic_indices(std::span<const double> weights, double u, std::span<std::uint32_t> index) {
+  ParticleScratch<std::uint32_t> ends{weights.size()};
+  systematic_ends(weights, index.size(), u, ends.values());
   // Each index is written where its draws begin; of several that begin at one
   // place only the last has draws. A running maximum fills the rest.
-  std::vector<std::uint32_t> index(n + 1, 0);
+  std::fill(index.begin(), index.end(), 0);
+  const std::uint32_t* const end = ends.values().data();  // unchecked, for speed
+  std::uint32_t* const at = index.data();
   std::uint32_t begin = 0;
-  std::uint32_t* const at = index.data();  // unchecked, for speed
-  const std::uint32_t* const end = ends.data();
-  for (std::size_t i = 0; i < ends.size(); ++i) {
+  for (std::size_t i = 0; i < weights.size() && begin < index.size(); ++i) {
     at[begin] = static_cast<std::uint32_t>(i);
     begin = end[i];
   }
-  index.pop_back();
   std::uint32_t current = 0;
-  for (std::size_t k = 0; k < n; ++k) at[k] = current = std::max(at[k], current);
-  return index;
+  for (std::size_t k = 0; k < index.size(); ++k) at[k] = current = std::max(at[k], current);
 }
 
 }  // namespace detail
 
 std::vector<std::size_t> systematic_counts(std::span<const double> weights, std::size_t n, double u) {
-  const std::vector<std::uint32_t> ends = detail::systematic_ends(weights, n, u);
+  detail::ParticleScratch<std::uint32_t> scratch{weights.size()};
+  const std::span<std::uint32_t> ends = scratch.values();
+  detail::systematic_ends(weights, n, u, ends);
   std::vector<std::size_t> counts(ends.size());
   std::uint32_t begin = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {

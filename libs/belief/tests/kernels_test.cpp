@@ -77,7 +77,7 @@ TEST(LogRelativeProducts, SumsTheLikelihoodsOfThePlanes) {
       auto list = kith::testing::random_list(5, random);
       list.push_back(list[2]);
       std::vector<double> out(67);
-      log_relative_products(cloud.points(), planes_of(list, likelihood), out);
+      log_relative_products(cloud.points(), Planes{list, likelihood}.list(), out);
       for (std::size_t i = 0; i < out.size(); ++i) {
         double expected = 0.0;
         for (const HalfSpace& h : list) expected += likelihood.log_relative(h.margin(cloud.at(i)));

@@ -95,8 +95,8 @@ class ParticleBelief {
   friend bool operator==(const ParticleBelief&, const ParticleBelief&) = default;
 
  private:
-  void reweigh(std::vector<double> log_factors, RandomStream random);
-  void normalise();
+  void reweigh(std::span<double> log_factors, RandomStream random);
+  [[nodiscard]] double effective_size(double sum_of_squares) const noexcept;
   void resample(RandomStream& random);
 
   FilterOptions options_;

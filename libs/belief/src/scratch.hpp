@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace kith::detail {
+
+// Room for n values for the time of one call: on the stack where they are few
+// enough, so that updating beliefs of usual size allocates nothing. The values
+// are not initialised.
+template <typename T, std::size_t Usual>
+class Scratch {
+ public:
+  explicit Scratch(std::size_t n) : size_{n} {
+    if (n > Usual) heap_.resize(n);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  [[nodiscard]] std::span<T> values() noexcept { return {size_ > Usual ? heap_.data() : stack_.data(), size_}; }
+
+ private:
+  std::size_t size_;
+  std::vector<T> heap_;
+  std::array<T, Usual> stack_;
+};
+
+// One number per particle.
+template <typename T>
+using ParticleScratch = Scratch<T, 2048>;
+
+}  // namespace kith::detail
