@@ -3,9 +3,29 @@
 #include <algorithm>
 #include <utility>
 
+#include "kith/core/vector_clones.hpp"
 #include "kith/random/distributions.hpp"
 
 namespace kith {
+namespace {
+
+// weights[i] = 0 where normal . point i < 0.
+KITH_VECTOR_CLONES void exclude_outside(const Eigen::Vector3d& normal, const ParticleBelief& belief,
+                                        std::vector<double>& weights) {
+  const double ux = normal.x();
+  const double uy = normal.y();
+  const double uz = normal.z();
+  const double* const x = belief.x().data();
+  const double* const y = belief.y().data();
+  const double* const z = belief.z().data();
+  double* const weight = weights.data();
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weight[i] = ux * x[i] + (uy * y[i] + uz * z[i]) < 0.0 ? 0.0 : weight[i];
+  }
+}
+
+}  // namespace
 
 SimulatedLearner::SimulatedLearner(const Atlas& atlas, ParticleBelief initial, const LearnerParameters& parameters,
                                    LikelihoodForm form, RandomStream person)
@@ -39,19 +59,24 @@ std::vector<HalfSpace> SimulatedLearner::own_counterfactuals(Regions& regions,
   return result;
 }
 
+// The belief's weights, 0 where some test has no finite optimum.
+std::vector<double> SimulatedLearner::weights_with_answers(std::span<const DemoIndex> tests) const {
+  std::vector<double> weights(belief_.weights().begin(), belief_.weights().end());
+  std::vector<HalfSpace> facets;  // of all finite regions; many tests share theirs
+  for (const auto test : tests) {
+    for (const HalfSpace& facet : atlas_->finite_region(test).facets()) {
+      if (std::find(facets.begin(), facets.end(), facet) == facets.end()) facets.push_back(facet);
+    }
+  }
+  for (const HalfSpace& facet : facets) exclude_outside(facet.unit_normal(), belief_, weights);
+  return weights;
+}
+
 SimulatedLearner::Response SimulatedLearner::answer(std::span<const DemoIndex> tests, std::size_t period) const {
   Response response;
   response.answers.resize(tests.size());
-  std::vector<double> weights(belief_.weights().begin(), belief_.weights().end());
-  bool any = false;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const auto point = belief_.point(i);
-    const bool finite = std::all_of(tests.begin(), tests.end(),
-                                    [&](DemoIndex test) { return atlas_->finite_region(test).contains(point); });
-    if (!finite) weights[i] = 0.0;
-    any = any || weights[i] > 0.0;
-  }
-  if (!any) return response;
+  const std::vector<double> weights = weights_with_answers(tests);
+  if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0.0; })) return response;
   auto random = person_.split("answer").split(period);
   response.weights = belief_.point(categorical(weights, random));
   const auto cell = atlas_->cells().locate(*response.weights);

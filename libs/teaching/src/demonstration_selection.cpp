@@ -1,7 +1,7 @@
 #include "kith/teaching/demonstration_selection.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <bit>
 #include <optional>
 
 #include "kith/core/assert.hpp"
@@ -23,15 +23,59 @@ struct Prospect {
   std::size_t num_new = 0;
 };
 
+// What the rows of one selection would do, found by the row: most classes share theirs with others.
+class Effects {
+ public:
+  struct Effect {
+    double gain = 1.0;
+    std::size_t num_new = 0;
+  };
+
+  // Forgets everything; at most `most` different rows come next, of `words` words each.
+  void restart(std::size_t words, std::size_t most) {
+    words_ = words;
+    entries_.clear();
+    slots_.assign(std::bit_ceil(2 * most + 1), kEmpty);
+  }
+
+  // The row's effect, from `compute` when it is met for the first time. The row's words must stay where they are.
+  template <typename Compute>
+  const Effect& of(const std::uint64_t* row, Compute compute) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = hash_words({row, words_}) & mask;
+    while (slots_[slot] != kEmpty) {
+      const Entry& known = entries_[slots_[slot]];
+      if (std::equal(row, row + words_, known.row)) return known.effect;
+      slot = (slot + 1) & mask;
+    }
+    slots_[slot] = static_cast<std::uint32_t>(entries_.size());
+    return entries_.emplace_back(Entry{row, compute()}).effect;
+  }
+
+ private:
+  struct Entry {
+    const std::uint64_t* row;
+    Effect effect;
+  };
+  static constexpr std::uint32_t kEmpty = 0xFFFFFFFF;
+  std::size_t words_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> slots_;  // open addressing
+};
+
 class Selection {
  public:
-  Selection(const Atlas& atlas, Regions& regions, const KnowledgeComponent& component, std::vector<bool>& visited)
-      : atlas_{atlas}, regions_{regions}, component_{component}, visited_{visited} {}
+  Selection(const Atlas& atlas, TeachingCache& cache, const KnowledgeComponent& component, std::vector<bool>& visited)
+      : atlas_{atlas}, cache_{cache}, visited_{visited} {
+    for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
+      if (atlas.belongs_to(c, component)) classes_.push_back(c);
+    }
+  }
 
   // The next demonstration of the unit, or nothing if none has gain.
   std::optional<Demonstration> next(std::span<const PolicyCellIndex> cells, const ConstraintSet& taught_region,
                                     const std::vector<Demonstration>& unit, const RandomStream& random) {
-    conveyed_ = atlas_.conveyed_by_class(cells);
+    conveyed_ = cache_.conveyed_by_class(atlas_, cells);
     auto prospects = prospects_with_gain(taught_region);
     // Fewest new facets first, then the best gain; classes whose members were all visited do not count.
     std::erase_if(prospects, [&](const Prospect& p) { return !has_unvisited(p.demo_class); });
@@ -50,24 +94,30 @@ class Selection {
  private:
   [[nodiscard]] std::span<const std::uint64_t> row(DemoClassIndex c) const {
     const auto words = atlas_.words_per_set();
-    return std::span{conveyed_}.subspan(c.value() * words, words);
+    return conveyed_.subspan(c.value() * words, words);
   }
 
   std::vector<Prospect> prospects_with_gain(const ConstraintSet& taught_region) {
     std::vector<Prospect> prospects;
-    const double area_before = regions_.of(taught_region).area_sr;
-    for (DemoClassIndex c{0}; c.value() < atlas_.num_demo_classes(); ++c) {
-      if (!atlas_.belongs_to(c, component_)) continue;
-      union_ = taught_region;
-      const auto conveyed = row(c);
-      for (std::size_t i = 0; i < conveyed.size(); ++i) union_.words()[i] |= conveyed[i];
-      if (union_ == taught_region) continue;
-      const auto& region = regions_.of(union_);
-      KITH_ASSERT(region.area_sr > 0.0);  // the robot's weights satisfy everything that is conveyed
-      const double gain = area_before / region.area_sr;
-      if (gain > 1.0 + kGainTolerance) prospects.push_back({c, gain, region.minimal.without(taught_region).count()});
+    const double area_before = cache_.regions().of(taught_region).area_sr;
+    const std::size_t words = atlas_.words_per_set();
+    effects_.restart(words, classes_.size());
+    for (const auto c : classes_) {
+      const std::uint64_t* const conveyed = conveyed_.data() + c.value() * words;
+      const auto& effect = effects_.of(conveyed, [&] { return effect_of(row(c), taught_region, area_before); });
+      if (effect.gain > 1.0 + kGainTolerance) prospects.push_back({c, effect.gain, effect.num_new});
     }
     return prospects;
+  }
+
+  Effects::Effect effect_of(std::span<const std::uint64_t> conveyed, const ConstraintSet& taught_region,
+                            double area_before) {
+    union_ = taught_region;
+    for (std::size_t i = 0; i < conveyed.size(); ++i) union_.words()[i] |= conveyed[i];
+    if (union_ == taught_region) return {};
+    const auto& region = cache_.regions().of(union_);
+    KITH_ASSERT(region.area_sr > 0.0);  // the robot's weights satisfy everything that is conveyed
+    return {area_before / region.area_sr, region.minimal.without(taught_region).count()};
   }
 
   [[nodiscard]] bool has_unvisited(DemoClassIndex c) const {
@@ -82,7 +132,9 @@ class Selection {
     for (const auto& prospect : prospects) {
       for (const auto demo : atlas_.members(prospect.demo_class)) {
         if (visited_[demo.value()]) continue;
-        auto key = look(demo, unit);
+        VisualKey key{atlas_.domain().complexity(atlas_.id(demo)), 0, 0};
+        if (best_key && key.complexity > best_key->complexity) continue;
+        key.dissimilarity = dissimilarity(demo, unit);
         if (best_key && key > *best_key) continue;
         // Hashing is the costly part: only when everything else is equal.
         key.chance = chance_of(demo, random);
@@ -93,24 +145,23 @@ class Selection {
         best.num_new = prospect.num_new;
       }
     }
-    best.constraints = regions_.of(ConstraintSet{row(atlas_.demo_class(best.demo))}).minimal;
+    best.constraints = cache_.regions().of(ConstraintSet{row(atlas_.demo_class(best.demo))}).minimal;
     best.half_spaces = atlas_.constraints().half_spaces(best.constraints);
     return best;
   }
 
-  // Simple first; then like the last demonstration, or typical of its world if it opens the unit.
-  [[nodiscard]] VisualKey look(DemoIndex demo, const std::vector<Demonstration>& unit) const {
-    const auto id = atlas_.id(demo);
-    const int dissimilarity =
-        unit.empty() ? atlas_.mean_dissimilarity(demo) : atlas_.domain().dissimilarity(id, atlas_.id(unit.back().demo));
-    return {atlas_.domain().complexity(id), dissimilarity, 0};
+  // To the last demonstration, or to its world if it opens the unit: what is typical comes first.
+  [[nodiscard]] int dissimilarity(DemoIndex demo, const std::vector<Demonstration>& unit) const {
+    if (unit.empty()) return atlas_.mean_dissimilarity(demo);
+    return atlas_.domain().dissimilarity(atlas_.id(demo), atlas_.id(unit.back().demo));
   }
 
   const Atlas& atlas_;
-  Regions& regions_;
-  const KnowledgeComponent& component_;
+  TeachingCache& cache_;
   std::vector<bool>& visited_;
-  std::vector<std::uint64_t> conveyed_;
+  std::vector<DemoClassIndex> classes_;      // those of the component
+  std::span<const std::uint64_t> conveyed_;  // by class
+  Effects effects_;
   ConstraintSet union_;
 };
 
@@ -140,12 +191,12 @@ std::vector<PolicyCellIndex> sample_counterfactuals(const Atlas& atlas, const Pa
   return cells;
 }
 
-Unit select_demonstrations(const Atlas& atlas, Regions& regions, ParticleBelief belief,
+Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBelief belief,
                            const KnowledgeComponent& component, ConstraintSet taught_region, std::vector<bool>& visited,
                            const SelectionOptions& options, RandomStream random) {
   Unit unit;
   unit.taught_region = std::move(taught_region);
-  Selection selection{atlas, regions, component, visited};
+  Selection selection{atlas, cache, component, visited};
   for (std::uint64_t step = 0;; ++step) {
     const auto here = random.split(step);
     const auto cells = sample_counterfactuals(atlas, belief, options, here.split("counterfactuals"));
@@ -153,7 +204,7 @@ Unit select_demonstrations(const Atlas& atlas, Regions& regions, ParticleBelief 
     if (!next) return unit;
     if (unit.demonstrations.empty()) unit.counterfactuals = cells;
     visited[next->demo.value()] = true;
-    unit.taught_region = regions.of(unit.taught_region | next->constraints).minimal;
+    unit.taught_region = cache.regions().of(unit.taught_region | next->constraints).minimal;
     belief.observe(next->half_spaces, options.likelihood, here.split("copy"));
     unit.demonstrations.push_back(std::move(*next));
   }

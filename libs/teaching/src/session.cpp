@@ -33,7 +33,7 @@ TeamBelief::Options belief_options(const TeachingOptions& options, Strategy stra
 Session::Session(const Atlas& atlas, TeachingCache& cache, const TeachingOptions& options, Strategy strategy,
                  std::vector<RandomStream> persons, RandomStream teacher)
     : atlas_{&atlas},
-      regions_{&cache.regions()},
+      cache_{&cache},
       options_{options},
       strategy_{strategy},
       persons_{std::move(persons)},
@@ -96,11 +96,11 @@ std::optional<Unit> Session::choose_unit(SourceBelief source, const RandomStream
   const SelectionOptions selection{.counterfactuals = options_.counterfactuals,
                                    .sampling = options_.sampling,
                                    .likelihood = HalfSpaceLikelihood{options_.assumed_ability, options_.likelihood}};
-  auto unit = select_demonstrations(*atlas_, *regions_, belief_of(source), component, taught_before_, visited_,
-                                    selection, random.split("new"));
+  auto unit = select_demonstrations(*atlas_, *cache_, belief_of(source), component, taught_before_, visited_, selection,
+                                    random.split("new"));
   if (unit.demonstrations.empty() && last_of_component_) {
     std::vector<bool> nothing_visited(atlas_->num_demos(), false);
-    unit = select_demonstrations(*atlas_, *regions_, belief_of(source), component, taught_before_, nothing_visited,
+    unit = select_demonstrations(*atlas_, *cache_, belief_of(source), component, taught_before_, nothing_visited,
                                  selection, random.split("again"));
     for (const auto& chosen : unit.demonstrations) visited_[chosen.demo.value()] = true;
   }
@@ -134,11 +134,11 @@ const ParticleBelief& Session::belief_of(SourceBelief source) const {
 void Session::describe_lesson(const ConstraintSet& taught_region) {
   auto conveyed = atlas_->prior();
   for (const auto& shown : lesson_.demonstrations) conveyed |= shown.constraints;
-  const auto& region = regions_->of(conveyed);
+  const auto& region = cache_->regions().of(conveyed);
   lesson_.taught = atlas_->constraints().half_spaces(region.minimal.without(atlas_->prior()));
   lesson_.area_sr = region.area_sr;
-  lesson_.running_area_sr = regions_->of(taught_region).area_sr;
-  lesson_.gain = std::log(regions_->of(taught_before_).area_sr / lesson_.running_area_sr);
+  lesson_.running_area_sr = cache_->regions().of(taught_region).area_sr;
+  lesson_.gain = std::log(cache_->regions().of(taught_before_).area_sr / lesson_.running_area_sr);
   taught_with_unit_ = taught_region;
 }
 

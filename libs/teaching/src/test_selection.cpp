@@ -1,9 +1,8 @@
 #include "kith/teaching/test_selection.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
-#include <unordered_set>
+#include <utility>
 
 #include "visual_order.hpp"
 
@@ -28,9 +27,14 @@ class TestSelection {
  public:
   TestSelection(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
                 std::vector<bool>& visited, const RandomStream& random)
-      : atlas_{atlas}, component_{component}, unit_{unit}, visited_{visited}, random_{random} {
+      : atlas_{atlas},
+        component_{component},
+        unit_{unit},
+        visited_{visited},
+        random_{random},
+        is_shown_(atlas.num_demos(), false) {
     for (std::size_t i = 0; i < visited.size(); ++i) {
-      if (visited[i]) shown_classes_.insert(atlas.trajectory_class(DemoIndex{i}));
+      if (visited[i]) is_shown_[atlas.trajectory_class(DemoIndex{i})] = true;
     }
   }
 
@@ -57,27 +61,37 @@ class TestSelection {
     if (own) {
       if (auto demos = usable(*own); !demos.empty()) return Candidates{constraint, std::move(demos), true};
     }
-    std::vector<std::size_t> others(atlas_.constraints().size());
-    std::iota(others.begin(), others.end(), std::size_t{0});
-    const auto rank = [&](std::size_t c) {
-      const auto& other = atlas_.constraints()[ConstraintIndex{c}];
-      return std::pair{same_features(other, constraint) ? 0 : 1, -other.unit_normal().dot(constraint.unit_normal())};
-    };
-    std::stable_sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-    for (const auto c : others) {
-      if (auto demos = usable(ConstraintIndex{c}); !demos.empty())
-        return Candidates{constraint, std::move(demos), false};
-    }
-    return std::nullopt;
+    const auto nearest = nearest_testable(constraint);
+    if (!nearest) return std::nullopt;
+    return Candidates{constraint, usable(*nearest), false};
   }
+
+  // The constraint most like `constraint` that some start of the component tests: first those over the same features,
+  // then the smallest angle, then the first.
+  [[nodiscard]] std::optional<ConstraintIndex> nearest_testable(const HalfSpace& constraint) const {
+    std::optional<ConstraintIndex> nearest;
+    std::pair<bool, double> least;
+    for (ConstraintIndex c{0}; c.value() < atlas_.constraints().size(); ++c) {
+      const auto& other = atlas_.constraints()[c];
+      const std::pair rank{!same_features(other, constraint), -other.unit_normal().dot(constraint.unit_normal())};
+      if (nearest && !(rank < least)) continue;
+      const auto demos = atlas_.tests_for(c);
+      if (std::none_of(demos.begin(), demos.end(), [&](DemoIndex demo) { return is_in_component(demo); })) continue;
+      nearest = c;
+      least = rank;
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] bool is_in_component(DemoIndex demo) const { return component_.uses_mdp[atlas_.id(demo).mdp.value()]; }
 
   [[nodiscard]] std::vector<DemoIndex> usable(ConstraintIndex c) const {
     std::vector<DemoIndex> all;
     std::vector<DemoIndex> fresh;
     for (const auto demo : atlas_.tests_for(c)) {
-      if (!component_.uses_mdp[atlas_.id(demo).mdp.value()]) continue;
+      if (!is_in_component(demo)) continue;
       all.push_back(demo);
-      if (!visited_[demo.value()] && !shown_classes_.contains(atlas_.trajectory_class(demo))) fresh.push_back(demo);
+      if (!visited_[demo.value()] && !is_shown_[atlas_.trajectory_class(demo)]) fresh.push_back(demo);
     }
     return fresh.empty() ? all : fresh;
   }
@@ -128,9 +142,9 @@ class TestSelection {
     std::optional<VisualKey> best_key;
     for (const auto demo : demos) {
       const auto id = atlas_.id(demo);
-      std::int64_t difference = 0;
-      for (const auto& shown : unit_) difference += atlas_.domain().dissimilarity(id, atlas_.id(shown.demo));
-      VisualKey key{-atlas_.domain().complexity(id), -difference, 0};
+      VisualKey key{-atlas_.domain().complexity(id), 0, 0};
+      if (best_key && key.complexity > best_key->complexity) continue;
+      for (const auto& shown : unit_) key.dissimilarity -= atlas_.domain().dissimilarity(id, atlas_.id(shown.demo));
       if (best_key && key > *best_key) continue;
       key.chance = chance_of(demo, random_);
       if (best_key && key >= *best_key) continue;
@@ -145,7 +159,7 @@ class TestSelection {
   const std::vector<Demonstration>& unit_;
   std::vector<bool>& visited_;
   const RandomStream& random_;
-  std::unordered_set<std::uint32_t> shown_classes_;
+  std::vector<bool> is_shown_;  // by trajectory class, of which there are no more than demonstrations
 };
 
 }  // namespace

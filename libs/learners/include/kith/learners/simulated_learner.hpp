@@ -55,6 +55,7 @@ class SimulatedLearner {
 
  private:
   [[nodiscard]] HalfSpaceLikelihood likelihood() const;
+  [[nodiscard]] std::vector<double> weights_with_answers(std::span<const DemoIndex> tests) const;
 
   const Atlas* atlas_;
   LearnerParameters parameters_;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "kith/teaching/cache.hpp"
 #include "kith/teaching/lesson.hpp"
 
 namespace kith {
@@ -39,10 +40,11 @@ struct Unit {
 /// facts at once), then the largest gain, then the simplest and most similar
 /// pictures, then chance [jayaraman2024, section III-D].
 ///
+/// @param cache  of this atlas; it influences nothing.
 /// @param belief  a copy, which learns along.
 /// @param taught_region  R_n, minimal, with the prior.
 /// @param visited  shape [num_demos]; chosen ones are added.
-[[nodiscard]] Unit select_demonstrations(const Atlas& atlas, Regions& regions, ParticleBelief belief,
+[[nodiscard]] Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBelief belief,
                                          const KnowledgeComponent& component, ConstraintSet taught_region,
                                          std::vector<bool>& visited, const SelectionOptions& options,
                                          RandomStream random);

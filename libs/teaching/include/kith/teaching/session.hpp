@@ -85,7 +85,7 @@ class Session {
   void conclude_period(bool all_correct);
 
   const Atlas* atlas_;
-  Regions* regions_;
+  TeachingCache* cache_;
   TeachingOptions options_;
   Strategy strategy_;
   std::vector<RandomStream> persons_;
