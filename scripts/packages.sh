@@ -8,11 +8,20 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 packages_to_build=(
   g++ cmake ninja-build
   libeigen3-dev librandom123-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
-  libssl-dev libboost-math-dev
+  libssl-dev libsqlite3-dev libboost-math-dev
   nodejs npm
 )
 packages_to_test=(libgtest-dev libgmock-dev chromium)
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev libbenchmark-dev)
+
+# is_installed NAME: as a package; or, where people often have another source than Debian, as a command.
+is_installed() {
+  case $1 in
+    nodejs) command -v node >/dev/null && return ;;
+    npm) command -v npm >/dev/null && return ;;
+  esac
+  [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
 
 # ensure_packages NAME...: installs those that are not installed; does nothing,
 # offline too, if all are. Needs root or sudo; else names the command and stops.
@@ -23,7 +32,7 @@ ensure_packages() {
   fi
   local missing=() package
   for package in "$@"; do
-    [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || missing+=("$package")
+    is_installed "$package" || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
 
