@@ -40,7 +40,7 @@ struct LikelihoodOptions {
   std::size_t replicates = 2;  ///< R: runs of the filter per person whose probabilities are averaged.
   std::uint64_t seed = 1;
   double slip = 0.01;  ///< Probability that a period is answered by guessing.
-  ParallelOptions parallel;
+  ParallelOptions parallel{};
 };
 
 /// log p(all answers of a person | parameters) on a grid, and what the person would know at the end.
