@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -84,6 +86,79 @@ void BM_NaiveWeigh(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(weights.size()));
 }
 BENCHMARK(BM_NaiveWeigh)->Arg(1)->Arg(3)->Arg(8);
+
+// The baseline of a whole step: densities with std::exp, one normalisation, systematic
+// resampling by a walk along the cumulative weights, one normal at a time for the noise.
+void BM_NaiveWeighResampleMove(benchmark::State& state) {
+  const auto list = half_spaces(static_cast<std::size_t>(state.range(0)));
+  const HalfSpaceLikelihood likelihood{0.8};
+  const ParticleBelief start{prior(), {}};
+  std::vector<HalfSpace> opposite;
+  for (const HalfSpace& h : list) opposite.push_back(h.opposite());
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < start.size(); ++i) points.push_back(start.point(i));
+  std::vector<double> weights(points.size());
+  RandomStream random{2};
+  std::uint64_t round = 0;
+  for (auto _ : state) {
+    double sum = 0.0;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      weights[i] = 1.0;
+      for (const HalfSpace& h : round % 2 == 0 ? list : opposite) weights[i] *= likelihood.density(h.margin(points[i]));
+      sum += weights[i];
+      mean += weights[i] * points[i];
+    }
+    mean.normalize();
+    double square = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double angle = std::acos(std::clamp(mean.dot(points[i]), -1.0, 1.0));
+      square += weights[i] / sum * angle * angle;
+    }
+    const double noise = 0.1 * std::sqrt(square) * std::pow(static_cast<double>(points.size()), -1.0 / 6.0);
+    std::vector<Eigen::Vector3d> next;
+    double reached = weights[0];
+    std::size_t from = 0;
+    const double offset = uniform01(random);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double at = (static_cast<double>(k) + offset) / static_cast<double>(points.size()) * sum;
+      while (reached < at && from + 1 < points.size()) reached += weights[++from];
+      const Eigen::Vector3d& p = points[from];
+      Eigen::Vector3d moved;
+      do {
+        const Eigen::Vector3d first = p.unitOrthogonal();
+        const double along = noise * standard_normal(random);
+        const double across = noise * standard_normal(random);
+        const double angle = std::hypot(along, across);
+        moved = std::cos(angle) * p + std::sin(angle) / angle * (along * first + across * p.cross(first));
+      } while (moved.z() > 0.0);
+      next.push_back(moved.normalized());
+    }
+    points.swap(next);
+    ++round;
+    benchmark::DoNotOptimize(points.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+}
+BENCHMARK(BM_NaiveWeighResampleMove)->Arg(3);
+
+// How does a step grow with the number of particles?
+void BM_StepOfParticles(benchmark::State& state) {
+  const auto list = half_spaces(3);
+  const HalfSpaceLikelihood likelihood{0.8};
+  ParticleBelief belief{prior(), {.particles = static_cast<std::size_t>(state.range(0)), .resample_below = 1.0}};
+  std::vector<HalfSpace> opposite;
+  for (const HalfSpace& h : list) opposite.push_back(h.opposite());
+  const RandomStream random{2};
+  std::uint64_t n = 0;
+  for (auto _ : state) {
+    belief.observe(n % 2 == 0 ? list : opposite, likelihood, random.split(n));
+    ++n;
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(BM_StepOfParticles)->Arg(250)->Arg(500)->Arg(1000)->Arg(2000)->Arg(4000)->Arg(16000)->Complexity();
 
 void BM_CopyABelief(benchmark::State& state) {
   const ParticleBelief belief{prior(), {}};

@@ -149,11 +149,6 @@ void gather(std::span<const double> values, std::span<const std::uint32_t> index
   for (std::size_t i = 0; i < out.size(); ++i) to[i] = from[at[i]];
 }
 
-KITH_VECTOR_CLONES void subtract(double shift, std::span<double> values) {
-  double* const to = values.data();
-  for (std::size_t i = 0; i < values.size(); ++i) to[i] -= shift;
-}
-
 KITH_VECTOR_CLONES double rescale(double scale, std::span<double> values) {
   double* const v = values.data();
   for (std::size_t i = 0; i < values.size(); ++i) v[i] *= scale;
@@ -170,6 +165,13 @@ KITH_VECTOR_CLONES double exp_below(std::span<const double> in, double shift, st
     to[i] = y < -708.0 ? 0.0 : value;
   }
   return lane_sum(n, [to](std::size_t i) { return to[i]; });
+}
+
+KITH_VECTOR_CLONES void subtract(std::span<const double> values, double shift, std::span<double> out) {
+  const double* const from = values.data();
+  double* const to = out.data();
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < out.size(); ++i) to[i] = from[i] - shift;
 }
 
 KITH_VECTOR_CLONES double sum_of_squares(std::span<const double> values) {

@@ -58,8 +58,8 @@ void gather(std::span<const double> values, std::span<const std::uint32_t> index
 // relative error below 1e-15. Returns the sum.
 double exp_below(std::span<const double> in, double shift, std::span<double> out);
 
-// values[i] -= shift.
-void subtract(double shift, std::span<double> values);
+// out[i] = values[i] - shift.
+void subtract(std::span<const double> values, double shift, std::span<double> out);
 // values[i] *= scale; returns the sum of the squares of the products.
 double rescale(double scale, std::span<double> values);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "kernels.hpp"
 #include "kith/core/vector_clones.hpp"
@@ -42,9 +43,11 @@ bool inside(const Eigen::Vector3d& p, std::span<const Eigen::Vector3d> normals) 
 }
 
 // A block of moves at once: where each point would go, the square of its
-// angle, and its smallest margin over the prior's normals there.
+// angle, its smallest margin over the prior's normals there, and whether the
+// move is one of the few to be mended: 1 or 0.
 struct Moves {
   Block x, y, z, square, margin;
+  std::array<unsigned char, kBlock> is_odd;
 };
 
 // Series of cos(sqrt q) and sin(sqrt q) / sqrt q, accurate to 3e-16 for q <= 1;
@@ -99,7 +102,8 @@ KITH_VECTOR_CLONES void move_block(const MutablePoints& points, std::size_t begi
   }
 }
 
-KITH_VECTOR_CLONES void find_margins(std::size_t n, std::span<const Eigen::Vector3d> normals, Moves& moves) {
+// Longer moves than the series of move_block reach, and those that would leave the prior, are odd.
+KITH_VECTOR_CLONES void find_odd(std::size_t n, std::span<const Eigen::Vector3d> normals, Moves& moves) {
   const double* const x = moves.x.data();
   const double* const y = moves.y.data();
   const double* const z = moves.z.data();
@@ -115,6 +119,10 @@ KITH_VECTOR_CLONES void find_margins(std::size_t n, std::span<const Eigen::Vecto
       least[i] = t < least[i] ? t : least[i];
     }
   }
+  const double* const square = moves.square.data();
+  unsigned char* const flag = moves.is_odd.data();
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < n; ++i) flag[i] = square[i] > 1.0 || least[i] < 0.0 ? 1 : 0;
 }
 
 // Another try for a point whose move left the prior.
@@ -133,14 +141,12 @@ Eigen::Vector3d redrawn(const Eigen::Vector3d& from, double angle, std::span<con
 // series reach, and those that would leave the prior.
 void mend(const MutablePoints& points, std::size_t begin, std::size_t n, double angle, const Block& along,
           const Block& across, std::span<const Eigen::Vector3d> normals, RandomStream& random, Moves& moves) {
-  std::array<std::uint32_t, kBlock> which;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < n; ++i) {  // written in any case, counted if so: nothing to predict
-    which[count] = static_cast<std::uint32_t>(i);
-    count += static_cast<std::size_t>(moves.square[i] > 1.0) | static_cast<std::size_t>(moves.margin[i] < 0.0);
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = which[k];
+  const auto* const flags = moves.is_odd.data();
+  const auto next = [&](std::size_t from) {
+    const void* const odd = std::memchr(flags + from, 1, n - from);
+    return odd == nullptr ? n : static_cast<std::size_t>(static_cast<const unsigned char*>(odd) - flags);
+  };
+  for (std::size_t i = next(0); i < n; i = next(i + 1)) {
     const Eigen::Vector3d from{points.x[begin + i], points.y[begin + i], points.z[begin + i]};
     const bool is_long = moves.square[i] > 1.0;
     Eigen::Vector3d to = from;
@@ -164,7 +170,7 @@ void move_points(const MutablePoints& points, double angle, std::span<const Eige
     const std::size_t n = std::min(kBlock, points.size() - begin);
     normal.fill(begin / kBlock, along, across);
     move_block(points, begin, n, angle, along.data(), across.data(), moves);
-    find_margins(n, normals, moves);
+    find_odd(n, normals, moves);
     mend(points, begin, n, angle, along, across, normals, random, moves);
     const auto offset = static_cast<std::ptrdiff_t>(begin);
     std::copy_n(moves.x.begin(), n, points.x.begin() + offset);

@@ -79,8 +79,7 @@ void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
     throw Error{ErrorKind::kInfeasible,
                 "the half-spaces exclude every particle of the belief, and learning ability 1 leaves no doubt"};
   }
-  detail::subtract(top, factors);
-  std::copy(factors.begin(), factors.end(), log_weights_.begin());
+  detail::subtract(factors, top, log_weights_);
   const double sum = detail::exp_below(log_weights_, 0.0, weights_);
   log_sum_ = std::log(sum);
   const double squares = detail::rescale(1.0 / sum, weights_);
