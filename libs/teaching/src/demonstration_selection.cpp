@@ -65,7 +65,7 @@ class Effects {
 
 class Selection {
  public:
-  Selection(const Atlas& atlas, TeachingCache& cache, const KnowledgeComponent& component, std::vector<bool>& visited)
+  Selection(const Atlas& atlas, TeachingCache& cache, const KnowledgeComponent& component, VisitedDemos& visited)
       : atlas_{atlas}, cache_{cache}, visited_{visited} {
     for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
       if (atlas.belongs_to(c, component)) classes_.push_back(c);
@@ -122,7 +122,7 @@ class Selection {
 
   [[nodiscard]] bool has_unvisited(DemoClassIndex c) const {
     const auto members = atlas_.members(c);
-    return std::any_of(members.begin(), members.end(), [&](DemoIndex d) { return !visited_[d.value()]; });
+    return std::any_of(members.begin(), members.end(), [&](DemoIndex d) { return !visited_.contains(d); });
   }
 
   Demonstration simplest(std::span<const Prospect> prospects, const std::vector<Demonstration>& unit,
@@ -131,7 +131,7 @@ class Selection {
     Demonstration best;
     for (const auto& prospect : prospects) {
       for (const auto demo : atlas_.members(prospect.demo_class)) {
-        if (visited_[demo.value()]) continue;
+        if (visited_.contains(demo)) continue;
         VisualKey key{atlas_.domain().complexity(atlas_.id(demo)), 0, 0};
         if (best_key && key.complexity > best_key->complexity) continue;
         key.dissimilarity = dissimilarity(demo, unit);
@@ -158,7 +158,7 @@ class Selection {
 
   const Atlas& atlas_;
   TeachingCache& cache_;
-  std::vector<bool>& visited_;
+  VisitedDemos& visited_;
   std::vector<DemoClassIndex> classes_;      // those of the component
   std::span<const std::uint64_t> conveyed_;  // by class
   Effects effects_;
@@ -192,7 +192,7 @@ std::vector<PolicyCellIndex> sample_counterfactuals(const Atlas& atlas, const Pa
 }
 
 Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBelief belief,
-                           const KnowledgeComponent& component, ConstraintSet taught_region, std::vector<bool>& visited,
+                           const KnowledgeComponent& component, ConstraintSet taught_region, VisitedDemos& visited,
                            const SelectionOptions& options, RandomStream random) {
   Unit unit;
   unit.taught_region = std::move(taught_region);
@@ -203,7 +203,7 @@ Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBel
     auto next = selection.next(cells, unit.taught_region, unit.demonstrations, here.split("looks"));
     if (!next) return unit;
     if (unit.demonstrations.empty()) unit.counterfactuals = cells;
-    visited[next->demo.value()] = true;
+    visited.insert(next->demo);
     unit.taught_region = cache.regions().of(unit.taught_region | next->constraints).minimal;
     belief.observe(next->half_spaces, options.likelihood, here.split("copy"));
     unit.demonstrations.push_back(std::move(*next));

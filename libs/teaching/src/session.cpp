@@ -41,7 +41,7 @@ Session::Session(const Atlas& atlas, TeachingCache& cache, const TeachingOptions
       belief_{cache.cover(atlas.prior_cone(), options.filter.particles), belief_options(options, strategy), persons_,
               teacher.split("team belief")},
       components_(atlas.knowledge_components().size(), ComponentStatus::kOpen),
-      visited_(atlas.num_demos(), false),
+      visited_{atlas.num_demos()},
       taught_before_{cache.regions().of(atlas.prior()).minimal},
       taught_with_unit_{taught_before_} {
   require(persons_.size() <= kMaxMembers, "a team has at most 30 members");
@@ -99,10 +99,10 @@ std::optional<Unit> Session::choose_unit(SourceBelief source, const RandomStream
   auto unit = select_demonstrations(*atlas_, *cache_, belief_of(source), component, taught_before_, visited_, selection,
                                     random.split("new"));
   if (unit.demonstrations.empty() && last_of_component_) {
-    std::vector<bool> nothing_visited(atlas_->num_demos(), false);
+    VisitedDemos nothing_visited{atlas_->num_demos()};
     unit = select_demonstrations(*atlas_, *cache_, belief_of(source), component, taught_before_, nothing_visited,
                                  selection, random.split("again"));
-    for (const auto& chosen : unit.demonstrations) visited_[chosen.demo.value()] = true;
+    for (const auto& chosen : unit.demonstrations) visited_.insert(chosen.demo);
   }
   if (unit.demonstrations.empty()) return std::nullopt;
   return unit;

@@ -26,16 +26,14 @@ bool same_features(const HalfSpace& a, const HalfSpace& b) {
 class TestSelection {
  public:
   TestSelection(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
-                std::vector<bool>& visited, const RandomStream& random)
+                VisitedDemos& visited, const RandomStream& random)
       : atlas_{atlas},
         component_{component},
         unit_{unit},
         visited_{visited},
         random_{random},
         is_shown_(atlas.num_demos(), false) {
-    for (std::size_t i = 0; i < visited.size(); ++i) {
-      if (visited[i]) is_shown_[atlas.trajectory_class(DemoIndex{i})] = true;
-    }
+    for (const auto demo : visited.in_order()) is_shown_[atlas.trajectory_class(demo)] = true;
   }
 
   TestChoice choose(const std::vector<HalfSpace>& taught) {
@@ -50,7 +48,7 @@ class TestSelection {
     }
     while (auto test = covering_several(open)) choice.tests.push_back(std::move(*test));
     for (auto one = open.rbegin(); one != open.rend(); ++one) choice.tests.push_back(covering_one(*one, taught));
-    for (const auto& test : choice.tests) visited_[test.demo.value()] = true;
+    for (const auto& test : choice.tests) visited_.insert(test.demo);
     return choice;
   }
 
@@ -91,7 +89,7 @@ class TestSelection {
     for (const auto demo : atlas_.tests_for(c)) {
       if (!is_in_component(demo)) continue;
       all.push_back(demo);
-      if (!visited_[demo.value()] && !is_shown_[atlas_.trajectory_class(demo)]) fresh.push_back(demo);
+      if (!is_shown_[atlas_.trajectory_class(demo)]) fresh.push_back(demo);
     }
     return fresh.empty() ? all : fresh;
   }
@@ -157,7 +155,7 @@ class TestSelection {
   const Atlas& atlas_;
   const KnowledgeComponent& component_;
   const std::vector<Demonstration>& unit_;
-  std::vector<bool>& visited_;
+  VisitedDemos& visited_;
   const RandomStream& random_;
   std::vector<bool> is_shown_;  // by trajectory class, of which there are no more than demonstrations
 };
@@ -165,7 +163,7 @@ class TestSelection {
 }  // namespace
 
 TestChoice select_tests(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
-                        const std::vector<HalfSpace>& taught, std::vector<bool>& visited, RandomStream random) {
+                        const std::vector<HalfSpace>& taught, VisitedDemos& visited, RandomStream random) {
   return TestSelection{atlas, component, unit, visited, random}.choose(taught);
 }
 

@@ -5,6 +5,7 @@
 
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/lesson.hpp"
+#include "kith/teaching/visited_demos.hpp"
 
 namespace kith {
 
@@ -43,10 +44,9 @@ struct Unit {
 /// @param cache  of this atlas; it influences nothing.
 /// @param belief  a copy, which learns along.
 /// @param taught_region  R_n, minimal, with the prior.
-/// @param visited  shape [num_demos]; chosen ones are added.
+/// @param visited  chosen ones are added.
 [[nodiscard]] Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBelief belief,
                                          const KnowledgeComponent& component, ConstraintSet taught_region,
-                                         std::vector<bool>& visited, const SelectionOptions& options,
-                                         RandomStream random);
+                                         VisitedDemos& visited, const SelectionOptions& options, RandomStream random);
 
 }  // namespace kith

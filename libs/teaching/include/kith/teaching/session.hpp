@@ -98,7 +98,7 @@ class Session {
   std::size_t component_ = 0;
   std::size_t correct_in_a_row_ = 0;
   std::vector<ComponentStatus> components_;
-  std::vector<bool> visited_;
+  VisitedDemos visited_;
   ConstraintSet taught_before_;              // R_n at the end of the last learned component
   ConstraintSet taught_with_unit_;           // R_n with the current unit
   std::optional<Lesson> last_of_component_;  // the last lesson of the current component

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kith/teaching/lesson.hpp"
+#include "kith/teaching/visited_demos.hpp"
 
 namespace kith {
 
@@ -23,9 +24,9 @@ struct TestChoice {
 /// complex pictures first, then those least like the unit's demonstrations, then chance.
 ///
 /// @param taught  T, sorted.
-/// @param visited  shape [num_demos]; chosen ones are added.
+/// @param visited  chosen ones are added.
 [[nodiscard]] TestChoice select_tests(const Atlas& atlas, const KnowledgeComponent& component,
                                       const std::vector<Demonstration>& unit, const std::vector<HalfSpace>& taught,
-                                      std::vector<bool>& visited, RandomStream random);
+                                      VisitedDemos& visited, RandomStream random);
 
 }  // namespace kith
