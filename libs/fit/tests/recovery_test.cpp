@@ -65,7 +65,7 @@ void expect_recovery(const FitOptions& options) {
 TEST(Recovery, SixtySimulatedPeopleComeBackWithinTheirIntervals) {
   if (kSanitized) GTEST_SKIP() << "too long under sanitizers; Fitting* runs the same code on fewer people";
   FitOptions options;
-  options.replicates = 1;
+  options.replicates = 2;
   options.folds = 0;
   options.num_abilities = 10;
   options.num_draws = 60;
@@ -80,6 +80,49 @@ TEST(RecoverySlow, SixtySimulatedPeopleComeBackWithinTheirIntervalsOnAFineGrid) 
   options.num_gains = 9;
   options.num_draws = 200;
   expect_recovery(options);
+}
+
+// Sixty people who are taught on after right answers, so that both gains show.
+std::string with_gains(const std::string& gains, const std::string& particles) {
+  return testing::study_text("N", 60,
+                             "[learner.N]\nability = { mean = 0.62, sd = 0.02, min = 0.55 }\n" + gains +
+                                 "gain_max = 0.2\nordered_gains = false\nparticles = " + particles +
+                                 "\n[stop]\nconsecutive_correct = 6\nduplicate_sets = 2\nmax_periods = 60\n");
+}
+
+constexpr const char* kDistinct = "confirm_gain = { value = 0.0 }\ncorrect_gain = { value = 0.15 }\n";
+constexpr const char* kEqual = "confirm_gain = { half_normal = 0.06 }\ncorrect_gain = { half_normal = 0.06 }\n";
+
+Identifiability known_of(const std::string& study, const FitOptions& options) {
+  return fit_learners(testing::simulate(study).logs, options).types.at(0).identifiability;
+}
+
+FitOptions for_gains(std::size_t replicates) {
+  FitOptions options;
+  options.replicates = replicates;
+  options.folds = 0;
+  options.num_abilities = 8;
+  options.num_draws = 20;
+  return options;
+}
+
+TEST(Identifiability, GainsThatDifferMuchAreToldApartInLongSessions) {
+  if (kSanitized) GTEST_SKIP() << "too long under sanitizers";
+  const auto known = known_of(with_gains(kDistinct, "100"), for_gains(4));
+  EXPECT_TRUE(known.gains_apart);
+  EXPECT_EQ(known.sentences.at(0).rfind("the scales of the two gains differ", 0), 0u) << known.sentences.at(0);
+}
+
+TEST(Identifiability, GainsThatDoNotDifferAreNotToldApart) {
+  if (kSanitized) GTEST_SKIP() << "too long under sanitizers";
+  const auto known = known_of(with_gains(kEqual, "100"), for_gains(4));
+  EXPECT_FALSE(known.gains_apart);
+  EXPECT_EQ(known.sentences.at(0).rfind("these data cannot tell the gains apart", 0), 0u) << known.sentences.at(0);
+}
+
+TEST(IdentifiabilitySlow, HoldsWithManyParticles) {
+  EXPECT_TRUE(known_of(with_gains(kDistinct, "500"), for_gains(2)).gains_apart);
+  EXPECT_FALSE(known_of(with_gains(kEqual, "500"), for_gains(2)).gains_apart);
 }
 
 }  // namespace
