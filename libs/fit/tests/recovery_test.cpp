@@ -106,15 +106,13 @@ FitOptions for_gains(std::size_t replicates) {
   return options;
 }
 
-TEST(Identifiability, GainsThatDifferMuchAreToldApartInLongSessions) {
-  if (kSanitized) GTEST_SKIP() << "too long under sanitizers";
+TEST(IdentifiabilitySlow, GainsThatDifferMuchAreToldApartInLongSessions) {
   const auto known = known_of(with_gains(kDistinct, "100"), for_gains(4));
   EXPECT_TRUE(known.gains_apart);
   EXPECT_EQ(known.sentences.at(0).rfind("the scales of the two gains differ", 0), 0u) << known.sentences.at(0);
 }
 
-TEST(Identifiability, GainsThatDoNotDifferAreNotToldApart) {
-  if (kSanitized) GTEST_SKIP() << "too long under sanitizers";
+TEST(IdentifiabilitySlow, GainsThatDoNotDifferAreNotToldApart) {
   const auto known = known_of(with_gains(kEqual, "100"), for_gains(4));
   EXPECT_FALSE(known.gains_apart);
   EXPECT_EQ(known.sentences.at(0).rfind("these data cannot tell the gains apart", 0), 0u) << known.sentences.at(0);
