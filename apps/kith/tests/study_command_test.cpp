@@ -30,7 +30,7 @@ TEST(StudyCommand, PrintsATableAndSaysWhereTheTablesAre) {
   EXPECT_THAT(ran.out,
               AllOf(HasSubstr("strategy"), HasSubstr("baseline"), HasSubstr("all groups"), HasSubstr("all baseline")));
   EXPECT_THAT(ran.err, HasSubstr("6 teams in"));
-  EXPECT_EQ(tables_in(scratch / "run").size(), 5u);
+  EXPECT_EQ(tables_in(scratch / "run").size(), 7u);
 }
 
 TEST(StudyCommand, GivesTheSameBytesOnAnyNumberOfThreads) {
