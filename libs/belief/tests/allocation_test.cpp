@@ -19,13 +19,14 @@ namespace {
 std::atomic<std::size_t> num_allocations{0};
 }  // namespace
 
-void* operator new(std::size_t size) {
+// Inlined without its partner, the compiler takes one of them for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++num_allocations;
   if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc{};
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace kith {
 namespace {
