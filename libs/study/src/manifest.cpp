@@ -38,11 +38,12 @@ std::string manifest(const Study& study, std::size_t num_teams, const RunInputs&
                 {"domain", facts.domain},
                 {"seed", spec.seed},
                 {"teams", num_teams},
-                {"exit_reason", "finished"},
+                {"exit_reason", facts.failed.empty() ? "finished" : "teams failed"},
                 {"started", facts.started},
                 {"stopped", facts.stopped},
                 {"command_line", facts.command_line},
                 {"threads", facts.threads},
+                {"ranks", facts.ranks},
                 {"version", facts.version},
                 {"git", facts.git},
                 {"dirty", facts.dirty},
@@ -53,6 +54,7 @@ std::string manifest(const Study& study, std::size_t num_teams, const RunInputs&
                 {"system", system_name()},
                 {"inputs", {{"study.toml", sha256(inputs.study)}, {"domain.toml", sha256(inputs.domain)}}},
                 {"tables", tables}};
+  if (!facts.failed.empty()) document["failed"] = facts.failed;
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

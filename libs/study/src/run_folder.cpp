@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "kith/core/error.hpp"
+#include "kith/study/journal.hpp"
 #include "kith/study/sha256.hpp"
 #include "kith/study/tables.hpp"
 #include "kith/table/atomic_file.hpp"
@@ -64,22 +65,42 @@ std::optional<std::string> text_if_any(const fs::path& path) {
   return read_file(path);
 }
 
-// The tables and the codebook, in `folder`; their hashes by name.
-std::map<std::string, std::string> write_tables(const fs::path& folder, const Study& study,
-                                                std::span<const TeamRecord> teams) {
+// What write_tables() leaves behind.
+struct WrittenTables {
+  std::map<std::string, std::string> hashes;  // by name
+  std::size_t teams = 0;
+};
+
+// The tables and the codebook, in `folder`.
+WrittenTables write_tables(const fs::path& folder, const Study& study, const TeamSource& teams) {
+  struct Table {
+    explicit Table(const fs::path& path) : file{path} {}
+    AtomicFile file;
+    Sha256 hash;
+  };
   make_folder(folder);
-  std::map<std::string, std::unique_ptr<AtomicFile>> files;
-  write_study_tables(study, teams, [&](std::string_view file, std::string_view piece) {
-    auto& slot = files[std::string{file}];
-    if (!slot) slot = std::make_unique<AtomicFile>(folder / file);
-    slot->write(piece);
+  WrittenTables written;
+  std::map<std::string, std::unique_ptr<Table>, std::less<>> tables;
+  const TeamSource counted = [&](const std::function<void(const TeamRecord& team)>& visit) {
+    teams([&](const TeamRecord& team) {
+      ++written.teams;
+      visit(team);
+    });
+  };
+  write_study_tables(study, counted, [&](std::string_view name, std::string_view piece) {
+    auto found = tables.find(name);
+    if (found == tables.end()) found = tables.emplace(name, std::make_unique<Table>(folder / name)).first;
+    found->second->file.write(piece);
+    found->second->hash.update(piece);
   });
-  for (auto& [name, file] : files) file->commit();
-  write_file_atomically(folder / "codebook.json", study_codebook(study));
-  std::map<std::string, std::string> hashes;
-  for (const auto& [name, file] : files) hashes[name] = sha256(read_file(folder / name));
-  hashes["codebook.json"] = sha256(study_codebook(study));
-  return hashes;
+  for (auto& [name, table] : tables) {
+    table->file.commit();
+    written.hashes[name] = std::move(table->hash).hex();
+  }
+  const auto codebook = study_codebook(study);
+  write_file_atomically(folder / "codebook.json", codebook);
+  written.hashes["codebook.json"] = sha256(codebook);
+  return written;
 }
 
 }  // namespace
@@ -117,15 +138,20 @@ RunFolder::~RunFolder() {
 void RunFolder::lock() {
   descriptor_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0) fail("open the folder", path_, errno);
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  // Some network file systems have no locks; everywhere else a lock that is taken is another process.
-  if (errno == EWOULDBLOCK) throw Error{ErrorKind::kBusy, "another process is writing to " + path_.string()};
+  // Whoever looks whether the folder is busy holds it for an instant; a run holds it for longer than that.
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    if (errno != EWOULDBLOCK) return;  // some network file systems have no locks
+    usleep(20'000);
+  }
+  throw Error{ErrorKind::kBusy, "another process is writing to " + path_.string()};
 }
 
 void RunFolder::check_content(bool replace) {
   bool empty = true;
   for (const auto& entry : fs::directory_iterator{path_}) {
-    if (entry.path().filename().string().rfind(kStagingPrefix, 0) == 0) {
+    const auto name = entry.path().filename().string();
+    if (name.rfind(kStagingPrefix, 0) == 0 || name.rfind(std::string{kJournalFile} + ".new", 0) == 0) {
       fs::remove_all(entry.path());  // left by a run that was killed; we hold the lock
     } else {
       empty = false;
@@ -134,33 +160,77 @@ void RunFolder::check_content(bool replace) {
   if (empty) return;
   const auto study = text_if_any(path_ / "inputs" / "study.toml");
   const auto domain = text_if_any(path_ / "inputs" / kFrozenDomain);
-  const bool same = study == inputs_.study && domain == inputs_.domain;
-  has_results_ = same;
-  if (same || replace) return;
-  if (!study) {
+  has_inputs_ = study == inputs_.study && domain == inputs_.domain;
+  has_results_ = has_inputs_ && fs::exists(path_ / "manifest.json");
+  // A run that has begun to replace another one's results has a journal of its own.
+  const auto begun = journal_inputs(path_ / kJournalFile);
+  if (replace || (begun ? *begun == inputs_ : has_inputs_)) return;
+  if (!study && !begun && !fs::exists(path_ / kJournalFile)) {
     throw Error{ErrorKind::kUsage, path_.string() +
                                        " is not empty and no run folder; choose another folder, or add --yes to "
                                        "write into it"};
   }
-  throw Error{ErrorKind::kUsage, path_.string() +
-                                     " holds the results of a different study (see its inputs/study.toml); "
-                                     "choose another folder, or add --yes to replace them"};
+  if (!study && !begun) return;  // only a journal that cannot be read, which is for whoever opens it to say
+  throw Error{ErrorKind::kUsage, path_.string() + " holds the results of a different study" +
+                                     (study ? " (see its inputs/study.toml)" : ", unfinished") +
+                                     "; choose another folder, or add --yes to replace them"};
 }
 
-void RunFolder::publish(const Study& study, std::span<const TeamRecord> teams, const RunFacts& facts) {
-  const auto hashes = write_tables(staging_ / "tables", study, teams);
+void RunFolder::reach(const std::string& instant) const {
+  if (observer_) observer_(instant);
+}
+
+void RunFolder::freeze_inputs() {
+  std::error_code ignored;
+  if (!fs::exists(path_ / "inputs", ignored)) put_inputs();
+}
+
+void RunFolder::put_inputs() {
   make_folder(staging_ / "inputs");
   write_file_atomically(staging_ / "inputs" / "study.toml", inputs_.study);
   write_file_atomically(staging_ / "inputs" / kFrozenDomain, inputs_.domain);
   put_in_place(staging_ / "inputs", path_ / "inputs");
+  has_inputs_ = true;
+}
+
+void RunFolder::discard() {
+  std::error_code ignored;
+  Journal::remove(path_ / kJournalFile);
+  if (made_ && !published_) fs::remove_all(path_ / "inputs", ignored);
+}
+
+void RunFolder::publish(const Study& study, std::span<const TeamRecord> teams, const RunFacts& facts) {
+  publish(
+      study,
+      [&](const std::function<void(const TeamRecord& team)>& visit) {
+        for (const auto& team : teams) visit(team);
+      },
+      facts);
+}
+
+void RunFolder::publish(const Study& study, const TeamSource& teams, const RunFacts& facts) {
+  const auto written = write_tables(staging_ / "tables", study, teams);
+  reach("staged");
+  if (!has_inputs_) put_inputs();
+  reach("inputs");
   put_in_place(staging_ / "tables", path_ / "tables");
   synchronise_folder(path_);
   published_ = true;
+  reach("tables");
   std::string log;
   for (const auto& line : facts.log) log += line + "\n";
   write_file_atomically(path_ / "log.txt", log);
   write_file_atomically(path_ / "timings.csv", timings_table(facts));
-  write_file_atomically(path_ / "manifest.json", manifest(study, teams.size(), inputs_, hashes, facts));
+  write_file_atomically(path_ / "manifest.json", manifest(study, written.teams, inputs_, written.hashes, facts));
+  reach("manifest");
+}
+
+bool is_busy(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool busy = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return busy;
 }
 
 StudyReading read_run_folder(const fs::path& path) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "kith/study/records.hpp"
 #include "kith/study/study_file.hpp"
+#include "kith/study/tables.hpp"
 
 namespace kith {
 
@@ -31,18 +33,21 @@ struct RunFacts {
   std::string build_type;
   std::string flags;
   std::vector<std::string> command_line;
-  std::size_t threads = 0;
+  std::size_t threads = 0;  ///< Of every rank.
+  std::size_t ranks = 1;
   std::string domain;   ///< As the study names it.
   std::string started;  ///< UTC, "2026-01-31T12:00:00Z".
   std::string stopped;
   std::vector<std::pair<std::string, double>> timings;  ///< Phase and seconds, for timings.csv.
   std::vector<std::string> log;                         ///< Lines of log.txt.
+  std::vector<std::string> failed;                      ///< Teams that are missing in the tables, described.
 };
 
 /// The folder that a study's results go to:
 ///
 ///   manifest.json    what was run, by which build, and hashes of inputs and tables
 ///   inputs/          study.toml and domain.toml, frozen
+///   study.sqlite     the journal (journal.hpp)
 ///   tables/          teams.csv and the others (tables.hpp), codebook.json
 ///   timings.csv, log.txt
 ///
@@ -65,21 +70,40 @@ class RunFolder {
   /// Whether results of the same study were there before.
   [[nodiscard]] bool has_results() const noexcept { return has_results_; }
 
+  /// Writes the inputs now, unless those of another study are there, which stay until publish().
+  void freeze_inputs();
+  /// Removes the journal and, if the folder was made here, the inputs: as if nothing had begun.
+  void discard();
   /// Writes everything. @throws kith::Error (kIo); then what was there before is still there.
   void publish(const Study& study, std::span<const TeamRecord> teams, const RunFacts& facts);
+  /// The same for teams that come one by one; none is kept.
+  void publish(const Study& study, const TeamSource& teams, const RunFacts& facts);
+
+  /// From now on `observer` is told where publish() is, by name: for tests that end the program there.
+  void watch(std::function<void(const std::string& instant)> observer) { observer_ = std::move(observer); }
 
  private:
   void lock();
   void check_content(bool replace);
+  void reach(const std::string& instant) const;
+  void put_inputs();
 
   std::filesystem::path path_;
   std::filesystem::path staging_;
   RunInputs inputs_;
   int descriptor_ = -1;
   bool made_ = false;
+  bool has_inputs_ = false;
   bool has_results_ = false;
   bool published_ = false;
+  std::function<void(const std::string& instant)> observer_;
 };
+
+/// The name of the journal in a run folder.
+inline constexpr const char* kJournalFile = "study.sqlite";
+
+/// Whether a process has locked the folder, as RunFolder does, right now.
+[[nodiscard]] bool is_busy(const std::filesystem::path& folder);
 
 /// The study of a finished run, from its frozen inputs.
 /// @throws kith::Error kIo if the folder is no run folder.

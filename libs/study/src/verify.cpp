@@ -1,0 +1,148 @@
+#include "kith/study/verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
+
+#include "kith/core/error.hpp"
+#include "kith/random/stream.hpp"
+#include "kith/study/journal.hpp"
+#include "kith/study/sha256.hpp"
+#include "kith/study/study_run.hpp"
+#include "kith/study/team_codec.hpp"
+#include "kith/table/atomic_file.hpp"
+
+namespace kith {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+Diagnostic mismatch(const char* id, const fs::path& file, std::string message, std::string hint) {
+  return {.id = id, .message = std::move(message), .file = file.string(), .hint = std::move(hint)};
+}
+
+std::string hash_of_file(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? sha256(read_file(file)) : std::string{};
+}
+
+// The files that the manifest names, by their place in the folder, with their hashes; nothing without a manifest.
+std::map<std::string, std::string> named_files(const fs::path& folder, Verification& result) {
+  std::map<std::string, std::string> files;
+  const auto path = folder / "manifest.json";
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return files;  // not finished
+  const auto manifest = Json::parse(read_file(path), nullptr, false);
+  for (const auto* group : {"inputs", "tables"}) {
+    const auto found = manifest.is_object() ? manifest.find(group) : manifest.end();
+    if (!manifest.is_object() || found == manifest.end() || !found->is_object()) {
+      result.mismatches.push_back(
+          mismatch("E0641", path, "this is no manifest of a run", "repeat the command that ran the study"));
+      return {};
+    }
+    for (const auto& [name, hash] : found->items()) {
+      if (hash.is_string()) files[std::string{group} + "/" + name] = hash.get<std::string>();
+    }
+  }
+  return files;
+}
+
+void check_files(const fs::path& folder, const std::map<std::string, std::string>& named, Verification& result) {
+  for (const auto& [name, hash] : named) {
+    ++result.files;
+    if (hash_of_file(folder / name) == hash) continue;
+    result.mismatches.push_back(mismatch(
+        "E0641", folder / name, "the file is not the one that the run wrote: its hash is not that in manifest.json",
+        "repeat the command that ran the study"));
+  }
+}
+
+// Whether the tables that the manifest names are those that the teams in the journal give.
+void check_tables(const fs::path& folder, const Study& study, const Journal& journal,
+                  const std::map<std::string, std::string>& named, Verification& result) {
+  std::map<std::string, Sha256, std::less<>> hashes;
+  write_study_tables(study, teams_of(study, journal), [&](std::string_view file, std::string_view piece) {
+    auto found = hashes.find(file);
+    if (found == hashes.end()) found = hashes.emplace(file, Sha256{}).first;
+    found->second.update(piece);
+  });
+  for (auto& [file, hash] : hashes) {
+    const auto found = named.find("tables/" + file);
+    if (found != named.end() && std::move(hash).hex() == found->second) continue;
+    result.mismatches.push_back(mismatch("E0642", folder / "tables" / file,
+                                         "the table that the manifest names does not follow from the journal",
+                                         "repeat the command that ran the study"));
+  }
+}
+
+// The teams in the journal, and those of them to teach again: the first of a random order that depends on nothing else.
+std::vector<std::uint32_t> choose(const Journal& journal, double share, const Study& study, Verification& result) {
+  std::vector<std::uint32_t> teams;
+  for (std::size_t team = 1; team <= journal.identity().teams; ++team) {
+    const auto bytes = journal.find(team);
+    if (!bytes) continue;
+    ++result.teams;
+    if (is_intact(team, *bytes)) {
+      teams.push_back(static_cast<std::uint32_t>(team));
+    } else {
+      result.mismatches.push_back(mismatch(
+          "E0643", journal.path(), "the record of " + describe_team(study, team_address(study, team)) + " is damaged",
+          "repeat the command that ran the study"));
+    }
+  }
+  const auto n = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(share * static_cast<double>(teams.size()))),
+                                         std::min<std::size_t>(1, teams.size()), teams.size());
+  RandomStream random{stream_tag("verify")};
+  for (std::size_t i = 0; i < n; ++i) std::swap(teams[i], teams[i + random() % (teams.size() - i)]);
+  teams.resize(n);
+  std::sort(teams.begin(), teams.end());
+  return teams;
+}
+
+}  // namespace
+
+Verification verify_run(const fs::path& folder, const StudyReading& reading, const Atlas& atlas,
+                        const VerifyOptions& options) {
+  const auto& study = reading.study.value();
+  const auto journal = Journal::read(folder / kJournalFile);
+  Verification result;
+  result.program = journal.identity().program;
+  if (journal.identity().inputs != freeze(reading)) {
+    throw Error{ErrorKind::kIo, folder.string() +
+                                    " holds the results of one study and the journal of another, unfinished "
+                                    "one; finish that first"};
+  }
+  const auto named = named_files(folder, result);
+  check_files(folder, named, result);
+  const auto teams = choose(journal, options.sample, study, result);
+  if (!named.empty() && result.mismatches.empty()) check_tables(folder, study, journal, named, result);
+
+  std::mutex mutex;
+  StreamOptions stream;
+  stream.threads = options.threads;
+  stream.stopped = options.stopped;
+  stream_teams(atlas, study, teams, stream, [&](TeamOutcome outcome) {
+    const auto team = outcome.address.team;
+    const auto bytes = outcome.record ? encode_team(*outcome.record) : std::string{};
+    const std::lock_guard lock{mutex};
+    ++result.checked;
+    if (bytes != journal.find(team)) {
+      result.mismatches.push_back(mismatch("E0640", journal.path(),
+                                           describe_team(study, outcome.address) + " does not come out the same again",
+                                           "another program, or a defect of this machine; see kith doctor"));
+    }
+    if (options.on_progress) options.on_progress(result.checked, teams.size(), 0);
+  });
+  result.stopped = options.stopped && options.stopped();
+  std::sort(result.mismatches.begin(), result.mismatches.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::tie(a.id, a.file, a.message) < std::tie(b.id, b.file, b.message);
+  });
+  return result;
+}
+
+}  // namespace kith

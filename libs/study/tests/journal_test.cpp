@@ -1,0 +1,243 @@
+#include "kith/study/journal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "kith/core/error.hpp"
+#include "kith/study/team_codec.hpp"
+#include "kith/table/atomic_file.hpp"
+#include "run_support.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::ScratchFolder;
+
+namespace fs = std::filesystem;
+
+JournalIdentity identity(std::size_t teams = 100) { return {{"study", "domain"}, "kith 1", teams, {}}; }
+
+JournalEntry entry(std::size_t team) {
+  TeamRecord record;
+  record.address.team = team;
+  record.seed_address = std::string(200, 'x');
+  record.knowledge = 1.0 / static_cast<double>(team);
+  return {team, encode_team(record)};
+}
+
+std::vector<JournalEntry> entries(std::size_t from, std::size_t to) {
+  std::vector<JournalEntry> result;
+  for (auto team = from; team <= to; ++team) result.push_back(entry(team));
+  return result;
+}
+
+void execute(const fs::path& file, const std::string& sql) {
+  sqlite3* handle = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &handle), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(handle);
+  sqlite3_close(handle);
+}
+
+std::string message_of(const std::function<void()>& action, ErrorKind kind = ErrorKind::kIo) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+class JournalTest : public ::testing::Test {
+ protected:
+  ScratchFolder scratch_;
+  fs::path file_ = scratch_.path() / "study.sqlite";
+};
+
+TEST_F(JournalTest, HoldsWhatWasWrittenWhoeverLooks) {
+  auto journal = Journal::create(file_, identity());
+  journal.write(entries(3, 5));
+  journal.write(entries(1, 1), std::vector<TeamFailure>{{7, "why"}});
+  EXPECT_EQ(journal.num_done(), 4u);
+  const auto reader = Journal::read(file_);  // while the writer has it open
+  EXPECT_EQ(reader.identity(), identity());
+  EXPECT_EQ(reader.find(4), entry(4).bytes);
+  EXPECT_EQ(reader.find(2), std::nullopt);
+  std::vector<std::size_t> teams;
+  reader.for_each([&](std::size_t team, std::string_view bytes) {
+    teams.push_back(team);
+    EXPECT_EQ(bytes, entry(team).bytes);
+  });
+  EXPECT_THAT(teams, ElementsAre(1, 3, 4, 5));
+  EXPECT_THAT(reader.progress().failures, ElementsAre(TeamFailure{7, "why"}));
+}
+
+TEST_F(JournalTest, KnowsAfterwardsWhatIsDone) {
+  {
+    auto journal = Journal::create(file_, identity());
+    journal.write(entries(10, 20), std::vector<TeamFailure>{{30, "why"}});
+    journal.write(entries(30, 30));
+  }
+  const auto again = Journal::open(file_);
+  EXPECT_EQ(again.num_done(), 12u);
+  EXPECT_FALSE(again.done()[8]);
+  EXPECT_TRUE(again.done()[9]);
+  EXPECT_TRUE(again.progress().failures.empty());  // it was taught after all
+  EXPECT_THAT(again.damaged(), IsEmpty());
+  EXPECT_FALSE(again.was_recovered());
+}
+
+TEST_F(JournalTest, CountsTheTeamsOfAShard) {
+  auto shard = identity(10);
+  shard.shard = {2, 3};
+  auto journal = Journal::create(file_, shard);  // teams 2, 5, 8
+  EXPECT_EQ(journal.progress().total, 3u);
+  shard.shard = {1, 3};
+  EXPECT_EQ(Journal::create(file_, shard).progress().total, 4u);
+}
+
+TEST_F(JournalTest, IsOneFileOnceClosedThatCanBeReadWhereNothingCanBeWritten) {
+  {
+    auto journal = Journal::create(file_, identity());
+    journal.write(entries(1, 50));
+    journal.close();
+  }
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& one : fs::directory_iterator{scratch_.path()}) ++files;
+  EXPECT_EQ(files, 1u);
+  fs::permissions(scratch_.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(Journal::read(file_).find(50), entry(50).bytes);
+  fs::permissions(scratch_.path(), fs::perms::owner_all);
+}
+
+TEST_F(JournalTest, NamesADamagedRecordAndKeepsTheOthers) {
+  {
+    auto journal = Journal::create(file_, identity());
+    journal.write(entries(1, 9));
+    journal.close();
+  }
+  auto bytes = entry(4).bytes;
+  bytes.at(20) = static_cast<char>(bytes.at(20) ^ 1);
+  std::string hex;
+  for (const char c : bytes) {
+    constexpr const char* kHex = "0123456789abcdef";
+    hex += kHex[static_cast<unsigned char>(c) >> 4];
+    hex += kHex[static_cast<unsigned char>(c) & 15u];
+  }
+  execute(file_, "UPDATE units SET record = x'" + hex + "' WHERE team = 4");
+  execute(file_, "UPDATE units SET team = 40 WHERE team = 7");  // an intact record of somebody else
+  const auto again = Journal::open(file_);
+  EXPECT_THAT(again.damaged(), ElementsAre(4, 40));
+  EXPECT_EQ(again.num_done(), 7u);
+  EXPECT_THAT(message_of([&] { again.for_each([](std::size_t, std::string_view) {}); }), HasSubstr("team 4 "));
+}
+
+TEST_F(JournalTest, RecoversWhatIsIntactFromADamagedFile) {
+  {
+    auto journal = Journal::create(file_, identity(2000));
+    journal.write(entries(1, 2000));
+    journal.close();
+  }
+  // A page in the middle is overwritten: it held some teams, all others are in other pages.
+  {
+    std::fstream file{file_, std::ios::in | std::ios::out | std::ios::binary};
+    file.seekp(4096 * 60);
+    file << std::string(4096, '\xA5');
+  }
+  const auto again = Journal::open(file_);
+  EXPECT_TRUE(again.was_recovered());
+  EXPECT_GT(again.num_done(), 1900u);
+  EXPECT_LT(again.num_done(), 2000u);
+  again.for_each([](std::size_t team, std::string_view bytes) { EXPECT_EQ(bytes, entry(team).bytes); });
+  EXPECT_TRUE(fs::exists(file_.string() + ".damaged"));
+  EXPECT_FALSE(Journal::open(file_).was_recovered());
+}
+
+// One bit after the other is flipped, all over the file: whatever can still be read is right.
+TEST_F(JournalTest, NeverHandsOutAWrongRecord) {
+  {
+    auto journal = Journal::create(file_, identity(40));
+    journal.write(entries(1, 40));
+    journal.close();
+  }
+  const auto good = read_file(file_);
+  std::size_t complete = 0;
+  for (std::size_t at = 3; at < good.size(); at += good.size() / 97) {
+    auto bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ (1 << (at % 8)));
+    const auto file = scratch_.path() / "flipped.sqlite";
+    Journal::remove(file);
+    std::ofstream{file, std::ios::binary} << bad;
+    try {
+      const auto journal = Journal::open(file);
+      EXPECT_EQ(journal.identity(), identity(40));
+      for (std::size_t team = 1; team <= 40; ++team) {
+        if (journal.done()[team - 1]) {
+          EXPECT_EQ(journal.find(team), entry(team).bytes);
+        }
+      }
+      complete += journal.num_done() == 40 ? 1u : 0u;
+    } catch (const Error&) {  // damaged beyond help
+    }
+  }
+  EXPECT_GT(complete, 20u);  // most of a file is empty space, or one record
+}
+
+TEST_F(JournalTest, SaysHowToGoOnIfAFileIsDamagedBeyondHelp) {
+  std::ofstream{file_} << "this is no database, and long enough to look like one: " << std::string(5000, '-');
+  EXPECT_THAT(message_of([&] { (void)Journal::open(file_); }),
+              ::testing::AllOf(HasSubstr(file_.string()), HasSubstr("--resume never")));
+  std::ofstream{file_} << "";
+  EXPECT_THAT(message_of([&] { (void)Journal::open(file_); }), HasSubstr("damaged beyond help"));
+  (void)Journal::create(file_, identity());
+  execute(file_, "UPDATE meta SET value = 'kith.journal/9' WHERE key = 'schema'");
+  EXPECT_THAT(message_of([&] { (void)Journal::open(file_); }, ErrorKind::kUsage), HasSubstr("kith.journal/9"));
+  (void)Journal::create(file_, identity());
+  execute(file_, "UPDATE meta SET value = 'other' WHERE key = 'study'");
+  EXPECT_THAT(message_of([&] { (void)Journal::open(file_); }), HasSubstr("beyond help"));
+  EXPECT_EQ(journal_inputs(file_), std::nullopt);
+}
+
+TEST_F(JournalTest, TakesUpWhatAnotherHoldsOnce) {
+  auto journal = Journal::create(file_, identity());
+  journal.write(entries(1, 10));
+  auto other = Journal::create(scratch_.path() / "other.sqlite", identity());
+  other.write(entries(5, 20), std::vector<TeamFailure>{{50, "why"}});
+  journal.absorb(other);
+  journal.absorb(other);
+  EXPECT_EQ(journal.num_done(), 20u);
+  EXPECT_THAT(Journal::open(file_).progress().failures, ElementsAre(TeamFailure{50, "why"}));
+}
+
+// A file size limit stands for a full disk.
+TEST_F(JournalTest, KeepsWhatItHasWhenTheDiskIsFull) {
+  auto journal = Journal::create(file_, identity(10'000));
+  journal.write(entries(1, 100));
+  struct sigaction before = {}, ignore = {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &ignore, &before);
+  rlimit unlimited = {};
+  getrlimit(RLIMIT_FSIZE, &unlimited);
+  rlimit small = unlimited;
+  small.rlim_cur = 300'000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto message = message_of([&] { journal.write(entries(101, 5000)); });
+  setrlimit(RLIMIT_FSIZE, &unlimited);
+  sigaction(SIGXFSZ, &before, nullptr);
+  EXPECT_THAT(message, HasSubstr(file_.string()));
+  EXPECT_EQ(journal.num_done(), 100u);
+  journal.write(entries(101, 200));  // space again
+  EXPECT_EQ(Journal::open(file_).num_done(), 200u);
+}
+
+}  // namespace
+}  // namespace kith
