@@ -19,6 +19,9 @@ int run_doctor(Console& console);
 int run_completion(const CompletionOptions& options, Console& console);
 int run_version(Console& console);
 int run_calibrate(const CalibrateOptions& options, Console& console);
+int run_status(const StatusOptions& options, Console& console);
+int run_verify(const VerifyCommandOptions& options, Console& console);
+int run_merge(const MergeOptions& options, Console& console);
 int run_power(const PowerCommandOptions& options, Console& console);
 
 }  // namespace kith::cli

@@ -49,10 +49,10 @@ std::string usage_line(const CommandDescription& command) {
 constexpr const char* kExitCodes =
     "exit codes:\n"
     "  0 success                          5 input or output failed (disk full, permission)\n"
-    "  1 internal error                   7 verification mismatch\n"
-    "  2 wrong command line               8 another process uses this folder\n"
-    "  3 invalid input file               130, 143 interrupted\n"
-    "  4 valid, but nothing can be done with it\n";
+    "  1 internal error                   6 finished, but some teams failed\n"
+    "  2 wrong command line               7 verification mismatch\n"
+    "  3 invalid input file               8 another process uses this folder\n"
+    "  4 valid, but nothing can be done   130, 143 interrupted; the same command goes on\n";
 
 }  // namespace
 
@@ -79,6 +79,9 @@ const std::vector<std::string>& examples_of(const std::string& command) {
       {"power",
        {"kith power studies/paper.toml --effect 'knowledge: joint - common = 0.05' --target 0.9",
         "kith power studies/paper.toml --findings studies/paper-targets.toml"}},
+      {"status", {"kith status results/paper", "watch -n 5 kith status results/paper"}},
+      {"verify", {"kith verify results/paper", "kith verify results/paper --sample 0.1"}},
+      {"merge", {"kith merge results/part-* -o results/paper", "kith merge part-1 part-2 part-3 -o paper --json"}},
       {"version", {"kith --version", "kith --version --json"}}};
   return kExamples.at(command);
 }

@@ -15,6 +15,7 @@ void ignore_broken_pipes() {
   struct sigaction ignore = {};
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, nullptr);
+  sigaction(SIGXFSZ, &ignore, nullptr);  // a file that may not grow is an error of write(), too
 }
 
 void watch_signals() {

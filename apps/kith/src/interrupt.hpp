@@ -2,7 +2,7 @@
 
 namespace kith::cli {
 
-/// From now on a reader that went away is an error of write(), not the end.
+/// From now on a reader that went away, or a file that may not grow, is an error of write(), not the end.
 void ignore_broken_pipes();
 
 /// From now on SIGINT, SIGTERM and SIGHUP only set a flag; a second one ends the program at once.

@@ -42,6 +42,12 @@ int run(const Options& options, Console& console) {
       return run_version(console);
     case Command::kCalibrate:
       return run_calibrate(options.calibrate, console);
+    case Command::kStatus:
+      return run_status(options.status, console);
+    case Command::kVerify:
+      return run_verify(options.verify, console);
+    case Command::kMerge:
+      return run_merge(options.merge, console);
     case Command::kPower:
       return run_power(options.power, console);
   }

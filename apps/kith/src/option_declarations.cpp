@@ -113,6 +113,25 @@ void add_teach(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_progress(CLI::App& command, ProgressMode& mode) {
+  add_mode<ProgressMode>(command, "--progress", mode, "How to show progress, on stderr", "HOW",
+                         {{"auto", ProgressMode::kAuto},
+                          {"bar", ProgressMode::kBar},
+                          {"json", ProgressMode::kJson},
+                          {"none", ProgressMode::kNone}});
+}
+
+void add_shard(CLI::App& command, ShardOption& shard) {
+  command
+      .add_option_function<std::string>(
+          "--shard", [&shard](const std::string& text) { shard = *shard_of(text); },
+          "Run part I of N, to be put together by kith merge")
+      ->check([](const std::string& text) {
+        return shard_of(text) ? "" : "must be I/N, such as 2/7, with I from 1 to N, not '" + text + "'";
+      })
+      ->type_name("I/N");
+}
+
 void add_study(CLI::App& app, Options& options) {
   auto& study = options.study;
   auto& command = *app.add_subcommand("study", "Simulate all teams of a study and write its tables");
@@ -129,6 +148,13 @@ void add_study(CLI::App& app, Options& options) {
       ->type_name("KEY=VALUE");
   command.add_flag("--dry-run", study.dry_run, "Say what would be run, and run nothing");
   command.add_flag("--yes", study.yes, "Replace the results of a different study in the run folder");
+  add_mode<ResumeMode>(command, "--resume", study.resume, "Go on with what the run folder holds of the same study",
+                       "WHEN",
+                       {{"auto", ResumeMode::kAuto}, {"never", ResumeMode::kNever}, {"require", ResumeMode::kRequire}});
+  add_shard(command, study.shard);
+  auto* keep_going =
+      command.add_flag("--keep-going", study.keep_going, "Go on after a team that fails; exit 6 at the end");
+  command.add_flag("--fail-fast")->description("Stop at the first team that fails (the default)")->excludes(keep_going);
   add_mode<ProgressMode>(command, "--progress", study.progress, "How to show progress, on stderr", "HOW",
                          {{"auto", ProgressMode::kAuto},
                           {"bar", ProgressMode::kBar},
@@ -173,14 +199,6 @@ void add_analyze(CLI::App& app, Options& options) {
   takes_integer(*command.add_option("--seed", analyze.seed, "Root of shuffles and resamples")->capture_default_str(),
                 0);
   add_common(command, options.common);
-}
-
-void add_progress(CLI::App& command, ProgressMode& mode) {
-  add_mode<ProgressMode>(command, "--progress", mode, "How to show progress, on stderr", "HOW",
-                         {{"auto", ProgressMode::kAuto},
-                          {"bar", ProgressMode::kBar},
-                          {"json", ProgressMode::kJson},
-                          {"none", ProgressMode::kNone}});
 }
 
 void add_calibrate(CLI::App& app, Options& options) {
@@ -295,6 +313,36 @@ void add_power(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_status(CLI::App& app, Options& options) {
+  auto& command = *app.add_subcommand("status", "Say how far a study is: done, failed, left, and for how long");
+  command.add_option("folder", options.status.folder, "Run folder, also of a run that goes on")
+      ->required()
+      ->type_name("DIR");
+  add_common(command, options.common);
+}
+
+void add_verify(CLI::App& app, Options& options) {
+  auto& verify = options.verify;
+  auto& command = *app.add_subcommand("verify", "Repeat a run from its frozen inputs and compare all bytes");
+  command.add_option("folder", verify.folder, "Run folder")->required()->type_name("DIR");
+  command.add_option("--sample", verify.sample, "Share of the teams to teach again, above 0, at most 1")
+      ->capture_default_str()
+      ->check([](const std::string& text) { return text == "1" ? "" : wrong_fraction(text); })
+      ->type_name("P");
+  takes_integer(*command.add_option("-j,--threads", verify.threads, "Worker threads (default: one per core)"), 1, 1024);
+  add_progress(command, verify.progress);
+  add_common(command, options.common);
+}
+
+void add_merge(CLI::App& app, Options& options) {
+  auto& merge = options.merge;
+  auto& command = *app.add_subcommand("merge", "Put the shards of a study together and write its tables");
+  command.add_option("folders", merge.folders, "Run folders of all shards, in any order")->required()->type_name("DIR");
+  command.add_option("-o,--out", merge.out, "Run folder to make or to bring up to date")->type_name("DIR");
+  command.add_flag("--yes", merge.yes, "Replace the results of a different study in the run folder");
+  add_common(command, options.common);
+}
+
 void add_others(CLI::App& app, Options& options) {
   auto& doctor = *app.add_subcommand("doctor", "Check that this machine runs kith as it should");
   add_common(doctor, options.common);
@@ -316,6 +364,9 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_inspect(*app, options);
   add_teach(*app, options);
   add_study(*app, options);
+  add_status(*app, options);
+  add_verify(*app, options);
+  add_merge(*app, options);
   add_calibrate(*app, options);
   add_power(*app, options);
   add_analyze(*app, options);
@@ -330,7 +381,8 @@ Command command_of(const std::string& name) {
       {"report", Command::kReport},   {"validate", Command::kValidate},   {"inspect", Command::kInspect},
       {"teach", Command::kTeach},     {"study", Command::kStudy},         {"analyze", Command::kAnalyze},
       {"fit", Command::kFit},         {"doctor", Command::kDoctor},       {"completion", Command::kCompletion},
-      {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower}};
+      {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower},
+      {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge}};
   return kCommands.at(name);
 }
 

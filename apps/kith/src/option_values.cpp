@@ -71,6 +71,18 @@ std::string wrong_integer(const std::string& text, std::int64_t min, std::int64_
          ", not '" + text + "'";
 }
 
+std::optional<ShardOption> shard_of(const std::string& text) {
+  ShardOption shard;
+  const auto* end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  if (index.ec != std::errc{} || index.ptr == end || *index.ptr != '/') return std::nullopt;
+  const auto count = std::from_chars(index.ptr + 1, end, shard.count);
+  constexpr std::size_t kMost = 1'000'000;
+  if (count.ec != std::errc{} || count.ptr != end || shard.count > kMost) return std::nullopt;
+  if (shard.index < 1 || shard.index > shard.count) return std::nullopt;
+  return shard;
+}
+
 std::string wrong_fraction(const std::string& text) {
   double value = 0.0;
   const auto* end = text.data() + text.size();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace kith::cli {
 /// Why the text is no integer of this range ("must be an integer from 1 to 9, not 'x'"), or nothing.
 [[nodiscard]] std::string wrong_integer(const std::string& text, std::int64_t min,
                                         std::int64_t max = std::numeric_limits<std::int64_t>::max());
+
+/// "2/7" as {2, 7}, or nothing if it is no part of a whole.
+[[nodiscard]] std::optional<ShardOption> shard_of(const std::string& text);
 
 /// Why the text is no number between 0 and 1, both excluded, or nothing.
 [[nodiscard]] std::string wrong_fraction(const std::string& text);

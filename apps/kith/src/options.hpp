@@ -19,10 +19,14 @@ enum class Command {
   kCalibrate,
   kPower,
   kAnalyze,
-  kFit
+  kFit,
+  kStatus,
+  kVerify,
+  kMerge
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
+enum class ResumeMode { kAuto, kNever, kRequire };
 
 /// What every command understands.
 struct CommonOptions {
@@ -55,6 +59,12 @@ struct TeachOptions {
   std::string team;  ///< ... and the number of one of its teams, as typed: only the folder tells how many there are.
 };
 
+/// "2/7": part 2 of 7.
+struct ShardOption {
+  std::size_t index = 1;
+  std::size_t count = 1;
+};
+
 struct StudyOptions {
   std::string study;
   std::string out;
@@ -63,7 +73,27 @@ struct StudyOptions {
   std::vector<std::string> set;
   bool dry_run = false;
   bool yes = false;  ///< Replace the results of a different study.
+  ResumeMode resume = ResumeMode::kAuto;
+  ShardOption shard;
+  bool keep_going = false;  ///< Go on after a team that failed.
   ProgressMode progress = ProgressMode::kAuto;
+};
+
+struct StatusOptions {
+  std::string folder;
+};
+
+struct VerifyCommandOptions {
+  std::string folder;
+  std::string sample = "1";  ///< Share of the teams to teach again.
+  std::size_t threads = 0;   ///< 0: as many as there are cores.
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+struct MergeOptions {
+  std::vector<std::string> folders;
+  std::string out;
+  bool yes = false;  ///< Replace the results of a different study.
 };
 
 struct AnalyzeOptions {
@@ -148,6 +178,9 @@ struct Options {
   CalibrateOptions calibrate;
   PowerCommandOptions power;
   FitCommandOptions fit;
+  StatusOptions status;
+  VerifyCommandOptions verify;
+  MergeOptions merge;
 };
 
 /// What `kith inspect --show` can show.

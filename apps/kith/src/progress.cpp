@@ -38,7 +38,13 @@ Progress::Progress(ProgressMode mode, const Console& console) : mode_{mode} {
 
 Progress::~Progress() { finish(); }
 
-void Progress::update(std::size_t done, std::size_t total) {
+void Progress::begin(std::size_t done) {
+  start_ = Clock::now();
+  last_ = start_;
+  before_ = done;
+}
+
+void Progress::update(std::size_t done, std::size_t total, std::size_t failed) {
   if (mode_ == ProgressMode::kNone && !lines_) return;
   const auto now = Clock::now();
   const auto interval = mode_ == ProgressMode::kBar    ? std::chrono::milliseconds{100}
@@ -48,11 +54,11 @@ void Progress::update(std::size_t done, std::size_t total) {
   if (now - last_ < interval && !last) return;
   last_ = now;
   const double elapsed = std::max(1e-6, std::chrono::duration<double>(now - start_).count());
-  const double rate = static_cast<double>(done) / elapsed;
+  const double rate = static_cast<double>(done - std::min(before_, done)) / elapsed;
   const double left = rate > 0.0 ? static_cast<double>(total - done) / rate : 0.0;
   if (mode_ == ProgressMode::kJson) {
-    fmt::print(stderr, "{{\"t\":{:.1f},\"done\":{},\"total\":{},\"failed\":0,\"eta_s\":{:.0f},\"rate\":{:.1f}}}\n",
-               elapsed, done, total, left, rate);
+    fmt::print(stderr, "{{\"t\":{:.1f},\"done\":{},\"total\":{},\"failed\":{},\"eta_s\":{:.0f},\"rate\":{:.1f}}}\n",
+               elapsed, done, total, failed, left, rate);
   } else if (mode_ == ProgressMode::kBar) {
     const auto text = fmt::format(" {}/{} teams, {:.0f}/s, {} left", done, total, rate, clock_text(left));
     const std::size_t width = terminal_width();

@@ -17,7 +17,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void update(std::size_t done, std::size_t total);
+  /// From here on time counts, with so many done already.
+  void begin(std::size_t done);
+  void update(std::size_t done, std::size_t total, std::size_t failed = 0);
   /// Removes the bar.
   void finish();
 
@@ -28,6 +30,7 @@ class Progress {
   bool lines_ = false;  // neither bar nor JSON: a line now and then
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
+  std::size_t before_ = 0;  // done when it began
   bool drawn_ = false;
 };
 

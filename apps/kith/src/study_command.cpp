@@ -1,25 +1,23 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "build_facts.hpp"
 #include "commands.hpp"
+#include "failpoint.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
-#include "kith/study/run_folder.hpp"
-#include "kith/study/study.hpp"
-#include "kith/study/summary.hpp"
-#include "kith_build_info.hpp"
+#include "kith/study/study_run.hpp"
+#include "mpi_ranks.hpp"
 #include "progress.hpp"
+#include "run_outcome.hpp"
 #include "summary_json.hpp"
 #include "words.hpp"
 
@@ -29,80 +27,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
-
-// What was typed, as the system remembers it.
-std::vector<std::string> command_line() {
-  std::ifstream file{"/proc/self/cmdline", std::ios::binary};
-  const std::string all{std::istreambuf_iterator<char>{file}, {}};
-  std::vector<std::string> words;
-  for (std::size_t i = 0; i < all.size();) {
-    const auto end = std::min(all.find('\0', i), all.size());
-    words.push_back(all.substr(i, end - i));
-    i = end + 1;
-  }
-  return words;
-}
-
-RunFacts facts_of_build() {
-  RunFacts facts;
-  facts.version = build_info::kVersion;
-  facts.git = build_info::kGitId;
-  facts.dirty = build_info::kGitDirty;
-  facts.compiler = build_info::kCompiler;
-  facts.build_type = build_info::kBuildType;
-  facts.flags = build_info::kFlags;
-  facts.command_line = command_line();
-  return facts;
-}
-
-std::string mean_sd_text(const MeanSd& value, int digits) {
-  if (!value.sd) return fmt::format("{:.{}f}", value.mean, digits);
-  return fmt::format("{:.{}f} ({:.{}f})", value.mean, digits, *value.sd, digits);
-}
-
-void add_row(TextTable& table, std::vector<std::string> keys, const CellSummary& cell) {
-  keys.push_back(fmt::format("{}", cell.teams));
-  keys.push_back(fmt::format("{}", cell.completed));
-  keys.push_back(mean_sd_text(cell.periods, 2));
-  keys.push_back(mean_sd_text(cell.knowledge, 3));
-  keys.push_back(mean_sd_text(cell.area_sr, 3));
-  table.add(std::move(keys));
-}
-
-// What the figures are, below the table.
-std::string table_notes(const StudySummary& summary, const Console& console) {
-  std::string text =
-      "\ncells: mean (sd over teams); knowledge: the team's mean mass of final belief in the policy's class;\n"
-      "area/sr: mean solid angle of the weights that fit one period's lesson, in steradians";
-  if (summary.group) text += "\nall groups: the teams of every strategy but the baseline, together";
-  return console.dim(text) + "\n";
-}
-
-std::string table_of(const Study& study, const StudySummary& summary, const Console& console) {
-  const auto& factors = study.variants.front().factors;
-  TextTable table{"ll" + std::string(factors.size(), 'l') + "rrrrr"};
-  std::vector<std::string> header{"strategy", "composition"};
-  for (const auto& factor : factors) header.push_back(factor.key);
-  for (const auto* name : {"teams", "completed", "periods", "knowledge", "area/sr"}) header.emplace_back(name);
-  table.add(header);
-  for (const auto& cell : summary.cells) {
-    std::vector<std::string> keys{std::string{name_of(*cell.strategy)}, cell.composition};
-    for (const auto& factor : study.variants[cell.variant].factors) keys.push_back(factor.value);
-    add_row(table, keys, cell);
-  }
-  std::vector<std::string> all(2 + factors.size());
-  if (summary.group) {
-    all[0] = "all groups";
-    add_row(table, all, *summary.group);
-  }
-  if (summary.baseline) {
-    all[0] = "all baseline";
-    add_row(table, all, *summary.baseline);
-  }
-  return table.text(console) + table_notes(summary, console);
-}
 
 std::vector<std::string> overrides_of(const StudyOptions& options) {
   auto overrides = options.set;
@@ -141,19 +65,56 @@ int dry_run(const Study& study, std::size_t teams, Console& console) {
   return 0;
 }
 
-int interrupted(const StudyOptions& options, std::size_t done, std::size_t total, bool had_results, Console& console) {
+// All that is finished is saved: says so, and how to go on.
+int interrupted(const StudyOptions& options, const StudyRun& run, std::size_t done, Console& console) {
   const int signal = stop_signal();
-  const auto message =
-      fmt::format("interrupted after {} of {} teams; nothing was written{}. The same command runs the study again",
-                  done, total, had_results ? ", and the results in " + options.out + " are as they were" : "");
-  console.warning(message);
+  const auto what = fmt::format("interrupted after {} of {} teams; ", done, run.num_teams()) +
+                    (done > 0 ? "they are saved in " + options.out : "nothing was saved");
+  const auto line = options.study == "-" ? "the same command, with the same study on standard input" : shell_line();
+  console.warning(what + "; go on with:\n  " + line);
   if (console.json()) {
     Diagnostic diagnostic;
     diagnostic.id = "interrupted";
-    diagnostic.message = message;
+    diagnostic.message = what;
+    diagnostic.hint = line;
     console.print_json(error_document({diagnostic}));
   }
   return 128 + (signal != 0 ? signal : SIGINT);
+}
+
+Resume resume_of(ResumeMode mode) {
+  return mode == ResumeMode::kNever ? Resume::kNever : mode == ResumeMode::kRequire ? Resume::kRequire : Resume::kAuto;
+}
+
+StudyRunOptions run_options(const StudyOptions& options) {
+  StudyRunOptions run;
+  run.program = program_name();
+  run.threads = options.threads;
+  run.resume = resume_of(options.resume);
+  run.replace = options.yes;
+  run.shard = {options.shard.index, options.shard.count};
+  run.keep_going = options.keep_going;
+  run.on_instant = failpoint();
+  if (run.on_instant) run.checkpoint_seconds = 0.0;  // every team for itself, so that instants can be counted
+  run.stopped = [] { return stop_signal() != 0; };
+  return run;
+}
+
+// Shards have no tables of their own; merging them makes the tables.
+int finish_shard(const StudyOptions& options, StudyRun& run, double seconds, Console& console) {
+  run.close();
+  const auto name = fmt::format("{}/{}", options.shard.index, options.shard.count);
+  if (console.json()) {
+    console.print_json(Json{{"schema", "kith.study-shard/1"},
+                            {"shard", {{"index", options.shard.index}, {"count", options.shard.count}}},
+                            {"teams", run.num_done()},
+                            {"failed", run.failures().size()},
+                            {"seconds", seconds}});
+  }
+  if (!console.json() || !run.failures().empty()) report_failures(run.study(), run.failures(), console);
+  console.info(fmt::format("shard {}: {} in {:.2f} s; put the shards together with: kith merge DIR... -o DIR", name,
+                           counted(run.num_done(), "team"), seconds));
+  return run.failures().empty() ? 0 : static_cast<int>(ErrorKind::kPartial);
 }
 
 }  // namespace
@@ -167,52 +128,58 @@ int run_study(const StudyOptions& options, Console& console) {
     console.detail(text);
   };
 
-  const auto reading = study_of(options.study, overrides_of(options));
+  auto reading = study_of(options.study, overrides_of(options));
   if (!console.quiet()) console.show(reading.diagnostics);
-  const auto& study = *reading.study;
-  const auto addresses = team_addresses(study);
   if (options.dry_run && !options.out.empty()) check_folder(options, reading);
-  if (options.dry_run) return dry_run(study, addresses.size(), console);
+  if (options.dry_run) return dry_run(*reading.study, num_teams(*reading.study), console);
   if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith study needs -o DIR, the folder for the results"};
 
+  const auto ranks = mpi_ranks();
+  if (!is_first_rank()) console = Console{{.quiet = true}};
   watch_signals();
-  RunFolder folder{options.out, freeze(reading), options.yes};
+  Progress progress{is_first_rank() ? options.progress : ProgressMode::kNone, console};
+  std::size_t done = 0;
+  auto how = run_options(options);
+  how.ranks = ranks.get();
+  if (how.threads == 0) how.threads = threads_per_rank();
+  const auto how_many_threads = how.threads > 0 ? how.threads : std::thread::hardware_concurrency();
+  how.on_progress = [&](std::size_t finished, std::size_t total, std::size_t failed) {
+    done = finished;
+    progress.update(finished, total, failed);
+  };
+  const Domain domain = *reading.domain;
+  StudyRun run{options.out, std::move(reading), std::move(how)};
+  done = run.num_resumed();
+  const auto& study = run.study();
   facts.domain = study.variants.front().domain;
-  facts.threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
-  note(fmt::format("study {}: {} teams in {}", study.variants.front().id, addresses.size(), facts.domain));
+  facts.threads = how_many_threads;
+  facts.ranks = ranks ? ranks->size() : 1;
+  note(fmt::format("study {}: {} in {}", study.variants.front().id, counted(run.num_teams(), "team"), facts.domain));
+  for (const auto& text : run.notes()) {
+    facts.log.push_back(utc_now() + " " + text);
+    console.warning(text);
+  }
+  if (run.num_resumed() > 0) {
+    const auto text = fmt::format("{} of {} teams were there already", run.num_resumed(), run.num_teams());
+    facts.log.push_back(utc_now() + " " + text);
+    console.info(text);
+  }
   facts.timings.emplace_back("read", seconds_since(begin));
 
   const auto plan_begin = Clock::now();
-  const Atlas atlas{*reading.domain};
+  const Atlas atlas{domain};
   facts.timings.emplace_back("plan", seconds_since(plan_begin));
   note(fmt::format("planned {} demonstrations", atlas.num_demos()));
 
   const auto teach_begin = Clock::now();
-  Progress progress{options.progress, console};
-  const auto result = run_teams(atlas, study, addresses,
-                                {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
-                                   progress.update(done, total);
-                                   return stop_signal() == 0;
-                                 }});
+  progress.begin(run.num_resumed());
+  const bool finished = run.teach(atlas);
   progress.finish();
-  if (result.stopped && result.teams.size() < addresses.size()) {
-    return interrupted(options, result.teams.size(), addresses.size(), folder.has_results(), console);
-  }
+  if (!finished) return interrupted(options, run, done, console);
   facts.timings.emplace_back("teach", seconds_since(teach_begin));
-  note(fmt::format("taught {} teams", result.teams.size()));
-  const auto summary = summarize(result.teams);
-  facts.stopped = utc_now();
-  folder.publish(study, result.teams, facts);
-
-  const double seconds = seconds_since(begin);
-  if (console.json()) {
-    print_summary(study, summary, result.teams.size(), seconds, console);
-    return 0;
-  }
-  console.print(table_of(study, summary, console));
-  console.info(fmt::format("{} in {:.2f} s; tables in {}/tables, columns in codebook.json",
-                           counted(result.teams.size(), "team"), seconds, options.out));
-  return 0;
+  note(fmt::format("taught {} teams", run.num_done() - run.num_resumed()));
+  if (options.shard.count > 1) return finish_shard(options, run, seconds_since(begin), console);
+  return publish_run(run, std::move(facts), {options.out, begin}, console);
 }
 
 }  // namespace kith::cli

@@ -26,15 +26,19 @@ Json to_json(const CellSummary& cell, const Study& study) {
 
 }  // namespace
 
-void print_summary(const Study& study, const StudySummary& summary, std::size_t teams, double seconds,
-                   Console& console) {
+void print_summary(const Study& study, const StudySummary& summary, std::size_t teams,
+                   const std::vector<std::string>& failed, double seconds, Console& console) {
   Json cells = Json::array();
   for (const auto& cell : summary.cells) cells.push_back(to_json(cell, study));
   Json groups = Json::object();
   if (summary.group) groups["group"] = to_json(*summary.group, study);
   if (summary.baseline) groups["baseline"] = to_json(*summary.baseline, study);
-  console.print_json(
-      Json{{"schema", "kith.study/1"}, {"cells", cells}, {"groups", groups}, {"teams", teams}, {"seconds", seconds}});
+  console.print_json(Json{{"schema", "kith.study/1"},
+                          {"cells", cells},
+                          {"groups", groups},
+                          {"teams", teams},
+                          {"failed", failed},
+                          {"seconds", seconds}});
 }
 
 void print_plan(const Study& study, std::size_t teams, Console& console) {

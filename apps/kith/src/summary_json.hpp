@@ -6,8 +6,9 @@
 namespace kith::cli {
 
 /// Prints the document kith.study/1: what came out per cell, and pooled.
-void print_summary(const Study& study, const StudySummary& summary, std::size_t teams, double seconds,
-                   Console& console);
+/// @param failed  the teams that are missing, described.
+void print_summary(const Study& study, const StudySummary& summary, std::size_t teams,
+                   const std::vector<std::string>& failed, double seconds, Console& console);
 
 /// Prints the document kith.study-plan/1: what would be run.
 void print_plan(const Study& study, std::size_t teams, Console& console);

@@ -6,8 +6,10 @@
 
 #include "commands.hpp"
 #include "json.hpp"
+#include "kith/study/journal.hpp"
 #include "kith_build_info.hpp"
 #include "libraries.hpp"
+#include "mpi_ranks.hpp"
 
 namespace kith::cli {
 
@@ -17,7 +19,9 @@ std::vector<Library> library_versions() {
           {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                         NLOHMANN_JSON_VERSION_PATCH)},
           {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-          {"CLI11", CLI11_VERSION}};
+          {"CLI11", CLI11_VERSION},
+          {"SQLite", journal_library_version()},
+          {"MPI", mpi_version()}};
 }
 
 int run_version(Console& console) {

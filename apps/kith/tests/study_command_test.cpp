@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +11,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using Json = nlohmann::json;
 
 std::map<std::string, std::string> tables_in(const std::filesystem::path& run) {
@@ -134,37 +132,6 @@ TEST(StudyCommand, ReportsProgressAsJsonLines) {
   const auto last = Json::parse(ran.err.substr(ran.err.find('{')));
   EXPECT_EQ(last.at("done"), 6);
   EXPECT_EQ(last.at("total"), 6);
-}
-
-// A study that would take minutes is stopped while it runs.
-TEST(StudyCommand, StopsCleanlyWhenInterrupted) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const Scratch scratch;
-    std::ofstream{scratch / "in"} << "";
-    const auto child =
-        start_kith({"study", "quick", "-o", scratch / "run", "--set", "replicates=100000", "--progress", "json"}, {},
-                   scratch / "in", scratch / "out", scratch / "err");
-    for (int i = 0; i < 1000 && text_of(scratch / "err").find("\"done\"") == std::string::npos; ++i) usleep(10'000);
-    kill(child, signal);
-    EXPECT_EQ(exit_code_of(child), 128 + signal);
-    EXPECT_THAT(text_of(scratch / "err"), HasSubstr("interrupted after"));
-    EXPECT_THAT(text_of(scratch / "out"), IsEmpty());
-    EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
-  }
-}
-
-TEST(StudyCommand, EndsWithAnErrorDocumentWhenInterruptedInJson) {
-  const Scratch scratch;
-  std::ofstream{scratch / "in"} << "";
-  const auto child = start_kith(
-      {"study", "quick", "-o", scratch / "run", "--set", "replicates=100000", "--progress", "json", "--json"}, {},
-      scratch / "in", scratch / "out", scratch / "err");
-  for (int i = 0; i < 1000 && text_of(scratch / "err").find("\"done\"") == std::string::npos; ++i) usleep(10'000);
-  kill(child, SIGINT);
-  EXPECT_EQ(exit_code_of(child), 128 + SIGINT);
-  const auto document = Json::parse(text_of(scratch / "out"));
-  EXPECT_EQ(document.at("schema"), "kith.error/1");
-  EXPECT_EQ(document.at("errors").at(0).at("id"), "interrupted");
 }
 
 TEST(TeachCommand, IsDeterministicAndFollowsTheSeed) {

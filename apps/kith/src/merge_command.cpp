@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "build_facts.hpp"
+#include "commands.hpp"
+#include "failpoint.hpp"
+#include "kith/core/error.hpp"
+#include "kith/study/merge.hpp"
+#include "kith/study/study_run.hpp"
+#include "run_outcome.hpp"
+#include "words.hpp"
+
+namespace kith::cli {
+
+int run_merge(const MergeOptions& options, Console& console) {
+  if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith merge needs -o DIR, the folder for the results"};
+  const RunPlace place{options.out, std::chrono::steady_clock::now()};
+  auto facts = facts_of_build();
+  facts.started = utc_now();
+  const std::vector<std::filesystem::path> folders{options.folders.begin(), options.folders.end()};
+  for (const auto& folder : folders) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(folder, options.out, ignored)) {
+      throw Error{ErrorKind::kUsage, "kith merge cannot write to " + options.out + ", which is one of the shards"};
+    }
+  }
+  const auto shards = open_shards(folders, program_name());
+  auto reading = read_run_folder(folders.front());
+  if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
+  StudyRunOptions how;
+  how.program = program_name();
+  how.replace = options.yes;
+  how.on_instant = failpoint();
+  StudyRun run{options.out, std::move(reading), std::move(how)};
+  for (const auto& shard : shards) run.take_up(shard);
+  facts.domain = run.study().variants.front().domain;
+  const auto text =
+      fmt::format("put together {} of {}", counted(shards.size(), "shard"), counted(run.num_teams(), "team"));
+  facts.log.push_back(utc_now() + " " + text);
+  console.detail(text);
+  return publish_run(run, std::move(facts), place, console);
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,350 @@
+// What becomes of a study whatever ends it, and of its folder.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Json = nlohmann::json;
+using Tables = std::map<std::string, std::string>;
+
+namespace fs = std::filesystem;
+
+Tables tables_in(const fs::path& run) {
+  Tables tables;
+  if (!fs::exists(run / "tables")) return tables;
+  for (const auto& entry : fs::directory_iterator{run / "tables"}) {
+    tables[entry.path().filename().string()] = text_of(entry.path());
+  }
+  return tables;
+}
+
+// 16 teams, which take a fraction of a second.
+std::vector<std::string> small_study(const std::string& folder) {
+  return {"study", "quick", "-o", folder, "--set", "replicates=8", "-j", "2", "-q"};
+}
+
+constexpr int kTeams = 16;
+
+const Tables& expected() {
+  static const Tables kTables = [] {
+    const Scratch scratch;
+    EXPECT_EQ(run_kith(small_study(scratch / "run")).code, 0);
+    return tables_in(scratch / "run");
+  }();
+  return kTables;
+}
+
+RunWith fails_at(const std::string& failpoint) { return {{{"KITH_FAILPOINT", failpoint}}, "", ""}; }
+
+// Runs it until the failpoint kills it, if it comes to that.
+bool is_killed(const std::vector<std::string>& arguments, const std::string& failpoint) {
+  const int code = run_kith(arguments, fails_at(failpoint)).code;
+  EXPECT_TRUE(code == 128 + SIGKILL || code == 0) << code << " at " << failpoint;
+  return code != 0;
+}
+
+// The instants of a run, most of them in the middle of something: between two teams, just before, in and just after
+// saving one (the delay goes on into the transaction), and while the tables are put in place.
+std::string random_instant(std::mt19937& random) {
+  const auto team = std::to_string(1 + random() % kTeams);
+  switch (random() % 6) {
+    case 0:
+      return "team:" + team;
+    case 1:
+      return "commit:" + team;
+    case 2:
+      return "committed:" + team;
+    case 3:
+      return std::vector<std::string>{"staged:1", "inputs:1", "tables:1", "manifest:1"}[random() % 4];
+    default:
+      return "commit:" + team + ":" + std::to_string(random() % 3000);
+  }
+}
+
+void kill_and_resume(std::size_t times, unsigned seed, std::size_t most_kills) {
+  std::mt19937 random{seed};
+  std::size_t killed = 0;
+  for (std::size_t i = 0; i < times; ++i) {
+    const Scratch scratch;
+    const auto arguments = small_study(scratch / "run");
+    const auto kills = 1 + random() % most_kills;  // of the resumed runs too
+    std::string story;
+    for (std::size_t k = 0; k < kills; ++k) {
+      const auto instant = random_instant(random);
+      story += instant + " ";
+      killed += is_killed(arguments, instant) ? 1u : 0u;
+      const auto tables = tables_in(scratch / "run");
+      EXPECT_TRUE(tables.empty() || tables == expected()) << story;  // all or nothing
+    }
+    const auto ran = run_kith(arguments);
+    ASSERT_EQ(ran.code, 0) << story << ran.err;
+    ASSERT_EQ(tables_in(scratch / "run"), expected()) << story;
+    ASSERT_EQ(run_kith({"verify", scratch / "run", "--sample", "0.1"}).code, 0) << story;
+  }
+  EXPECT_GT(killed, times / 2);
+}
+
+TEST(Survival, OfKillsAtTenInstants) { kill_and_resume(10, 1, 1); }
+
+TEST(SurvivalSlow, OfKillsAtAHundredInstants) { kill_and_resume(100, 2, 1); }
+
+TEST(SurvivalSlow, OfKillsDuringTheResumeUpToFiveDeep) { kill_and_resume(20, 3, 5); }
+
+// A study that would take minutes is stopped while it runs; a little later it goes on.
+TEST(Survival, OfSignalsSavesWhatIsFinishedAndSaysHowToGoOn) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const Scratch scratch;
+    std::ofstream{scratch / "in"} << "";
+    const auto child =
+        start_kith({"study", "quick", "-o", scratch / "run", "--set", "replicates=100000", "--progress", "json"}, {},
+                   scratch / "in", scratch / "out", scratch / "err");
+    for (int i = 0; i < 3000 && text_of(scratch / "err").find("\"done\"") == std::string::npos; ++i) usleep(10'000);
+    kill(child, signal);
+    EXPECT_EQ(exit_code_of(child), 128 + signal);
+    EXPECT_THAT(text_of(scratch / "err"),
+                AllOf(HasSubstr("interrupted after"), HasSubstr("are saved in"), HasSubstr("study quick -o")));
+    EXPECT_THAT(text_of(scratch / "out"), IsEmpty());
+    EXPECT_FALSE(fs::exists(scratch / "run/tables"));
+    const auto status = Json::parse(run_kith({"status", scratch / "run", "--json"}).out);
+    EXPECT_EQ(status.at("state"), "interrupted");
+    EXPECT_GT(status.at("done"), 0);
+    EXPECT_EQ(status.at("total"), 200'000);
+    EXPECT_EQ(status.at("done").get<int>() + status.at("left").get<int>(), 200'000);
+  }
+}
+
+TEST(Survival, OfASignalIsAnErrorDocumentInJson) {
+  const Scratch scratch;
+  std::ofstream{scratch / "in"} << "";
+  const auto child = start_kith(
+      {"study", "quick", "-o", scratch / "run", "--set", "replicates=100000", "--progress", "json", "--json"}, {},
+      scratch / "in", scratch / "out", scratch / "err");
+  for (int i = 0; i < 3000 && text_of(scratch / "err").find("\"done\"") == std::string::npos; ++i) usleep(10'000);
+  EXPECT_EQ(Json::parse(run_kith({"status", scratch / "run", "--json"}).out).at("state"), "running");
+  const auto second = run_kith({"study", "quick", "-o", scratch / "run", "--set", "replicates=100000"});
+  EXPECT_EQ(second.code, 8);
+  EXPECT_THAT(second.err, HasSubstr("another process is writing to"));
+  kill(child, SIGINT);
+  EXPECT_EQ(exit_code_of(child), 128 + SIGINT);
+  const auto document = Json::parse(text_of(scratch / "out"));
+  EXPECT_EQ(document.at("schema"), "kith.error/1");
+  EXPECT_EQ(document.at("errors").at(0).at("id"), "interrupted");
+  EXPECT_THAT(document.at("errors").at(0).at("hint"), HasSubstr("study quick"));
+}
+
+// Runs it where no file can become larger: what a full disk is like.
+Ran run_limited(const std::vector<std::string>& arguments, rlim_t bytes) {
+  rlimit before = {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit limited = before;
+  limited.rlim_cur = bytes;
+  struct sigaction ignore = {}, old = {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &ignore, &old);
+  setrlimit(RLIMIT_FSIZE, &limited);
+  const Scratch scratch;
+  std::ofstream{scratch / "in"} << "";
+  Ran ran;
+  ran.code = exit_code_of(start_kith(arguments, {}, scratch / "in", scratch / "out", scratch / "err"));
+  setrlimit(RLIMIT_FSIZE, &before);
+  sigaction(SIGXFSZ, &old, nullptr);
+  ran.err = text_of(scratch / "err");
+  return ran;
+}
+
+TEST(Survival, OfAFullDiskKeepsWhatWasThereAndGoesOn) {
+  const Scratch scratch;
+  const auto folder = scratch / "run";
+  ASSERT_EQ(run_kith({"study", "quick", "-o", folder, "--seed", "2", "-q"}).code, 0);
+  const auto before = tables_in(folder);
+  auto arguments = small_study(folder);
+  arguments.emplace_back("--yes");
+  const auto has_no_room = [&](rlim_t bytes) {
+    const auto ran = run_limited(arguments, bytes);
+    EXPECT_EQ(ran.code, 5) << bytes << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(folder));
+    EXPECT_EQ(tables_in(folder), before);
+  };
+  has_no_room(40'000);  // for the journal
+  EXPECT_TRUE(is_killed(arguments, "staged:1"));
+  EXPECT_EQ(tables_in(folder), before);
+  std::size_t largest = 0;
+  for (const auto& [name, text] : expected()) largest = std::max(largest, text.size());
+  has_no_room(static_cast<rlim_t>(largest - 1));  // for one of the tables, after all teams are saved
+  const auto ran = run_kith(arguments);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(tables_in(folder), expected());
+}
+
+TEST(Survival, OfAReadOnlyFolderIsAClearMessage) {
+  const Scratch scratch;
+  const auto folder = scratch / "run";
+  ASSERT_EQ(run_kith(small_study(folder)).code, 0);
+  for (const auto* place : {"run/tables", "run/inputs", "run"}) fs::permissions(scratch / place, fs::perms(0555));
+  fs::permissions(scratch / "run/study.sqlite", fs::perms(0444));
+  std::ofstream{scratch / "in"} << "";
+  const pid_t child = fork();
+  if (child == 0) {
+    if (geteuid() == 0 && prctl(PR_CAPBSET_DROP, 1 /* CAP_DAC_OVERRIDE */) != 0) _exit(77);
+    const auto grandchild = start_kith(small_study(folder), {}, scratch / "in", scratch / "out", scratch / "err");
+    _exit(exit_code_of(grandchild));
+  }
+  const int code = exit_code_of(child);
+  EXPECT_EQ(run_kith({"status", folder}).code, 0);
+  EXPECT_EQ(run_kith({"verify", folder}).code, 0);
+  for (const auto* place : {"run", "run/tables", "run/inputs"}) fs::permissions(scratch / place, fs::perms(0755));
+  if (code == 77) GTEST_SKIP() << "permissions do not hold for this user";
+  EXPECT_EQ(code, 5);
+  EXPECT_THAT(text_of(scratch / "err"), AllOf(HasSubstr(folder), HasSubstr("ermission denied")));
+  EXPECT_EQ(tables_in(folder), expected());
+}
+
+TEST(Survival, OfADamagedJournalNamesItAndTheWayOut) {
+  const Scratch scratch;
+  const auto folder = scratch / "run";
+  ASSERT_EQ(run_kith(small_study(folder)).code, 0);
+  std::ofstream{folder + "/study.sqlite"} << "this is no database";
+  const auto ran = run_kith(small_study(folder));
+  EXPECT_EQ(ran.code, 5);
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("study.sqlite"), HasSubstr("--resume never")));
+  EXPECT_EQ(tables_in(folder), expected());
+  auto anew = small_study(folder);
+  anew.insert(anew.end(), {"--resume", "never"});
+  EXPECT_EQ(run_kith(anew).code, 0);
+  EXPECT_EQ(tables_in(folder), expected());
+}
+
+TEST(Resume, IsRefusedWithNothingToResume) {
+  const Scratch scratch;
+  const auto ran = run_kith({"study", "quick", "-o", scratch / "run", "--resume", "require"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("nothing to resume"));
+  EXPECT_FALSE(fs::exists(scratch / "run"));
+}
+
+// Abilities that hardly anybody has: some people cannot be drawn.
+std::vector<std::string> failing_study(const std::string& folder) {
+  return {"study", "quick",
+          "-o",    folder,
+          "--set", "learner.N.ability={mean=0.7,sd=0.01,min=0.7334}",
+          "--set", "replicates=100",
+          "--set", "design.strategies=[\"common\"]",
+          "--set", "record.level=\"team\""};
+}
+
+TEST(Failures, StopTheRunWithTheAddressOfTheTeam) {
+  const Scratch scratch;
+  const auto ran = run_kith(failing_study(scratch / "run"));
+  EXPECT_EQ(ran.code, 4) << ran.err;
+  EXPECT_THAT(ran.err, ::testing::ContainsRegex("team [0-9]+ \\(common, NP, replicate [0-9]+\\) failed: "));
+  EXPECT_FALSE(fs::exists(scratch / "run/tables"));
+}
+
+TEST(Failures, AreNamedAtTheEndIfTheRunIsToGoOn) {
+  const Scratch scratch;
+  auto arguments = failing_study(scratch / "run");
+  arguments.insert(arguments.end(), {"--keep-going", "--json"});
+  const auto ran = run_kith(arguments);
+  EXPECT_EQ(ran.code, 6) << ran.err;
+  const auto document = Json::parse(ran.out);
+  const auto failed = document.at("failed").size();
+  EXPECT_GT(failed, 0u);
+  EXPECT_EQ(document.at("teams").get<std::size_t>() + failed, 100u);
+  EXPECT_THAT(document.at("failed").at(0).get<std::string>(), HasSubstr("(common, NP, replicate "));
+  const auto status = Json::parse(run_kith({"status", scratch / "run", "--json"}).out);
+  EXPECT_EQ(status.at("state"), "failed");
+  EXPECT_EQ(status.at("failed"), failed);
+  EXPECT_EQ(status.at("failures").size(), failed);
+}
+
+TEST(StatusCommand, KnowsAFinishedRun) {
+  const Scratch scratch;
+  ASSERT_EQ(run_kith(small_study(scratch / "run")).code, 0);
+  EXPECT_THAT(run_kith({"status", scratch / "run"}).out, HasSubstr("finished: 16 of 16 teams done"));
+  EXPECT_EQ(run_kith({"status", scratch / "nowhere"}).code, 5);
+  EXPECT_EQ(run_kith({"status", scratch / ""}).code, 5);
+}
+
+TEST(VerifyCommand, FindsTheSameBytesOrSaysWhereTheyDiffer) {
+  const Scratch scratch;
+  ASSERT_EQ(run_kith(small_study(scratch / "run")).code, 0);
+  const auto good = Json::parse(run_kith({"verify", scratch / "run", "--json"}).out);
+  EXPECT_EQ(good.at("schema"), "kith.verify/1");
+  EXPECT_EQ(good.at("checked"), kTeams);
+  std::ofstream{scratch / "run/tables/teams.csv", std::ios::app} << "x\n";
+  const auto bad = run_kith({"verify", scratch / "run"});
+  EXPECT_EQ(bad.code, 7);
+  EXPECT_THAT(bad.err, AllOf(HasSubstr("tables/teams.csv"), HasSubstr("error[E0641]")));
+  EXPECT_EQ(run_kith({"verify", scratch / "run", "--sample", "2"}).code, 2);
+}
+
+TEST(MergeCommand, GivesTheBytesOfTheWholeStudy) {
+  const Scratch scratch;
+  std::vector<std::string> merge{"merge", "-o", scratch / "all"};
+  for (const std::string shard : {"3", "1", "2"}) {
+    auto arguments = small_study(scratch / shard);
+    arguments.insert(arguments.end(), {"--shard", shard + "/3"});
+    const auto ran = run_kith(arguments);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_FALSE(fs::exists(fs::path{scratch / shard} / "tables"));
+    merge.push_back(scratch / shard);
+  }
+  const auto merged = run_kith(merge);
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("all groups"));
+  EXPECT_EQ(tables_in(scratch / "all"), expected());
+  EXPECT_EQ(run_kith({"verify", scratch / "all"}).code, 0);
+  merge.pop_back();
+  const auto refused = run_kith(merge);
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("error[E0635]"));
+  EXPECT_EQ(run_kith({"merge", scratch / "1", "-o", scratch / "1"}).code, 2);
+  EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "x", "--shard", "4/3"}).code, 2);
+}
+
+// Under mpirun, as root if need be.
+int run_on_ranks(const std::string& ranks, const std::vector<std::string>& arguments, const Scratch& scratch) {
+  const pid_t child = fork();
+  if (child != 0) return exit_code_of(child);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  std::vector<std::string> words{KITH_MPIRUN, "-n", ranks, "--oversubscribe", KITH_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const int log = open((scratch / "mpi.log").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  dup2(log, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  execv(KITH_MPIRUN, argv.data());
+  _exit(127);
+}
+
+TEST(MpiRanks, GiveTheSameBytesInAnyNumber) {
+  if (std::string{KITH_MPIRUN}.empty()) GTEST_SKIP() << "kith was built without MPI";
+  if (!fs::exists(KITH_MPIRUN)) GTEST_SKIP() << KITH_MPIRUN << " is not there";
+  const Scratch scratch;
+  for (const std::string ranks : {"1", "2", "4"}) {
+    EXPECT_EQ(run_on_ranks(ranks, small_study(scratch / ranks), scratch), 0) << text_of(scratch / "mpi.log");
+    EXPECT_EQ(tables_in(scratch / ranks), expected()) << ranks;
+    EXPECT_FALSE(fs::exists(fs::path{scratch / ranks} / "study.rank-1.sqlite"));
+  }
+}
+
+}  // namespace
+}  // namespace kith::testing
