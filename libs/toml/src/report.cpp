@@ -6,32 +6,26 @@
 
 namespace kith {
 
-void TomlReport::add(Diagnostic diagnostic, const TomlPlace& place) {
-  if (diagnostic.severity == Severity::kError) {
-    ++num_errors_;
-    if (num_errors_ > kMaxErrors) return;
-  }
-  entries_.push_back({place, std::move(diagnostic)});
+// Beyond the cap errors are only counted: finding the line of each takes as long as the text is.
+void TomlReport::add(Diagnostic kind, const TomlPlace& place, std::string id, std::string message, std::string hint) {
+  if (kind.severity == Severity::kError && ++num_errors_ > kMaxErrors) return;
+  Diagnostic d =
+      diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));
+  d.severity = kind.severity;
+  d.infeasible = kind.infeasible;
+  entries_.push_back({place, std::move(d)});
 }
 
 void TomlReport::error(std::string id, const TomlPlace& place, std::string message, std::string hint) {
-  Diagnostic d =
-      diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));
-  add(std::move(d), place);
+  add({}, place, std::move(id), std::move(message), std::move(hint));
 }
 
 void TomlReport::infeasible(std::string id, const TomlPlace& place, std::string message, std::string hint) {
-  Diagnostic d =
-      diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));
-  d.infeasible = true;
-  add(std::move(d), place);
+  add({.infeasible = true}, place, std::move(id), std::move(message), std::move(hint));
 }
 
 void TomlReport::warning(std::string id, const TomlPlace& place, std::string message, std::string hint) {
-  Diagnostic d =
-      diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));
-  d.severity = Severity::kWarning;
-  add(std::move(d), place);
+  add({.severity = Severity::kWarning}, place, std::move(id), std::move(message), std::move(hint));
 }
 
 std::vector<Diagnostic> TomlReport::diagnostics() const {

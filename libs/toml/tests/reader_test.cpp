@@ -120,6 +120,15 @@ TEST(TomlReport, ListsInFileOrderAndStopsAtTwentyErrors) {
   EXPECT_TRUE(diagnostics[4].infeasible || diagnostics[5].infeasible);
 }
 
+// Looking for the line of each, this would take minutes.
+TEST(TomlReport, OnlyCountsWhatIsBeyondTwentyErrors) {
+  const Opened o{std::string(kMaxTomlBytes - 2, '\n')};
+  TomlReport report{o.document};
+  for (int i = 0; i < 200'000; ++i) report.error("E0107", {0, kMaxTomlBytes - 2, 1, 1}, "unknown");
+  EXPECT_EQ(report.num_errors(), 200'000u);
+  EXPECT_EQ(report.diagnostics().size(), TomlReport::kMaxErrors);
+}
+
 TEST(TomlReport, NamesTheSourceOfAnAssignedValue) {
   TomlDocument document = *parse_toml("seed = 1\n", "a.toml").document;
   ASSERT_TRUE(assign(document, *parse_assignment("seed=\"x\"", "--set").assignment).empty());
