@@ -91,6 +91,14 @@ void point_at_key(Diagnostic& d, const std::string& message) {
   d.length = key.size();
 }
 
+// toml++ places the end of a text that ends with a line break beyond that line.
+TomlPlace within_line(const TomlSource& source, TomlPlace place) {
+  const auto line = source.line(place.line);
+  const auto characters = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+  place.column = std::min(place.column, static_cast<std::size_t>(characters) + 1);
+  return place;
+}
+
 Diagnostic from_parse_error(const TomlSource& source, const ::toml::parse_error& error) {
   std::string message{error.description()};
   const bool twice = message.find("redefine") != std::string::npos;
@@ -104,7 +112,7 @@ Diagnostic from_parse_error(const TomlSource& source, const ::toml::parse_error&
   const bool no_value = has("could not determine value type") || has("expected 'true'") || has("expected 'false'") ||
                         has("expected 'inf'") || has("expected 'nan'");
   if (no_value) message = "this is not a value; text needs \"quotes\"";
-  Diagnostic d = diagnostic_at(source, place_of(error.source()), twice ? "E0102" : "E0101",
+  Diagnostic d = diagnostic_at(source, within_line(source, place_of(error.source())), twice ? "E0102" : "E0101",
                                twice ? "a key is given twice: " + message : "not valid TOML: " + message);
   if (twice) {
     point_at_key(d, message);

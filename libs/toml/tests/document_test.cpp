@@ -46,6 +46,15 @@ TEST(ParseToml, CountsColumnsInCharacters) {
   EXPECT_EQ(document.root.find("a")->table()->find("c")->place(), (TomlPlace{0, 1, 21, 1}));
 }
 
+TEST(ParseToml, PlacesAnEarlyEndRightBehindTheLastLine) {
+  for (const std::string text : {"s = \"\"\"h\xC3\xA9", "s = \"\"\"h\xC3\xA9\n"}) {
+    const auto diagnostics = parse_toml(text, "a.toml").diagnostics;
+    ASSERT_EQ(diagnostics.size(), 1u);
+    EXPECT_EQ(diagnostics[0].line, 1u);
+    EXPECT_EQ(diagnostics[0].column, 10u);
+  }
+}
+
 TEST(ParseToml, ReadsEveryKindOfValue) {
   const TomlDocument document = parsed("a=true\nb=-7\nc=3.5\nd='x'\ne=1979-05-27\nf=[]\ng={}\nh=07:32:00\n");
   EXPECT_EQ(*document.root.find("a")->boolean(), true);
