@@ -75,6 +75,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   std::size_t best = std::max<std::size_t>(word.size() / 3, 2) + 1;
   std::string nearest;
   for (const std::string& candidate : known) {
+    // The distance is at least the difference in length; computing it takes the product of the lengths.
+    if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) >= best) continue;
     const std::size_t distance = edit_distance(word, candidate);
     // A distance as long as both words would mean that not one letter is kept.
     if (distance < best && distance < std::max(word.size(), candidate.size())) {

@@ -61,6 +61,7 @@ TEST(NearestWord, FindsSpellingMistakes) {
   EXPECT_EQ(nearest_word("recharge", known), "recharge");
   EXPECT_EQ(nearest_word("stap", known), "step");  // a tie goes to the earlier word
   EXPECT_EQ(nearest_word("passenger", known), "");
+  EXPECT_EQ(nearest_word(std::string(1 << 20, 'r'), known), "");
   EXPECT_EQ(nearest_word("ab", {"cd"}), "");  // nothing in common
   EXPECT_EQ(nearest_word("", {}), "");
 }
