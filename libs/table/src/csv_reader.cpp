@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "check_columns.hpp"
@@ -15,6 +17,8 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kMaxDiagnostics = 1000;
+constexpr std::size_t kMaxDiagnosticsOfRow = 50;  // finding a cell's place takes as long as its row is
+constexpr std::size_t kLongestShownLine = 2000;   // bytes; nobody looks at more
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 // The number of UTF-8 characters.
@@ -131,6 +135,7 @@ class Reader {
                               .hint = "begin with a line of column names, such as " + names()});
     }
     if (diagnostics_.size() >= kMaxDiagnostics) {
+      diagnostics_.resize(kMaxDiagnostics);
       diagnostics_.push_back({.id = "E0511", .message = "too many problems; the rest was not read", .file = file_});
     }
     return std::move(diagnostics_);
@@ -146,14 +151,15 @@ class Reader {
   void report(const detail::CsvRecord& record, std::size_t field, const Fault& fault) {
     const detail::CsvPlace place = detail::locate(record.text, field);
     const std::string_view cell = place.line_text.substr(std::min(place.offset, place.line_text.size()), place.length);
-    diagnostics_.push_back({.id = fault.id,
-                            .message = fault.message,
-                            .file = file_,
-                            .line = record.line + place.line,
-                            .column = num_characters(place.line_text.substr(0, place.offset)) + 1,
-                            .length = std::max<std::size_t>(1, num_characters(cell)),
-                            .hint = fault.hint,
-                            .source_line = std::string{place.line_text}});
+    diagnostics_.push_back(
+        {.id = fault.id,
+         .message = fault.message,
+         .file = file_,
+         .line = record.line + place.line,
+         .column = num_characters(place.line_text.substr(0, place.offset)) + 1,
+         .length = std::max<std::size_t>(1, num_characters(cell)),
+         .hint = fault.hint,
+         .source_line = std::string{place.line_text.size() > kLongestShownLine ? "" : place.line_text}});
   }
 
   bool report_malformed(const detail::CsvRecord& record) {
@@ -169,21 +175,22 @@ class Reader {
     has_header_ = true;
     if (report_malformed(record)) return false;
     source_.assign(columns_.size(), record.fields.size());
-    for (std::size_t f = 0; f < record.fields.size(); ++f) {
+    std::unordered_map<std::string_view, std::size_t> position;
+    for (std::size_t c = 0; c < columns_.size(); ++c) position.emplace(columns_[c].name, c);
+    for (std::size_t f = 0; f < record.fields.size() && diagnostics_.size() < kMaxDiagnosticsOfRow; ++f) {
       const std::string name = record.fields[f].value_or("");
-      const auto column =
-          std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
-      if (column == columns_.end()) {
+      const auto column = position.find(name);
+      if (column == position.end()) {
         if (others_ == OtherColumns::kReject) report_unknown(record, f, name);
         continue;
       }
-      auto& source = source_[static_cast<std::size_t>(column - columns_.begin())];
+      auto& source = source_[column->second];
       if (source != record.fields.size()) {
         report(record, f, {"E0504", "column " + in_quotes(name) + " is there twice", "remove one of them"});
       }
       source = f;
     }
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
+    for (std::size_t c = 0; c < columns_.size() && diagnostics_.size() < kMaxDiagnosticsOfRow; ++c) {
       if (source_[c] != record.fields.size()) continue;
       report(record, 0, {"E0502", "column \"" + columns_[c].name + "\" is missing", missing_hint(record, columns_[c])});
     }
@@ -229,7 +236,7 @@ class Reader {
       return;
     }
     const std::size_t before = diagnostics_.size();
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
+    for (std::size_t c = 0; c < columns_.size() && diagnostics_.size() < before + kMaxDiagnosticsOfRow; ++c) {
       Parsed parsed = parse_cell(record.fields[source_[c]], columns_[c]);
       if (parsed.fault) {
         report(record, source_[c], *parsed.fault);
@@ -267,6 +274,7 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
     diagnostics.push_back({.id = id, .message = message, .file = file, .line = 1, .column = 1, .hint = hint});
   };
   bool found = false;
+  std::unordered_set<std::string> names;
   detail::for_each_record(text, [&](const detail::CsvRecord& record) {
     found = true;
     if (record.malformed) {
@@ -274,12 +282,13 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
              "put the whole name between quotes and write a quote inside it twice");
     }
     for (const auto& field : record.fields) {
+      if (diagnostics.size() >= kMaxDiagnosticsOfRow) break;
       const auto name = field.value_or("");
       if (name.empty()) {
         report("E0512", "column " + std::to_string(columns.size() + 1) + " has no name", "name every column");
       } else if (!is_text(name)) {
         report("E0509", "the name of a column is not UTF-8 text", "save the file as UTF-8");
-      } else if (std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; })) {
+      } else if (!names.insert(name).second) {
         report("E0504", "column " + in_quotes(name) + " is there twice", "remove one of them");
       }
       columns.push_back({.name = name});

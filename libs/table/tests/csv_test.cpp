@@ -241,6 +241,27 @@ TEST(ReadCsv, StopsAfterAThousandProblems) {
   EXPECT_EQ(result.diagnostics.back().id, "E0511");
 }
 
+// Quadratic in the number of columns, this would take minutes; with the line in every diagnostic, gigabytes.
+TEST(ReadCsv, ReadsATableAsWideAsItLikes) {
+  constexpr std::size_t kWide = 100'000;
+  std::string header = "c0";
+  std::string row = "x";
+  for (std::size_t i = 1; i < kWide; ++i) header += ",c" + std::to_string(i);
+  for (std::size_t i = 1; i < kWide; ++i) row += ",x";
+  const std::string text = header + "\n" + row + "\n";
+  auto columns = read_csv_header(text, "wide.csv");
+  ASSERT_EQ(columns.size(), kWide);
+  std::size_t rows = 0;
+  EXPECT_TRUE(read_csv(text, "wide.csv", columns, [&](const CsvRow&) { ++rows; }).empty());
+  EXPECT_EQ(rows, 1u);
+  for (auto& column : columns) column.type = ColumnType::kInteger;
+  const auto faults = read_csv(text, "wide.csv", columns, [](const CsvRow&) {});
+  ASSERT_EQ(faults.size(), 50u);
+  EXPECT_EQ(faults.back().column, 99u);
+  EXPECT_TRUE(faults.back().source_line.empty());
+  EXPECT_EQ(parsed(text).diagnostics.size(), 50u);
+}
+
 TEST(ReadCsv, SurvivesRandomBytes) {
   std::mt19937 bits{2};
   const std::string alphabet = "a1,.\"\n\r\t\xC3\xA9\xFF-e";
