@@ -66,7 +66,7 @@ Domain::Data data_from(std::string id, std::string title, detail::World world, c
   return data;
 }
 
-std::optional<Domain> read_document(const TomlDocument& document, TomlReport& report) {
+std::optional<Domain> read_document(const TomlDocument& document, const DomainLimits& limits, TomlReport& report) {
   TomlReader file{document.root, {0, 1, 1, 1}, "the file", report};
   if (!check_schema(file)) return std::nullopt;
   const auto id = file.string("id", Presence::kRequired);
@@ -79,7 +79,7 @@ std::optional<Domain> read_document(const TomlDocument& document, TomlReport& re
   if (world.is_sound) check_has_goal(world, dynamics, report);
   if (report.has_errors()) return std::nullopt;
 
-  std::vector<DomainMember> members = detail::build_family(world, dynamics, report);
+  std::vector<DomainMember> members = detail::build_family(world, dynamics, limits, report);
   if (report.has_errors()) return std::nullopt;
   detail::check_optimum(world, dynamics, reward, members, report);
   if (report.has_errors()) return std::nullopt;
@@ -93,11 +93,11 @@ Domain domain_or_error(DomainReading reading) {
 
 }  // namespace
 
-DomainReading parse_domain(std::string_view text, const std::string& name) {
+DomainReading parse_domain(std::string_view text, const std::string& name, const DomainLimits& limits) {
   TomlParsing parsing = parse_toml(text, name);
   if (!parsing.document) return {std::nullopt, std::move(parsing.diagnostics)};
   TomlReport report{*parsing.document};
-  std::optional<Domain> domain = read_document(*parsing.document, report);
+  std::optional<Domain> domain = read_document(*parsing.document, limits, report);
   return {std::move(domain), report.diagnostics()};
 }
 

@@ -9,8 +9,8 @@
 namespace kith::detail {
 namespace {
 
-constexpr std::size_t kMaxStates = 2'000'000;  // of all MDPs together; about 250 bytes each
-constexpr std::size_t kMaxCellsTimesMdps = std::size_t{1} << 26;
+// Every MDP begins by looking at every cell, which takes much less than a state does.
+constexpr std::size_t kMaxCellsPerState = 32;
 
 // The non-terminal states from which some terminal state can be reached.
 std::vector<bool> find_live_states(const Exploration& found) {
@@ -42,8 +42,9 @@ std::vector<bool> find_live_states(const Exploration& found) {
 
 class FamilyBuilder {
  public:
-  FamilyBuilder(const World& world, const Dynamics& dynamics, TomlReport& report)
+  FamilyBuilder(const World& world, const Dynamics& dynamics, const DomainLimits& limits, TomlReport& report)
       : world_{world},
+        limits_{limits},
         report_{report},
         dynamics_{dynamics},
         features_{dynamics},
@@ -53,7 +54,7 @@ class FamilyBuilder {
     const std::size_t num_mdps = std::size_t{1} << world_.groups.size();
     if (!check_size(num_mdps)) return {};
     for (std::size_t mdp = 0; mdp < num_mdps; ++mdp) {
-      const Exploration found = explorer_.explore(mdp, kMaxStates - num_states_);
+      const Exploration found = explorer_.explore(mdp, limits_.max_states - num_states_);
       if (!found.complete) {
         report_too_many(mdp, num_mdps);
         return {};
@@ -68,7 +69,7 @@ class FamilyBuilder {
  private:
   bool check_size(std::size_t num_mdps) {
     const StateLayout& layout = explorer_.layout();
-    if (layout.num_bits() <= 64 && world_.num_cells() <= kMaxCellsTimesMdps / num_mdps) return true;
+    if (layout.num_bits() <= 64 && world_.num_cells() <= kMaxCellsPerState * limits_.max_states / num_mdps) return true;
     report_.error("E0219", world_.map_place,
                   "the world is too large: " + std::to_string(num_mdps) + " MDPs of " +
                       std::to_string(world_.num_cells()) + " cells, " + std::to_string(world_.items.size()) +
@@ -78,8 +79,9 @@ class FamilyBuilder {
 
   void report_too_many(std::size_t mdp, std::size_t num_mdps) {
     report_.error("E0219", world_.map_place,
-                  "more than " + std::to_string(kMaxStates) + " states in the first " + std::to_string(mdp + 1) +
-                      " of " + std::to_string(num_mdps) + " MDPs; at most " + std::to_string(kMaxStates) + " are built",
+                  "more than " + std::to_string(limits_.max_states) + " states in the first " +
+                      std::to_string(mdp + 1) + " of " + std::to_string(num_mdps) + " MDPs; at most " +
+                      std::to_string(limits_.max_states) + " are built",
                   "use a smaller map, fewer items and stations, or fewer optional things");
   }
 
@@ -190,6 +192,7 @@ class FamilyBuilder {
   }
 
   const World& world_;
+  const DomainLimits& limits_;
   TomlReport& report_;
   const Dynamics& dynamics_;
   FeatureTable features_;
@@ -206,8 +209,9 @@ class FamilyBuilder {
 
 }  // namespace
 
-std::vector<DomainMember> build_family(const World& world, const Dynamics& dynamics, TomlReport& report) {
-  return FamilyBuilder{world, dynamics, report}.build();
+std::vector<DomainMember> build_family(const World& world, const Dynamics& dynamics, const DomainLimits& limits,
+                                       TomlReport& report) {
+  return FamilyBuilder{world, dynamics, limits, report}.build();
 }
 
 }  // namespace kith::detail

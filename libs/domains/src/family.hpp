@@ -4,6 +4,7 @@
 
 #include "domain_data.hpp"
 #include "dynamics.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/toml/reader.hpp"
 #include "reward.hpp"
 
@@ -11,7 +12,8 @@ namespace kith::detail {
 
 // Explores and checks every MDP of the family. Reports what makes the family
 // infeasible or too large; the result is complete only without errors.
-[[nodiscard]] std::vector<DomainMember> build_family(const World& world, const Dynamics& dynamics, TomlReport& report);
+[[nodiscard]] std::vector<DomainMember> build_family(const World& world, const Dynamics& dynamics,
+                                                     const DomainLimits& limits, TomlReport& report);
 
 // Reports MDPs in which the robot has no finite optimum, ties that matter, and
 // optimal paths longer than max_steps. Needs integral features and discount 1.

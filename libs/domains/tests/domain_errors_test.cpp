@@ -235,6 +235,15 @@ INSTANTIATE_TEST_SUITE_P(All, DomainError, ::testing::ValuesIn(cases()), [](cons
 
 TEST(DomainErrors, SoundFileHasNone) { EXPECT_TRUE(read_tiny(kSound).diagnostics.empty()); }
 
+TEST(DomainErrors, RefuseMoreStatesThanTheCallerWants) {
+  const auto two_mdps = parse_domain(kSound, "tiny.toml", {.max_states = 8});
+  EXPECT_TRUE(two_mdps.domain);
+  const auto refused = parse_domain(kSound, "tiny.toml", {.max_states = 7});
+  EXPECT_FALSE(refused.domain);
+  ASSERT_EQ(refused.diagnostics.size(), 1u);
+  EXPECT_EQ(refused.diagnostics.front().id, "E0219");
+}
+
 TEST(DomainErrors, WarnThatOnlyThreeFeaturesCanBeTaught) {
   const auto diagnostics = parse_domain(kSound, "t").diagnostics;
   EXPECT_EQ(places_of(diagnostics), "W0304 17:8");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,10 +19,16 @@ struct DomainReading {
   std::vector<Diagnostic> diagnostics;
 };
 
+/// How large a domain may become before it is refused (E0219). A small file can describe a large one.
+struct DomainLimits {
+  std::size_t max_states = 2'000'000;  ///< Of all MDPs together; about 250 bytes each.
+};
+
 /// Parses and checks a domain file (schema kith.domain/1, see docs/formats.md).
 /// All errors of a file are reported at once (at most 20); `name` is used in
 /// messages. Never throws for bad content.
-[[nodiscard]] DomainReading parse_domain(std::string_view text, const std::string& name);
+[[nodiscard]] DomainReading parse_domain(std::string_view text, const std::string& name,
+                                         const DomainLimits& limits = {});
 
 /// Reads the file and parses it. @throws kith::Error (kIo) if it cannot be read.
 [[nodiscard]] DomainReading read_domain(const std::filesystem::path& path);
