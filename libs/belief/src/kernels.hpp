@@ -26,9 +26,10 @@ struct MutablePoints {
   [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
 };
 
-// One half-space's contribution to the exponent: t = u . p < 0 ? log_far + kappa t : 0.
+// One half-space's contribution to the exponent: t = (x, y, z) . p < 0 ? log_far + t : 0. The vector is kappa times
+// the unit normal; the unit normal if the far side is impossible, where log_far is -infinity.
 struct Plane {
-  double ux, uy, uz, log_far, kappa;
+  double x, y, z, log_far;
 };
 
 // The half-spaces as planes, sorted, with repetitions merged into one of a
@@ -51,8 +52,8 @@ void log_relative_products(const Points& points, std::span<const Plane> planes, 
 double add(std::span<const double> terms, std::span<double> sums);
 // values[i] = max(values[i], others[i]).
 void raise(std::span<const double> others, std::span<double> values);
-// out[i] = values[index[i]].
-void gather(std::span<const double> values, std::span<const std::uint32_t> index, std::span<double> out);
+// Point i of `out` = point index[i] of `points`, which is another array.
+void gather(const Points& points, std::span<const std::uint32_t> index, const MutablePoints& out);
 
 // out[i] = exp(in[i] - shift) for in[i] <= shift, with 0 below exp(-708);
 // relative error below 1e-15. Returns the sum.
@@ -60,8 +61,8 @@ double exp_below(std::span<const double> in, double shift, std::span<double> out
 
 // out[i] = values[i] - shift.
 void subtract(std::span<const double> values, double shift, std::span<double> out);
-// values[i] *= scale; returns the sum of the squares of the products.
-double rescale(double scale, std::span<double> values);
+// values[i] *= scale.
+void scale_by(double scale, std::span<double> values);
 
 [[nodiscard]] double sum_of_squares(std::span<const double> values);
 [[nodiscard]] double largest(std::span<const double> values);
@@ -72,15 +73,19 @@ double rescale(double scale, std::span<double> values);
 // sum_i weights[i] angle(points[i], centre)^2, relative error below 1e-12.
 [[nodiscard]] double weighted_square_angles(const Points& points, std::span<const double> weights,
                                             const Eigen::Vector3d& centre);
+// The same in single precision, for weights of at most 1: relative error below 1e-5.
+[[nodiscard]] double rough_square_angles(const Points& points, std::span<const double> weights,
+                                         const Eigen::Vector3d& centre);
 
 // Sum of the weights of the points with normal . p >= 0 for all of the half-spaces.
 [[nodiscard]] double weight_inside(const Points& points, std::span<const double> weights,
                                    std::span<const HalfSpace> half_spaces);
 
 // Moves every point by N(0, angle^2) per axis in its tangent plane, through the
-// exponential map. A move to where some normal . p < 0 is drawn again up to 20
-// times, else the point stays.
-void move_points(const MutablePoints& points, double angle, std::span<const Eigen::Vector3d> normals,
-                 RandomStream& random);
+// exponential map, from `from` to `to`, which may be the same arrays. A move to where some normal . p < 0 is
+// drawn again up to 20 times, else the point stays. Displacements are computed in single precision (relative
+// error 1e-6), what they arrive at is of unit length to 1e-15.
+void move_points(const Points& from, double angle, std::span<const Eigen::Vector3d> normals, RandomStream& random,
+                 const MutablePoints& to);
 
 }  // namespace kith::detail

@@ -79,36 +79,49 @@ void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
     throw Error{ErrorKind::kInfeasible,
                 "the half-spaces exclude every particle of the belief, and learning ability 1 leaves no doubt"};
   }
+  const double sum = detail::exp_below(factors, top, weights_);
+  if (effective_size(sum, detail::sum_of_squares(weights_)) < options_.resample_below * static_cast<double>(size())) {
+    resample(sum, random);
+    return;
+  }
   detail::subtract(factors, top, log_weights_);
-  const double sum = detail::exp_below(log_weights_, 0.0, weights_);
   log_sum_ = std::log(sum);
-  const double squares = detail::rescale(1.0 / sum, weights_);
-  if (effective_size(squares) < options_.resample_below * static_cast<double>(size())) resample(random);
+  detail::scale_by(1.0 / sum, weights_);
 }
 
-void ParticleBelief::resample(RandomStream& random) {
+// The weights are not divided by their sum, which is `sum`, the largest of them is 1.
+void ParticleBelief::resample(double sum, RandomStream& random) {
   const auto count = static_cast<double>(size());
-  const double angle =
-      options_.process_noise > 0.0 ? options_.process_noise * spread() * std::pow(count, -1.0 / 6.0) : 0.0;
-  detail::ParticleScratch<std::uint32_t> index{size()};
+  double angle = 0.0;
+  if (options_.process_noise > 0.0) {
+    const double square = detail::rough_square_angles({x_, y_, z_}, weights_, mean_direction()) / sum;
+    angle = options_.process_noise * std::sqrt(square) * std::pow(count, -1.0 / 6.0);
+  }
+  detail::Scratch<std::uint32_t, detail::kUsualParticles + detail::kIndexRoom> index{size() + detail::kIndexRoom};
   detail::systematic_indices(weights_, uniform01(random), index.values());
-  detail::ParticleScratch<double> drawn{size()};
-  for (auto* axis : {&x_, &y_, &z_}) {
-    detail::gather(*axis, index.values(), drawn.values());
-    std::copy(drawn.values().begin(), drawn.values().end(), axis->begin());
+  detail::ParticleScratch<double> x{size()};
+  detail::ParticleScratch<double> y{size()};
+  detail::ParticleScratch<double> z{size()};
+  const detail::MutablePoints drawn{x.values(), y.values(), z.values()};
+  detail::gather({x_, y_, z_}, index.values().first(size()), drawn);
+  if (angle > 0.0) {
+    detail::move_points({drawn.x, drawn.y, drawn.z}, angle, prior_normals_, random, {x_, y_, z_});
+  } else {
+    std::copy(drawn.x.begin(), drawn.x.end(), x_.begin());
+    std::copy(drawn.y.begin(), drawn.y.end(), y_.begin());
+    std::copy(drawn.z.begin(), drawn.z.end(), z_.begin());
   }
   std::fill(log_weights_.begin(), log_weights_.end(), 0.0);
   std::fill(weights_.begin(), weights_.end(), 1.0 / count);
   log_sum_ = std::log(count);
   ++num_resamplings_;
-  if (angle > 0.0) detail::move_points({x_, y_, z_}, angle, prior_normals_, random);
 }
 
 void ParticleBelief::diffuse(double angle, RandomStream random) {
   if (!(angle >= 0.0 && std::isfinite(angle))) {
     throw std::invalid_argument("ParticleBelief::diffuse: the angle must be finite and not negative");
   }
-  if (angle > 0.0) detail::move_points({x_, y_, z_}, angle, prior_normals_, random);
+  if (angle > 0.0) detail::move_points({x_, y_, z_}, angle, prior_normals_, random, {x_, y_, z_});
 }
 
 double ParticleBelief::mass_in(std::span<const HalfSpace> half_spaces) const {
@@ -128,12 +141,12 @@ double ParticleBelief::log_evidence(std::span<const HalfSpace> half_spaces,
   return near + (top + std::log(sum) - log_sum_);
 }
 
-double ParticleBelief::effective_size(double sum_of_squares) const noexcept {
-  return std::clamp(1.0 / sum_of_squares, 1.0, static_cast<double>(size()));
+double ParticleBelief::effective_size(double sum, double sum_of_squares) const noexcept {
+  return std::clamp(sum * sum / sum_of_squares, 1.0, static_cast<double>(size()));
 }
 
 double ParticleBelief::effective_sample_size() const noexcept {
-  return effective_size(detail::sum_of_squares(weights_));
+  return effective_size(1.0, detail::sum_of_squares(weights_));
 }
 
 Eigen::Vector3d ParticleBelief::mean_direction() const {

@@ -28,7 +28,8 @@ class Scratch {
 };
 
 // One number per particle.
+inline constexpr std::size_t kUsualParticles = 2048;
 template <typename T>
-using ParticleScratch = Scratch<T, 2048>;
+using ParticleScratch = Scratch<T, kUsualParticles>;
 
 }  // namespace kith::detail

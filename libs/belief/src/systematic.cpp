@@ -53,6 +53,25 @@ KITH_VECTOR_CLONES bool has_negative(std::span<const double> weights) {
   return (signs >> 63) != 0 && std::any_of(weights.begin(), weights.end(), [](double x) { return x < 0.0; });
 }
 
+// Many draws of one index, beyond the first kIndexRoom.
+[[gnu::noinline]] void repeat_rest(std::uint32_t i, std::uint32_t* first, std::uint32_t* last) {
+  std::fill(first, last, i);
+}
+
+// Writes each i from its begin to its end and a little beyond, which the next ones overwrite: without
+// a branch that depends on the counts, unless there are more than kIndexRoom.
+KITH_VECTOR_CLONES void repeat_indices(std::span<const std::uint32_t> ends, std::uint32_t* index) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const std::size_t end = ends[i];
+    for (std::size_t k = 0; k < kIndexRoom; ++k) index[begin + k] = static_cast<std::uint32_t>(i);
+    if (end - begin > kIndexRoom) [[unlikely]] {
+      repeat_rest(static_cast<std::uint32_t>(i), index + begin + kIndexRoom, index + end);
+    }
+    begin = end;
+  }
+}
+
 }  // namespace
 
 void systematic_ends(std::span<const double> weights, std::size_t n, double u, std::span<std::uint32_t> ends) {
@@ -71,19 +90,8 @@ void systematic_ends(std::span<const double> weights, std::size_t n, double u, s
 
 void systematic_indices(std::span<const double> weights, double u, std::span<std::uint32_t> index) {
   ParticleScratch<std::uint32_t> ends{weights.size()};
-  systematic_ends(weights, index.size(), u, ends.values());
-  // Each index is written where its draws begin; of several that begin at one
-  // place only the last has draws. A running maximum fills the rest.
-  std::fill(index.begin(), index.end(), 0);
-  const std::uint32_t* const end = ends.values().data();  // unchecked, for speed
-  std::uint32_t* const at = index.data();
-  std::uint32_t begin = 0;
-  for (std::size_t i = 0; i < weights.size() && begin < index.size(); ++i) {
-    at[begin] = static_cast<std::uint32_t>(i);
-    begin = end[i];
-  }
-  std::uint32_t current = 0;
-  for (std::size_t k = 0; k < index.size(); ++k) at[k] = current = std::max(at[k], current);
+  systematic_ends(weights, index.size() - kIndexRoom, u, ends.values());
+  repeat_indices(ends.values(), index.data());
 }
 
 }  // namespace detail

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
+#include "kith/random/batch_normal.hpp"
 #include "kith/random/distributions.hpp"
 #include "script.hpp"
 
@@ -114,6 +116,22 @@ TEST(WeightedSquareAngles, KeepsSmallAndWideAngles) {
   }
 }
 
+TEST(RoughSquareAngles, AgreesToOneInAHundredThousand) {
+  RandomStream random{8};
+  for (const double width : {0.01, 0.2, 4.0}) {  // from a spot to the whole sphere
+    Cloud cloud = random_cloud(1000, random);
+    const Eigen::Vector3d centre = cloud.at(0);
+    for (std::size_t i = 0; i < 1000; ++i) {
+      const Eigen::Vector3d p = (centre + width * cloud.at(i)).normalized();
+      cloud.x[i] = p.x();
+      cloud.y[i] = p.y();
+      cloud.z[i] = p.z();
+    }
+    const double exact = weighted_square_angles(cloud.points(), cloud.weights, centre);
+    EXPECT_NEAR(rough_square_angles(cloud.points(), cloud.weights, centre) / exact, 1.0, 1e-5) << width;
+  }
+}
+
 TEST(WeightInside, CountsWhatTheHalfSpacesContain) {
   RandomStream random{4};
   const Cloud cloud = random_cloud(777, random);
@@ -140,7 +158,7 @@ TEST(MovePoints, SpreadsAsANormalInTheTangentPlane) {
       Cloud cloud{
           std::vector<double>(n, start.x()), std::vector<double>(n, start.y()), std::vector<double>(n, start.z()), {}};
       RandomStream random{5};
-      move_points(cloud.mutable_points(), angle, {}, random);
+      move_points(cloud.points(), angle, {}, random, cloud.mutable_points());
       double second = 0.0;
       double fourth = 0.0;
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -158,20 +176,64 @@ TEST(MovePoints, SpreadsAsANormalInTheTangentPlane) {
   }
 }
 
+// The same draws, the tangent plane's frame and the exponential map in double precision.
+TEST(MovePoints, IsTheExponentialMapToSinglePrecision) {
+  RandomStream random{9};
+  for (const double angle : {1e-4, 0.03, 0.3}) {
+    Cloud cloud = random_cloud(700, random);
+    const Cloud start = cloud;
+    const RandomStream stream = random.split("move");
+    RandomStream moving = stream;
+    move_points(start.points(), angle, {}, moving, cloud.mutable_points());
+    RandomStream drawing = stream;
+    const NormalPairs normal{drawing};
+    NormalPairs::Block along, across;
+    for (std::size_t i = 0; i < 700; ++i) {
+      if (i % NormalPairs::kBlock == 0) normal.fill(i / NormalPairs::kBlock, along, across);
+      const double s = angle * static_cast<double>(along[i % NormalPairs::kBlock]);
+      const double t = angle * static_cast<double>(across[i % NormalPairs::kBlock]);
+      const Eigen::Vector3d p = start.at(i);
+      const double sign = p.z() < 0.0 ? -1.0 : 1.0;
+      const double a = -1.0 / (sign + p.z());
+      const Eigen::Vector3d first{1.0 + sign * p.x() * p.x() * a, sign * p.x() * p.y() * a, -sign * p.x()};
+      const Eigen::Vector3d second = p.cross(first);
+      const double r = std::hypot(s, t);
+      const Eigen::Vector3d to = std::cos(r) * p + std::sin(r) / r * (s * first + t * second);
+      ASSERT_LT((cloud.at(i) - to).norm(), 1e-6 * r) << angle;
+    }
+  }
+}
+
+// In place is the same as from one array to another.
+TEST(MovePoints, MayMoveInPlace) {
+  RandomStream random{10};
+  Cloud here = random_cloud(600, random);
+  Cloud there = here;
+  const std::vector<Eigen::Vector3d> normals{Eigen::Vector3d::UnitZ()};
+  RandomStream a{11};
+  RandomStream b{11};
+  move_points(here.points(), 0.3, normals, a, there.mutable_points());
+  move_points(here.points(), 0.3, normals, b, here.mutable_points());
+  EXPECT_EQ(here.x, there.x);
+  EXPECT_EQ(here.y, there.y);
+  EXPECT_EQ(here.z, there.z);
+}
+
 TEST(MovePoints, KeepsAPointThatFindsNoWayInside) {
   // Only the single direction x is inside all of these.
   const std::vector<Eigen::Vector3d> normals{Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitY(),
                                              Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitZ()};
   Cloud cloud{{1.0}, {0.0}, {0.0}, {1.0}};
   RandomStream random{6};
-  move_points(cloud.mutable_points(), 0.1, normals, random);
+  move_points(cloud.points(), 0.1, normals, random, cloud.mutable_points());
   EXPECT_EQ(cloud.at(0), Eigen::Vector3d(1.0, 0.0, 0.0));
 }
 
 TEST(MovePoints, StaysOnTheSphereOverThousandsOfMoves) {
   RandomStream random{7};
   Cloud cloud = random_cloud(50, random);
-  for (int step = 0; step < 5000; ++step) move_points(cloud.mutable_points(), step % 7 == 0 ? 2.0 : 0.2, {}, random);
+  for (int step = 0; step < 5000; ++step)
+    move_points(cloud.points(), step % 7 == 0 ? 2.0 : 0.2, {}, random, cloud.mutable_points());
   for (std::size_t i = 0; i < 50; ++i) EXPECT_NEAR(cloud.at(i).norm(), 1.0, 1e-15);
 }
 

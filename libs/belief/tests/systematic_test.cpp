@@ -1,4 +1,6 @@
-// systematic_counts of particle_belief.hpp.
+// systematic_counts of particle_belief.hpp, and the indices made from it.
+
+#include "../src/systematic.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,6 +66,23 @@ TEST(SystematicCounts, AreUnbiasedOverTheOffset) {
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += static_cast<double>(counts[i]) / 4000.0;
   }
   for (std::size_t i = 0; i < mean.size(); ++i) EXPECT_NEAR(mean[i], 7.0 * weights[i], 1.0 / 2000.0);
+}
+
+TEST(SystematicIndices, RepeatEachIndexAsOftenAsItsCountSays) {
+  RandomStream random{2};
+  for (int round = 0; round < 200; ++round) {
+    std::vector<double> weights(1 + uniform_index(60, random));
+    for (double& w : weights) w = std::exp(-12.0 * uniform01(random));
+    const std::size_t n = 1 + uniform_index(300, random);
+    const double u = uniform01(random);
+    std::vector<std::uint32_t> index(n + detail::kIndexRoom);
+    detail::systematic_indices(weights, u, index);
+    std::vector<std::uint32_t> expected;
+    const auto counts = systematic_counts(weights, n, u);
+    for (std::uint32_t i = 0; i < counts.size(); ++i) expected.insert(expected.end(), counts[i], i);
+    index.resize(n);
+    ASSERT_EQ(index, expected);
+  }
 }
 
 TEST(SystematicCounts, RefuseWhatIsNoDistribution) {

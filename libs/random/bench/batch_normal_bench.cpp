@@ -11,7 +11,7 @@ namespace {
 
 // What do the 2 000 normals cost that move 1 000 particles?
 void BM_BatchNormal(benchmark::State& state) {
-  std::vector<double> out(2000);
+  std::vector<float> out(2000);
   RandomStream random{1};
   for (auto _ : state) {
     batch_standard_normal(out, random);

@@ -1,6 +1,6 @@
 #include "kith/random/batch_normal.hpp"
 
-#include <Random123/philox.h>
+#include <Random123/threefry.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,11 +17,12 @@ std::vector<double> plain(std::size_t size, RandomStream random) {
   const std::uint32_t k1 = random();
   const std::size_t pairs = (size + 1) / 2;
   std::vector<double> out(size);
-  r123::Philox4x32 philox;
   for (std::size_t i = 0; i < pairs; ++i) {
-    const auto word = philox({{static_cast<std::uint32_t>(i / 2), 0, 0, 0}}, {{k0, k1}});
-    const double u = (word[2 * (i % 2)] + 0.5) * 0x1.0p-32;
-    const std::uint32_t w = word[2 * (i % 2) + 1];
+    const auto counter = static_cast<std::uint32_t>(i / 256 * 128 + i % 128);
+    const std::size_t half = i % 256 / 128;
+    const auto word = r123::Threefry4x32_R<20>{}({{counter, 0, 0, 0}}, {{k0, k1, 0, 0}});
+    const double u = ((word[2 * half] >> 1) + 0.5) * 0x1.0p-31;
+    const std::uint32_t w = word[2 * half + 1];
     const double angle =
         ((w & 0x3FFFFFFFu) + 0.5 - 0x1.0p29) * 0x1.0p-30 * std::numbers::pi / 2 + (w >> 30) * std::numbers::pi / 2;
     const double radius = std::sqrt(-2.0 * std::log(u));
@@ -31,24 +32,28 @@ std::vector<double> plain(std::size_t size, RandomStream random) {
   return out;
 }
 
-TEST(BatchStandardNormal, IsTheBoxMullerTransformToFullPrecision) {
+std::vector<double> batch(std::size_t size, RandomStream& random) {
+  std::vector<float> out(size);
+  batch_standard_normal(out, random);
+  return {out.begin(), out.end()};
+}
+
+TEST(BatchStandardNormal, IsTheBoxMullerTransformToSinglePrecision) {
   for (const std::size_t size : {0u, 1u, 2u, 3u, 511u, 512u, 513u, 1024u, 2001u, 200'000u}) {
     const RandomStream random = RandomStream{11}.split(size);
     RandomStream drawn = random;
-    std::vector<double> out(size);
-    batch_standard_normal(out, drawn);
+    const auto out = batch(size, drawn);
     const auto expected = plain(size, random);
-    for (std::size_t i = 0; i < size; ++i) ASSERT_NEAR(out[i], expected[i], 1e-14) << size << ' ' << i;
+    for (std::size_t i = 0; i < size; ++i) ASSERT_NEAR(out[i], expected[i], 1e-6) << size << ' ' << i;
   }
 }
 
 TEST(BatchStandardNormal, DependsOnTheStreamAndAdvancesIt) {
   RandomStream a{3};
   RandomStream b{3};
-  std::vector<double> first(100), again(100), next(100);
-  batch_standard_normal(first, a);
-  batch_standard_normal(again, b);
-  batch_standard_normal(next, a);
+  const auto first = batch(100, a);
+  const auto again = batch(100, b);
+  const auto next = batch(100, a);
   EXPECT_EQ(first, again);
   EXPECT_NE(first, next);
 }
@@ -57,9 +62,8 @@ TEST(BatchStandardNormal, DependsOnTheStreamAndAdvancesIt) {
 // sqrt(1/n), sqrt(2/n), sqrt(15/n), sqrt(96/n); five of them are the bounds.
 TEST(BatchStandardNormal, HasTheMomentsOfAStandardNormal) {
   constexpr std::size_t n = 2'000'000;
-  std::vector<double> out(n);
   RandomStream random{4};
-  batch_standard_normal(out, random);
+  auto out = batch(n, random);
   std::vector<double> moment(4, 0.0);
   for (const double x : out) {
     moment[0] += x / n;
@@ -76,9 +80,8 @@ TEST(BatchStandardNormal, HasTheMomentsOfAStandardNormal) {
 // Kolmogorov-Smirnov: sqrt(n) D exceeds 2.2 with probability 2 exp(-2 * 2.2^2) = 1.3e-4.
 TEST(BatchStandardNormal, HasTheNormalDistributionFunction) {
   constexpr std::size_t n = 200'000;
-  std::vector<double> out(n);
   RandomStream random{5};
-  batch_standard_normal(out, random);
+  auto out = batch(n, random);
   std::sort(out.begin(), out.end());
   double worst = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -91,9 +94,8 @@ TEST(BatchStandardNormal, HasTheNormalDistributionFunction) {
 // The two branches of a pair, and neighbouring pairs, are uncorrelated: 5 / sqrt(n).
 TEST(BatchStandardNormal, HasIndependentBranchesAndNeighbours) {
   constexpr std::size_t n = 500'000;
-  std::vector<double> out(2 * n);
   RandomStream random{6};
-  batch_standard_normal(out, random);
+  auto out = batch(2 * n, random);
   double branches = 0.0;
   double squares = 0.0;
   double neighbours = 0.0;

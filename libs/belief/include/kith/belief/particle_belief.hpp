@@ -96,8 +96,8 @@ class ParticleBelief {
 
  private:
   void reweigh(std::span<double> log_factors, RandomStream random);
-  [[nodiscard]] double effective_size(double sum_of_squares) const noexcept;
-  void resample(RandomStream& random);
+  [[nodiscard]] double effective_size(double sum, double sum_of_squares) const noexcept;
+  void resample(double sum, RandomStream& random);
 
   FilterOptions options_;
   std::vector<Eigen::Vector3d> prior_normals_;
