@@ -11,7 +11,9 @@ usage: ./test.sh             what has to pass before anything is merged:
                              the libraries' tests under ASan and UBSan in build/asan
        ./test.sh --quick     the same without the sanitizers
        ./test.sh --nightly   also the slow tests, ThreadSanitizer over the study
-                             layer, clang-tidy, and the benchmarks built
+                             layer, clang-tidy, the benchmarks built, and every
+                             fuzz target for 10 million executions, at most an
+                             hour each
 
 Installs missing Debian packages first, as ./run.sh does. To run a part of the
 tests again: ctest --preset release -R Cone
@@ -52,6 +54,10 @@ if [[ $mode == --nightly ]]; then
   run_tests tsan
   configure_and_build tidy -- all
   configure_and_build bench -- all
+  configure_and_build fuzz -- all
+  say
+  say "== fuzzing with build/fuzz"
+  tests/fuzz/run.sh -j "$jobs" >&2 || die "fuzzing found something: see build/fuzz/findings and build/fuzz/logs"
   say
   say "== slow tests in build/release"
   ctest --test-dir build/release -L '^slow$' --output-on-failure -j "$jobs" || die "slow tests failed"

@@ -18,7 +18,7 @@ files() {
   fi
 }
 sources() { files '*.cpp' '*.hpp' '*.in' '*.cmake' 'CMakeLists.txt' '*.sh' '*.json' '*.toml'; }
-texts() { files | grep -vE '\.(png|gz|sqlite)$'; }
+texts() { files | grep -vE '\.(png|gz|sqlite)$|^tests/fuzz/corpus/'; }
 
 # grep in the files that it reads the names of, errors included in what it finds.
 search() { xargs -r -d '\n' grep -H "$@" 2>&1; }

@@ -1,0 +1,108 @@
+#include "fuzzing.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+
+#include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
+
+namespace kith::fuzzing {
+namespace {
+
+// The first cells of the tables in docs/errors*.md.
+std::set<std::string> documented_ids() {
+  std::set<std::string> ids;
+  for (const auto& entry : std::filesystem::directory_iterator{std::filesystem::path{KITH_SOURCE_DIR} / "docs"}) {
+    if (!entry.path().filename().string().starts_with("errors")) continue;
+    const auto page = read_file(entry.path());
+    for (auto at = page.find("\n| "); at != std::string::npos; at = page.find("\n| ", at + 1)) {
+      ids.insert(page.substr(at + 3, page.find(' ', at + 3) - at - 3));
+    }
+  }
+  return ids;
+}
+
+// Line `number` of the text, without its end; nothing beyond the last.
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (; number > 1; --number) text = text.substr(std::min(text.size(), text.find('\n')) + (text.empty() ? 0 : 1));
+  text = text.substr(0, text.find('\n'));
+  return text.ends_with('\r') ? text.substr(0, text.size() - 1) : text;
+}
+
+void require_place(const Diagnostic& d, std::string_view text) {
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  require(d.line <= lines, "a diagnostic's line exists", to_text(d));
+  require((d.line == 0) == (d.column == 0), "a diagnostic has line and column, or neither", to_text(d));
+  const auto line = d.line > 0 ? line_of(text, d.line) : std::string_view{};
+  require(d.column <= line.size() + 1, "a diagnostic's column is in its line or right behind it", to_text(d));
+}
+
+}  // namespace
+
+void require(bool holds, std::string_view claim, std::string_view detail) {
+  if (holds) return;
+  std::fprintf(stderr, "does not hold: %s\n%s\n", std::string{claim}.c_str(), std::string{detail}.c_str());
+  std::abort();
+}
+
+void require_good(const std::vector<Diagnostic>& diagnostics, std::string_view text, const std::string& file) {
+  static const auto kIds = documented_ids();
+  for (const auto& d : diagnostics) {
+    require(kIds.contains(d.id), "a diagnostic's id is documented", to_text(d));
+    require(!d.message.empty() && d.length >= 1, "a diagnostic says something", to_text(d));
+    require(!d.file.empty(), "a diagnostic names its file", to_text(d));
+    if (d.file == file) require_place(d, text);
+  }
+}
+
+bool reads(std::string_view text, const std::string& file, const std::function<void()>& read) {
+  try {
+    read();
+    return true;
+  } catch (const Error& error) {
+    require(*error.what() != '\0', "an error says something");
+    require(error.diagnostics().empty() || has_errors(error.diagnostics()), "what stops is an error", error.what());
+    require_good(error.diagnostics(), text, file);
+    return false;
+  }
+}
+
+std::uint8_t Bytes::byte() {
+  if (left_.empty()) return 0;
+  const auto byte = static_cast<std::uint8_t>(left_.front());
+  left_.remove_prefix(1);
+  return byte;
+}
+
+std::int64_t Bytes::integer(std::int64_t limit) {
+  const std::int64_t high = byte();
+  return (high * 256 + byte()) % (2 * limit + 1) - limit;
+}
+
+std::string_view Bytes::line() {
+  const auto line = left_.substr(0, left_.find('\n'));
+  left_.remove_prefix(std::min(left_.size(), line.size() + 1));
+  return line;
+}
+
+MemoryFile::MemoryFile(std::string_view content) : descriptor_{memfd_create("fuzz", 0)} {
+  require(descriptor_ >= 0, "there is room for a file in memory");
+  for (std::size_t done = 0; done < content.size();) {
+    const auto written = write(descriptor_, content.data() + done, content.size() - done);
+    require(written > 0, "a file in memory takes its content");
+    done += static_cast<std::size_t>(written);
+  }
+}
+
+MemoryFile::~MemoryFile() { close(descriptor_); }
+
+std::filesystem::path MemoryFile::path() const {
+  return std::filesystem::path{"/proc/self/fd"} / std::to_string(descriptor_);
+}
+
+}  // namespace kith::fuzzing

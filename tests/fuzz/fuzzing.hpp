@@ -1,0 +1,64 @@
+#pragma once
+
+// What the fuzz targets share. A target is a function of any bytes, LLVMFuzzerTestOneInput; it is driven by libFuzzer,
+// or by replay.cpp over the files of its corpus.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kith/core/diagnostic.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace kith::fuzzing {
+
+/// Ends the program if the claim does not hold.
+void require(bool holds, std::string_view claim, std::string_view detail = {});
+
+/// Diagnostics are fit to be shown: an id that docs/errors*.md explains, a sentence, the file, a place in its text, the
+/// line that stands there. `text` is what was read under the name `file`; diagnostics of other files have no place that
+/// could be checked.
+void require_good(const std::vector<Diagnostic>& diagnostics, std::string_view text, const std::string& file);
+
+/// Runs `read`; a kith::Error must carry good diagnostics or at least say something. Returns whether there was none.
+bool reads(std::string_view text, const std::string& file, const std::function<void()>& read);
+
+/// Numbers made from the bytes of an input; zeros once they are used up.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : left_{reinterpret_cast<const char*>(data), size} {}
+  [[nodiscard]] bool empty() const noexcept { return left_.empty(); }
+  [[nodiscard]] std::uint8_t byte();
+  /// In [0, n).
+  [[nodiscard]] std::size_t below(std::size_t n) { return byte() % n; }
+  /// In [-limit, limit], of two bytes.
+  [[nodiscard]] std::int64_t integer(std::int64_t limit);
+  /// In [0, 1], of one byte.
+  [[nodiscard]] double fraction() { return byte() / 255.0; }
+  /// Up to the next line break, which is passed over.
+  [[nodiscard]] std::string_view line();
+  [[nodiscard]] std::string_view rest() const noexcept { return left_; }
+
+ private:
+  std::string_view left_;
+};
+
+/// A file that is nowhere on a disk, for what reads files only.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view content);
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  [[nodiscard]] std::filesystem::path path() const;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace kith::fuzzing

@@ -1,0 +1,41 @@
+// Domain files. A domain or errors, never both; of a domain, that states and their pictures correspond.
+
+#include <algorithm>
+
+#include "../fuzzing.hpp"
+#include "kith/domains/domain_file.hpp"
+
+using namespace kith;
+
+namespace {
+
+void check_states(const Domain& domain, MdpIndex m) {
+  const auto& mdp = domain.mdp(m);
+  for (std::size_t s = 0; s < std::min<std::size_t>(mdp.num_states(), 8); ++s) {
+    const auto picture = domain.state(m, StateIndex{s});
+    fuzzing::require(domain.find_state(m, picture) == StateIndex{s}, "a state is found by its picture");
+    const auto drawn = domain.draw(m, StateIndex{s});
+    fuzzing::require(drawn.size() == static_cast<std::size_t>(domain.height()), "a drawing has a line per row");
+    for (const auto& row : drawn) {
+      fuzzing::require(row.size() == static_cast<std::size_t>(domain.width()), "and a character per cell");
+    }
+  }
+  fuzzing::require(domain.initial_state(m).value() < mdp.num_states(), "a robot starts in a state");
+  fuzzing::require(!domain.describe_variant(m).empty() || domain.variant(m).empty(), "variants have a description");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text{reinterpret_cast<const char*>(data), size};
+  const auto reading = parse_domain(text, "domain.toml", {.max_states = 2'000});
+  fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
+  fuzzing::require_good(reading.diagnostics, text, "domain.toml");
+  if (!reading.domain) return 0;
+  const auto& domain = *reading.domain;
+  for (const auto& half_space : domain.prior()) {
+    fuzzing::require(half_space.contains(domain.weights().integer), "the prior holds at the weights");
+  }
+  for (std::size_t m = 0; m < std::min<std::size_t>(domain.num_mdps(), 4); ++m) check_states(domain, MdpIndex{m});
+  return 0;
+}
