@@ -7,6 +7,11 @@ namespace kith {
 const std::vector<BuiltInDomain>& built_in_domains() {
   static const std::vector<BuiltInDomain> kDomains{
       {"item-delivery", "a robot brings a parcel home past rubble and a charger (64 MDPs)", detail::kItemDeliveryText},
+      {"colored-tiles", "a robot crosses a room with costly tiles of two colours (512 MDPs)",
+       detail::kColoredTilesText},
+      {"skateboard", "a robot fetches a skateboard, takes the path or walks (8 MDPs)", detail::kSkateboardText},
+      {"two-goals", "a robot chooses between two goals of different worth (64 MDPs)", detail::kTwoGoalsText},
+      {"cookie-crumb", "a robot eats crumbs on the way to a jar, or leaves (64 MDPs)", detail::kCookieCrumbText},
   };
   return kDomains;
 }

@@ -5,4 +5,8 @@
 // Texts of the files in domains/, made by embed_text.cmake when kith is built.
 namespace kith::detail {
 extern const std::string_view kItemDeliveryText;
+extern const std::string_view kColoredTilesText;
+extern const std::string_view kSkateboardText;
+extern const std::string_view kTwoGoalsText;
+extern const std::string_view kCookieCrumbText;
 }  // namespace kith::detail
