@@ -82,6 +82,7 @@ const std::vector<std::string>& examples_of(const std::string& command) {
       {"status", {"kith status results/paper", "watch -n 5 kith status results/paper"}},
       {"verify", {"kith verify results/paper", "kith verify results/paper --sample 0.1"}},
       {"merge", {"kith merge results/part-* -o results/paper", "kith merge part-1 part-2 part-3 -o paper --json"}},
+      {"bench", {"kith bench", "kith bench --save before.json", "kith bench --baseline before.json --filter belief"}},
       {"version", {"kith --version", "kith --version --json"}}};
   return kExamples.at(command);
 }

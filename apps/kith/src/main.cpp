@@ -48,6 +48,8 @@ int run(const Options& options, Console& console) {
       return run_verify(options.verify, console);
     case Command::kMerge:
       return run_merge(options.merge, console);
+    case Command::kBench:
+      return run_bench(options.bench, console);
     case Command::kPower:
       return run_power(options.power, console);
   }

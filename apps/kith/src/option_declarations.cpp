@@ -343,6 +343,31 @@ void add_merge(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_bench(CLI::App& app, Options& options) {
+  auto& bench = options.bench;
+  auto& command = *app.add_subcommand("bench", "Time kernels and whole studies, against rivals and a saved baseline");
+  command.add_flag("--quick", bench.quick, "A few seconds: fewer samples, every study once");
+  command.add_option("--filter", bench.filter, "Only what has a name that matches somewhere")->type_name("REGEX");
+  auto* save =
+      command.add_option("--save", bench.save, "Write the figures to this file, as a baseline")->type_name("FILE");
+  auto* baseline =
+      command.add_option("--baseline", bench.baseline, "Compare with this file; exit 7 if something is slower")
+          ->type_name("FILE");
+  command.add_option("--tolerance", bench.tolerance, "How much slower a median may be, as a share")
+      ->capture_default_str()
+      ->needs(baseline)
+      ->check([](const std::string& text) { return wrong_fraction(text); })
+      ->type_name("P");
+  auto* growth = command.add_flag("--growth", bench.growth, "How cost grows with the sizes of studies and domains");
+  growth->excludes(save)->excludes(baseline);
+  command.add_flag("--list", bench.list, "Say what would be timed and who the rivals are; time nothing");
+  takes_integer(*command.add_option("-j,--threads", bench.threads, "Threads of whole studies (default: one per core)"),
+                1, 1024);
+  command.add_flag("--yes", bench.yes, "Replace the file of --save if there is one");
+  add_progress(command, bench.progress);
+  add_common(command, options.common);
+}
+
 void add_others(CLI::App& app, Options& options) {
   auto& doctor = *app.add_subcommand("doctor", "Check that this machine runs kith as it should");
   add_common(doctor, options.common);
@@ -372,6 +397,7 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_analyze(*app, options);
   add_report(*app, options);
   add_fit(*app, options);
+  add_bench(*app, options);
   add_others(*app, options);
   return app;
 }
@@ -382,7 +408,8 @@ Command command_of(const std::string& name) {
       {"teach", Command::kTeach},     {"study", Command::kStudy},         {"analyze", Command::kAnalyze},
       {"fit", Command::kFit},         {"doctor", Command::kDoctor},       {"completion", Command::kCompletion},
       {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower},
-      {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge}};
+      {"status", Command::kStatus},   {"bench", Command::kBench},         {"verify", Command::kVerify},
+      {"merge", Command::kMerge}};
   return kCommands.at(name);
 }
 

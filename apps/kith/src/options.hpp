@@ -22,7 +22,8 @@ enum class Command {
   kFit,
   kStatus,
   kVerify,
-  kMerge
+  kMerge,
+  kBench
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -164,6 +165,19 @@ struct PowerCommandOptions {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
+struct BenchOptions {
+  bool quick = false;
+  bool growth = false;   ///< How cost grows, instead of the cases.
+  bool list = false;     ///< What there is to time; nothing is timed.
+  std::string filter;    ///< A regular expression that names match somewhere.
+  std::string save;      ///< File for the figures; empty: none.
+  std::string baseline;  ///< Saved figures to compare with; empty: none.
+  std::string tolerance = "0.1";
+  std::size_t threads = 0;  ///< Of what runs on all threads; 0: as many as there are cores.
+  bool yes = false;         ///< Replace an existing file.
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
 /// One command line, understood.
 struct Options {
   Command command = Command::kVersion;
@@ -181,6 +195,7 @@ struct Options {
   StatusOptions status;
   VerifyCommandOptions verify;
   MergeOptions merge;
+  BenchOptions bench;
 };
 
 /// What `kith inspect --show` can show.

@@ -25,7 +25,7 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}:{:02}", all / 3600, all / 60 % 60, all % 60);
 }
 
-Progress::Progress(ProgressMode mode, const Console& console) : mode_{mode} {
+Progress::Progress(ProgressMode mode, const Console& console, std::string noun) : mode_{mode}, noun_{std::move(noun)} {
   if (mode_ == ProgressMode::kAuto) {
     mode_ = console.log_is_terminal() ? ProgressMode::kBar : ProgressMode::kNone;
     lines_ = !console.log_is_terminal();
@@ -60,14 +60,14 @@ void Progress::update(std::size_t done, std::size_t total, std::size_t failed) {
     fmt::print(stderr, "{{\"t\":{:.1f},\"done\":{},\"total\":{},\"failed\":{},\"eta_s\":{:.0f},\"rate\":{:.1f}}}\n",
                elapsed, done, total, failed, left, rate);
   } else if (mode_ == ProgressMode::kBar) {
-    const auto text = fmt::format(" {}/{} teams, {:.0f}/s, {} left", done, total, rate, clock_text(left));
+    const auto text = fmt::format(" {}/{} {}, {:.0f}/s, {} left", done, total, noun_, rate, clock_text(left));
     const std::size_t width = terminal_width();
     const std::size_t room = width > text.size() + 4 ? std::min<std::size_t>(40, width - text.size() - 4) : 0;
     const auto full = room * done / std::max<std::size_t>(total, 1);
     fmt::print(stderr, "\r[{}{}]{}\033[K", std::string(full, '#'), std::string(room - full, '.'), text);
     drawn_ = true;
   } else {
-    fmt::print(stderr, "kith: info: {} of {} teams, about {} left\n", done, total, clock_text(left));
+    fmt::print(stderr, "kith: info: {} of {} {}, about {} left\n", done, total, noun_, clock_text(left));
   }
   std::fflush(stderr);
 }

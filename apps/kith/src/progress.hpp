@@ -12,7 +12,8 @@ namespace kith::cli {
 /// else a line every 10 seconds; or one JSON object a second.
 class Progress {
  public:
-  Progress(ProgressMode mode, const Console& console);
+  /// @param noun  what is counted, in the plural.
+  Progress(ProgressMode mode, const Console& console, std::string noun = "teams");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -27,6 +28,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   ProgressMode mode_;
+  std::string noun_;
   bool lines_ = false;  // neither bar nor JSON: a line now and then
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;

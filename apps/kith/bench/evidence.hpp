@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kith/geometry/cone.hpp"
+#include "kith/random/stream.hpp"
+
+namespace kith::bench {
+
+/// Half-spaces with small integer normals that a common direction satisfies strictly.
+[[nodiscard]] std::vector<HalfSpace> feasible_half_spaces(std::size_t n, std::int64_t largest, RandomStream random);
+
+/// n half-spaces as demonstrations of one robot convey them, and what contradicts them.
+struct Evidence {
+  explicit Evidence(std::size_t n);
+
+  /// In turns the one and the other, so that a belief that sees them never settles.
+  [[nodiscard]] const std::vector<HalfSpace>& at(std::uint64_t turn) const {
+    return turn % 2 == 0 ? half_spaces : opposite;
+  }
+
+  std::vector<HalfSpace> half_spaces;
+  std::vector<HalfSpace> opposite;
+};
+
+/// Steps cost something: what learners know of item delivery.
+[[nodiscard]] std::vector<HalfSpace> prior_half_spaces();
+[[nodiscard]] Cone prior_cone();
+
+}  // namespace kith::bench
