@@ -55,6 +55,35 @@ std::optional<bool> verdict_of(const std::string& text) {
   return std::nullopt;
 }
 
+// JSON, unless it is none or lists and objects are nested deeper than anybody needs, so that going through it takes
+// little of the stack.
+std::optional<Json> json_of(const std::string& text) {
+  constexpr int kDeepest = 16;
+  bool too_deep = false;
+  const auto notice = [&](int depth, Json::parse_event_t, Json&) {
+    too_deep = too_deep || depth > kDeepest;
+    return !too_deep;
+  };
+  auto value = Json::parse(text, notice, false);
+  if (too_deep || value.is_discarded()) return std::nullopt;
+  return value;
+}
+
+// A part of a name whose parts are separated by '/', so that different people have different names.
+std::string part_of_name(const std::string& text) {
+  std::string part;
+  for (const char c : text) {
+    if (c == '/') {
+      part += "%2F";
+    } else if (c == '%') {
+      part += "%25";
+    } else {
+      part += c;
+    }
+  }
+  return part;
+}
+
 // Adds the normals in lists that may be nested: [[1, 0, -4]] or [[[1, 0, -4]]]. False if there is anything else.
 bool add_normals(const Json& value, std::vector<HalfSpace>& half_spaces) {
   if (!value.is_array()) return false;
@@ -123,9 +152,9 @@ class TrialImport {
                nearest.empty() ? "" : "did you mean '" + nearest + "'?");
       return;
     }
-    auto person = *row.text("user_id");
-    if (const auto group = row.text("group"); group && !group->empty()) person = *group + "/" + person;
-    auto& participant = participants_[{person, *row.text("domain")}];
+    auto person = part_of_name(*row.text("user_id"));
+    if (const auto group = row.text("group"); group && !group->empty()) person = part_of_name(*group) + "/" + person;
+    auto& participant = participants_[{person, part_of_name(*row.text("domain"))}];
     if (participant.trials.empty()) participant.line = row.line();
     note_condition(row, participant);
     if (auto trial = trial_of(row, kind->second)) participant.trials.push_back(*std::move(trial));
@@ -158,7 +187,7 @@ class TrialImport {
     }
     const auto text = row.text("mdp_parameters").value_or("");
     if (!text.empty()) {
-      const auto parameters = Json::parse(text, nullptr, false);
+      const auto parameters = json_of(text).value_or(Json{});
       if (!parameters.is_object() ||
           (parameters.contains("constraints") && !add_normals(parameters["constraints"], trial.half_spaces))) {
         complain(row.line(), "E0707",

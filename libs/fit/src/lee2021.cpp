@@ -1,5 +1,6 @@
 #include "kith/fit/lee2021.hpp"
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,6 +19,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr std::size_t kMaxStates = 20'000;  // the study's worlds have hundreds
+
 // What is wrong with a record.
 struct BadRecord : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -33,6 +36,7 @@ const Json& field(const Json& record, const std::string& name) {
 int integer(const Json& record, const std::string& name) {
   const auto& value = field(record, name);
   if (!value.is_number_integer()) throw BadRecord{"'" + name + "' must be an integer"};
+  if (std::abs(value.get<double>()) > 1e9) throw BadRecord{"'" + name + "' is too large"};
   return value.get<int>();
 }
 
@@ -193,7 +197,7 @@ std::optional<RecordedWorld> world_of(const std::string& line, const std::filesy
     const auto domain_text = domain_text_of(id, family, world);
     std::vector<std::string> actions;
     for (const auto& action : list(world, "opt_actions")) actions.push_back(action.get<std::string>());
-    auto reading = parse_domain(domain_text, path.string() + " (" + id + ")");
+    auto reading = parse_domain(domain_text, path.string() + " (" + id + ")", {.max_states = kMaxStates});
     if (!reading.domain) {
       diagnostics.insert(diagnostics.end(), reading.diagnostics.begin(), reading.diagnostics.end());
       return std::nullopt;

@@ -272,6 +272,33 @@ TEST(Trials, NameRowAndFaultOfWhatCannotBeRead) {
   EXPECT_EQ(fault(kHeader + std::string{"a,cl,at\n"}), "E0505 t.csv:2");
 }
 
+// Going through lists in lists in lists would use up the stack.
+TEST(Trials, AreRefusedWithListsNestedTooDeep) {
+  const testing::TemporaryFolder folder;
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + "1, 0, 2" + std::string(depth, ']'); };
+  const auto fault = [&](const std::string& key, std::size_t depth) {
+    const auto cell = "\"{\"\"" + key + "\"\": " + nested(depth) + "}\"";
+    return import_fault(folder.write("t.csv", kHeader + ("a,cl,at,demo,0,," + cell + "\n") + session("a", "cl", 1)));
+  };
+  for (const std::string key : {"constraints", "variable_filter"}) {
+    EXPECT_EQ(fault(key, 3), "none");
+    EXPECT_EQ(fault(key, 200'000), "E0707 t.csv:2");
+  }
+}
+
+TEST(Trials, GiveDifferentPeopleDifferentNames) {
+  const testing::TemporaryFolder folder;
+  const std::string text =
+      "user_id,domain,interaction_type,is_opt_response,group\n"
+      "a,b/c,final test,1,\n"
+      "a/b,c,final test,1,\n"
+      "b,c,final test,1,a\n";
+  const auto logs = import_trials(folder.write("t.csv", text));
+  std::set<std::string> names;
+  for (const auto& person : logs.people) names.insert(person.id);
+  EXPECT_EQ(names, (std::set<std::string>{"a/b%2Fc", "a%2Fb/c", "a/b/c"}));
+}
+
 TEST(ImportLogs, KeepsDataWithAndWithoutExposuresApart) {
   const testing::TemporaryFolder folder;
   const auto trials = folder.write("trials.csv", kHeader + session("a", "cl", 1));

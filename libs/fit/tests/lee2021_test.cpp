@@ -122,6 +122,7 @@ TEST(Lee2021, NamesFileLineAndFaultOfABadWorld) {
   EXPECT_EQ(faults_of(replaced(kWorld, "\"two_goal\"", "\"chess\"")), bad);
   EXPECT_EQ(faults_of(replaced(kWorld, "\"width\": 3", "\"width\": \"3\"")), bad);
   EXPECT_EQ(faults_of(replaced(kWorld, "\"width\": 3", "\"width\": 3000")), bad);
+  EXPECT_EQ(faults_of(replaced(kWorld, "\"width\": 3", "\"width\": 4294967299")), bad);  // 2^32 + 3
   EXPECT_EQ(faults_of(replaced(kWorld, "\"walls\": [{\"x\": 2", "\"walls\": [{\"x\": 4")), bad);
   EXPECT_EQ(faults_of(replaced(kWorld, "[\"up\", \"up\"]", "[1]")), bad);
   EXPECT_EQ(faults_of(replaced(kWorld, "\"opt_traj_reward\": 0.45333333333333337,", "")), bad);

@@ -26,7 +26,7 @@ struct RecordedWorld {
   Domain domain;                ///< What it says.
 };
 
-/// Reads the table of worlds: JSON, one world a line.
+/// Reads the table of worlds: JSON, one world a line, of at most 20 000 states each.
 /// @throws kith::Error (kInvalidInput) with all diagnostics (E0701, E0702, and those of domain files), or (kIo).
 [[nodiscard]] std::vector<RecordedWorld> read_lee2021_worlds(const std::filesystem::path& path);
 
