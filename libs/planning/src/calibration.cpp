@@ -215,13 +215,14 @@ class Calibrator {
   bool confirm_some(const std::vector<std::pair<std::string, std::vector<double>>>& proposals) {
     std::vector<std::vector<double>> settings;
     std::vector<std::string> labels;
-    for (const auto& [label, values] : proposals) {
+    for (const auto& proposal : proposals) {
+      const auto& values = proposal.second;
       const auto known = [&](const CalibrationPoint& one) { return one.values == values; };
       const auto& confirmed = result_.candidates;
       if (std::any_of(confirmed.begin(), confirmed.end(), known)) continue;
       if (std::find(settings.begin(), settings.end(), values) != settings.end()) continue;
       settings.push_back(values);
-      labels.push_back(label);
+      labels.push_back(proposal.first);
     }
     if (settings.empty()) return true;
     const auto evaluations = lab_.run(settings, options_.confirm_teams, random_.split("confirm").address());
