@@ -51,13 +51,6 @@ void put_in_place(const fs::path& from, const fs::path& to) {
   }
 }
 
-void synchronise_folder(const fs::path& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  (void)fsync(descriptor);
-  close(descriptor);
-}
-
 // A file's text, or nothing if there is no such file.
 std::optional<std::string> text_if_any(const fs::path& path) {
   std::error_code error;
@@ -94,11 +87,11 @@ WrittenTables write_tables(const fs::path& folder, const Study& study, const Tea
     found->second->hash.update(piece);
   });
   for (auto& [name, table] : tables) {
-    table->file.commit();
+    table->file.commit(FolderSync::kLater);
     written.hashes[name] = std::move(table->hash).hex();
   }
   const auto codebook = study_codebook(study);
-  write_file_atomically(folder / "codebook.json", codebook);
+  write_file_atomically(folder / "codebook.json", codebook);  // and the entries of all of them
   written.hashes["codebook.json"] = sha256(codebook);
   return written;
 }
@@ -187,7 +180,7 @@ void RunFolder::freeze_inputs() {
 
 void RunFolder::put_inputs() {
   make_folder(staging_ / "inputs");
-  write_file_atomically(staging_ / "inputs" / "study.toml", inputs_.study);
+  write_file_atomically(staging_ / "inputs" / "study.toml", inputs_.study, FolderSync::kLater);
   write_file_atomically(staging_ / "inputs" / kFrozenDomain, inputs_.domain);
   put_in_place(staging_ / "inputs", path_ / "inputs");
   has_inputs_ = true;
@@ -219,8 +212,8 @@ void RunFolder::publish(const Study& study, const TeamSource& teams, const RunFa
   reach("tables");
   std::string log;
   for (const auto& line : facts.log) log += line + "\n";
-  write_file_atomically(path_ / "log.txt", log);
-  write_file_atomically(path_ / "timings.csv", timings_table(facts));
+  write_file_atomically(path_ / "log.txt", log, FolderSync::kLater);
+  write_file_atomically(path_ / "timings.csv", timings_table(facts), FolderSync::kLater);
   write_file_atomically(path_ / "manifest.json", manifest(study, written.teams, inputs_, written.hashes, facts));
   reach("manifest");
 }

@@ -100,7 +100,7 @@ void AtomicFile::write(std::string_view text) {
   }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(FolderSync folder) {
   // Terminals and pipes cannot be synchronised, which is no failure.
   if (uninterrupted([&] { return fsync(descriptor_); }) < 0 && !temporary_.empty()) fail("write", errno);
   const int descriptor = std::exchange(descriptor_, -1);
@@ -108,19 +108,22 @@ void AtomicFile::commit() {
   if (temporary_.empty()) return;
   if (rename(temporary_.c_str(), target_.c_str()) < 0) fail("replace", errno);
   temporary_.clear();
-  const auto folder = folder_of(target_);
+  if (folder == FolderSync::kNow) synchronise_folder(folder_of(target_));
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, FolderSync folder) {
+  AtomicFile file{path};
+  file.write(content);
+  file.commit(folder);
+}
+
+void synchronise_folder(const std::filesystem::path& folder) {
   const int handle = uninterrupted([&] { return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-  if (handle < 0) fail("synchronise the folder of", errno);
+  if (handle < 0) fail("synchronise the folder", folder, errno);
   const bool synchronised = uninterrupted([&] { return fsync(handle); }) == 0;
   const int error = errno;
   close(handle);
-  if (!synchronised && error != EINVAL) fail("synchronise the folder of", error);
-}
-
-void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
-  AtomicFile file{path};
-  file.write(content);
-  file.commit();
+  if (!synchronised && error != EINVAL) fail("synchronise the folder", folder, error);
 }
 
 std::string read_file(const std::filesystem::path& path) {
