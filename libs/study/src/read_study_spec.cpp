@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string_view>
 
 #include "kith/core/error.hpp"
 #include "kith/random/stream.hpp"
@@ -107,13 +108,14 @@ class SpecReader {
     const auto* list = word_list(design, "compositions");
     if (list == nullptr) return;
     std::set<char> used;
+    std::set<std::string_view> listed;
     for (const auto& element : *list) {
       const auto& composition = *element.string();
       used.insert(composition.begin(), composition.end());
       if (composition.empty() || composition.size() > kMaxTeamSize) {
         report_.error("E0404", element.place(),
                       "a composition has 1 to " + std::to_string(kMaxTeamSize) + " letters, one per member");
-      } else if (std::count(spec_.compositions.begin(), spec_.compositions.end(), composition) > 0) {
+      } else if (!listed.insert(composition).second) {
         report_.error("E0403", element.place(), "composition '" + composition + "' is listed twice");
       } else {
         check_letters(element, composition);

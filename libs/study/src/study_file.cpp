@@ -99,11 +99,7 @@ class StudyParser {
                       "write for instance vary = { \"teacher.process_noise\" = [0.1, 0.5] }");
         continue;
       }
-      for (auto value = values->begin(); value != values->end(); ++value) {
-        if (std::find(values->begin(), value, *value) != value) {
-          report_.error("E0403", value->place(), to_toml(*value) + " is listed twice");
-        }
-      }
+      if (values->size() <= kMaxVariants) check_distinct(*values);  // else there are too many anyway
       warn_of_override(entry);
       factors.push_back({entry.key, values});
       variants *= std::min(values->size(), kMaxVariants + 1);
@@ -114,6 +110,14 @@ class StudyParser {
       }
     }
     return factors;
+  }
+
+  void check_distinct(const TomlArray& values) {
+    for (auto value = values.begin(); value != values.end(); ++value) {
+      if (std::find(values.begin(), value, *value) != value) {
+        report_.error("E0403", value->place(), to_toml(*value) + " is listed twice");
+      }
+    }
   }
 
   // What makes up the design itself, or only names things, does not vary within it.

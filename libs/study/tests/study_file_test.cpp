@@ -146,6 +146,21 @@ TEST(StudyFile, RefusesMoreCombinationsThanAnybodyWants) {
   EXPECT_THAT(ids(parse(study_with("[learner.N]", vary + " }\n[learner.N]"))), ::testing::Contains("E0414"));
 }
 
+// Comparing all of them with each other, these would take minutes.
+TEST(StudyFile, ReadsListsAsLongAsTheyLike) {
+  std::string values = "0";
+  for (int i = 1; i < 50'000; ++i) values += "," + std::to_string(i);
+  const auto vary = "vary = { \"teacher.process_noise\" = [" + values + "] }\n";
+  EXPECT_THAT(ids(parse(study_with("[learner.N]", vary + "[learner.N]"))), ElementsAre("E0414"));
+  std::string compositions;
+  for (int i = 0; i < 1 << 15; ++i) {
+    compositions += ",\"";
+    for (int bit = 0; bit < 15; ++bit) compositions += (i >> bit & 1) != 0 ? 'N' : 'P';
+    compositions += '"';
+  }
+  EXPECT_THAT(ids(parse(study_with(", \"N\"", compositions))), ::testing::Each("E0405"));
+}
+
 TEST(StudyFile, ReportsAllMistakesAtOnce) {
   const auto reading = parse(R"(schema = "kith.study/1"
 id = "x"
