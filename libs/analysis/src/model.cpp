@@ -9,13 +9,15 @@ namespace {
 // The rank-based p-values; those of a single factor are Kruskal and Wallis's.
 std::vector<Estimable<double>> rank_p_values(const ModelData& data) {
   std::vector<Estimable<double>> p(
-      data.terms.size(), Estimable<double>::impossible("aligned ranks need every interaction of the factors"));
+      data.terms.size(), Estimable<double>::impossible("aligned ranks need every interaction of at most four factors"));
   if (data.factors.size() == 1 && data.terms.size() == 1) {
     const auto test = kruskal_wallis(data.values, data.factors.front());
     p[0] = test ? Estimable<double>{test->p} : Estimable<double>::impossible(test.reason());
     return p;
   }
-  if (data.terms.size() + 1 != std::size_t{1} << data.factors.size()) return p;
+  constexpr std::size_t kMostFactors = 4;  // of aligned_rank_anova()
+  const bool possible = !data.factors.empty() && data.factors.size() <= kMostFactors;
+  if (!possible || data.terms.size() + 1 != std::size_t{1} << data.factors.size()) return p;
   const auto table = aligned_rank_anova(data.values, data.factors);
   for (std::size_t t = 0; t < data.terms.size(); ++t) {
     for (const auto& row : table.terms) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kith/stats/moments.hpp"
 #include "model.hpp"
@@ -86,7 +87,7 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
   const auto cells = drop_unused(all_cells(data));
   const auto groups = split_by(data.values, cells);
   std::size_t least = groups.front().size(), most = 0;
-  double smallest = INFINITY, largest = 0.0;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (const auto& group : groups) {
     least = std::min(least, group.size());
     most = std::max(most, group.size());

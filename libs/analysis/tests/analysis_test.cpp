@@ -75,6 +75,18 @@ TEST(AnalyzeTable, SaysWhatItDoesNotFind) {
   EXPECT_THAT(finding(analysis, "y").sentence, HasSubstr("No effect of g was found (F(1, 4) = 0.00, p = 1.000"));
 }
 
+TEST(AnalyzeTable, TakesModelsWithoutFactorsAndWithFive) {
+  const auto mean = analyze_table(Dataset::parse(kGroups, "t.csv"), {"y ~ 1", {}}, quick());
+  EXPECT_FALSE(finding(mean, "y").sentence.empty());
+  std::string text = "a,b,c,d,e,y\n";
+  for (int i = 0; i < 64; ++i) {
+    for (int bit = 0; bit < 5; ++bit) text += (i >> bit & 1) != 0 ? "p," : "q,";
+    text += std::to_string(i * i % 7) + "\n";
+  }
+  const auto five = analyze_table(Dataset::parse(text, "t.csv"), {"y ~ a*b*c*d*e", {}}, quick());
+  EXPECT_FALSE(finding(five, "y").tables.empty());
+}
+
 TEST(AnalyzeTable, LeavesOutIncompleteRowsAndSaysSo) {
   const auto analysis =
       analyze_table(Dataset::parse(std::string{kGroups} + "a,\n,4\n", "t.csv"), {"y ~ g", {}}, quick());
