@@ -13,6 +13,7 @@ namespace kith::bench {
 namespace {
 
 constexpr std::size_t kConstraints = 3;
+constexpr std::uint64_t kSession = 32;  // steps before a belief begins anew, about those of a session
 using Normal = NormalPairs::Block::value_type;
 
 std::string out_of_line(const std::string& what, double kith, double rival) {
@@ -101,12 +102,18 @@ Prepared update(double resample_below, std::function<std::string()> disagreement
   const ParticleBelief start{prior_cone(), {.resample_below = resample_below}};
   Prepared prepared;
   prepared.work = [=, belief = start, turn = std::uint64_t{0}](std::size_t rounds) mutable {
-    for (; rounds > 0; --rounds, ++turn) belief.observe(evidence.at(turn), likelihood, RandomStream{2}.split(turn));
+    for (; rounds > 0; --rounds, ++turn) {
+      if (turn % kSession == 0) belief = start;
+      belief.observe(evidence.at(turn), likelihood, RandomStream{2}.split(turn));
+    }
     keep(belief.weights()[0]);
   };
-  prepared.rival = [=, filter = NaiveFilter{start, prior_half_spaces(), RandomStream{2}},
-                    turn = std::uint64_t{0}](std::size_t rounds) mutable {
-    for (; rounds > 0; --rounds, ++turn) filter.observe(evidence.at(turn), likelihood);
+  const NaiveFilter first{start, prior_half_spaces(), RandomStream{2}};
+  prepared.rival = [=, filter = first, turn = std::uint64_t{0}](std::size_t rounds) mutable {
+    for (; rounds > 0; --rounds, ++turn) {
+      if (turn % kSession == 0) filter = first;
+      filter.observe(evidence.at(turn), likelihood);
+    }
     keep(filter.weights()[0]);
   };
   prepared.disagreement = std::move(disagreement);

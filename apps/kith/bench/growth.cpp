@@ -19,25 +19,23 @@ namespace {
 
 double as_double(std::size_t n) { return static_cast<double>(n); }
 
-Work step_of(std::size_t particles) {
-  const Evidence evidence{3};
-  ParticleBelief belief{prior_cone(), {.particles = particles, .resample_below = 1.0}};
-  return [=, belief = std::move(belief), turn = std::uint64_t{0}](std::size_t rounds) mutable {
+// Updates of a belief that begins anew now and then, as in sessions.
+Work update(std::size_t constraints, const FilterOptions& options) {
+  constexpr std::uint64_t kSession = 32;
+  const Evidence evidence{constraints};
+  const ParticleBelief start{prior_cone(), options};
+  return [=, belief = start, turn = std::uint64_t{0}](std::size_t rounds) mutable {
     const HalfSpaceLikelihood likelihood{0.8};
-    for (; rounds > 0; --rounds, ++turn) belief.observe(evidence.at(turn), likelihood, RandomStream{2}.split(turn));
+    for (; rounds > 0; --rounds, ++turn) {
+      if (turn % kSession == 0) belief = start;
+      belief.observe(evidence.at(turn), likelihood, RandomStream{2}.split(turn));
+    }
     keep(belief.weights()[0]);
   };
 }
 
-Work weigh_by(std::size_t constraints) {
-  const Evidence evidence{constraints};
-  ParticleBelief belief{prior_cone(), {.resample_below = 0.0}};
-  return [=, belief = std::move(belief), turn = std::uint64_t{0}](std::size_t rounds) mutable {
-    const HalfSpaceLikelihood likelihood{0.8};
-    for (; rounds > 0; --rounds, ++turn) belief.observe(evidence.at(turn), likelihood, RandomStream{2}.split(turn));
-    keep(belief.weights()[0]);
-  };
-}
+Work step_of(std::size_t particles) { return update(3, {.particles = particles, .resample_below = 1.0}); }
+Work weigh_by(std::size_t constraints) { return update(constraints, {.resample_below = 0.0}); }
 
 // Teams of the four group strategies on one thread, with these overrides; only teams and learners are recorded.
 std::shared_ptr<const Study> study_with(std::vector<std::string> overrides, std::size_t replicates) {

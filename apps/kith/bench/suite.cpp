@@ -25,7 +25,6 @@ Effort growth_effort(const SuiteOptions& options) {
   effort.seconds = options.quick ? 0.02 : 0.25;
   effort.sample_seconds = options.quick ? 5e-4 : 2e-3;
   effort.min_samples = options.quick ? 1 : 3;
-  effort.warm_up = !options.quick;
   effort.stopped = options.stopped;
   return effort;
 }

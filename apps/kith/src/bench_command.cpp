@@ -93,15 +93,16 @@ int verdict(const BenchOutcome& outcome, Console& console) {
   return good && slower.empty() ? 0 : static_cast<int>(ErrorKind::kMismatch);
 }
 
-void check_overlap(const BenchOutcome& outcome, const std::string& file) {
-  if (outcome.baseline == nullptr) return;
-  for (const auto& one : outcome.result.cases) {
-    if (baseline_of(outcome, one) != nullptr) return;
+// A comparison of nothing would always succeed.
+void check_overlap(const Baseline& baseline, const std::function<bool(const std::string&)>& selects,
+                   const std::string& file) {
+  for (const auto& one : bench::all_cases()) {
+    if (selects(one.name) && baseline.cases.count(one.name) > 0) return;
   }
   Diagnostic diagnostic;
   diagnostic.id = "E1004";
-  diagnostic.file = file;
-  diagnostic.message = "the baseline has none of the cases that were timed";
+  diagnostic.file = file == "-" ? "<stdin>" : file;
+  diagnostic.message = "the baseline has none of the cases that would be timed";
   diagnostic.hint = "save one with the same --filter";
   throw Error{{diagnostic}};
 }
@@ -123,7 +124,10 @@ int run_bench(const BenchOptions& options, Console& console) {
   check_selection(options, selects);
   check_save(options);
   std::optional<Baseline> baseline;
-  if (!options.baseline.empty()) baseline = read_baseline(options.baseline, console);
+  if (!options.baseline.empty()) {
+    baseline = read_baseline(options.baseline, console);
+    check_overlap(*baseline, selects, options.baseline);
+  }
 
   BenchOutcome outcome;
   outcome.quick = options.quick;
@@ -148,7 +152,6 @@ int run_bench(const BenchOptions& options, Console& console) {
     console.warning("interrupted; nothing was saved");
     return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
   }
-  check_overlap(outcome, options.baseline);
   warn_about_machine(outcome, console);
   const auto document = bench_document(outcome);
   if (!options.save.empty()) write_file_atomically(options.save, document.dump(2) + "\n");
