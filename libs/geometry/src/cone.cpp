@@ -1,7 +1,6 @@
-// Cones by clipping. A polygon keeps, beside its facets f_0, ..., f_(n-1), the
-// extreme rays r_i = f_i x f_(i+1) (cyclic), so that facet i spans the arc from
-// r_(i-1) to r_i. A new half-space c is compared with the rays only: the exact
-// signs of c . r_i tell which facets survive.
+// Cones in three dimensions by clipping; in others see cone_rays.cpp. A polygon keeps, beside its facets f_0, ...,
+// f_(n-1), the extreme rays r_i = f_i x f_(i+1) (cyclic), so that facet i spans the arc from r_(i-1) to r_i. A new
+// half-space c is compared with the rays only: the exact signs of c . r_i tell which facets survive.
 
 #include "kith/geometry/cone.hpp"
 
@@ -9,6 +8,7 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "exact.hpp"
@@ -49,16 +49,18 @@ LuneFrame lune_frame(const HalfSpace& first, const HalfSpace& second) {
   return {edge, {cross_unchecked(e, first.normal()), cross_unchecked(second.normal(), e)}};
 }
 
+using Wide = std::array<Int128, IntegerVector::kMaxDimension>;
+
 // Divides by the gcd in 128 bits; only then must the entries fit into 64.
-IntegerVector narrowed(std::array<Int128, 3> v) {
+IntegerVector narrowed(const Wide& v, std::size_t dimension) {
   Int128 divisor = 0;
   for (Int128 x : v) {
     x = x < 0 ? -x : x;
     while (x != 0) divisor = std::exchange(x, divisor % x);
   }
-  KITH_ASSERT(divisor != 0);  // the extreme rays of a polygon lie on one side of a plane
-  IntegerVector result(3);
-  for (std::size_t k = 0; k < 3; ++k) {
+  KITH_ASSERT(divisor != 0);  // the extreme rays of a pointed cone lie on one side of a plane
+  IntegerVector result(dimension);
+  for (std::size_t k = 0; k < dimension; ++k) {
     const Int128 x = v[k] / divisor;
     if (x < std::numeric_limits<std::int64_t>::min() || x > std::numeric_limits<std::int64_t>::max()) {
       throw std::overflow_error{"Cone::interior_direction: an entry leaves 64 bits"};
@@ -70,15 +72,28 @@ IntegerVector narrowed(std::array<Int128, 3> v) {
 
 }  // namespace
 
+Cone::Cone(std::size_t dimension) : dimension_{dimension} {
+  if (dimension < 2 || dimension > IntegerVector::kMaxDimension) {
+    throw std::invalid_argument{"Cone: the dimension must be 2 to 8, not " + std::to_string(dimension)};
+  }
+  if (dimension == 3) return;
+  for (std::size_t k = 0; k < dimension; ++k) {
+    lines_.emplace_back(dimension);
+    lines_.back()[k] = 1;
+  }
+}
+
 std::optional<Cone> Cone::intersection(std::span<const HalfSpace> half_spaces) {
-  Cone cone;
+  Cone cone{half_spaces.empty() ? 3 : half_spaces.front().dimension()};
   const std::size_t expected = std::min<std::size_t>(half_spaces.size() + 1, kUsualFacets);
   cone.facets_.reserve(expected);
   cone.rays_.reserve(expected);
-  for (const HalfSpace& half_space : half_spaces) {
-    if (!cone.clip(half_space)) return std::nullopt;
-  }
+  if (!cone.clip(half_spaces)) return std::nullopt;
   return cone;
+}
+
+bool Cone::clip(std::span<const HalfSpace> half_spaces) {
+  return std::all_of(half_spaces.begin(), half_spaces.end(), [this](const HalfSpace& h) { return clip(h); });
 }
 
 std::optional<Cone> Cone::clipped(const HalfSpace& half_space) const {
@@ -88,6 +103,14 @@ std::optional<Cone> Cone::clipped(const HalfSpace& half_space) const {
 }
 
 bool Cone::clip(const HalfSpace& half_space) {
+  if (half_space.dimension() != dimension_) {
+    throw std::invalid_argument{"Cone: a half-space in " + std::to_string(half_space.dimension()) +
+                                " dimensions cannot clip a cone in " + std::to_string(dimension_)};
+  }
+  return dimension_ == 3 ? clip_in_space(half_space) : clip_rays(half_space);
+}
+
+bool Cone::clip_in_space(const HalfSpace& half_space) {
   switch (facets_.size()) {
     case 0:
       facets_.push_back(half_space);
@@ -176,6 +199,11 @@ void Cone::replace_rays(const HalfSpace& half_space, std::size_t begin, std::siz
 }
 
 bool Cone::implies(const HalfSpace& half_space) const {
+  const auto holds = [&](const IntegerVector& ray) { return sign_of_dot(half_space.normal(), ray) >= 0; };
+  const auto is_flat = [&](const IntegerVector& line) { return sign_of_dot(half_space.normal(), line) == 0; };
+  if (dimension_ != 3) {
+    return std::all_of(lines_.begin(), lines_.end(), is_flat) && std::all_of(rays_.begin(), rays_.end(), holds);
+  }
   if (facets_.empty()) return false;
   if (facets_.size() == 1) return facets_.front() == half_space;
   if (facets_.size() == 2) {
@@ -196,6 +224,17 @@ std::vector<HalfSpace> Cone::minimal_set() const {
 }
 
 std::vector<IntegerVector> Cone::generators() const {
+  if (dimension_ == 3) return generators_in_space();
+  std::vector<IntegerVector> result = rays_;
+  std::sort(result.begin(), result.end());
+  for (const IntegerVector& line : lines_) {
+    result.push_back(line);
+    result.push_back(-line);
+  }
+  return result;
+}
+
+std::vector<IntegerVector> Cone::generators_in_space() const {
   std::vector<IntegerVector> result;
   for (const IntegerVector& ray : rays_) result.push_back(primitive(ray));
   const auto add_line = [&](const IntegerVector& v) {
@@ -220,18 +259,28 @@ std::vector<IntegerVector> Cone::generators() const {
 }
 
 IntegerVector Cone::interior_direction() const {
+  if (dimension_ == 3) return interior_direction_in_space();
+  if (rays_.empty()) return lines_.back();
+  Wide sum{};
+  for (const IntegerVector& ray : rays_) {
+    for (std::size_t k = 0; k < dimension_; ++k) sum[k] += ray[k];
+  }
+  return narrowed(sum, dimension_);
+}
+
+IntegerVector Cone::interior_direction_in_space() const {
   if (facets_.empty()) return axis(2);
   if (facets_.size() == 1) return facets_.front().normal();
   if (facets_.size() == 2) {
     const LuneFrame frame = lune_frame(facets_[0], facets_[1]);
     return primitive(frame.rays[0] + frame.rays[1]);
   }
-  std::array<Int128, 3> sum{};
+  Wide sum{};
   for (const IntegerVector& ray : rays_) {
     const IntegerVector shortest = primitive(ray);
     for (std::size_t k = 0; k < 3; ++k) sum[k] += shortest[k];
   }
-  return narrowed(sum);
+  return narrowed(sum, 3);
 }
 
 bool Cone::contains(const Eigen::Vector3d& w) const noexcept {
@@ -243,7 +292,7 @@ bool Cone::contains(const IntegerVector& w) const {
 }
 
 bool operator==(const Cone& a, const Cone& b) {
-  if (a.facets_.size() != b.facets_.size()) return false;
+  if (a.dimension_ != b.dimension_ || a.facets_.size() != b.facets_.size()) return false;
   return std::is_permutation(a.facets_.begin(), a.facets_.end(), b.facets_.begin());
 }
 

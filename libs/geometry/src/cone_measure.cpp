@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <stdexcept>
 
 #include "exact.hpp"
 #include "kith/geometry/cone.hpp"
@@ -103,6 +104,7 @@ Eigen::Vector3d along(const Eigen::Vector3d& apex, const Eigen::Vector3d& end, d
 }  // namespace
 
 double Cone::solid_angle() const {
+  if (dimension_ != 3) return measure().value;
   if (facets_.empty()) return 4.0 * kPi;
   if (facets_.size() == 1) return 2.0 * kPi;
   if (facets_.size() == 2) return 2.0 * lune_angle(facets_[0], facets_[1]);
@@ -116,6 +118,7 @@ double Cone::solid_angle() const {
 }
 
 Eigen::Vector3d Cone::equal_area_point(double u, double v) const {
+  if (dimension_ != 3) throw std::invalid_argument{"Cone::equal_area_point: the cone must have three dimensions"};
   if (facets_.empty()) {
     return turned(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 1.0 - 2.0 * v,
                   2.0 * kPi * u);

@@ -1,10 +1,13 @@
 #include "kith/geometry/cover.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "kith/geometry/cone_sampler.hpp"
 
 namespace kith {
 namespace {
@@ -25,8 +28,8 @@ Eigen::Vector3d on_sphere(double z, double azimuth) {
   return {radius * std::cos(azimuth), radius * std::sin(azimuth), z};
 }
 
-void check_weights(const Eigen::Matrix3Xd& points, std::span<const double> weights) {
-  if (static_cast<std::size_t>(points.cols()) != weights.size()) {
+void check_weights(Eigen::Index num_points, std::span<const double> weights) {
+  if (static_cast<std::size_t>(num_points) != weights.size()) {
     throw std::invalid_argument{"geodesic_median: there must be one weight for each point"};
   }
   double sum = 0.0;
@@ -39,12 +42,56 @@ void check_weights(const Eigen::Matrix3Xd& points, std::span<const double> weigh
   }
 }
 
-Eigen::Vector3d heaviest(const Eigen::Matrix3Xd& points, std::span<const double> weights) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < weights.size(); ++i) {
-    if (weights[i] > weights[best]) best = i;
+std::size_t heaviest(std::span<const double> weights) {
+  return static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+}
+
+template <typename Points>
+std::vector<std::size_t> greedy_centres(const Points& points, std::size_t k, std::size_t first) {
+  const auto n = static_cast<std::size_t>(points.cols());
+  if (k > n || first >= n) {
+    throw std::invalid_argument{"k_centres: k = " + std::to_string(k) + " and first = " + std::to_string(first) +
+                                " must lie within the " + std::to_string(n) + " points"};
   }
-  return points.col(static_cast<Eigen::Index>(best));
+  std::vector<std::size_t> centres;
+  // closest[i]: cosine of the angle from point i to the nearest centre; a chosen point is never the farthest again.
+  Eigen::VectorXd closest = Eigen::VectorXd::Constant(points.cols(), -2.0);
+  for (std::size_t next = first; centres.size() < k;) {
+    centres.push_back(next);
+    closest = closest.cwiseMax(points.transpose() * points.col(static_cast<Eigen::Index>(next)));
+    closest[static_cast<Eigen::Index>(next)] = 3.0;
+    Eigen::Index farthest = 0;
+    for (Eigen::Index i = 1; i < closest.size(); ++i) {
+      if (closest[i] < closest[farthest]) farthest = i;
+    }
+    next = static_cast<std::size_t>(farthest);
+  }
+  return centres;
+}
+
+template <typename Point, typename Points>
+Point weiszfeld(const Points& points, std::span<const double> weights) {
+  check_weights(points.cols(), weights);
+  Point centre = Point::Zero(points.rows());
+  for (int step = 0; step < kMedianSteps; ++step) {
+    Point sum = Point::Zero(points.rows());
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      // The sine of the angle: the gradient of an angle grows like 1 / sine per unit of chord.
+      const double sine =
+          std::sqrt((points.col(i) - centre * centre.dot(points.col(i))).squaredNorm() + kMedianSoftening);
+      sum += weights[static_cast<std::size_t>(i)] / sine * points.col(i);
+    }
+    const double length = sum.norm();
+    if (!(length > kMedianMove)) {
+      if (step > 0) return centre;
+      return points.col(static_cast<Eigen::Index>(heaviest(weights)));
+    }
+    const Point next = sum / length;
+    const double move = (next - centre).norm();
+    centre = next;
+    if (move < kMedianMove) break;
+  }
+  return centre;
 }
 
 }  // namespace
@@ -86,47 +133,22 @@ Eigen::Matrix3Xd deserno_cover(std::size_t n) {
   return result;
 }
 
+Eigen::MatrixXd cover(const Cone& region, std::size_t n) { return ConeSampler{region}.cover(n); }
+
 std::vector<std::size_t> k_centres(const Eigen::Matrix3Xd& points, std::size_t k, std::size_t first) {
-  const auto n = static_cast<std::size_t>(points.cols());
-  if (k > n || first >= n) {
-    throw std::invalid_argument{"k_centres: k = " + std::to_string(k) + " and first = " + std::to_string(first) +
-                                " must lie within the " + std::to_string(n) + " points"};
-  }
-  std::vector<std::size_t> centres;
-  // closest[i]: cosine of the angle from point i to the nearest centre; a chosen point is never the farthest again.
-  Eigen::VectorXd closest = Eigen::VectorXd::Constant(points.cols(), -2.0);
-  for (std::size_t next = first; centres.size() < k;) {
-    centres.push_back(next);
-    closest = closest.cwiseMax(points.transpose() * points.col(static_cast<Eigen::Index>(next)));
-    closest[static_cast<Eigen::Index>(next)] = 3.0;
-    Eigen::Index farthest = 0;
-    for (Eigen::Index i = 1; i < closest.size(); ++i) {
-      if (closest[i] < closest[farthest]) farthest = i;
-    }
-    next = static_cast<std::size_t>(farthest);
-  }
-  return centres;
+  return greedy_centres(points, k, first);
+}
+
+std::vector<std::size_t> k_centres(const Eigen::MatrixXd& points, std::size_t k, std::size_t first) {
+  return greedy_centres(points, k, first);
 }
 
 Eigen::Vector3d geodesic_median(const Eigen::Matrix3Xd& points, std::span<const double> weights) {
-  check_weights(points, weights);
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (int step = 0; step < kMedianSteps; ++step) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (Eigen::Index i = 0; i < points.cols(); ++i) {
-      // The sine of the angle: the gradient of an angle grows like 1 / sine per unit of chord.
-      const double sine =
-          std::sqrt((points.col(i) - centre * centre.dot(points.col(i))).squaredNorm() + kMedianSoftening);
-      sum += weights[static_cast<std::size_t>(i)] / sine * points.col(i);
-    }
-    const double length = sum.norm();
-    if (!(length > kMedianMove)) return step == 0 ? heaviest(points, weights) : centre;
-    const Eigen::Vector3d next = sum / length;
-    const double move = (next - centre).norm();
-    centre = next;
-    if (move < kMedianMove) break;
-  }
-  return centre;
+  return weiszfeld<Eigen::Vector3d>(points, weights);
+}
+
+Direction geodesic_median(const Eigen::MatrixXd& points, std::span<const double> weights) {
+  return weiszfeld<Direction>(points, weights);
 }
 
 }  // namespace kith

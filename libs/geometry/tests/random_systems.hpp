@@ -15,28 +15,30 @@ inline std::int64_t random_integer(std::int64_t largest, RandomStream& random) {
 }
 
 /// A non-zero vector with entries in [-largest, largest].
-inline IntegerVector random_vector(std::int64_t largest, RandomStream& random) {
-  IntegerVector v(3);
+inline IntegerVector random_vector(std::int64_t largest, RandomStream& random, std::size_t dimension = 3) {
+  IntegerVector v(dimension);
   while (v.is_zero()) {
-    for (std::size_t k = 0; k < 3; ++k) v[k] = random_integer(largest, random);
+    for (std::size_t k = 0; k < dimension; ++k) v[k] = random_integer(largest, random);
   }
   return v;
 }
 
 /// `n` half-spaces with small integer normals, so that duplicates, parallel and
 /// coplanar normals and rays on boundaries are frequent.
-inline std::vector<HalfSpace> random_system(std::size_t n, std::int64_t largest, RandomStream& random) {
+inline std::vector<HalfSpace> random_system(std::size_t n, std::int64_t largest, RandomStream& random,
+                                            std::size_t dimension = 3) {
   std::vector<HalfSpace> system;
-  for (std::size_t i = 0; i < n; ++i) system.emplace_back(random_vector(largest, random));
+  for (std::size_t i = 0; i < n; ++i) system.emplace_back(random_vector(largest, random, dimension));
   return system;
 }
 
 /// The same, but all satisfied strictly by a common direction.
-inline std::vector<HalfSpace> random_feasible_system(std::size_t n, std::int64_t largest, RandomStream& random) {
-  const IntegerVector inside = random_vector(largest, random);
+inline std::vector<HalfSpace> random_feasible_system(std::size_t n, std::int64_t largest, RandomStream& random,
+                                                     std::size_t dimension = 3) {
+  const IntegerVector inside = random_vector(largest, random, dimension);
   std::vector<HalfSpace> system;
   while (system.size() < n) {
-    const IntegerVector v = random_vector(largest, random);
+    const IntegerVector v = random_vector(largest, random, dimension);
     const int s = sign_of_dot(v, inside);
     if (s != 0) system.emplace_back(s > 0 ? v : -v);
   }

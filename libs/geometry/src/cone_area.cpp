@@ -1,0 +1,126 @@
+// Areas on spheres of any dimension.
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "exact.hpp"
+#include "kith/geometry/cone_sampler.hpp"
+#include "nearest_point.hpp"
+#include "sobol.hpp"
+
+namespace kith {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kEstimates = 16;
+constexpr std::uint64_t kShiftSeed = 4;  // any will do
+
+// The angle between two boundaries, inside. The components of a ^ b, whose length is the sine, are exact integers
+// before they are rounded, so thin cones keep their digits.
+double angle_between(const HalfSpace& first, const HalfSpace& second) {
+  const IntegerVector& a = first.normal();
+  const IntegerVector& b = second.normal();
+  double square = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = i + 1; j < a.size(); ++j) {
+      const auto minor = static_cast<double>(a[i] * b[j] - a[j] * b[i]);
+      square += minor * minor;
+    }
+  }
+  return std::atan2(std::sqrt(square), -static_cast<double>(dot(a, b)));
+}
+
+// [vanoosterom1983]
+double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double content) {
+  return 2.0 * std::atan2(content, 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+}
+
+double factorial(std::size_t n) { return std::tgamma(static_cast<double>(n) + 1.0); }
+
+}  // namespace
+
+double sphere_area(std::size_t dimension) {
+  if (dimension == 0) throw std::invalid_argument{"sphere_area: there is no sphere in zero dimensions"};
+  const double half = 0.5 * static_cast<double>(dimension);
+  return 2.0 * std::pow(kPi, half) / std::tgamma(half);
+}
+
+SolidAngle Cone::measure() const {
+  if (dimension_ == 2) {
+    if (facets_.size() < 2) return {facets_.empty() ? 2.0 * kPi : kPi, 0.0};
+    return {angle_between(facets_[0], facets_[1]), 0.0};
+  }
+  if (dimension_ == 3) return {solid_angle(), 0.0};
+  return ConeSampler{*this}.solid_angle();
+}
+
+// Of the sphere of the dimensions beside the lines; that of the whole sphere is the same.
+double ConeSampler::closed_form_share() const {
+  if (rank_ == 0) return 1.0;
+  if (rank_ == 1) return 0.5;
+  if (rank_ == 2) return angle_between(cone_.facets()[0], cone_.facets()[1]) / (2.0 * kPi);
+  double area = 0.0;
+  for (const Part& part : parts_) {
+    const auto chosen = detail::chosen_columns(rays_, part.rays, 3);
+    area += triangle_area(chosen.col(0), chosen.col(1), chosen.col(2), part.content);
+  }
+  return area / (4.0 * kPi);
+}
+
+// Parts are chosen half in proportion to their likely areas, half to bounds of them, so that no weight is large.
+std::vector<double> ConeSampler::shares(std::size_t points) const {
+  const double power = 0.5 * static_cast<double>(rank_);
+  double all_likely = 0.0;
+  double all_most = 0.0;
+  const auto likely = [&](const Part& part) { return part.content * std::pow(part.typical, power); };
+  const auto most = [&](const Part& part) { return part.content * std::pow(part.peak, power); };
+  for (const Part& part : parts_) {
+    all_likely += likely(part);
+    all_most += most(part);
+  }
+  std::vector<double> cumulative;
+  double sum = 0.0;
+  for (const Part& part : parts_) cumulative.push_back(sum += likely(part) / all_likely + most(part) / all_most);
+
+  std::vector<double> estimates;
+  RandomStream random{kShiftSeed};
+  for (std::size_t e = 0; e < kEstimates; ++e) {
+    detail::Sobol::Shift shift{};
+    for (std::uint32_t& bits : shift) bits = random();
+    detail::Sobol sobol{shift};
+    double estimate = 0.0;
+    for (std::size_t n = 0; n < points; ++n) {
+      sobol.next();
+      const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, sobol[0] * sum);
+      const auto i = static_cast<std::size_t>(found - cumulative.begin());
+      const Part& part = parts_[i];
+      std::array<double, IntegerVector::kMaxDimension> cube{};
+      for (std::size_t k = 1; k < rank_; ++k) cube[k] = sobol[k];
+      detail::SimplexMap lambda{std::span{cube}.subspan(1, rank_ - 1)};
+      Direction x = Direction::Zero(static_cast<Eigen::Index>(rank_));
+      for (std::size_t k = 0; k < rank_; ++k) x += lambda.next() * rays_.col(static_cast<Eigen::Index>(part.rays[k]));
+      const double chance = (cumulative[i] - (i == 0 ? 0.0 : cumulative[i - 1])) / sum;
+      estimate += part.content * std::pow(x.squaredNorm(), -power) / chance;
+    }
+    estimates.push_back(estimate / static_cast<double>(points) / factorial(rank_ - 1) / sphere_area(rank_));
+  }
+  return estimates;
+}
+
+SolidAngle ConeSampler::solid_angle(std::size_t points) const {
+  if (points == 0) throw std::invalid_argument{"ConeSampler: an estimate needs at least one point"};
+  if (dimension() <= 3) return cone_.measure();
+  const double whole = sphere_area(dimension());
+  if (rank_ <= 3) return {whole * closed_form_share(), 0.0};
+  const std::vector<double> estimates = shares(points);
+  double mean = 0.0;
+  for (const double x : estimates) mean += x / static_cast<double>(kEstimates);
+  double squares = 0.0;
+  for (const double x : estimates) squares += (x - mean) * (x - mean);
+  return {whole * mean, whole * std::sqrt(squares / static_cast<double>(kEstimates * (kEstimates - 1)))};
+}
+
+}  // namespace kith
