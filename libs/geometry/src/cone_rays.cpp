@@ -1,5 +1,5 @@
-// Cones in other than three dimensions, by the double description method
-// [motzkin1953, fukuda1996]: facets and generators side by side. The generators
+// Cones in other than three dimensions, by the double description method of
+// Motzkin and others: facets and generators side by side. The generators
 // are lines, which span the largest subspace inside, and one ray for each
 // extreme ray modulo the lines. A new half-space c either meets a line, which
 // then becomes a ray, the only one off the boundary of c; or it splits the rays

@@ -21,7 +21,7 @@ using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 }
 
 // 1 / m^2, where m is the distance of the origin from the convex hull of vectors with this Gram matrix, by the
-// algorithm of [wolfe1976]. Never too small, except by rounding: what is returned follows from a hyperplane that
+// algorithm of Wolfe. Never too small, except by rounding: what is returned follows from a hyperplane that
 // separates the hull from the origin, wherever the iteration stopped. Infinite if there is none.
 [[nodiscard]] double inverse_square_distance(const SmallMatrix& gram);
 

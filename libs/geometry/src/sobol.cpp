@@ -7,8 +7,8 @@
 namespace kith::detail {
 namespace {
 
-// A primitive polynomial over the field of two elements, and the first direction numbers: the first rows of the
-// table of [joe2008].
+// A primitive polynomial over the field of two elements, and the first direction numbers: the first rows of
+// the table of Joe and Kuo (a test compares them with those of Boost).
 struct Polynomial {
   unsigned degree;
   unsigned coefficients;

@@ -6,7 +6,7 @@
 
 namespace kith::detail {
 
-// Sobol points in up to nine dimensions with the direction numbers of [joe2008], in the order of the Gray code, each
+// Sobol points in up to nine dimensions with the direction numbers of Joe and Kuo, in the order of the Gray code, each
 // coordinate moved by a digital shift (exclusive or). With random shifts every point is uniform in the cube.
 class Sobol {
  public:

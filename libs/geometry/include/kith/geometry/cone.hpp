@@ -33,7 +33,7 @@ struct SolidAngle {
 ///
 /// Built by clipping, one half-space at a time; what is left of the facets is the
 /// minimal (irredundant) set by construction. In three dimensions in O(facets)
-/// each; in others by the double description method [motzkin1953, fukuda1996],
+/// each; in others by the double description method (of Motzkin and others),
 /// whose cost grows with the number of extreme rays. Extreme rays must have
 /// entries of 64 bits: certain in three dimensions, in d if the lengths of the
 /// normals stay below 2^(63/(d-1)) (2^21 for d = 4, 512 for d = 8); beyond that

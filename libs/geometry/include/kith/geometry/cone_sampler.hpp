@@ -35,7 +35,7 @@ class ConeSampler {
 
   /// Cone::measure of the cone. Closed forms where at most three dimensions are left
   /// beside the lines. Otherwise the mean of 16 randomised quasi-Monte Carlo
-  /// estimates, Sobol points [joe2008] with digital shifts from a fixed stream: an
+  /// estimates, Sobol points with digital shifts from a fixed stream: an
   /// unbiased estimate, and its standard error from their spread. Both are in
   /// proportion to the area, however tiny the cone.
   /// @param points per estimate.
