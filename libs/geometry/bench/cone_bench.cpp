@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../tests/random_systems.hpp"
+#include "kith/geometry/cloud.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/geometry/cover.hpp"
 
@@ -122,6 +123,58 @@ void BM_SampleByRejection(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(BM_SampleByRejection);
+
+std::vector<HalfSpace> system_in(benchmark::State& state) {
+  RandomStream random{7};
+  return testing::random_feasible_system(static_cast<std::size_t>(state.range(1)), 40, random,
+                                         static_cast<std::size_t>(state.range(0)));
+}
+
+// What do more features cost? Facets and rays beside the time, since it grows with them.
+void BM_MinimalSetInDimensions(benchmark::State& state) {
+  const auto system = system_in(state);
+  for (auto _ : state) benchmark::DoNotOptimize(minimal_set(system));
+  const Cone cone = Cone::intersection(system).value();
+  state.counters["facets"] = static_cast<double>(cone.facets().size());
+  state.counters["rays"] = static_cast<double>(cone.generators().size());
+}
+BENCHMARK(BM_MinimalSetInDimensions)->ArgsProduct({{2, 3, 4, 5, 6, 7, 8}, {10, 20}});
+
+// And an area? Its relative standard error in percent beside the time.
+void BM_SolidAngleInDimensions(benchmark::State& state) {
+  const Cone cone = Cone::intersection(system_in(state)).value();
+  SolidAngle area;
+  for (auto _ : state) benchmark::DoNotOptimize(area = cone.measure());
+  state.counters["error_percent"] = 100.0 * area.standard_error / area.value;
+  state.counters["parts"] = static_cast<double>(ConeSampler{cone}.num_parts());
+}
+BENCHMARK(BM_SolidAngleInDimensions)->ArgsProduct({{3, 4, 5, 6, 7}, {10, 20}})->Unit(benchmark::kMicrosecond);
+
+void BM_SampleInDimensions(benchmark::State& state) {
+  const ConeSampler sampler{Cone::intersection(system_in(state)).value()};
+  RandomStream random{2};
+  for (auto _ : state) benchmark::DoNotOptimize(sampler.sample(random));
+}
+BENCHMARK(BM_SampleInDimensions)->ArgsProduct({{3, 4, 5, 7}, {20}});
+
+// What does a candidate cost where 4096 points stand for the region: three half-spaces whose bits are known?
+void BM_ShareOfACloud(benchmark::State& state) {
+  const auto system = system_in(state);
+  const Cloud cloud{ConeSampler{Cone{static_cast<std::size_t>(state.range(0))}}, 4096};
+  const auto a = cloud.mask(system[0]);
+  const auto b = cloud.mask(system[1]);
+  const auto c = cloud.mask(system[2]);
+  for (auto _ : state) benchmark::DoNotOptimize(cloud.share({&a, &b, &c}));
+}
+BENCHMARK(BM_ShareOfACloud)->Args({7, 3});
+
+// And the bits of a half-space?
+void BM_MaskOfACloud(benchmark::State& state) {
+  const auto system = system_in(state);
+  const Cloud cloud{ConeSampler{Cone{static_cast<std::size_t>(state.range(0))}}, 4096};
+  for (auto _ : state) benchmark::DoNotOptimize(cloud.mask(system[0]));
+}
+BENCHMARK(BM_MaskOfACloud)->Args({4, 3})->Args({7, 3});
 
 }  // namespace
 }  // namespace kith
