@@ -245,7 +245,9 @@ Journal Journal::open(const fs::path& path) {
     recovered = true;
   }
   state->recovered = recovered;
-  state->database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
+  // The switch to WAL leaves a transaction open, which the next statement ends; close() could not do its work inside
+  // it.
+  state->database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; SELECT key FROM meta LIMIT 1");
   return Journal{std::move(state)};
 }
 

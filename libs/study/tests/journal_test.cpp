@@ -96,6 +96,13 @@ TEST_F(JournalTest, KnowsAfterwardsWhatIsDone) {
   EXPECT_FALSE(again.was_recovered());
 }
 
+TEST_F(JournalTest, CanBeClosedWithoutAnythingDone) {
+  for (int times = 0; times < 3; ++times) {
+    auto journal = times == 0 ? Journal::create(file_, identity()) : Journal::open(file_);
+    EXPECT_NO_THROW(journal.close());
+  }
+}
+
 TEST_F(JournalTest, CountsTheTeamsOfAShard) {
   auto shard = identity(10);
   shard.shard = {2, 3};
