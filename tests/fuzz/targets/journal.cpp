@@ -1,0 +1,120 @@
+// A journal of twelve teams whose file is damaged: bytes set, bits flipped, sectors of zeros, an end cut off. Whatever
+// can still be opened is of the same study and holds, of every team that it says is done, the very bytes that were
+// written; what was recovered needs no recovery any more.
+
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "../fuzzing.hpp"
+#include "kith/core/error.hpp"
+#include "kith/study/journal.hpp"
+#include "kith/study/team_codec.hpp"
+#include "kith/table/atomic_file.hpp"
+
+using namespace kith;
+using fuzzing::require;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kTeams = 12;
+
+// A folder of its own, in memory where there is such a place, removed at the end.
+class Scratch {
+ public:
+  Scratch() {
+    std::error_code failure;
+    const fs::path memory = "/dev/shm";
+    std::string name =
+        ((fs::is_directory(memory, failure) ? memory : fs::temp_directory_path()) / "kith-XXXXXX").string();
+    require(mkdtemp(name.data()) != nullptr, "there is a place for a folder");
+    path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] fs::path journal() const { return path_ / "study.sqlite"; }
+  void empty() const {
+    for (const auto& entry : fs::directory_iterator{path_}) fs::remove(entry);
+  }
+
+ private:
+  fs::path path_;
+};
+
+std::string record_of(std::size_t team) {
+  TeamRecord record;
+  record.address.team = team;
+  record.seed_address = std::string(40 * team, 'a');
+  return encode_team(record);
+}
+
+const JournalIdentity& identity() {
+  static const JournalIdentity kIdentity{{"a study", "a domain"}, "1.0", kTeams, {}};
+  return kIdentity;
+}
+
+// The file of a finished journal.
+std::string sound_journal(const fs::path& path) {
+  auto journal = Journal::create(path, identity());
+  journal.begin_session();
+  for (std::size_t team = 1; team <= kTeams; ++team) {
+    const JournalEntry entry{team, record_of(team)};
+    journal.write({&entry, 1});
+  }
+  journal.close();
+  return read_file(path);
+}
+
+void damage(std::string& file, fuzzing::Bytes bytes) {
+  constexpr std::size_t kSector = 512;
+  while (!bytes.empty() && !file.empty()) {
+    const auto kind = bytes.below(8);
+    const auto at = (bytes.below(256) * 256 + bytes.below(256)) % file.size();
+    const auto value = bytes.byte();
+    if (kind < 4) file[at] = static_cast<char>(value);
+    if (kind == 4 || kind == 5) file[at] = static_cast<char>(file[at] ^ (1 << (value % 8)));
+    if (kind == 6) file.replace(at / kSector * kSector, kSector, kSector, '\0');
+    if (kind == 7) file.resize(at);
+  }
+}
+
+void check(const Journal& journal) {
+  require(journal.identity() == identity(), "what can be opened says whose it is");
+  require(journal.done().size() == kTeams, "there is a place for every team");
+  std::size_t seen = 0;
+  journal.for_each([&](std::size_t team, std::string_view bytes) {
+    require(bytes == record_of(team), "what is there is what was written");
+    ++seen;
+  });
+  require(seen == journal.num_done(), "teams that are done are there");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Scratch kScratch;
+  static const std::string kSound = sound_journal(kScratch.journal());
+  auto file = kSound;
+  damage(file, {data, size});
+  kScratch.empty();
+  write_file_atomically(kScratch.journal(), file);
+  std::vector<bool> done;
+  try {
+    auto journal = Journal::open(kScratch.journal());
+    done = journal.done();
+    if (journal.damaged().empty()) check(journal);
+    journal.close();
+  } catch (const Error& error) {
+    require(done.empty() && *error.what() != '\0', "what was opened can be read", error.what());
+    return 0;
+  }
+  const auto again = Journal::open(kScratch.journal());
+  require(!again.was_recovered() && again.done() == done, "opening again finds the same");
+  return 0;
+}
