@@ -93,7 +93,10 @@ std::optional<Cone> Cone::intersection(std::span<const HalfSpace> half_spaces) {
 }
 
 bool Cone::clip(std::span<const HalfSpace> half_spaces) {
-  return std::all_of(half_spaces.begin(), half_spaces.end(), [this](const HalfSpace& h) { return clip(h); });
+  for (const HalfSpace& half_space : half_spaces) {
+    if (!clip(half_space)) return false;
+  }
+  return true;
 }
 
 std::optional<Cone> Cone::clipped(const HalfSpace& half_space) const {
@@ -102,15 +105,18 @@ std::optional<Cone> Cone::clipped(const HalfSpace& half_space) const {
   return cone;
 }
 
-bool Cone::clip(const HalfSpace& half_space) {
+bool Cone::clip_beyond_space(const HalfSpace& half_space) {
   if (half_space.dimension() != dimension_) {
     throw std::invalid_argument{"Cone: a half-space in " + std::to_string(half_space.dimension()) +
                                 " dimensions cannot clip a cone in " + std::to_string(dimension_)};
   }
-  return dimension_ == 3 ? clip_in_space(half_space) : clip_rays(half_space);
+  return clip_rays(half_space);
 }
 
-bool Cone::clip_in_space(const HalfSpace& half_space) {
+bool Cone::clip(const HalfSpace& half_space) {
+  if (dimension_ != 3 || half_space.dimension() != 3) [[unlikely]] {
+    return clip_beyond_space(half_space);
+  }
   switch (facets_.size()) {
     case 0:
       facets_.push_back(half_space);

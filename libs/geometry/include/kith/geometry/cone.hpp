@@ -128,7 +128,6 @@ class Cone {
  private:
   friend class ConeSampler;  // reads rays and lines
 
-  [[nodiscard]] bool clip_in_space(const HalfSpace& half_space);
   [[nodiscard]] bool clip_lune(const HalfSpace& half_space);
   [[nodiscard]] bool clip_polygon(const HalfSpace& half_space);
   void replace_rays(const HalfSpace& half_space, std::size_t begin, std::size_t end);
@@ -137,6 +136,7 @@ class Cone {
   [[nodiscard]] IntegerVector interior_direction_in_space() const;
 
   // Where d is not 3.
+  [[nodiscard]] bool clip_beyond_space(const HalfSpace& half_space);
   [[nodiscard]] bool clip_rays(const HalfSpace& half_space);
   void clip_line(const HalfSpace& half_space, std::size_t line);
   void cut_rays(const HalfSpace& half_space, std::span<const int> sides, std::span<const Int128> products);
