@@ -34,9 +34,11 @@ function(kith_use_precompiled_headers target name)
     return()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${name})
-  # Of precompiled text g++ 12 forgets that it is the library's own, and warns of its inlined copies.
-  target_compile_options(${target} PRIVATE
-    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-stringop-overflow>)
+  # Of precompiled text g++ 12 forgets that it is the library's own, and warns of its inlined copies; ordinary builds
+  # keep both warnings.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
+  endif()
   get_target_property(depends ${name} KITH_DEPENDS)
   foreach(dependency IN LISTS depends)
     target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:${dependency},INTERFACE_COMPILE_DEFINITIONS>)
