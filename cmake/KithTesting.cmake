@@ -25,7 +25,8 @@ function(kith_test_program name)
   set(slow_suites "*Slow*.*")
   if(KITH_SANITIZE)
     # Seconds otherwise, minutes here; what they call is also called by quick tests.
-    string(APPEND slow_suites ":Recovery.*")
+    string(APPEND slow_suites ":Recovery.*:SolidAngleInDimensions.IsAdditive*:SolidAngleInDimensions.AgreesWithCounting*"
+           ":ConeSampler.CoversMore*:ConeSampler.DrawsUniformly*")
     add_test(NAME ${name} COMMAND ${program} --gtest_brief=1 --gtest_filter=-${slow_suites})
     add_test(NAME ${name}.slow COMMAND ${program} --gtest_brief=1 --gtest_filter=${slow_suites})
     set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 1200)
