@@ -83,17 +83,19 @@ TEST(Skateboard, TeachesTheKnownRegionWithTheRobotOnItsBoundary) {
   EXPECT_EQ(sign_of_dot(half_space(6, -4, 1).normal(), atlas.domain().weights().integer), 0);
 }
 
-// The best return over a start's coverage set is what planning finds, for weights that have an optimum there.
+// The best return over a start's coverage set is what planning finds, for weights that have an optimum somewhere.
 void expect_hull_maximum_is_the_plan(const Atlas& atlas, int num_weights, std::uint64_t seed) {
   const auto& domain = atlas.domain();
   RandomStream random{seed};
-  std::size_t compared = 0;
-  for (int i = 0; i < num_weights; ++i) {
+  int used = 0;
+  for (int i = 0; used < num_weights && i < 100 * num_weights; ++i) {
     const auto direction = Cone{}.sample(random);
     const std::vector<double> weights{direction[0], direction[1], direction[2]};
+    bool has_optimum = false;
     for (std::size_t m = 0; m < domain.num_mdps(); ++m) {
       const auto solution = plan(domain.mdp(MdpIndex{m}), weights);
       if (!solution) continue;
+      has_optimum = true;
       for (std::size_t s = 0; s < domain.mdp(MdpIndex{m}).num_states(); ++s) {
         const auto demo = atlas.index({MdpIndex{m}, StateIndex{s}});
         double best = -std::numeric_limits<double>::infinity();
@@ -104,11 +106,11 @@ void expect_hull_maximum_is_the_plan(const Atlas& atlas, int num_weights, std::u
         }
         ASSERT_NEAR(best, solution->values[s], 1e-9 * std::max(1.0, std::abs(best)))
             << domain.id() << ", MDP " << m << ", state " << s << ", weights " << direction.transpose();
-        ++compared;
       }
     }
+    used += has_optimum ? 1 : 0;
   }
-  EXPECT_GT(compared, 0u);
+  EXPECT_EQ(used, num_weights);
 }
 
 class BuiltInDomain : public ::testing::TestWithParam<std::string> {};
