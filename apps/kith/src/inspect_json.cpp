@@ -39,8 +39,6 @@ Json components_to_json(const Atlas& atlas) {
 
 Json domain_to_json(const Domain& domain) {
   const auto d = domain.num_features();
-  Json unit;
-  if (d == 3) unit = to_json(domain.weights().unit, d);
   return {{"schema", "kith.inspect/1"},
           {"id", domain.id()},
           {"title", domain.title()},
@@ -48,7 +46,7 @@ Json domain_to_json(const Domain& domain) {
           {"demonstrations", domain.num_starts()},
           {"features", domain.feature_names()},
           {"actions", domain.action_names()},
-          {"weights", {{"raw", domain.weights().raw}, {"unit", unit}}},
+          {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit)}}},
           {"prior", to_json(domain.prior(), d)}};
 }
 

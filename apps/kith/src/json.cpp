@@ -40,9 +40,9 @@ Json to_json(const IntegerVector& v) {
   return array;
 }
 
-Json to_json(const Eigen::Vector3d& v, std::size_t dimension) {
+Json to_json(const Direction& v) {
   Json array = Json::array();
-  for (std::size_t k = 0; k < dimension; ++k) array.push_back(v[static_cast<Eigen::Index>(k)]);
+  for (const double entry : v) array.push_back(entry);
   return array;
 }
 

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const Diagnostic& diagnostic);
 
 [[nodiscard]] Json to_json(const IntegerVector& v);
-[[nodiscard]] Json to_json(const Eigen::Vector3d& v, std::size_t dimension);
+[[nodiscard]] Json to_json(const Direction& v);
 /// Normals, shape [n, d]: entries beyond the domain's features are left out.
 [[nodiscard]] Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension);
 /// {"robot": [x, y], "items": [...], "stations": [...], "mdp": n}

@@ -23,7 +23,11 @@ char glyph_for(const World& world, std::size_t cell, const SymbolContent& conten
 
 }  // namespace
 
-void Domain::Data::describe_starts() {
+void Domain::Data::describe_members() {
+  for (const DomainMember& member : members) {
+    num_starts += member.starts.size();
+    exact = exact && member.mdp.is_deterministic() && member.mdp.is_integral() && member.mdp.discount() == 1.0;
+  }
   const std::size_t num_groups = world.groups.size();
   for (std::size_t group = 0; group < num_groups; ++group) {
     const auto is_station = [&](std::size_t cell) { return !world.content(cell).station.empty(); };
@@ -61,6 +65,23 @@ void Domain::Data::describe_start(const DomainMember& member, detail::PackedStat
   num_stations.push_back(stations);
   num_digits.push_back(static_cast<std::uint16_t>(digits.size() - row_begin));
   digits.resize(row_begin + digits_per_start, 0);
+}
+
+std::string Domain::state_name(MdpIndex m, StateIndex s) const {
+  const GridState now = state(m, s);
+  const std::vector<std::size_t> items = items_in(m);
+  const auto at = [&](Cell cell) { return cell_text(data_->world, *data_->world.index_of(cell)); };
+  std::string text = now.exited ? "gone from " + at(now.robot) : "robot at " + at(now.robot);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string& item = data_->item_names[items[i]];
+    text += now.carried[i] ? ", carrying " + item : ", " + item + " at " + at(now.items[i]);
+  }
+  for (std::size_t i = 0; i < data_->world.stations.size(); ++i) {
+    const detail::Station& station = data_->world.stations[i];
+    if (std::ranges::find(now.stations, data_->world.cell_at(station.cell)) == now.stations.end()) continue;
+    text += ", " + station.name + " at " + cell_text(data_->world, station.cell);
+  }
+  return text;
 }
 
 std::vector<std::string> Domain::draw(MdpIndex m, std::optional<StateIndex> s) const {

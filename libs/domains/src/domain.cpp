@@ -12,6 +12,8 @@
 namespace kith {
 namespace {
 
+constexpr std::int64_t kExpectationScale = std::int64_t{1} << 20;
+
 const DomainMember& member_of(const Domain::Data& data, MdpIndex m, const char* function) {
   if (m.value() < data.members.size()) return data.members[m.value()];
   throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
@@ -56,7 +58,10 @@ const RewardWeights& Domain::weights() const noexcept { return data_->weights; }
 const std::vector<HalfSpace>& Domain::prior() const noexcept { return data_->prior; }
 std::size_t Domain::max_steps() const noexcept { return data_->max_steps; }
 std::size_t Domain::num_mdps() const noexcept { return data_->members.size(); }
-std::size_t Domain::num_starts() const noexcept { return data_->first_start.back(); }
+std::size_t Domain::num_starts() const noexcept { return data_->num_starts; }
+bool Domain::is_exact() const noexcept { return data_->exact; }
+std::int64_t Domain::count_scale() const noexcept { return data_->exact ? 1 : kExpectationScale; }
+bool Domain::has_map() const noexcept { return true; }
 const Mdp& Domain::mdp(MdpIndex m) const { return member_of(*data_, m, "Domain::mdp").mdp; }
 int Domain::width() const noexcept { return data_->world.width; }
 int Domain::height() const noexcept { return data_->world.height; }
@@ -65,6 +70,10 @@ const std::vector<std::string>& Domain::item_names() const noexcept { return dat
 StateIndex Domain::initial_state(MdpIndex m) const {
   static_cast<void>(member_of(*data_, m, "Domain::initial_state"));
   return StateIndex{0};  // the search starts there
+}
+
+const std::vector<StateIndex>& Domain::starts(MdpIndex m) const {
+  return member_of(*data_, m, "Domain::starts").starts;
 }
 
 std::vector<bool> Domain::variant(MdpIndex m) const {

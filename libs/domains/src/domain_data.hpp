@@ -15,6 +15,7 @@ struct DomainMember {
   Mdp mdp;
   std::vector<detail::PackedState> states;  // shape [num_states + num_terminals]
   std::vector<std::uint32_t> by_state;      // indices into states, sorted by packed state
+  std::vector<StateIndex> starts;           // of demonstrations and tests, ascending
   std::vector<bool> item_present;           // per item
   int num_toggled = 0;                      // optional cells that are there, stations apart
 };
@@ -33,6 +34,8 @@ struct Domain::Data {
   detail::StateLayout layout;
   std::vector<std::string> item_names;
   std::vector<DomainMember> members;  // per MDP
+  std::size_t num_starts = 0;         // of all members
+  bool exact = true;                  // see Domain::is_exact()
 
   // Looks of the start states, one row per (MDP, start) in order; see complexity() and dissimilarity().
   std::vector<std::size_t> first_start;  // per MDP, row of its state 0; one more at the end
@@ -42,8 +45,8 @@ struct Domain::Data {
   std::vector<std::uint16_t> num_stations;  // still there
   std::uint64_t non_station_groups = 0;     // as a mask of MDP index bits
 
-  // Fills in the looks from the members.
-  void describe_starts();
+  // Fills in what follows from the members: sums over them, and the looks of their states.
+  void describe_members();
 
  private:
   void describe_start(const DomainMember& member, detail::PackedState s);

@@ -62,7 +62,7 @@ Domain::Data data_from(std::string id, std::string title, detail::World world, c
   data.layout = detail::StateLayout{world};
   data.world = std::move(world);
   data.members = std::move(members);
-  data.describe_starts();
+  data.describe_members();
   return data;
 }
 

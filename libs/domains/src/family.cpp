@@ -145,7 +145,8 @@ class FamilyBuilder {
   }
 
   DomainMember finished_member(std::size_t mdp, Mdp process, std::vector<PackedState> states) {
-    DomainMember member{std::move(process), std::move(states), {}, {}, 0};
+    DomainMember member{std::move(process), std::move(states), {}, {}, {}, 0};
+    for (std::size_t s = 0; s < member.mdp.num_states(); ++s) member.starts.emplace_back(s);
     member.by_state.resize(member.states.size());
     std::iota(member.by_state.begin(), member.by_state.end(), 0U);
     std::sort(member.by_state.begin(), member.by_state.end(),

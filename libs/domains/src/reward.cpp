@@ -10,6 +10,9 @@
 namespace kith::detail {
 namespace {
 
+// Regions of weights exist on circles and on spheres, not for a single feature.
+bool has_regions(std::size_t num_features) { return num_features >= 2 && num_features <= IntegerVector::kMaxDimension; }
+
 class RewardReader {
  public:
   RewardReader(TomlReader& file, const Dynamics& dynamics)
@@ -59,11 +62,7 @@ class RewardReader {
   void set_weights(const std::vector<double>& numbers, const IntegerVector& integer) {
     reward_.weights.raw = numbers;
     reward_.weights.integer = integer;
-    reward_.weights.unit = Eigen::Vector3d::Zero();
-    if (integer.size() != 3) return;
-    const Eigen::Vector3d direction{static_cast<double>(integer[0]), static_cast<double>(integer[1]),
-                                    static_cast<double>(integer[2])};
-    reward_.weights.unit = direction.normalized();
+    if (has_regions(integer.size())) reward_.weights.unit = HalfSpace{integer}.unit();
   }
 
   // The numbers by feature, 0 for those not given. Reports what is no finite number of a known feature.
@@ -138,7 +137,7 @@ class RewardReader {
           "the prior " + to_toml(value) + " contradicts the weights: " + product_text(normal) + " is negative",
           "learners would be taught something that they hold to be impossible");
     }
-    if (normal.size() == 3) reward_.prior.emplace_back(normal);
+    if (has_regions(normal.size())) reward_.prior.emplace_back(normal);
   }
 
   // "(-1,0,2) . (-6,7,-2)": the clash in numbers.

@@ -13,7 +13,7 @@ namespace kith::detail {
 struct Reward {
   RewardWeights weights;
   TomlPlace weights_place;
-  std::vector<HalfSpace> prior;    // empty unless there are three features
+  std::vector<HalfSpace> prior;    // empty for a single feature
   std::vector<std::string> words;  // per feature
 };
 

@@ -47,6 +47,32 @@ TEST(Skateboard, HasItsStatesWhereTheThingsAre) {
   EXPECT_EQ(domain.describe_variant(MdpIndex{0b101}), "path@{(1,4),(2,4),(3,4),(4,4)} board@{(1,1)}");
 }
 
+TEST(Domain, NamesItsStates) {
+  const Domain domain = sound_domain(kSkateboard);
+  const MdpIndex m{0b001};
+  EXPECT_TRUE(domain.has_map());
+  EXPECT_EQ(domain.state_name(m, StateIndex{0}), "robot at (4,1), board at (1,1)");
+  GridState riding = domain.state(m, StateIndex{0});
+  riding.robot = riding.items[0];
+  riding.carried[0] = true;
+  EXPECT_EQ(domain.state_name(m, domain.find_state(m, riding).value()), "robot at (1,1), carrying board");
+  EXPECT_THROW((void)domain.state_name(m, StateIndex{domain.mdp(m).num_states() + 1000}), std::invalid_argument);
+}
+
+TEST(Domain, StartsAnywhereButAtTheEnd) {
+  const Domain domain = sound_domain(kSkateboard);
+  std::size_t sum = 0;
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    const auto& starts = domain.starts(m);
+    ASSERT_EQ(starts.size(), domain.mdp(m).num_states());
+    for (std::size_t i = 0; i < starts.size(); ++i) ASSERT_EQ(starts[i], StateIndex{i});
+    sum += starts.size();
+  }
+  EXPECT_EQ(domain.num_starts(), sum);
+  EXPECT_TRUE(domain.is_exact());
+  EXPECT_EQ(domain.count_scale(), 1);
+}
+
 // A slow reading of the rules, one state at a time, in plain terms. Covers the
 // domains of this file: moves, one item, one kind of station, and the boards'
 // rule that a rider cannot enter a path.

@@ -99,7 +99,7 @@ class Camera : public TeamObserver {
     return pictures_.size() - 1;
   }
 
-  static void add_point(std::vector<std::uint8_t>& bytes, const Eigen::Vector3d& point) {
+  static void add_point(std::vector<std::uint8_t>& bytes, const Direction& point) {
     for (Eigen::Index k = 0; k < 3; ++k) {
       const auto value = static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(kInteger16 * point[k])));
       bytes.push_back(static_cast<std::uint8_t>(value & 0xFFu));
@@ -117,7 +117,7 @@ class Camera : public TeamObserver {
   std::vector<std::size_t> components_;
 };
 
-Json point_json(const Eigen::Vector3d& point) {
+Json point_json(const Direction& point) {
   constexpr double kDigits = 1e6;
   Json result = Json::array();
   for (Eigen::Index k = 0; k < 3; ++k) result.push_back(std::round(point[k] * kDigits) / kDigits + 0.0);  // no -0

@@ -28,12 +28,13 @@ enum class WeightNorm { kL2, kL1 };
 
 /// The robot's reward weights w*, as exact integers up to scale and as a unit vector.
 struct RewardWeights {
-  std::vector<double> raw;                         ///< As written in the file, shape [d].
-  IntegerVector integer;                           ///< Primitive integer vector in the same direction, exact.
-  Eigen::Vector3d unit = Eigen::Vector3d::Zero();  ///< integer / |integer|; zero unless d = 3.
-  WeightNorm norm = WeightNorm::kL2;               ///< Which length return_of() takes as 1.
+  std::vector<double> raw;            ///< As written in the file, shape [d].
+  IntegerVector integer;              ///< Primitive integer vector in the same direction, exact.
+  Direction unit;                     ///< integer / |integer|, shape [d]; empty unless d is 2 to 8.
+  WeightNorm norm = WeightNorm::kL2;  ///< Which length return_of() takes as 1.
 
   /// w . mu with w at length 1: the return of a path with these feature counts.
+  /// Counts that are kept in units of 1 / Domain::count_scale() give a return in the same units.
   /// @throws std::invalid_argument unless feature_counts has d entries.
   [[nodiscard]] double return_of(const IntegerVector& feature_counts) const;
 };
@@ -86,11 +87,18 @@ class Domain {
   /// How people call feature k ("crossing rubble"); its name if the file gives no words.
   [[nodiscard]] const std::string& feature_words(std::size_t k) const;
   [[nodiscard]] const RewardWeights& weights() const noexcept;
-  /// What every learner is assumed to know; all hold at the weights. Empty unless there are three features.
+  /// What every learner is assumed to know; all hold at the weights. Empty for a single feature.
   [[nodiscard]] const std::vector<HalfSpace>& prior() const noexcept;
   [[nodiscard]] std::size_t max_steps() const noexcept;
 
   [[nodiscard]] std::size_t num_mdps() const noexcept;
+  /// Whether all MDPs are deterministic and undiscounted with integer features: then feature counts are exact.
+  [[nodiscard]] bool is_exact() const noexcept;
+  /// Feature counts, and expectations of them, are kept as integers in units of 1 / count_scale(): 1 if
+  /// is_exact(), else 2^20.
+  [[nodiscard]] std::int64_t count_scale() const noexcept;
+  /// The states of MDP m in which demonstrations and tests may start, ascending: all that are not terminal.
+  [[nodiscard]] const std::vector<StateIndex>& starts(MdpIndex m) const;
   /// Number of (MDP, start) pairs.
   [[nodiscard]] std::size_t num_starts() const noexcept;
   [[nodiscard]] const Mdp& mdp(MdpIndex m) const;
@@ -104,6 +112,12 @@ class Domain {
   /// Whether feature k can occur in MDP m at all. The last feature counts as always present.
   [[nodiscard]] bool has_feature(MdpIndex m, std::size_t k) const;
 
+  /// A state in words, also a terminal one: "robot at (2,1), carrying the parcel". Cells are (column, row) from the top
+  /// left, as in all messages. @throws std::invalid_argument if there is no such state.
+  [[nodiscard]] std::string state_name(MdpIndex m, StateIndex s) const;
+
+  /// Whether the MDPs are gridworlds on one map. What follows up to dissimilarity() is about maps.
+  [[nodiscard]] bool has_map() const noexcept;
   [[nodiscard]] int width() const noexcept;
   [[nodiscard]] int height() const noexcept;
   [[nodiscard]] CellContent content(MdpIndex m, Cell cell) const;
