@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "checks.hpp"
+#include "components.hpp"
 
 namespace kith {
 namespace {
@@ -21,36 +22,7 @@ std::uint32_t count32(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
 }  // namespace
 
-std::span<const Choice> Mdp::choices(StateIndex s) const {
-  require(s.value() < num_states(), "Mdp::choices", "terminal states have no choices");
-  const std::size_t first = first_choice_[s.value()];
-  return std::span{choices_}.subspan(first, first_choice_[s.value() + 1] - first);
-}
-
-std::span<const Outcome> Mdp::outcomes(const Choice& choice) const {
-  return std::span{outcomes_}.subspan(choice.first_outcome, choice.num_outcomes);
-}
-
-std::span<const double> Mdp::features(const Outcome& outcome) const { return feature_row(outcome.feature_row); }
-
-const IntegerVector& Mdp::integer_features(const Outcome& outcome) const {
-  return integer_feature_row(outcome.feature_row);
-}
-
-std::span<const double> Mdp::feature_row(std::size_t row) const {
-  return std::span{feature_table_}.subspan(row * num_features_, num_features_);
-}
-
-const IntegerVector& Mdp::integer_feature_row(std::size_t row) const {
-  require(row < integer_table_.size(), "Mdp::integer_feature_row", "the process must be integral and the row exist");
-  return integer_table_[row];
-}
-
-std::span<const Arrival> Mdp::arrivals(StateIndex s) const {
-  require(s.value() + 1 < first_arrival_.size(), "Mdp::arrivals", "the state is out of range");
-  const std::size_t first = first_arrival_[s.value()];
-  return std::span{arrivals_}.subspan(first, first_arrival_[s.value() + 1] - first);
-}
+void Mdp::reject(const char* rule) { throw std::invalid_argument{rule}; }
 
 void Mdp::index_arrivals() {
   const std::size_t all_states = num_states() + num_terminals_;
@@ -82,6 +54,12 @@ void Mdp::order_by_distance() {
   by_distance_.reserve(num_states());
   for (std::size_t t = 0; t < num_terminals_; ++t) visit_arrivals(StateIndex{num_states() + t});
   for (std::size_t i = 0; i < by_distance_.size(); ++i) visit_arrivals(by_distance_[i]);
+}
+
+void Mdp::group_by_component() {
+  detail::Components components = detail::strong_components(*this);
+  by_component_ = std::move(components.states);
+  component_starts_ = std::move(components.starts);
 }
 
 MdpBuilder::MdpBuilder(std::size_t num_states, std::size_t num_terminals, std::size_t num_actions,
@@ -156,6 +134,7 @@ Mdp MdpBuilder::build() && {
   }
   mdp_.index_arrivals();
   mdp_.order_by_distance();
+  mdp_.group_by_component();
   return std::move(mdp_);
 }
 

@@ -60,25 +60,60 @@ class Mdp {
 
   /// Legal actions of a non-terminal state, in the canonical action order.
   /// @throws std::invalid_argument if s is terminal.
-  [[nodiscard]] std::span<const Choice> choices(StateIndex s) const;
-  [[nodiscard]] std::span<const Outcome> outcomes(const Choice& choice) const;
+  [[nodiscard]] std::span<const Choice> choices(StateIndex s) const {
+    const std::size_t first = first_choice(s);
+    return {choices_.data() + first, first_choice_[s.value() + 1] - first};
+  }
+  /// The number of choices of the states before s: choices are numbered through, state by state.
+  /// @throws std::invalid_argument if s is terminal.
+  [[nodiscard]] std::size_t first_choice(StateIndex s) const {
+    if (s.value() >= num_states()) reject("Mdp::choices: terminal states have no choices");
+    return first_choice_[s.value()];
+  }
+  /// Of all states together.
+  [[nodiscard]] std::size_t num_choices() const noexcept { return choices_.size(); }
+  [[nodiscard]] std::span<const Outcome> outcomes(const Choice& choice) const noexcept {
+    return {outcomes_.data() + choice.first_outcome, choice.num_outcomes};
+  }
   /// phi of an outcome, shape [num_features].
-  [[nodiscard]] std::span<const double> features(const Outcome& outcome) const;
+  [[nodiscard]] std::span<const double> features(const Outcome& outcome) const {
+    return feature_row(outcome.feature_row);
+  }
   /// The same as integers. @pre is_integral().
-  [[nodiscard]] const IntegerVector& integer_features(const Outcome& outcome) const;
+  [[nodiscard]] const IntegerVector& integer_features(const Outcome& outcome) const {
+    return integer_feature_row(outcome.feature_row);
+  }
 
   /// Number of distinct feature vectors, the rows of the feature table.
   [[nodiscard]] std::size_t num_feature_rows() const noexcept { return num_rows_; }
   /// phi of a row, shape [num_features].
-  [[nodiscard]] std::span<const double> feature_row(std::size_t row) const;
+  [[nodiscard]] std::span<const double> feature_row(std::size_t row) const {
+    return std::span{feature_table_}.subspan(row * num_features_, num_features_);
+  }
   /// The same as integers. @pre is_integral().
-  [[nodiscard]] const IntegerVector& integer_feature_row(std::size_t row) const;
+  [[nodiscard]] const IntegerVector& integer_feature_row(std::size_t row) const {
+    if (row >= integer_table_.size()) {
+      reject("Mdp::integer_feature_row: the process must be integral and the row exist");
+    }
+    return integer_table_[row];
+  }
 
   /// All ways into a state, terminal or not, ordered by the state they come from.
-  [[nodiscard]] std::span<const Arrival> arrivals(StateIndex s) const;
+  [[nodiscard]] std::span<const Arrival> arrivals(StateIndex s) const {
+    if (s.value() + 1 >= first_arrival_.size()) reject("Mdp::arrivals: the state is out of range");
+    const std::size_t first = first_arrival_[s.value()];
+    return {arrivals_.data() + first, first_arrival_[s.value() + 1] - first};
+  }
   /// The non-terminal states from which some terminal state can be reached, by
   /// increasing number of steps to the nearest one: the order for backward sweeps.
   [[nodiscard]] std::span<const StateIndex> by_distance() const noexcept { return by_distance_; }
+
+  /// The non-terminal states by strongly connected component, so that every
+  /// transition stays in its component or leads to one listed before (or to a
+  /// terminal state) [tarjan1972]. In order of their numbers within a component.
+  [[nodiscard]] std::span<const StateIndex> by_component() const noexcept { return by_component_; }
+  /// Where the components begin in by_component(); one entry more than there are components.
+  [[nodiscard]] std::span<const std::uint32_t> component_starts() const noexcept { return component_starts_; }
 
   /// Whether every choice has exactly one outcome.
   [[nodiscard]] bool is_deterministic() const noexcept { return deterministic_; }
@@ -92,6 +127,8 @@ class Mdp {
   Mdp() = default;
   void index_arrivals();
   void order_by_distance();
+  void group_by_component();
+  [[noreturn]] static void reject(const char* rule);
 
   std::size_t num_terminals_ = 0;
   std::size_t num_actions_ = 0;
@@ -109,6 +146,8 @@ class Mdp {
   std::vector<std::uint32_t> first_arrival_;  // shape [num_states + num_terminals + 1]
   std::vector<Arrival> arrivals_;
   std::vector<StateIndex> by_distance_;
+  std::vector<StateIndex> by_component_;
+  std::vector<std::uint32_t> component_starts_;
 };
 
 /// Collects states in order and makes an Mdp. Choices of state s are added after
