@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kith/mdp/mdp.hpp"
+
+namespace kith::detail {
+
+// One choice per state, and the states from which it can reach a terminal state, each after one that it may lead to.
+struct Policy {
+  std::vector<std::uint32_t> choice;  // shape [num_states]
+  std::vector<std::uint32_t> finishing;
+
+  // Whether it finishes with probability 1 from every state.
+  [[nodiscard]] bool finishes() const noexcept { return finishing.size() == choice.size(); }
+};
+
+// @pre the choices exist.
+[[nodiscard]] Policy make_policy(const Mdp& mdp, std::vector<std::uint32_t> choice);
+
+// What a policy earns from each state in the long run,
+//   x = immediate + discount * P x, x = 0 at terminal states,
+// for several kinds of earnings at once.
+class PolicyChain {
+ public:
+  // `immediate` is row-major, shape [num_states, kinds].
+  PolicyChain(const Mdp& mdp, const Policy& policy, std::span<const double> immediate, std::size_t kinds);
+
+  // Gauss-Seidel sweeps outwards from the terminal states, starting with the given values, shape [num_states +
+  // num_terminals, kinds]. Exact after one where the policy is deterministic and finishes. False if the values have
+  // not come to rest after the last.
+  bool sweep(int most_sweeps, std::span<double> values) const;
+  // As many sweeps as bring the values to rest; if they are too many, a sparse LU factorisation.
+  // @pre the policy finishes, or the process is discounted.
+  void solve(std::span<double> values) const;
+
+ private:
+  // One way on; a transition back to the state itself is solved for.
+  struct Link {
+    std::uint32_t next;  // position in order_
+    double weight;       // discount * p / (1 - discount * p of staying)
+  };
+
+  void append_row(const Mdp& mdp, std::uint32_t s, const Choice& choice, std::span<const std::uint32_t> position);
+  void factorise(std::span<double> values) const;
+
+  std::size_t kinds_;
+  std::vector<std::uint32_t> order_;       // states as they are swept
+  std::vector<std::uint32_t> first_link_;  // shape [num_states + 1], by position in order_
+  std::vector<Link> links_;
+  std::vector<double> constant_;  // shape [num_states, kinds], by position
+};
+
+// Expected (discounted) features of a policy, a function of the arguments alone, shape [num_states + num_terminals,
+// num_features].
+[[nodiscard]] std::vector<double> policy_features(const Mdp& mdp, const Policy& policy);
+
+}  // namespace kith::detail

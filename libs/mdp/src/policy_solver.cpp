@@ -1,0 +1,126 @@
+#include "policy_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "component_paths.hpp"
+#include "kith/core/error.hpp"
+
+namespace kith::detail {
+namespace {
+
+constexpr int kFewSweeps = 10;         // for a policy that is soon to be improved
+constexpr int kMostPolicies = 10'000;  // in practice a few dozen
+
+}  // namespace
+
+Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask) {
+  const std::size_t n = mdp.num_states();
+  const auto is_allowed = [&](StateIndex s, std::size_t c) {
+    return mask.empty() || mask[mdp.first_choice(s) + c] != 0;
+  };
+  std::vector<std::uint32_t> first(n, 0);
+  for (std::size_t s = 0; s < n; ++s) {
+    while (!is_allowed(StateIndex{s}, first[s])) ++first[s];
+  }
+  Policy policy = make_policy(mdp, std::move(first));
+  if (policy.finishes()) return policy;
+
+  // The states that finish are joined by those with a choice that may lead to one of them.
+  std::vector<unsigned char> ends(n + mdp.num_terminals(), 1);
+  std::fill_n(ends.begin(), n, static_cast<unsigned char>(0));
+  for (const std::uint32_t s : policy.finishing) ends[s] = 1;
+  const auto leads_to_end = [&](const Outcome& outcome) { return ends[outcome.next.value()] != 0; };
+  const auto join_arrivals = [&](StateIndex next) {
+    for (const Arrival& arrival : mdp.arrivals(next)) {
+      const StateIndex from = arrival.from;
+      if (ends[from.value()] != 0 || !is_allowed(from, arrival.choice)) continue;
+      const auto choices = mdp.choices(from);
+      std::uint32_t c = 0;
+      while (!is_allowed(from, c) || !std::ranges::any_of(mdp.outcomes(choices[c]), leads_to_end)) ++c;
+      policy.choice[from.value()] = c;
+      ends[from.value()] = 1;
+      policy.finishing.push_back(static_cast<std::uint32_t>(from.value()));
+    }
+  };
+  for (std::size_t t = 0; t < mdp.num_terminals(); ++t) join_arrivals(StateIndex{n + t});
+  for (std::size_t i = 0; i < policy.finishing.size(); ++i) join_arrivals(StateIndex{policy.finishing[i]});
+  return make_policy(mdp, std::move(policy.choice));
+}
+
+double PolicySolver::worth(const Choice& choice, std::span<const double> values) const {
+  double sum = 0.0;
+  for (const Outcome& outcome : mdp_.outcomes(choice)) {
+    sum += outcome.probability * (rewards_[outcome.feature_row] + mdp_.discount() * values[outcome.next.value()]);
+  }
+  return sum;
+}
+
+PolicyChain PolicySolver::chain_of(const Policy& policy) const {
+  std::vector<double> immediate(mdp_.num_states(), 0.0);
+  for (std::size_t s = 0; s < immediate.size(); ++s) {
+    for (const Outcome& outcome : mdp_.outcomes(mdp_.choices(StateIndex{s})[policy.choice[s]])) {
+      immediate[s] += outcome.probability * rewards_[outcome.feature_row];
+    }
+  }
+  return PolicyChain{mdp_, policy, immediate, 1};
+}
+
+// Takes the best choice wherever it is clearly better than the one of the policy. Whether it was anywhere.
+bool PolicySolver::improve(Policy& policy, std::span<const double> values) const {
+  const double slack = std::max(1e-13, 0.01 * tolerance_);  // far within a tie, far above rounding
+  bool improved = false;
+  for (std::size_t s = 0; s < mdp_.num_states(); ++s) {
+    const auto choices = mdp_.choices(StateIndex{s});
+    const std::size_t first = mdp_.first_choice(StateIndex{s});
+    const std::uint32_t current = policy.choice[s];
+    double best = std::max(values[s], worth(choices[current], values)) + slack * std::max(1.0, std::abs(values[s]));
+    for (std::uint32_t c = 0; c < choices.size(); ++c) {
+      if (c == current || !is_allowed(first + c)) continue;
+      const double candidate = worth(choices[c], values);
+      if (candidate <= best) continue;
+      best = candidate;
+      policy.choice[s] = c;
+      improved = true;
+    }
+  }
+  if (improved) policy = make_policy(mdp_, std::move(policy.choice));
+  return improved;
+}
+
+std::optional<std::vector<double>> PolicySolver::optimal_values() const {
+  const bool must_finish = mdp_.discount() == 1.0;
+  Policy policy = first_finishing(mdp_, mask_);
+  if (must_finish && !policy.finishes()) return std::nullopt;
+  std::vector<double> values(mdp_.num_states() + mdp_.num_terminals(), 0.0);
+  chain_of(policy).solve(values);
+  bool is_evaluated = true;
+  for (int i = 0; i < kMostPolicies; ++i) {
+    if (improve(policy, values)) {
+      if (must_finish && !policy.finishes()) return std::nullopt;
+      is_evaluated = chain_of(policy).sweep(kFewSweeps, values);
+    } else if (is_evaluated) {
+      return values;
+    } else {
+      chain_of(policy).solve(values);
+      is_evaluated = true;
+    }
+  }
+  throw Error{ErrorKind::kInfeasible, "policy iteration does not come to an end"};
+}
+
+ChoiceMask PolicySolver::tight_choices(std::span<const double> values) const {
+  ChoiceMask tight(mdp_.num_choices(), 0);
+  for (std::size_t s = 0; s < mdp_.num_states(); ++s) {
+    std::size_t c = mdp_.first_choice(StateIndex{s});
+    for (const Choice& choice : mdp_.choices(StateIndex{s})) {
+      tight[c] = is_allowed(c) && is_tight(values[s], worth(choice, values), tolerance_) ? 1 : 0;
+      ++c;
+    }
+  }
+  return tight;
+}
+
+}  // namespace kith::detail

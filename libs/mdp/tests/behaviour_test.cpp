@@ -1,0 +1,250 @@
+#include "kith/mdp/behaviour.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kith/mdp/planner.hpp"
+#include "policy_oracle.hpp"
+
+namespace kith {
+namespace {
+
+using testing::Case;
+using ::testing::ElementsAre;
+using testing::Kind;
+using testing::make_mdp;
+using testing::PolicyOracle;
+
+constexpr std::int64_t kScale = std::int64_t{1} << 20;
+constexpr double kGainTolerance = 1e-9;
+
+bool is_optimal_within(double value, double candidate) {
+  return candidate >= value - 1e-9 * std::max(1.0, std::abs(value));
+}
+
+double worth(const Mdp& mdp, const Choice& choice, std::span<const double> weights, std::span<const double> values) {
+  double sum = 0.0;
+  for (const Outcome& outcome : mdp.outcomes(choice)) {
+    double reward = 0.0;
+    for (std::size_t k = 0; k < weights.size(); ++k) reward += weights[k] * mdp.features(outcome)[k];
+    sum += outcome.probability * (reward + mdp.discount() * values[outcome.next.value()]);
+  }
+  return sum;
+}
+
+std::vector<std::vector<bool>> optimal_choices(const Mdp& mdp, std::span<const double> weights,
+                                               std::span<const double> values) {
+  std::vector<std::vector<bool>> optimal(mdp.num_states());
+  for (std::size_t s = 0; s < optimal.size(); ++s) {
+    for (const Choice& choice : mdp.choices(StateIndex{s})) {
+      optimal[s].push_back(is_optimal_within(values[s], worth(mdp, choice, weights, values)));
+    }
+  }
+  return optimal;
+}
+
+// The rule of Behaviour::choice: the first optimal one, but where that never ends, if it can be helped.
+void expect_canonical(const Mdp& mdp, const std::vector<std::vector<bool>>& optimal,
+                      const std::vector<std::uint32_t>& choice, const PolicyOracle& oracle) {
+  PolicyOracle::Policy first(mdp.num_states(), 0);
+  for (std::size_t s = 0; s < first.size(); ++s) {
+    ASSERT_TRUE(optimal[s][choice[s]]) << "state " << s;
+    while (!optimal[s][first[s]]) ++first[s];
+  }
+  const auto ends_anyway = oracle.can_finish(first);
+  const auto ends = oracle.can_finish(choice);
+  for (std::size_t s = 0; s < first.size(); ++s) {
+    if (ends_anyway[s] || !ends[s]) {
+      EXPECT_EQ(choice[s], first[s]) << "state " << s;
+    }
+    if (mdp.discount() == 1.0) {
+      EXPECT_TRUE(ends[s]) << "state " << s;
+    }
+  }
+}
+
+void expect_counts(const PolicyOracle& oracle, const Behaviour& behaviour) {
+  const Eigen::MatrixXd mu = oracle.features(behaviour.choice);
+  for (Eigen::Index s = 0; s < mu.rows(); ++s) {
+    for (Eigen::Index k = 0; k < mu.cols(); ++k) {
+      const auto units = behaviour.counts[static_cast<std::size_t>(s)][static_cast<std::size_t>(k)];
+      EXPECT_NEAR(static_cast<double>(units), mu(s, k) * static_cast<double>(kScale), 0.501) << "state " << s;
+    }
+  }
+}
+
+// No single deviation is better: (mu(s) - mu(s, b)) . w >= 0 up to the rounding of the counts.
+void expect_one_step_constraints(const Case& example, const Behaviour& behaviour) {
+  const Mdp& mdp = example.mdp;
+  double rounding = 0.0;
+  for (const double w : example.weights) rounding += std::abs(w);
+  rounding *= 1.01 / static_cast<double>(kScale);
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+    for (const Choice& choice : mdp.choices(StateIndex{s})) {
+      double slack = dot(behaviour.counts[s], example.weights) / static_cast<double>(kScale);
+      for (const Outcome& outcome : mdp.outcomes(choice)) {
+        double reward = 0.0;
+        for (std::size_t k = 0; k < example.weights.size(); ++k)
+          reward += example.weights[k] * mdp.features(outcome)[k];
+        const double rest = dot(behaviour.counts[outcome.next.value()], example.weights) / static_cast<double>(kScale);
+        slack -= outcome.probability * (reward + mdp.discount() * rest);
+      }
+      EXPECT_GE(slack, -rounding - 1e-7) << "state " << s;
+    }
+  }
+}
+
+void expect_the_best_for_the_robot(const Case& example, const Behaviour& behaviour) {
+  const Mdp& mdp = example.mdp;
+  const auto robot = testing::to_real(example.robot_weights);
+  PolicyOracle oracle{mdp, robot};
+  oracle.restrict(optimal_choices(mdp, example.weights, behaviour.values));
+  oracle.enumerate();
+  const auto favour = behave_in_favour(mdp, example.weights, robot, {.scale = kScale});
+  if (oracle.highest_gain > kGainTolerance) {
+    EXPECT_FALSE(favour);
+    return;
+  }
+  ASSERT_TRUE(favour);
+  EXPECT_EQ(favour->values, behaviour.values);
+  const Eigen::VectorXd values = oracle.values(favour->choice);
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+    EXPECT_NEAR(values(static_cast<Eigen::Index>(s)), oracle.best[s], 1e-6) << "state " << s;
+  }
+  expect_counts(oracle, *favour);
+}
+
+void expect_as_planned(const Case& example, const std::optional<Behaviour>& behaviour) {
+  const auto solution = plan(example.mdp, example.weights);
+  ASSERT_EQ(behaviour.has_value(), solution.has_value());
+  if (!solution) return;
+  const auto exact = behave(example.mdp, example.weights);
+  EXPECT_EQ(exact->choice, solution->canonical_choice);
+  EXPECT_EQ(exact->counts, solution->feature_counts);
+  EXPECT_EQ(exact->values, solution->values);
+  const auto favour = behave_in_favour(example.mdp, example.weights, testing::to_real(example.robot_weights));
+  ASSERT_TRUE(favour);
+  EXPECT_EQ(favour->counts, best_for_robot(example.mdp, *solution, example.weights, example.robot_weights));
+}
+
+void expect_agrees_with_enumeration(const Case& example) {
+  const Mdp& mdp = example.mdp;
+  const auto behaviour = behave(mdp, example.weights, {.scale = kScale});
+  if (is_exact(mdp)) expect_as_planned(example, behaviour);
+  PolicyOracle oracle{mdp, example.weights};
+  oracle.enumerate();
+  const bool has_gain = oracle.highest_gain > kGainTolerance;
+  const bool rests = is_exact(mdp) && oracle.highest_gain > -kGainTolerance;  // never finishing is as good
+  ASSERT_EQ(behaviour.has_value(), !(oracle.has_dead_end || oracle.is_stranded || has_gain || rests));
+  if (!behaviour) return;
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) EXPECT_NEAR(behaviour->values[s], oracle.best[s], 1e-7);
+  expect_canonical(mdp, optimal_choices(mdp, example.weights, behaviour->values), behaviour->choice, oracle);
+  expect_counts(oracle, *behaviour);
+  expect_one_step_constraints(example, *behaviour);
+  expect_the_best_for_the_robot(example, *behaviour);
+}
+
+void expect_all_agree_with_enumeration(std::uint64_t num_cases) {
+  std::size_t num_solved = 0;
+  for (std::uint64_t i = 0; i < num_cases && !::testing::Test::HasFailure(); ++i) {
+    RandomStream random = RandomStream{2024}.split(i);
+    const Kind kind = static_cast<Kind>(i % 3);
+    const std::size_t d = 2 + i / 3 % 7;
+    const Case example = testing::random_case(kind, d, random);
+    SCOPED_TRACE("case " + std::to_string(i));
+    expect_agrees_with_enumeration(example);
+    num_solved += behave(example.mdp, example.weights).has_value() ? 1u : 0u;
+  }
+  EXPECT_GT(num_solved, num_cases / 4);  // the others have no finite optimum
+}
+
+TEST(Behave, AgreesWithEnumeratingAllPolicies) { expect_all_agree_with_enumeration(600); }
+TEST(BehaveSlow, AgreesWithEnumeratingAllPoliciesTenThousandTimes) { expect_all_agree_with_enumeration(10'000); }
+
+// State 0 tries until it succeeds; one try in four does.
+Mdp tries(double discount) {
+  MdpBuilder builder{1, 1, 1, 2, discount};
+  const std::vector<MdpBuilder::Transition> coin{{StateIndex{0}, 0.75, {1, 0}}, {StateIndex{1}, 0.25, {1, 1}}};
+  builder.add_choice(StateIndex{0}, ActionIndex{0}, coin);
+  return std::move(builder).build();
+}
+
+TEST(Behave, CountsExpectedTries) {
+  const auto once = behave(tries(1.0), std::vector{-1.0, 10.0}, {.scale = 1024});
+  ASSERT_TRUE(once);
+  EXPECT_NEAR(once->values[0], 6.0, 1e-12);
+  EXPECT_THAT(once->counts, ElementsAre(IntegerVector{4096, 1024}, IntegerVector{0, 0}));
+  const auto soon = behave(tries(0.8), std::vector{-1.0, 10.0}, {.scale = 1000});
+  EXPECT_EQ(soon->counts[0], (IntegerVector{2500, 625}));  // 1 / (1 - 0.6), 0.25 of that
+}
+
+// From 0 to the end at once, or round through 1, which leads back for certain.
+Mdp with_a_way_round(double there, double back, double out) {
+  return make_mdp(2, 1, {{0, 0, 1, {there}}, {0, 1, 2, {out}}, {1, 0, 0, {back}}});
+}
+
+TEST(Behave, FinishesWhereGoingRoundCostsNothing) {
+  const auto behaviour = behave(with_a_way_round(0.5, -0.5, -0.25), std::vector{1.0}, {.scale = 4});
+  ASSERT_TRUE(behaviour);
+  EXPECT_THAT(behaviour->choice, ElementsAre(1u, 0u));
+  EXPECT_THAT(behaviour->counts, ElementsAre(IntegerVector{-1}, IntegerVector{-3}, IntegerVector{0}));
+  // Of exact processes it says, as plan() does, that never finishing is as good.
+  EXPECT_FALSE(behave(with_a_way_round(1, -1, -1), std::vector{1.0}));
+}
+
+TEST(Behave, FindsNothingWhereGoingRoundGains) {
+  EXPECT_FALSE(behave(with_a_way_round(0.5, -0.25, -0.25), std::vector{1.0}));
+  EXPECT_FALSE(behave(with_a_way_round(2, -1, -1), std::vector{1.0}));
+}
+
+TEST(Behave, GoesRoundForEverOnlyIfDiscounted) {
+  const Mdp mdp = make_mdp(2, 1, {{0, 0, 1, {1}}, {0, 1, 2, {0}}, {1, 0, 0, {0}}}, 0.5);
+  const auto behaviour = behave(mdp, std::vector{3.0}, {.scale = 3});
+  ASSERT_TRUE(behaviour);
+  EXPECT_THAT(behaviour->choice, ElementsAre(0u, 0u));
+  EXPECT_EQ(behaviour->counts[0], IntegerVector{4});                        // 1 / (1 - 0.25)
+  EXPECT_THAT(behave(mdp, std::vector{0.0})->choice, ElementsAre(1u, 0u));  // all is equal: it finishes
+}
+
+TEST(Behave, NeedsAWayOnFromEverywhere) {
+  const Mdp dead_end = make_mdp(2, 1, {{0, 0, 1, {1}}, {0, 1, 2, {1}}}, 0.9);
+  EXPECT_FALSE(behave(dead_end, std::vector{-1.0}));
+  const Mdp trap = make_mdp(3, 1, {{0, 0, 1, {1}}, {0, 1, 3, {1}}, {1, 0, 2, {1}}, {2, 0, 1, {1}}});
+  EXPECT_FALSE(behave(trap, std::vector{-1.0}));
+}
+
+TEST(Behave, SolvesAChainThatHardlyEverEnds) {
+  // One step forward in a thousand, else back to the start: sweeps alone would not come to rest.
+  MdpBuilder builder{2, 1, 1, 1, 1.0};
+  builder.add_choice(StateIndex{0}, ActionIndex{0}, std::vector<MdpBuilder::Transition>{{StateIndex{1}, 1.0, {1}}});
+  builder.add_choice(StateIndex{1}, ActionIndex{0},
+                     std::vector<MdpBuilder::Transition>{{StateIndex{0}, 0.999, {1}}, {StateIndex{2}, 0.001, {1}}});
+  const auto behaviour = behave(std::move(builder).build(), std::vector{-1.0}, {.scale = 1000});
+  ASSERT_TRUE(behaviour);
+  EXPECT_THAT(behaviour->counts, ElementsAre(IntegerVector{2'000'000}, IntegerVector{1'999'000}, IntegerVector{0}));
+}
+
+TEST(Behave, RefusesNonsense) {
+  const Mdp mdp = make_mdp(1, 1, {{0, 0, 1, {1, 1}}});
+  EXPECT_THROW((void)behave(mdp, std::vector{1.0}), std::invalid_argument);
+  EXPECT_THROW((void)behave(mdp, std::vector{1.0, std::nan("")}), std::invalid_argument);
+  EXPECT_THROW((void)behave(mdp, std::vector{1.0, 1.0}, {.scale = 0}), std::invalid_argument);
+  EXPECT_THROW((void)behave(mdp, std::vector{1.0, 1.0}, {.tolerance = -1.0}), std::invalid_argument);
+  EXPECT_THROW((void)behave_in_favour(mdp, std::vector{1.0, 1.0}, std::vector{1.0}), std::invalid_argument);
+  const Mdp huge = make_mdp(1, 1, {{0, 0, 1, {1e12}}});
+  EXPECT_THROW((void)behave(huge, std::vector{1.0}, {.scale = kScale}), std::invalid_argument);
+}
+
+TEST(Mdp, ListsComponentsAfterThoseTheyLeadTo) {
+  // 0 -> 1 <-> 2 -> 3 -> end.
+  const Mdp mdp = make_mdp(4, 1, {{0, 0, 1, {1}}, {1, 0, 2, {1}}, {2, 0, 1, {1}}, {2, 1, 3, {1}}, {3, 0, 4, {1}}});
+  EXPECT_THAT(mdp.by_component(), ElementsAre(StateIndex{3}, StateIndex{1}, StateIndex{2}, StateIndex{0}));
+  EXPECT_THAT(mdp.component_starts(), ElementsAre(0u, 1u, 3u, 4u));
+}
+
+}  // namespace
+}  // namespace kith
