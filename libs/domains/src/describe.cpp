@@ -32,7 +32,7 @@ void Domain::Data::describe_members() {
   for (std::size_t group = 0; group < num_groups; ++group) {
     const auto is_station = [&](std::size_t cell) { return !world.content(cell).station.empty(); };
     const bool only_stations = std::ranges::all_of(world.groups[group].cells, is_station);
-    if (!only_stations) non_station_groups |= std::uint64_t{1} << (num_groups - 1 - group);
+    if (!only_stations) non_station_groups |= world.bit_of(group);
   }
   digits_per_start = 2 + 3 * world.items.size() + 2 * world.stations.size();
   first_start.push_back(0);

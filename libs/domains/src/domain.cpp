@@ -174,7 +174,9 @@ int Domain::dissimilarity(DemoId a, DemoId b) const {
   const std::int32_t* digits_b = data_->digits.data() + row_b * data_->digits_per_start;
   int moved = 0;
   for (std::size_t i = 0; i < common; ++i) moved += std::abs(digits_a[i] - digits_b[i]);
-  const std::uint64_t toggled = (a.mdp.value() ^ b.mdp.value()) & data_->non_station_groups;
+  const detail::World& world = data_->world;
+  const std::uint64_t toggled =
+      (world.variant(a.mdp.value()) ^ world.variant(b.mdp.value())) & data_->non_station_groups;
   const int stations = data_->num_stations[row_a] - data_->num_stations[row_b];
   return 2 * moved + std::popcount(toggled) + std::abs(stations);
 }

@@ -43,7 +43,7 @@ struct Domain::Data {
   std::vector<std::int32_t> digits;  // shape [num_starts, digits_per_start], padded with zeros
   std::vector<std::uint16_t> num_digits;
   std::vector<std::uint16_t> num_stations;  // still there
-  std::uint64_t non_station_groups = 0;     // as a mask of MDP index bits
+  std::uint64_t non_station_groups = 0;     // as a mask of variants
 
   // Fills in what follows from the members: sums over them, and the looks of their states.
   void describe_members();

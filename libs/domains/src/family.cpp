@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "explore.hpp"
+#include "thinning.hpp"
 
 namespace kith::detail {
 namespace {
@@ -51,7 +52,7 @@ class FamilyBuilder {
         explorer_{world, dynamics, features_} {}
 
   std::vector<DomainMember> build() {
-    const std::size_t num_mdps = std::size_t{1} << world_.groups.size();
+    const std::size_t num_mdps = world_.num_mdps();
     if (!check_size(num_mdps)) return {};
     for (std::size_t mdp = 0; mdp < num_mdps; ++mdp) {
       const Exploration found = explorer_.explore(mdp, limits_.max_states - num_states_);
@@ -82,7 +83,7 @@ class FamilyBuilder {
                   "more than " + std::to_string(limits_.max_states) + " states in the first " +
                       std::to_string(mdp + 1) + " of " + std::to_string(num_mdps) + " MDPs; at most " +
                       std::to_string(limits_.max_states) + " are built",
-                  "use a smaller map, fewer items and stations, or fewer optional things");
+                  "use a smaller map, fewer items, stations or optional things, or [family] worlds = NUMBER");
   }
 
   void add(std::size_t mdp, const Exploration& found) {
@@ -146,7 +147,7 @@ class FamilyBuilder {
 
   DomainMember finished_member(std::size_t mdp, Mdp process, std::vector<PackedState> states) {
     DomainMember member{std::move(process), std::move(states), {}, {}, {}, 0};
-    for (std::size_t s = 0; s < member.mdp.num_states(); ++s) member.starts.emplace_back(s);
+    member.starts = spread_states(member.mdp, world_.thinning.starts.value_or(member.mdp.num_states()));
     member.by_state.resize(member.states.size());
     std::iota(member.by_state.begin(), member.by_state.end(), 0U);
     std::sort(member.by_state.begin(), member.by_state.end(),

@@ -3,13 +3,15 @@
 #include <optional>
 #include <utility>
 
+#include "thinning.hpp"
 #include "world.hpp"
 
 namespace kith::detail {
 namespace {
 
 constexpr std::size_t kMaxCells = 1'000'000;
-constexpr std::size_t kMaxGroups = 16;
+constexpr std::size_t kMaxGroups = 16;         // every combination of them is an MDP
+constexpr std::size_t kMaxThinnedGroups = 64;  // bits of a variant
 
 // Reads the rows and finds what stands where.
 class RowsReader {
@@ -129,10 +131,17 @@ class RowsReader {
         world_.group_of[cell] = static_cast<std::int32_t>(group);
       }
     }
-    if (world_.groups.size() > kMaxGroups) {
+    check_groups(rows);
+  }
+
+  void check_groups(const TomlValue& rows) {
+    const std::string number = std::to_string(world_.groups.size());
+    if (!world_.thinning.worlds && world_.groups.size() > kMaxGroups) {
       report_.error("E0218", rows.place(),
-                    std::to_string(world_.groups.size()) + " optional things make about " + power_of_two() +
-                        " MDPs; at most 65536 are built",
+                    number + " optional things make about " + power_of_two() + " MDPs; at most 65536 are built",
+                    "toggle cells together: optional = \"NAME\"; or build some of them: [family] worlds = NUMBER");
+    } else if (world_.groups.size() > kMaxThinnedGroups) {
+      report_.error("E0218", rows.place(), number + " optional things; at most 64 are told apart",
                     "toggle cells together: optional = \"NAME\"");
     }
   }
@@ -169,6 +178,23 @@ class RowsReader {
 
 }  // namespace
 
+namespace {
+
+void thin_out(World& world, TomlReport& report) {
+  const auto& worlds = world.thinning.worlds;
+  if (!worlds) return;
+  const std::size_t num_groups = world.groups.size();
+  const std::size_t most = num_groups <= kMaxGroups ? std::size_t{1} << num_groups : *worlds;
+  if (*worlds > most) {
+    report.warning("W0203", world.thinning.worlds_place,
+                   "there are only " + std::to_string(most) + " worlds, and all of them are built",
+                   "make more things optional, or ask for fewer worlds");
+  }
+  world.variants = choose_variants(world, std::min(*worlds, most), world.thinning.seed);
+}
+
+}  // namespace
+
 World read_world(TomlReader& file) {
   World world;
   auto map = file.table("map", Presence::kRequired);
@@ -176,11 +202,13 @@ World read_world(TomlReader& file) {
   TomlReport& report = file.report();
   const std::size_t errors_before = report.num_errors();
   world.map_place = map->place();
+  world.thinning = read_thinning(file);
   if (auto legend = map->table("legend", Presence::kRequired)) read_legend(legend->content(), world, report);
   world.legend_is_sound = report.num_errors() == errors_before;
   if (const TomlValue* rows = map->value("rows", Presence::kRequired)) RowsReader{world, report}.read(*rows);
   map->finish();
   world.is_sound = report.num_errors() == errors_before;
+  if (world.is_sound) thin_out(world, report);
   return world;
 }
 

@@ -36,7 +36,7 @@ struct Symbol {
   [[nodiscard]] bool is_optional() const { return toggles_each_cell || !toggle.empty(); }
 };
 
-// Cells that are there or not together: one bit of an MDP's index.
+// Cells that are there or not together: one bit of a variant.
 struct OptionalGroup {
   std::vector<std::size_t> cells;
 };
@@ -50,6 +50,14 @@ struct Item {
 struct Station {
   std::string name;
   std::size_t cell = 0;
+};
+
+// What a file says about how much of its family is built.
+struct Thinning {
+  std::optional<std::size_t> worlds;  // nothing: every combination of optional things
+  std::uint64_t seed = 1;             // of the worlds that are drawn
+  TomlPlace worlds_place;             // of `worlds`, if given
+  std::optional<std::size_t> starts;  // per world; nothing: every state
 };
 
 // The map with everything optional on it. Cells are numbered in reading order:
@@ -67,6 +75,8 @@ struct World {
   std::vector<std::string> station_names;
   std::vector<std::string> goal_names;
   std::size_t start = 0;
+  Thinning thinning;
+  std::vector<std::uint64_t> variants;   // of a thinned family: the groups that are on, per MDP; else empty
   TomlPlace map_place;                   // of [map]
   std::vector<TomlPlace> row_places;     // of the strings in rows
   std::optional<std::size_t> some_goal;  // cell of a goal or destination, for messages
@@ -85,9 +95,15 @@ struct World {
     return static_cast<std::size_t>(height - cell.y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(cell.x - 1);
   }
-  [[nodiscard]] bool is_on(std::size_t group, std::size_t mdp) const {
-    return ((mdp >> (groups.size() - 1 - group)) & 1U) != 0;
+  // Without thinning the groups that are on are the bits of the MDP's index. @pre at most 16 groups without thinning.
+  [[nodiscard]] std::size_t num_mdps() const {
+    return variants.empty() ? std::size_t{1} << groups.size() : variants.size();
   }
+  [[nodiscard]] std::uint64_t bit_of(std::size_t group) const {
+    return std::uint64_t{1} << (groups.size() - 1 - group);
+  }
+  [[nodiscard]] std::uint64_t variant(std::size_t mdp) const { return variants.empty() ? mdp : variants[mdp]; }
+  [[nodiscard]] bool is_on(std::size_t group, std::size_t mdp) const { return (variant(mdp) & bit_of(group)) != 0; }
   // Whether what is on the cell is there in MDP `mdp`.
   [[nodiscard]] bool is_present(std::size_t cell, std::size_t mdp) const {
     return group_of[cell] < 0 || is_on(static_cast<std::size_t>(group_of[cell]), mdp);

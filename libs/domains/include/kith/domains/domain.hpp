@@ -68,7 +68,8 @@ struct CellContent {
 /// and differ in which optional things are on the map.
 ///
 /// MDP m's things are the bits of m, the first optional group in the most
-/// significant bit. Immutable and self-contained: a value.
+/// significant bit; where the file builds only some of the family, variant()
+/// knows them. Immutable and self-contained: a value.
 class Domain {
  public:
   struct Data;  ///< Made by the reader of domain files.
@@ -97,14 +98,15 @@ class Domain {
   /// Feature counts, and expectations of them, are kept as integers in units of 1 / count_scale(): 1 if
   /// is_exact(), else 2^20.
   [[nodiscard]] std::int64_t count_scale() const noexcept;
-  /// The states of MDP m in which demonstrations and tests may start, ascending: all that are not terminal.
+  /// The states of MDP m in which demonstrations and tests may start, ascending, the initial one among them: all that
+  /// are not terminal, unless the file asks for fewer.
   [[nodiscard]] const std::vector<StateIndex>& starts(MdpIndex m) const;
   /// Number of (MDP, start) pairs.
   [[nodiscard]] std::size_t num_starts() const noexcept;
   [[nodiscard]] const Mdp& mdp(MdpIndex m) const;
   /// The state in which a robot first enters MDP m (the map's start).
   [[nodiscard]] StateIndex initial_state(MdpIndex m) const;
-  /// One bit per optional group, in index order (most significant first).
+  /// Which optional groups are there, in legend order and within a symbol in reading order.
   [[nodiscard]] std::vector<bool> variant(MdpIndex m) const;
   /// The optional things that MDP m has, in words: "rubble@{(2,1),(2,2)} charger@{}". Here cells are
   /// (column, row) from the top left, as in all messages about domain files.
