@@ -3,11 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "kith/core/error.hpp"
+#include "kith/geometry/cone.hpp"
+#include "kith/mdp/coverage_set.hpp"
 #include "kith/mdp/planner.hpp"
+#include "linear_program.hpp"
 #include "policy_oracle.hpp"
 
 namespace kith {
@@ -74,6 +80,59 @@ void expect_counts(const PolicyOracle& oracle, const Behaviour& behaviour) {
       const auto units = behaviour.counts[static_cast<std::size_t>(s)][static_cast<std::size_t>(k)];
       EXPECT_NEAR(static_cast<double>(units), mu(s, k) * static_cast<double>(kScale), 0.501) << "state " << s;
     }
+  }
+}
+
+// mu(s, b), rounded: the choice once, then the policy.
+IntegerVector deviation(const Mdp& mdp, const Choice& choice, std::span<const IntegerVector> counts) {
+  IntegerVector rounded(mdp.num_features());
+  for (std::size_t k = 0; k < rounded.size(); ++k) {
+    double units = 0.0;
+    for (const Outcome& outcome : mdp.outcomes(choice)) {
+      const double rest = mdp.discount() * static_cast<double>(counts[outcome.next.value()][k]);
+      units += outcome.probability * (static_cast<double>(kScale) * mdp.features(outcome)[k] + rest);
+    }
+    rounded[k] = std::llround(units);
+  }
+  return rounded;
+}
+
+// What the deviations say about the weights, without what follows from the rest, is what linear programs leave of it.
+void expect_minimal_as_by_linear_programs(const Mdp& mdp, const Behaviour& behaviour) {
+  // Extreme rays are made of minors of d - 1 normals and must fit into 64 bits: expectations in units of 2^-20 often do
+  // not, counts do.
+  const auto largest = static_cast<std::int64_t>(std::exp2(54.0 / static_cast<double>(mdp.num_features() - 1)) / 4.0);
+  std::set<IntegerVector> normals;
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+    for (const Choice& choice : mdp.choices(StateIndex{s})) {
+      const IntegerVector normal = primitive(behaviour.counts[s] - deviation(mdp, choice, behaviour.counts));
+      const bool is_small = std::ranges::all_of(
+          normal, [&](std::int64_t x) { return std::abs(x) < std::min(largest, std::int64_t{1} << 31); });
+      if (!normal.is_zero() && is_small) normals.insert(normal);
+    }
+  }
+  if (normals.empty()) return;
+  const std::vector<HalfSpace> system(normals.begin(), normals.end());
+  const auto minimal = minimal_set(system);
+  const std::vector<IntegerVector> all(normals.begin(), normals.end());
+  ASSERT_EQ(minimal.has_value(), testing::lp_has_interior(all));
+  if (!minimal) return;
+  std::vector<IntegerVector> left;
+  for (const HalfSpace& half_space : *minimal) left.push_back(half_space.normal());
+  EXPECT_EQ(left, testing::lp_minimal_set(all));
+}
+
+// The best feature counts of the coverage set are worth what the best policy is.
+void expect_covered(const Case& example, const PolicyOracle& oracle) {
+  try {
+    const CoverageSets sets = coverage_sets(example.mdp);
+    for (std::size_t s = 0; s < example.mdp.num_states(); ++s) {
+      double best = -std::numeric_limits<double>::infinity();
+      for (const IntegerVector& mu : sets.vertices(StateIndex{s})) best = std::max(best, dot(mu, example.weights));
+      EXPECT_NEAR(best, oracle.best[s], 1e-9) << "state " << s;
+    }
+  } catch (const Error& error) {  // for other weights some cycle costs nothing at all
+    EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
   }
 }
 
@@ -145,7 +204,9 @@ void expect_agrees_with_enumeration(const Case& example) {
   expect_canonical(mdp, optimal_choices(mdp, example.weights, behaviour->values), behaviour->choice, oracle);
   expect_counts(oracle, *behaviour);
   expect_one_step_constraints(example, *behaviour);
+  expect_minimal_as_by_linear_programs(mdp, *behaviour);
   expect_the_best_for_the_robot(example, *behaviour);
+  if (is_exact(mdp) && mdp.num_features() == 3) expect_covered(example, oracle);
 }
 
 void expect_all_agree_with_enumeration(std::uint64_t num_cases) {
