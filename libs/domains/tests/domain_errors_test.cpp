@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -247,6 +248,9 @@ TEST_P(DomainError, IsReportedAtItsPlaceWithAHint) {
   EXPECT_EQ(reading.domain.has_value(), !has_errors(reading.diagnostics));
   EXPECT_EQ(reading.diagnostics[0].infeasible, c.infeasible) << all;
   EXPECT_NE(reading.diagnostics[0].hint.find(c.hint), std::string::npos) << all;
+  if (!reading.domain) {
+    EXPECT_EQ(Error{reading.diagnostics}.exit_code(), c.infeasible ? 4 : 3);
+  }
   for (const Diagnostic& d : reading.diagnostics) {
     EXPECT_EQ(d.file, "tiny.toml");
     EXPECT_EQ(d.severity, d.id[0] == 'W' ? Severity::kWarning : Severity::kError);
@@ -255,6 +259,58 @@ TEST_P(DomainError, IsReportedAtItsPlaceWithAHint) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DomainError, ::testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
+
+// The first complaint about a case, as people read it.
+const std::map<std::string, std::string> kMessages{
+    {"schema", "'kith.domain/2' is not a schema of domain files"},
+    {"id", "'Tiny One' cannot be an id"},
+    {"unknown_map_key", "unknown key 'row' in [map]"},
+    {"wrong_type", "'discount' must be a number, not a string"},
+    {"discount_zero", "'discount' must be greater than 0.0 and at most 1.0, not 0.0"},
+    {"unknown_action", "an action cannot be 'fly'"},
+    {"no_weights", "key 'weights' is missing in [reward]"},
+    {"empty_row", "a row of the map is empty"},
+    {"ragged", "this row has 3 cells, the first one has 4"},
+    {"undeclared", "symbol '?' is not declared in [map.legend]"},
+    {"robot_symbol", "'@' cannot be a symbol: it must be one printable ASCII character other than '@'"},
+    {"terrain_symbol", "a symbol alone can be \"wall\" or \"floor\", not \"gravel\""},
+    {"no_start", "the map has no start"},
+    {"unreachable_in_some", "the goal cannot be reached from the start in 1 of 2 variants"},
+    {"two_starts", "there is a second start"},
+    {"no_goal", "the map has no goal"},
+    {"no_such_item", "destination of an unknown item 'key'"},
+    {"condition_end", "bad condition: expected a condition such as leave:X, '!' or '('"},
+    {"no_such_terrain", "condition names an unknown terrain or station 'rubbel'"},
+    {"too_many_variants", "17 optional things make about 131072 MDPs; at most 65536 are built"},
+    {"finished", "there is nothing to do: the start is already the end in 2 of 2 variants"},
+    {"no_moves", "the robot has no action to move with"},
+    {"feature_twice", "feature 'rubble' is declared twice"},
+    {"missing_weight", "feature 'rubble' has no weight"},
+    {"zero_weights", "all weights are zero, so nothing matters to the robot"},
+    {"positive_cycle",
+     "the robot can go round in circles for ever-growing reward: (1,1) right (2,1) left (1,1); in 2 of 2 variants, "
+     "first in: rubble@{}"},
+    {"zero_cycle",
+     "the robot can go round in circles for nothing: (1,1) right (2,1) left (1,1); in 2 of 2 variants, first in: "
+     "rubble@{}"},
+    {"prior_clash", "the prior { step = 1 } contradicts the weights: (0,1) . (-2,-1) is negative"},
+    {"family_worlds_zero", "'worlds' must be at least 1 and at most 65536, not 0"},
+    {"family_worlds_type", "'worlds' must be an integer, not a string"},
+    {"family_seed_alone", "'seed' draws worlds, but 'worlds' does not say how many"},
+    {"family_unknown_key", "unknown key 'world' in [family]"},
+    {"family_more_than_all", "there are only 2 worlds, and all of them are built"},
+    {"family_too_many_things", "65 optional things; at most 64 are told apart"}};
+
+TEST(DomainErrors, SayWhatIsWrongInWords) {
+  std::size_t num_seen = 0;
+  for (const Case& c : cases()) {
+    const auto expected = kMessages.find(c.name);
+    if (expected == kMessages.end()) continue;
+    EXPECT_EQ(read_tiny(edited(c)).diagnostics.at(0).message, expected->second) << c.name;
+    ++num_seen;
+  }
+  EXPECT_EQ(num_seen, kMessages.size());
+}
 
 TEST(DomainErrors, SoundFileHasNone) { EXPECT_TRUE(read_tiny(kSound).diagnostics.empty()); }
 
