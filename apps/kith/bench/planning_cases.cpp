@@ -57,12 +57,16 @@ struct Interaction {
   [[nodiscard]] std::vector<Eigen::Vector3d> persons(const RandomStream& random) const {
     std::vector<Eigen::Vector3d> points;
     for (const auto& draw : belief.systematic_draws(options.counterfactuals, random))
-      points.push_back(belief.point(draw.index));
+      points.emplace_back(belief.point(draw.index));
     return points;
   }
 
   [[nodiscard]] std::vector<PolicyCellIndex> cells(const RandomStream& random) const {
-    return sample_counterfactuals(atlas, belief, options, random);
+    std::vector<PolicyCellIndex> cells;
+    for (const auto& weights : persons(random)) cells.push_back(atlas.cells().locate(weights));
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
   }
 
   const Atlas& atlas;
@@ -117,18 +121,19 @@ Prepared counterfactuals_and_plans(Workbench& bench) {
 
 Prepared counterfactuals_again(Workbench& bench) {
   const auto interaction = std::make_shared<const Interaction>(bench.atlas());
-  const auto cache = std::make_shared<TeachingCache>(bench.atlas().constraints());
+  const auto cache = std::make_shared<TeachingCache>(bench.atlas());
   Prepared prepared;
-  prepared.work = [=, n = std::uint64_t{0}](std::size_t rounds) mutable {
+  const auto& all = interaction->atlas.knowledge_components().back();
+  prepared.work = [=, &all, n = std::uint64_t{0}](std::size_t rounds) mutable {
     for (; rounds > 0; --rounds, ++n)
-      keep(cache->conveyed_by_class(interaction->atlas, interaction->cells(turn(n % 64)))[0]);
+      keep(cache->behaviours().conveyed_by_class(all, interaction->cells(turn(n % 64))).rows[0]);
   };
   return prepared;
 }
 
 Prepared unit(Workbench& bench) {
   const auto interaction = std::make_shared<const Interaction>(bench.atlas());
-  const auto cache = std::make_shared<TeachingCache>(bench.atlas().constraints());
+  const auto cache = std::make_shared<TeachingCache>(bench.atlas());
   Prepared prepared;
   prepared.work = [=, n = std::uint64_t{0}](std::size_t rounds) mutable {
     const auto& atlas = interaction->atlas;

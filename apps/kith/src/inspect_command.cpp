@@ -59,8 +59,8 @@ class Inspection {
   void bec() {
     heading("What makes the policy: its behaviour equivalence class");
     constraints(atlas_.policy_bec_half_spaces(), "  ");
-    out_ += fmt::format("  solid angle {:.4f} sr of {:.4f} sr\n", atlas_.policy_bec_area_sr(),
-                        atlas_.prior_cone().solid_angle());
+    out_ += fmt::format("  {}; the prior has {}\n", area_text(atlas_.policy_bec_area()),
+                        area_text(atlas_.prior_cone().measure()));
   }
 
   void components() {
@@ -68,14 +68,30 @@ class Inspection {
     std::size_t number = 0;
     for (const auto& component : atlas_.knowledge_components()) {
       const auto mdps = std::count(component.uses_mdp.begin(), component.uses_mdp.end(), true);
-      out_ += fmt::format("  {}. {} ({} MDPs{}), solid angle {:.4f} sr\n", ++number, component.name, mdps,
-                          component.masked ? ", without " + domain_.feature_names()[*component.masked] : "",
-                          component.area_sr);
+      out_ += fmt::format("  {}. {} ({} MDPs{}), {}\n", ++number, component.name, mdps,
+                          component.masked.empty() ? "" : ", without " + masked_names(domain_, component),
+                          area_text({component.area_sr, component.area_error}));
       constraints(atlas_.constraints().half_spaces(component.constraints), "     ");
     }
   }
 
+  // "solid angle 0.0261 sr"; elsewhere than in space the share of the sphere, with its standard error if it has one.
+  [[nodiscard]] std::string area_text(const SolidAngle& area) const {
+    const auto d = domain_.num_features();
+    if (d == 3) return fmt::format("{:.4f} sr of the sphere", area.value);
+    const double whole = sphere_area(d);
+    auto text = fmt::format("{:.3g} % of the sphere", 100.0 * area.value / whole);
+    if (area.standard_error > 0.0)
+      text += fmt::format(" (standard error {:.1g} %)", 100.0 * area.standard_error / whole);
+    return text;
+  }
+
   void coverage() {
+    if (!atlas_.is_tabulated()) {
+      heading("What people could expect the robot to do");
+      out_ += "  planned when it is asked: this domain has no tables of all there could be\n";
+      return;
+    }
     const auto& coverage = atlas_.coverage();
     heading("What people could expect the robot to do");
     out_ += fmt::format("  {} paths that are best for somebody: {:.2f} per start state, at most {}\n",
@@ -117,6 +133,10 @@ class Inspection {
     const auto demo = atlas_.index({mdp_, domain_.initial_state(mdp_)});
     heading(fmt::format("What people could expect from the start of MDP {}", mdp_.value()));
     out_ += beside({bare_picture(domain_, atlas_.id(demo)), start_picture(domain_, atlas_.id(demo))}, 4);
+    if (!atlas_.is_tabulated()) {
+      out_ += "  planned when it is asked: this domain has no tables of all there could be\n";
+      return;
+    }
     const auto& robot = atlas_.feature_counts(demo);
     const auto paths = atlas_.coverage_set(demo);
     for (std::size_t i = 0; i < limited(paths.size()); ++i) {
@@ -145,7 +165,7 @@ class Inspection {
   std::string out_;
 };
 
-// Where weights are no points of a sphere there is nothing to teach yet, but still something to see.
+// With a single feature there is nothing to teach, but still something to see.
 int inspect_without_atlas(const Domain& domain, const InspectOptions& options, Console& console) {
   const DomainView view{domain, options, console};
   if (console.json()) {
@@ -159,8 +179,7 @@ int inspect_without_atlas(const Domain& domain, const InspectOptions& options, C
     if (show.empty() || asked("policy")) text += view.policy();
     console.print(text);
   }
-  console.warning(fmt::format("what can be taught is not shown: that takes exactly 3 features, and this domain has {}",
-                              domain.num_features()));
+  console.warning("what can be taught is not shown: with a single feature there is nothing to weigh");
   return 0;
 }
 
@@ -168,7 +187,7 @@ int inspect_without_atlas(const Domain& domain, const InspectOptions& options, C
 
 int run_inspect(const InspectOptions& options, Console& console) {
   auto domain = load_domain(options.domain);
-  if (domain.num_features() != 3) return inspect_without_atlas(domain, options, console);
+  if (domain.num_features() < 2) return inspect_without_atlas(domain, options, console);
   const Atlas atlas{std::move(domain)};
   (void)DomainView{atlas.domain(), options, console};  // is there such an MDP?
   if (console.json()) {

@@ -26,7 +26,7 @@ Json components_to_json(const Atlas& atlas) {
   Json components = Json::array();
   for (const auto& component : atlas.knowledge_components()) {
     Json masked = Json::array();
-    if (component.masked) masked.push_back(domain.feature_names()[*component.masked]);
+    for (const auto k : component.masked) masked.push_back(domain.feature_names()[k]);
     components.push_back(
         {{"name", component.name},
          {"masked", masked},
@@ -63,8 +63,10 @@ void print_inspection(const Atlas& atlas, const InspectOptions& options, Console
                      {"area_sr", atlas.policy_bec_area_sr()}};
   document["knowledge_components"] = components_to_json(atlas);
   document["mask_counters"] = atlas.mask_counters();
-  document["coverage"] = {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}};
-  document["policy_cells"] = atlas.cells().size();
+  if (atlas.is_tabulated()) {
+    document["coverage"] = {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}};
+    document["policy_cells"] = atlas.cells().size();
+  }
   if (std::find(options.show.begin(), options.show.end(), "demos") != options.show.end()) {
     Json demos = Json::array();
     for (std::size_t i = 0; i < atlas.num_demos(); ++i) {

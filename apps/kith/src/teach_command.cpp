@@ -51,7 +51,10 @@ Assignment from_options(const TeachOptions& options) {
   spec.domain = options.domain;
   spec.seed = options.seed;
   spec.factors.clear();
-  return {load_domain(options.domain), spec, {0, strategy, options.group, 1, 1}};
+  auto domain = load_domain(options.domain);
+  spec.num_features = domain.num_features();
+  spec.count_scale = domain.count_scale();
+  return {std::move(domain), spec, {0, strategy, options.group, 1, 1}};
 }
 
 }  // namespace

@@ -70,21 +70,16 @@ class Recorder : public TeamObserver {
 
 Transcript transcribe(const Atlas& atlas, const StudySpec& spec, const TeamAddress& address) {
   Transcript transcript{spec, address, {}, {}};
-  TeachingCache cache{atlas.constraints()};
+  TeachingCache cache{atlas};
   Recorder recorder{atlas, address.composition.size(), transcript.sessions};
   transcript.record = run_team(atlas, cache, spec, address, &recorder);
   return transcript;
 }
 
 std::optional<Trajectory> path_of_answer(const Atlas& atlas, DemoIndex test, const IntegerVector& counts,
-                                         const Eigen::Vector3d& weights) {
-  const auto& domain = atlas.domain();
+                                         const Direction& weights) {
   if (counts == atlas.feature_counts(test)) return atlas.trajectory(test);
-  const auto id = atlas.id(test);
-  const std::array<double, 3> values{weights[0], weights[1], weights[2]};
-  const auto solution = plan(domain.mdp(id.mdp), values);
-  if (!solution || solution->feature_counts[id.start.value()] != counts) return std::nullopt;
-  return canonical_trajectory(domain.mdp(id.mdp), solution->canonical_choice, id.start);
+  return Behaviours{atlas}.trajectory(test, weights);
 }
 
 }  // namespace kith::cli

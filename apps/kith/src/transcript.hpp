@@ -56,6 +56,6 @@ struct Transcript {
 
 /// The path that a person with these weights takes, if it has the given feature counts.
 [[nodiscard]] std::optional<Trajectory> path_of_answer(const Atlas& atlas, DemoIndex test, const IntegerVector& counts,
-                                                       const Eigen::Vector3d& weights);
+                                                       const Direction& weights);
 
 }  // namespace kith::cli

@@ -75,7 +75,7 @@ class TranscriptWriter {
     line(std::string(kWidth, '='));
     line(fmt::format("Period {}: knowledge component {}, {}", lesson.period, lesson.component + 1, component.name));
     line("  weighs " + weighed(component) +
-         (component.masked ? ", where there is no " + domain_.feature_names()[*component.masked] : ""));
+         (component.masked.empty() ? "" : ", where there is no " + masked_names(domain_, component)));
     if (begins) line("  a new component begins: every member's ability is back at its initial value");
     reason(lesson);
     for (std::size_t i = 0; i < lesson.demonstrations.size(); ++i) demonstration(i + 1, lesson.demonstrations[i]);
@@ -89,7 +89,8 @@ class TranscriptWriter {
     std::string text;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < domain_.num_features(); ++k) {
-      if (!component.masked || *component.masked != k) names.push_back(domain_.feature_words(k));
+      if (std::find(component.masked.begin(), component.masked.end(), k) == component.masked.end())
+        names.push_back(domain_.feature_words(k));
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto left = names.size() - i;  // the last stands against the others

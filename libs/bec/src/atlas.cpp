@@ -6,11 +6,27 @@
 
 namespace kith {
 
-Atlas::Atlas(Domain domain) : domain_{std::move(domain)} { AtlasBuilder{*this}.build(); }
+Atlas::Atlas(Domain domain, BehaviourSource source) : domain_{std::move(domain)} {
+  AtlasBuilder{*this, source}.build();
+}
 
 Trajectory Atlas::trajectory(DemoIndex demo) const {
-  const auto [mdp, start] = id(demo);
-  return canonical_trajectory(domain_.mdp(mdp), canonical_choices_[mdp.value()], start);
+  const auto [m, start] = id(demo);
+  const Mdp& mdp = domain_.mdp(m);
+  Trajectory trajectory{{start}, {}};
+  for (auto s = start; !mdp.is_terminal(s); s = trajectory.states.back()) {
+    const auto next = shown_next_[m.value()][s.value()];
+    if (next == kTerminal) break;
+    trajectory.actions.push_back(mdp.choices(s)[canonical_choices_[m.value()][s.value()]].action);
+    trajectory.states.emplace_back(next);
+  }
+  return trajectory;
+}
+
+std::vector<DemoIndex> Atlas::path(DemoIndex demo) const {
+  std::vector<DemoIndex> path;
+  for (auto at = static_cast<std::uint32_t>(demo.value()); at != kTerminal; at = demos_[at].next) path.emplace_back(at);
+  return path;
 }
 
 std::vector<IntegerVector> Atlas::coverage_set(DemoIndex demo) const {

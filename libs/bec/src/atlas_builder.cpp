@@ -4,14 +4,22 @@
 #include <cmath>
 #include <numeric>
 
+#include "kith/bec/comparison.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
-#include "one_step.hpp"
 
 namespace kith {
+namespace {
+
+// Coverage sets of a thousand states take some tenths of a second, and twice as many states several times as long.
+constexpr std::size_t kMostStatesOfTables = 1'500;
+constexpr std::size_t kMostStatesOfTablesInAll = 50'000;
+// Of how many start pictures each is compared with all others; of more, with as many of them.
+constexpr std::size_t kMostPicturesCompared = 1'000;
+
+}  // namespace
 
 void AtlasBuilder::build() {
-  check_domain();
   plan();
   find_indifference();
   reduce_one_step();
@@ -20,34 +28,45 @@ void AtlasBuilder::build() {
   make_policy_bec();
   count_masks();
   make_components();
-  make_facets();
-  atlas_.cells_ = PolicyCells{atlas_.hulls_};
+  if (atlas_.tabulated_) {
+    make_facets();
+    atlas_.cells_ = PolicyCells{atlas_.hulls_};
+  }
   group_demos();
   index_tests();
   average_dissimilarities();
 }
 
-void AtlasBuilder::check_domain() const {
+// Tables need exact behaviours in three dimensions, and grow fast with the number of states.
+void AtlasBuilder::choose_source(BehaviourSource source) {
   const auto& domain = atlas_.domain_;
-  if (domain.num_features() != 3) {
-    throw Error{ErrorKind::kInfeasible, "domain '" + domain.id() + "' has " + std::to_string(domain.num_features()) +
-                                            " features; regions of weights are computed for exactly 3"};
+  if (domain.num_features() < 2) {
+    throw Error{ErrorKind::kInfeasible, "domain '" + domain.id() + "' has a single feature: there is nothing to weigh"};
   }
+  std::size_t states = 0;
+  std::size_t most = 0;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-    const auto& mdp = domain.mdp(m);
-    if (!mdp.is_deterministic() || !mdp.is_integral() || mdp.discount() != 1.0) {
-      throw Error{ErrorKind::kInfeasible,
-                  "domain '" + domain.id() + "' is not deterministic and undiscounted with integer features"};
-    }
+    most = std::max(most, domain.mdp(m).num_states());
+    states += domain.mdp(m).num_states();
   }
+  const bool possible = domain.is_exact() && domain.num_features() == 3 && domain.num_starts() == states;
+  if (source == BehaviourSource::kTabulated && !possible) {
+    throw Error{ErrorKind::kInfeasible,
+                "behaviours in domain '" + domain.id() +
+                    "' cannot be tabulated: that takes three features, exact counts and all states "
+                    "as starts"};
+  }
+  const bool cheap = most <= kMostStatesOfTables && states <= kMostStatesOfTablesInAll;
+  atlas_.tabulated_ =
+      possible && (source == BehaviourSource::kTabulated || (source == BehaviourSource::kAutomatic && cheap));
 }
 
 void AtlasBuilder::plan() {
   const auto& domain = atlas_.domain_;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     const auto& mdp = domain.mdp(m);
-    const auto plan = plan_exactly(mdp, domain.weights().integer);
-    if (!plan.solution) {
+    auto plan = plan_robot(domain, m);
+    if (!plan) {
       throw Error{ErrorKind::kInfeasible, "the robot has no finite optimum in world " + std::to_string(m.value()) +
                                               " of domain '" + domain.id() + "'"};
     }
@@ -55,17 +74,22 @@ void AtlasBuilder::plan() {
     for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
       Atlas::Demo demo;
       demo.id = {m, s};
-      demo.counts = plan.solution->feature_counts[s.value()];
+      demo.counts = plan->counts[s.value()];
       atlas_.demos_.push_back(demo);
     }
-    describe_paths(m, *plan.solution);
-    collect_one_step(m, *plan.solution);
-    find_hulls(m);
-    atlas_.canonical_choices_.push_back(plan.solution->canonical_choice);
+    describe_paths(m, *plan);
+    collect_one_step(m, *plan);
+    if (atlas_.tabulated_) find_hulls(m);
+    atlas_.canonical_choices_.push_back(std::move(plan->choice));
+    atlas_.shown_next_.push_back(std::move(plan->next));
   }
 }
 
 std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {
+  if (!atlas_.domain_.has_map()) {
+    const auto number = state_names_.try_emplace(atlas_.domain_.state_name(m, s), state_names_.size()).first->second;
+    return static_cast<std::uint32_t>(number);
+  }
   const auto& state = atlas_.domain_.state(m, s);
   std::vector<std::int64_t> key{state.robot.x, state.robot.y, state.exited ? 1 : 0};
   for (const auto& item : state.items) key.insert(key.end(), {item.x, item.y});
@@ -75,19 +99,21 @@ std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {
 }
 
 // Ties, uniqueness and trajectory classes, from the end of the paths backwards.
-void AtlasBuilder::describe_paths(MdpIndex m, const ExactSolution& robot) {
+void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot) {
   const auto& mdp = atlas_.domain_.mdp(m);
   for (const auto s : successors_first(mdp, robot)) {
     auto& here = demo(m, s);
-    const auto next = next_state(mdp, robot, s);
-    const bool ends = mdp.is_terminal(next);
-    here.tie = num_optimal_choices(mdp, robot, atlas_.domain_.weights().integer, s) > 1;
-    here.unique = !here.tie && (ends || demo(m, next).unique);
-    if (!ends) here.next = static_cast<std::uint32_t>(atlas_.first_demo_[m.value()] + next.value());
-    const auto action = mdp.choices(s)[robot.canonical_choice[s.value()]].action.value();
-    // What follows: a negative number names the picture of a terminal state.
-    const auto rest = ends ? -1 - static_cast<std::int64_t>(picture(m, next))
-                           : static_cast<std::int64_t>(demo(m, next).trajectory_class);
+    const auto next = robot.next[s.value()];
+    const bool breaks_off = next == RobotPlan::kEnd;
+    const bool ends = breaks_off || mdp.is_terminal(StateIndex{next});
+    here.tie = robot.optimal_choices[s.value()] > 1;
+    here.unique = !here.tie && (ends || demo(m, StateIndex{next}).unique);
+    if (!ends) here.next = static_cast<std::uint32_t>(atlas_.first_demo_[m.value()] + next);
+    const auto action = mdp.choices(s)[robot.choice[s.value()]].action.value();
+    // What follows: a negative number names the picture of a terminal state, or that the path breaks off.
+    std::int64_t rest = -1;
+    if (!ends) rest = static_cast<std::int64_t>(demo(m, StateIndex{next}).trajectory_class);
+    if (ends && !breaks_off) rest = -2 - static_cast<std::int64_t>(picture(m, StateIndex{next}));
     here.trajectory_class = trajectory_classes_
                                 .try_emplace({picture(m, s), static_cast<std::int64_t>(action), rest},
                                              static_cast<std::uint32_t>(trajectory_classes_.size()))
@@ -95,12 +121,33 @@ void AtlasBuilder::describe_paths(MdpIndex m, const ExactSolution& robot) {
   }
 }
 
-void AtlasBuilder::collect_one_step(MdpIndex m, const ExactSolution& robot) {
+std::vector<bool> AtlasBuilder::on_candidates_paths(MdpIndex m, const RobotPlan& robot) const {
+  const auto n = atlas_.domain_.mdp(m).num_states();
+  std::vector<bool> is_on(n, false);
+  for (const StateIndex start : atlas_.domain_.starts(m)) {
+    for (std::size_t s = start.value(); s < n && !is_on[s]; s = robot.next[s]) is_on[s] = true;
+  }
+  return is_on;
+}
+
+std::vector<ConstraintIndex> AtlasBuilder::deviations(const Mdp& mdp, const RobotPlan& robot, StateIndex s) {
+  const auto& domain = atlas_.domain_;
+  std::vector<ConstraintIndex> result;
+  for (const auto& choice : mdp.choices(s)) {
+    const auto loss = robot.counts[s.value()] - counts_of(mdp, choice, robot.counts, domain.count_scale());
+    if (const auto half_space = preference_of_robot(domain, loss)) result.push_back(raw_.add(*half_space));
+  }
+  return result;
+}
+
+void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot) {
   const auto& mdp = atlas_.domain_.mdp(m);
+  const auto is_on_path = on_candidates_paths(m, robot);
   raw_sets_.resize(atlas_.demos_.size());
   for (const auto s : successors_first(mdp, robot)) {
+    if (!is_on_path[s.value()]) continue;
     const auto& here = demo(m, s);
-    auto set = deviations(mdp, robot, s, raw_);
+    auto set = deviations(mdp, robot, s);
     if (here.next != Atlas::kTerminal) set.insert(set.end(), raw_sets_[here.next].begin(), raw_sets_[here.next].end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
@@ -112,8 +159,13 @@ void AtlasBuilder::collect_one_step(MdpIndex m, const ExactSolution& robot) {
 // the two holds with equality at the robot's weights. As long as such
 // half-spaces leave a region they are taken as shown. When the robot's choices
 // among equals contradict each other, it is indifferent: these comparisons say
-// nothing about its reward, and none of them counts.
+// nothing about its reward, and none of them counts. Without tables not all of
+// them are known, and none counts.
 void AtlasBuilder::find_indifference() {
+  if (!atlas_.tabulated_) {
+    indifferent_ = true;
+    return;
+  }
   const auto& weights = atlas_.domain_.weights().integer;
   std::vector<HalfSpace> ties;
   const auto collect = [&](const HalfSpace& half_space) {
@@ -132,9 +184,17 @@ bool AtlasBuilder::counts(const HalfSpace& half_space) const {
   return !indifferent_ || sign_of_dot(half_space.normal(), atlas_.domain_.weights().integer) != 0;
 }
 
+std::vector<std::size_t> AtlasBuilder::candidates() const {
+  std::vector<std::size_t> result;
+  for (MdpIndex m{0}; m.value() < atlas_.domain_.num_mdps(); ++m) {
+    for (const StateIndex s : atlas_.domain_.starts(m)) result.push_back(atlas_.first_demo_[m.value()] + s.value());
+  }
+  return result;
+}
+
 void AtlasBuilder::reduce_one_step() {
   IntsMap<std::uint32_t> known;
-  for (std::size_t i = 0; i < atlas_.demos_.size(); ++i) {
+  for (const std::size_t i : candidates()) {
     std::vector<std::int64_t> key;
     for (const auto c : raw_sets_[i]) key.push_back(static_cast<std::int64_t>(c.value()));
     const auto [place, is_new] = known.try_emplace(std::move(key), static_cast<std::uint32_t>(minimal_sets_.size()));
@@ -151,41 +211,10 @@ void AtlasBuilder::reduce_one_step() {
   }
 }
 
-void AtlasBuilder::find_hulls(MdpIndex m) {
-  const auto& mdp = atlas_.domain_.mdp(m);
-  const auto coverage = coverage_sets(mdp);
-  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
-    atlas_.coverage_.max = std::max(atlas_.coverage_.max, coverage.vertices(s).size());
-    intern_hull(demo(m, s), coverage);
-  }
-  atlas_.coverage_.vertices += coverage.num_vertices();
-  atlas_.coverage_.mean = static_cast<double>(atlas_.coverage_.vertices) / static_cast<double>(atlas_.demos_.size());
-}
-
-void AtlasBuilder::intern_hull(Atlas::Demo& here, const CoverageSets& coverage) {
-  Hull hull;
-  for (const auto& vertex : coverage.vertices(here.id.start)) hull.losses.push_back(here.counts - vertex);
-  const auto& weights = atlas_.domain_.weights().integer;
-  std::sort(hull.losses.begin(), hull.losses.end(), [&](const IntegerVector& a, const IntegerVector& b) {
-    const auto loss_a = dot(weights, a);
-    const auto loss_b = dot(weights, b);
-    return loss_a != loss_b ? loss_a < loss_b : a < b;
-  });
-  auto region = std::find(regions_.begin(), regions_.end(), coverage.finite_region());
-  if (region == regions_.end()) region = regions_.insert(regions_.end(), coverage.finite_region());
-  std::vector<std::int64_t> key{region - regions_.begin()};
-  for (const auto& loss : hull.losses) key.insert(key.end(), loss.begin(), loss.end());
-  const auto [place, is_new] = hull_index_.try_emplace(std::move(key), atlas_.hulls_.size());
-  if (is_new) {
-    hull.finite_region = *region;
-    atlas_.hulls_.push_back(std::move(hull));
-  }
-  here.hull = HullIndex{place->second};
-}
-
 // Prior first, then the one-step sets, then what counterfactuals can convey.
 void AtlasBuilder::number_constraints() {
   auto& table = atlas_.constraints_;
+  table = ConstraintTable{atlas_.domain_.num_features()};
   for (const auto& half_space : atlas_.domain_.prior()) table.add(half_space);
   for (const auto& set : minimal_sets_) {
     for (const auto& half_space : set) table.add(half_space);
@@ -202,127 +231,33 @@ void AtlasBuilder::number_constraints() {
 void AtlasBuilder::make_one_step_sets() {
   for (const auto& set : minimal_sets_) atlas_.one_step_sets_.push_back(atlas_.constraints_.set_of(set));
   atlas_.prior_ = atlas_.constraints_.set_of(atlas_.domain_.prior());
-  const auto cone = Cone::intersection(atlas_.domain_.prior());
-  if (!cone)
+  std::optional<Cone> cone{std::in_place, atlas_.domain_.num_features()};
+  if (!cone->clip(atlas_.domain_.prior()))
     throw Error{ErrorKind::kInfeasible,
                 "the prior of domain '" + atlas_.domain_.id() + "' leaves no region of weights"};
   atlas_.prior_cone_ = *cone;
 }
 
-void AtlasBuilder::make_policy_bec() {
-  auto all = atlas_.no_constraints();
-  for (const auto& set : atlas_.one_step_sets_) all |= set;
-  Regions regions{atlas_.constraints_};
-  atlas_.policy_bec_ = regions.of(all).minimal;
-  atlas_.policy_bec_half_spaces_ = atlas_.constraints_.half_spaces(atlas_.policy_bec_);
-  atlas_.policy_bec_area_ = regions.of(atlas_.policy_bec_ | atlas_.prior_).area_sr;
-}
-
-void AtlasBuilder::count_masks() {
-  const auto d = atlas_.domain_.num_features();
-  std::vector<std::vector<std::size_t>> rows(atlas_.one_step_sets_.size(), std::vector<std::size_t>(d, 0));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const auto c : atlas_.one_step_sets_[i].members()) {
-      for (std::size_t k = 0; k < d; ++k) rows[i][k] += atlas_.constraints_[c].normal()[k] != 0 ? 1u : 0u;
-    }
-  }
-  atlas_.mask_counters_.assign(d, 0);
-  for (const auto& demo : atlas_.demos_) {
-    for (std::size_t k = 0; k < d; ++k) atlas_.mask_counters_[k] += rows[demo.one_step][k];
-  }
-}
-
-// Features that matter least are masked first; the one that matters most is the
-// reference and never masked; the last component masks nothing.
-void AtlasBuilder::make_components() {
-  std::vector<std::size_t> order(atlas_.mask_counters_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto& z = atlas_.mask_counters_;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return z[a] < z[b]; });
-  // Among equal largest counters the later feature is the reference, as the step is last.
-  const auto reference = order.back();
-  for (const auto k : order) {
-    if (k != reference) atlas_.components_.push_back(component(k, reference));
-  }
-  atlas_.components_.push_back(component(std::nullopt, reference));
-}
-
-KnowledgeComponent AtlasBuilder::component(std::optional<std::size_t> masked, std::size_t reference) {
-  const auto& domain = atlas_.domain_;
-  KnowledgeComponent result;
-  result.masked = masked;
-  for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    if (k == reference || k == masked) continue;
-    result.name += (result.name.empty() ? "" : "+") + domain.feature_names()[k];
-  }
-  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-    result.uses_mdp.push_back(!masked || !domain.has_feature(m, *masked));
-  }
-  auto all = atlas_.no_constraints();
-  for (const auto& demo : atlas_.demos_) {
-    if (result.uses_mdp[demo.id.mdp.value()]) all |= atlas_.one_step_sets_[demo.one_step];
-  }
-  Regions regions{atlas_.constraints_};
-  result.constraints = regions.of(all).minimal;
-  result.area_sr = regions.of(result.constraints | atlas_.prior_).area_sr;
-  return result;
-}
-
-void AtlasBuilder::make_facets() {
-  for (std::size_t h = 0; h < atlas_.hulls_.size(); ++h) {
-    const auto& hull = atlas_.hulls_[h];
-    auto facets = atlas_.no_constraints();
-    std::optional<Cone> cell = hull.finite_region;
-    for (const auto& loss : hull.losses) {
-      if (cell && !loss.is_zero() && counts(HalfSpace{loss})) cell = cell->clipped(HalfSpace{loss});
-    }
-    if (cell) {
-      const auto outer = hull.finite_region.facets();
-      for (const auto& facet : cell->facets()) {
-        if (std::find(outer.begin(), outer.end(), facet) == outer.end())
-          facets.insert(*atlas_.constraints_.find(facet));
-      }
-    }
-    atlas_.hull_facets_.push_back(std::move(facets));
-  }
-}
-
+// Demonstrations that convey the same to everybody: where that is known, those whose paths meet the same hulls; else
+// each one is a class of its own.
 void AtlasBuilder::group_demos() {
-  const auto& domain = atlas_.domain_;
-  IntsMap<std::size_t> index;
-  std::vector<std::vector<std::int64_t>> hulls_on_path(atlas_.demos_.size());
-  const auto conveys = [&](HullIndex h) {
-    const auto& row = atlas_.hull_constraints_[h.value()];
-    return std::any_of(row.begin(), row.end(), [](std::int32_t c) { return c >= 0; });
-  };
-  // Paths are at most as long as their MDP has states, so following them is cheap.
-  for (std::size_t i = 0; i < atlas_.demos_.size(); ++i) {
-    auto& hulls = hulls_on_path[i];
-    for (auto at = static_cast<std::uint32_t>(i); at != Atlas::kTerminal; at = atlas_.demos_[at].next) {
-      if (conveys(atlas_.demos_[at].hull)) hulls.push_back(static_cast<std::int64_t>(atlas_.demos_[at].hull.value()));
-    }
-    std::sort(hulls.begin(), hulls.end());
-    hulls.erase(std::unique(hulls.begin(), hulls.end()), hulls.end());
-    auto key = hulls;
-    for (std::size_t k = 0; k < domain.num_features(); ++k) {
-      key.push_back(domain.has_feature(atlas_.demos_[i].id.mdp, k) ? -1 : -2);
-    }
-    const auto [place, is_new] = index.try_emplace(std::move(key), atlas_.classes_.size());
-    if (is_new) {
-      auto& fresh = atlas_.classes_.emplace_back();
-      for (const auto h : hulls) fresh.hulls.emplace_back(static_cast<std::size_t>(h));
-    }
-    atlas_.classes_[place->second].members.emplace_back(i);
-    atlas_.demos_[i].demo_class = DemoClassIndex{place->second};
+  if (atlas_.tabulated_) {
+    group_by_hulls();
+    return;
+  }
+  for (const std::size_t i : candidates()) {
+    atlas_.demos_[i].demo_class = DemoClassIndex{atlas_.classes_.size()};
+    atlas_.classes_.emplace_back().members.emplace_back(i);
   }
 }
 
 void AtlasBuilder::index_tests() {
   atlas_.tests_for_.resize(atlas_.constraints_.size());
-  for (std::size_t i = 0; i < atlas_.demos_.size(); ++i) {
+  for (const std::size_t i : candidates()) {
     const DemoIndex demo{i};
     for (const auto c : atlas_.one_step(demo).members()) {
-      if (atlas_.robot_cell_facets(demo).contains(c)) atlas_.tests_for_[c.value()].push_back(demo);
+      const bool discriminates = !atlas_.tabulated_ || atlas_.robot_cell_facets(demo).contains(c);
+      if (discriminates) atlas_.tests_for_[c.value()].push_back(demo);
     }
   }
 }
@@ -330,18 +265,26 @@ void AtlasBuilder::index_tests() {
 void AtlasBuilder::average_dissimilarities() {
   const auto& domain = atlas_.domain_;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-    const auto n = domain.mdp(m).num_states();
+    const auto& starts = domain.starts(m);
+    const std::size_t n = starts.size();
+    // All with all, or with every so many-th.
+    const std::size_t stride = (n + kMostPicturesCompared - 1) / kMostPicturesCompared;
     std::vector<std::int64_t> sums(n, 0);
-    for (StateIndex a{0}; a.value() < n; ++a) {
-      for (StateIndex b{a.value() + 1}; b.value() < n; ++b) {
-        const int difference = domain.dissimilarity({m, a}, {m, b});
-        sums[a.value()] += difference;
-        sums[b.value()] += difference;
+    std::vector<std::int64_t> others(n, 0);
+    for (std::size_t i = 0; i < n; i += std::max<std::size_t>(stride, 1)) {
+      for (std::size_t j = stride == 1 ? i + 1 : 0; j < n; ++j) {
+        if (j == i) continue;
+        const int difference = domain.dissimilarity({m, starts[i]}, {m, starts[j]});
+        sums[j] += difference;
+        ++others[j];
+        if (stride > 1) continue;
+        sums[i] += difference;
+        ++others[i];
       }
     }
-    for (StateIndex s{0}; s.value() < n; ++s) {
-      const double mean = n > 1 ? static_cast<double>(sums[s.value()]) / static_cast<double>(n - 1) : 0.0;
-      demo(m, s).mean_dissimilarity = static_cast<int>(std::lround(mean));
+    for (std::size_t i = 0; i < n; ++i) {
+      const double mean = others[i] > 0 ? static_cast<double>(sums[i]) / static_cast<double>(others[i]) : 0.0;
+      demo(m, starts[i]).mean_dissimilarity = static_cast<int>(std::lround(mean));
     }
   }
 }

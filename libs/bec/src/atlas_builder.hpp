@@ -1,10 +1,12 @@
 #pragma once
 
+#include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
 #include "kith/mdp/coverage_set.hpp"
+#include "robot_plan.hpp"
 
 namespace kith {
 
@@ -13,14 +15,18 @@ namespace kith {
 // one-step constraints are reduced in a table of their own first.
 class AtlasBuilder {
  public:
-  explicit AtlasBuilder(Atlas& atlas) : atlas_{atlas} {}
+  AtlasBuilder(Atlas& atlas, BehaviourSource source) : atlas_{atlas}, raw_{atlas.domain().num_features()} {
+    choose_source(source);
+  }
   void build();
 
  private:
-  void check_domain() const;
+  void choose_source(BehaviourSource source);
   void plan();
-  void describe_paths(MdpIndex m, const ExactSolution& robot);
-  void collect_one_step(MdpIndex m, const ExactSolution& robot);
+  void describe_paths(MdpIndex m, const RobotPlan& robot);
+  void collect_one_step(MdpIndex m, const RobotPlan& robot);
+  [[nodiscard]] std::vector<bool> on_candidates_paths(MdpIndex m, const RobotPlan& robot) const;
+  [[nodiscard]] std::vector<ConstraintIndex> deviations(const Mdp& mdp, const RobotPlan& robot, StateIndex s);
   void find_indifference();
   [[nodiscard]] bool counts(const HalfSpace& half_space) const;
   void reduce_one_step();
@@ -31,12 +37,16 @@ class AtlasBuilder {
   void make_policy_bec();
   void count_masks();
   void make_components();
-  [[nodiscard]] KnowledgeComponent component(std::optional<std::size_t> masked, std::size_t reference);
+  [[nodiscard]] KnowledgeComponent component(std::vector<std::size_t> features, std::size_t reference);
+  void add_if_of_use(KnowledgeComponent component);
   void make_facets();
   void group_demos();
+  void group_by_hulls();
   void index_tests();
   void average_dissimilarities();
 
+  // Positions of the demonstrations that may be shown or asked.
+  [[nodiscard]] std::vector<std::size_t> candidates() const;
   [[nodiscard]] Atlas::Demo& demo(MdpIndex m, StateIndex s) {
     return atlas_.demos_[atlas_.first_demo_[m.value()] + s.value()];
   }
@@ -56,9 +66,10 @@ class AtlasBuilder {
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.
   ConstraintTable raw_;
   bool indifferent_ = false;  // constraints that hold with equality at the robot's weights do not count
-  std::vector<std::vector<ConstraintIndex>> raw_sets_;  // per demonstration: all along the path, sorted
+  std::vector<std::vector<ConstraintIndex>> raw_sets_;  // per state on candidates' paths: all along the path, sorted
   std::vector<std::vector<HalfSpace>> minimal_sets_;    // distinct minimal sets
   IntsMap<std::uint32_t> pictures_;
+  std::unordered_map<std::string, std::size_t> state_names_;  // pictures of models without a map
   IntsMap<std::uint32_t> trajectory_classes_;
   IntsMap<std::size_t> hull_index_;
   std::vector<Cone> regions_;  // distinct finite regions

@@ -115,6 +115,75 @@ class Arrangement {
   std::vector<std::size_t> through_;  // planes that hold the current ray
 };
 
+// Beyond three dimensions, and on the circle: whoever takes part in a conflict is tried without, by the number of
+// groups left out, until some are left that agree. Every largest set lacks an owner of some half-space of every
+// conflict, so none is missed.
+class ConflictSearch {
+ public:
+  ConflictSearch(const Cone& prior, std::span<const std::vector<HalfSpace>> groups)
+      : prior_{prior.facets().begin(), prior.facets().end()}, groups_{groups} {}
+
+  [[nodiscard]] std::set<Subset> largest_subsets() const {
+    std::set<Subset> found;
+    std::set<Subset> left_out{Subset{}};
+    while (found.empty()) {
+      std::set<Subset> next;
+      for (const Subset& without : left_out) {
+        const auto conflict = conflict_without(without);
+        if (conflict.empty()) found.insert(rest(without));
+        for (const std::size_t g : owners(conflict, without)) {
+          Subset longer = without;
+          longer.insert(std::upper_bound(longer.begin(), longer.end(), g), g);
+          next.insert(std::move(longer));
+        }
+      }
+      left_out = std::move(next);
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] static bool is_in(const Subset& subset, std::size_t g) {
+    return std::binary_search(subset.begin(), subset.end(), g);
+  }
+
+  [[nodiscard]] std::vector<HalfSpace> conflict_without(const Subset& without) const {
+    std::vector<HalfSpace> all = prior_;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (!is_in(without, g)) all.insert(all.end(), groups_[g].begin(), groups_[g].end());
+    }
+    return irreducible_conflict(all);
+  }
+
+  // Groups still there with a half-space of the conflict.
+  [[nodiscard]] Subset owners(const std::vector<HalfSpace>& conflict, const Subset& without) const {
+    Subset result;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const bool takes_part = std::any_of(groups_[g].begin(), groups_[g].end(), [&](const HalfSpace& h) {
+        return std::find(conflict.begin(), conflict.end(), h) != conflict.end();
+      });
+      if (takes_part && !is_in(without, g)) result.push_back(g);
+    }
+    return result;
+  }
+
+  [[nodiscard]] Subset rest(const Subset& without) const {
+    Subset result;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (!is_in(without, g)) result.push_back(g);
+    }
+    return result;
+  }
+
+  std::vector<HalfSpace> prior_;
+  std::span<const std::vector<HalfSpace>> groups_;
+};
+
+std::set<Subset> largest_agreeing(const Cone& prior, std::span<const std::vector<HalfSpace>> groups) {
+  if (prior.dimension() == 3) return Arrangement{prior, groups}.largest_subsets();
+  return ConflictSearch{prior, groups}.largest_subsets();
+}
+
 // The prior cut by all half-spaces of the list, if some interior is left.
 std::optional<Cone> region_of(std::span<const HalfSpace> list, std::optional<Cone> prior) {
   for (const HalfSpace& h : list) {
@@ -129,7 +198,7 @@ std::vector<HalfSpace> reduced(const std::vector<HalfSpace>& list, const Cone& p
   if (region_of(list, prior)) return list;
   std::vector<std::vector<HalfSpace>> single;
   for (const HalfSpace& h : list) single.push_back({h});
-  const std::set<Subset> largest = Arrangement{prior, single}.largest_subsets();
+  const std::set<Subset> largest = largest_agreeing(prior, single);
   const auto newest = std::max_element(largest.begin(), largest.end(), [](const Subset& a, const Subset& b) {
     return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
   });
@@ -153,7 +222,7 @@ ConsistentSubsets largest_consistent_subsets(std::span<const std::vector<HalfSpa
     result.subsets.push_back(std::move(all));
     return result;
   }
-  const std::set<Subset> largest = Arrangement{prior, result.reduced_lists}.largest_subsets();
+  const std::set<Subset> largest = largest_agreeing(prior, result.reduced_lists);
   result.subsets.assign(largest.begin(), largest.end());
   return result;
 }

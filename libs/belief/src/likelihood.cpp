@@ -7,10 +7,22 @@
 #include <stdexcept>
 #include <string>
 
+#include "kith/geometry/cone.hpp"
+#include "likelihood_integrals.hpp"
+
 namespace kith {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kSpace = 3;  // where everything has a closed form
+
+std::size_t checked_dimension(std::size_t dimension) {
+  if (dimension < 2 || dimension > IntegerVector::kMaxDimension) {
+    throw std::invalid_argument("HalfSpaceLikelihood: the dimension must lie in [2, 8], got " +
+                                std::to_string(dimension));
+  }
+  return dimension;
+}
 
 double checked_ability(double ability) {
   if (!(ability >= 0.5 && ability <= 1.0)) {
@@ -40,28 +52,44 @@ double continuous_concentration(double ability) {
 // ln(beta / (1 - beta)), exact near 0.5.
 double log_odds(double ability) { return ability >= 1.0 ? kInfinity : 2.0 * std::atanh(2.0 * ability - 1.0); }
 
-// log of kappa (2 / (4 sinh kappa)) / beta. With s = 2 beta - 1 the sine
-// hyperbolic is s / (2 beta (1 - beta)), which leaves (1 - beta) kappa / s.
-double discontinuous_log_far(double ability, double kappa) {
+double concentration_for(double ability, LikelihoodForm form, std::size_t dimension) {
+  const bool jumps = form == LikelihoodForm::kDiscontinuous;
+  if (dimension == kSpace) return jumps ? log_odds(ability) : continuous_concentration(ability);
+  if (ability >= 1.0) return kInfinity;
+  const double odds = (1.0 - ability) / ability;
+  return jumps ? detail::concentration_of_sphere(odds, dimension) : detail::concentration_of_half(odds, dimension);
+}
+
+// log of the density just beyond the boundary over that on the near side: 1 - beta over the mass of exp(kappa t) on the
+// far half, relative to beta over the near half. In space log of kappa (2 / (4 sinh kappa)) / beta: with s = 2 beta - 1
+// the sine hyperbolic is s / (2 beta (1 - beta)), which leaves (1 - beta) kappa / s.
+double discontinuous_log_far(double ability, double kappa, std::size_t dimension) {
   const double s = 2.0 * ability - 1.0;
   if (s <= 0.0) return 0.0;
   if (ability >= 1.0) return -kInfinity;
-  return std::min(0.0, std::log((1.0 - ability) * (kappa / s)));
+  if (dimension == kSpace) return std::min(0.0, std::log((1.0 - ability) * (kappa / s)));
+  const double ratio = detail::far_integral(0.0, dimension) / detail::far_integral(kappa, dimension);
+  return std::min(0.0, std::log((1.0 - ability) / ability * ratio));
+}
+
+double half_area(std::size_t dimension) {
+  return dimension == kSpace ? 2.0 * std::numbers::pi : 0.5 * sphere_area(dimension);
 }
 
 }  // namespace
 
-HalfSpaceLikelihood::HalfSpaceLikelihood(double ability, LikelihoodForm form)
+HalfSpaceLikelihood::HalfSpaceLikelihood(double ability, LikelihoodForm form, std::size_t dimension)
     : ability_{checked_ability(ability)},
       form_{form},
-      kappa_{form == LikelihoodForm::kDiscontinuous ? log_odds(ability) : continuous_concentration(ability)},
-      log_near_{std::log(ability / (2.0 * std::numbers::pi))},
-      log_far_{form == LikelihoodForm::kDiscontinuous ? discontinuous_log_far(ability, kappa_) : 0.0} {}
+      dimension_{checked_dimension(dimension)},
+      kappa_{concentration_for(ability, form, dimension)},
+      log_near_{std::log(ability / half_area(dimension))},
+      log_far_{form == LikelihoodForm::kDiscontinuous ? discontinuous_log_far(ability, kappa_, dimension) : 0.0} {}
 
 bool HalfSpaceLikelihood::is_hard() const noexcept { return ability_ >= 1.0; }
 
 double HalfSpaceLikelihood::density(double t) const noexcept {
-  const double near = ability_ / (2.0 * std::numbers::pi);
+  const double near = ability_ / half_area(dimension_);
   return t >= 0.0 ? near : near * std::exp(log_relative(t));
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "general_kernels.hpp"
 #include "kernels.hpp"
 #include "kith/core/error.hpp"
 #include "kith/random/distributions.hpp"
@@ -25,6 +26,28 @@ FilterOptions checked(const FilterOptions& options) {
   return options;
 }
 
+constexpr std::size_t kSpace = 3;  // the dimension with kernels of its own
+
+// The axes of points in space.
+detail::MutablePoints in_space(std::vector<double>& points) {
+  const std::span<double> all{points};
+  const std::size_t n = points.size() / kSpace;
+  return {all.first(n), all.subspan(n, n), all.last(n)};
+}
+
+// Normals in space, for the time of one call.
+class NormalsInSpace {
+ public:
+  explicit NormalsInSpace(const std::vector<Direction>& normals) : normals_{normals.size()} {
+    std::transform(normals.begin(), normals.end(), normals_.values().begin(),
+                   [](const Direction& normal) { return Eigen::Vector3d{normal}; });
+  }
+  [[nodiscard]] std::span<const Eigen::Vector3d> list() { return normals_.values(); }
+
+ private:
+  detail::Scratch<Eigen::Vector3d, 16> normals_;
+};
+
 // Whether both sides are equally likely (ability 1/2): such evidence says nothing.
 bool is_constant(const HalfSpaceLikelihood& likelihood) {
   return likelihood.concentration() == 0.0 && likelihood.log_far() == 0.0;
@@ -37,10 +60,9 @@ ParticleBelief::ParticleBelief(const Cone& prior, const FilterOptions& options)
 
 ParticleBelief::ParticleBelief(const PriorCover& cover, const FilterOptions& options)
     : options_{checked(options)},
+      dimension_{cover.dimension()},
       prior_normals_{cover.normals()},
-      x_{cover.x()},
-      y_{cover.y()},
-      z_{cover.z()},
+      points_{cover.points()},
       log_weights_(cover.size(), 0.0),
       weights_(cover.size(), 1.0 / static_cast<double>(cover.size())),
       log_sum_{std::log(static_cast<double>(cover.size()))} {
@@ -49,24 +71,43 @@ ParticleBelief::ParticleBelief(const PriorCover& cover, const FilterOptions& opt
   }
 }
 
+void ParticleBelief::check(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) const {
+  const bool fit = std::all_of(half_spaces.begin(), half_spaces.end(),
+                               [&](const HalfSpace& h) { return h.dimension() == dimension_; });
+  if (!fit || likelihood.dimension() != dimension_) {
+    throw std::invalid_argument("ParticleBelief: half-spaces and likelihood must have the belief's dimension");
+  }
+}
+
+void ParticleBelief::weigh(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
+                           std::span<double> factors) const {
+  if (dimension_ == kSpace) {
+    detail::log_relative_products({x(), y(), z()}, detail::Planes{half_spaces, likelihood}.list(), factors);
+  } else {
+    detail::log_relative_products(detail::AxisPoints{points_, dimension_}, half_spaces, likelihood, factors);
+  }
+}
+
 void ParticleBelief::observe(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
                              RandomStream random) {
+  check(half_spaces, likelihood);
   if (half_spaces.empty() || is_constant(likelihood)) return;
   detail::ParticleScratch<double> factors{size()};
-  detail::log_relative_products({x_, y_, z_}, detail::Planes{half_spaces, likelihood}.list(), factors.values());
+  weigh(half_spaces, likelihood, factors.values());
   reweigh(factors.values(), random);
 }
 
 void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alternatives,
                                  const HalfSpaceLikelihood& likelihood, RandomStream random) {
+  for (const auto& alternative : alternatives) check(alternative, likelihood);
   const bool fits_everywhere =
       std::any_of(alternatives.begin(), alternatives.end(), [](const auto& list) { return list.empty(); });
   if (alternatives.empty() || fits_everywhere || is_constant(likelihood)) return;
   detail::ParticleScratch<double> best{size()};
   detail::ParticleScratch<double> factors{size()};
-  detail::log_relative_products({x_, y_, z_}, detail::Planes{alternatives[0], likelihood}.list(), best.values());
+  weigh(alternatives[0], likelihood, best.values());
   for (const auto& alternative : alternatives.subspan(1)) {
-    detail::log_relative_products({x_, y_, z_}, detail::Planes{alternative, likelihood}.list(), factors.values());
+    weigh(alternative, likelihood, factors.values());
     detail::raise(factors.values(), best.values());
   }
   reweigh(best.values(), random);
@@ -91,50 +132,82 @@ void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
 
 // The weights are not divided by their sum, which is `sum`, the largest of them is 1.
 void ParticleBelief::resample(double sum, RandomStream& random) {
-  const auto count = static_cast<double>(size());
-  double angle = 0.0;
-  if (options_.process_noise > 0.0) {
-    const double square = detail::rough_square_angles({x_, y_, z_}, weights_, mean_direction()) / sum;
-    angle = options_.process_noise * std::sqrt(square) * std::pow(count, -1.0 / 6.0);
-  }
+  const double angle = options_.process_noise > 0.0 ? kernel_angle(sum) : 0.0;
   detail::Scratch<std::uint32_t, detail::kUsualParticles + detail::kIndexRoom> index{size() + detail::kIndexRoom};
   detail::systematic_indices(weights_, uniform01(random), index.values());
-  detail::ParticleScratch<double> x{size()};
-  detail::ParticleScratch<double> y{size()};
-  detail::ParticleScratch<double> z{size()};
-  const detail::MutablePoints drawn{x.values(), y.values(), z.values()};
-  detail::gather({x_, y_, z_}, index.values().first(size()), drawn);
-  if (angle > 0.0) {
-    detail::move_points({drawn.x, drawn.y, drawn.z}, angle, prior_normals_, random, {x_, y_, z_});
-  } else {
-    std::copy(drawn.x.begin(), drawn.x.end(), x_.begin());
-    std::copy(drawn.y.begin(), drawn.y.end(), y_.begin());
-    std::copy(drawn.z.begin(), drawn.z.end(), z_.begin());
-  }
+  draw_and_move(index.values().first(size()), angle, random);
+  const auto count = static_cast<double>(size());
   std::fill(log_weights_.begin(), log_weights_.end(), 0.0);
   std::fill(weights_.begin(), weights_.end(), 1.0 / count);
   log_sum_ = std::log(count);
   ++num_resamplings_;
 }
 
+// h = a * s * M^(-1/(d+3)).
+double ParticleBelief::kernel_angle(double sum) const {
+  const auto count = static_cast<double>(size());
+  const auto centre = mean_direction();
+  const double square =
+      dimension_ == kSpace
+          ? detail::rough_square_angles({x(), y(), z()}, weights_, Eigen::Vector3d{centre}) / sum
+          : detail::weighted_square_angles(detail::AxisPoints{points_, dimension_}, weights_, centre) / sum;
+  const double exponent = dimension_ == kSpace ? -1.0 / 6.0 : -1.0 / (static_cast<double>(dimension_) + 3.0);
+  return options_.process_noise * std::sqrt(square) * std::pow(count, exponent);
+}
+
+void ParticleBelief::draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random) {
+  if (dimension_ != kSpace) {
+    std::vector<double> drawn(points_.size());
+    detail::gather(detail::AxisPoints{points_, dimension_}, index, drawn);
+    points_ = std::move(drawn);
+    if (angle > 0.0) move(angle, random);
+    return;
+  }
+  detail::ParticleScratch<double> x{size()};
+  detail::ParticleScratch<double> y{size()};
+  detail::ParticleScratch<double> z{size()};
+  const detail::MutablePoints drawn{x.values(), y.values(), z.values()};
+  detail::gather({this->x(), this->y(), this->z()}, index, drawn);
+  const detail::MutablePoints to = in_space(points_);
+  if (angle > 0.0) {
+    detail::move_points({drawn.x, drawn.y, drawn.z}, angle, NormalsInSpace{prior_normals_}.list(), random, to);
+  } else {
+    std::copy(drawn.x.begin(), drawn.x.end(), to.x.begin());
+    std::copy(drawn.y.begin(), drawn.y.end(), to.y.begin());
+    std::copy(drawn.z.begin(), drawn.z.end(), to.z.begin());
+  }
+}
+
 void ParticleBelief::diffuse(double angle, RandomStream random) {
   if (!(angle >= 0.0 && std::isfinite(angle))) {
     throw std::invalid_argument("ParticleBelief::diffuse: the angle must be finite and not negative");
   }
-  if (angle > 0.0) detail::move_points({x_, y_, z_}, angle, prior_normals_, random, {x_, y_, z_});
+  if (angle > 0.0) move(angle, random);
+}
+
+void ParticleBelief::move(double angle, RandomStream& random) {
+  if (dimension_ == kSpace) {
+    detail::move_points({x(), y(), z()}, angle, NormalsInSpace{prior_normals_}.list(), random, in_space(points_));
+  } else {
+    detail::move_points(points_, dimension_, angle, prior_normals_, random);
+  }
 }
 
 double ParticleBelief::mass_in(std::span<const HalfSpace> half_spaces) const {
   if (half_spaces.empty()) return 1.0;
-  return std::min(1.0, detail::weight_inside({x_, y_, z_}, weights_, half_spaces));
+  const double inside = dimension_ == kSpace
+                            ? detail::weight_inside({x(), y(), z()}, weights_, half_spaces)
+                            : detail::weight_inside(detail::AxisPoints{points_, dimension_}, weights_, half_spaces);
+  return std::min(1.0, inside);
 }
 
 double ParticleBelief::log_evidence(std::span<const HalfSpace> half_spaces,
                                     const HalfSpaceLikelihood& likelihood) const {
+  check(half_spaces, likelihood);
   const double near = static_cast<double>(half_spaces.size()) * likelihood.log_density(0.0);
   detail::ParticleScratch<double> scratch{size()};
   const std::span<double> factors = scratch.values();
-  detail::log_relative_products({x_, y_, z_}, detail::Planes{half_spaces, likelihood}.list(), factors);
+  weigh(half_spaces, likelihood, factors);
   const double top = detail::add(log_weights_, factors);
   if (!(top > -std::numeric_limits<double>::infinity())) return top;
   const double sum = detail::exp_below(factors, top, factors);
@@ -149,15 +222,25 @@ double ParticleBelief::effective_sample_size() const noexcept {
   return effective_size(1.0, detail::sum_of_squares(weights_));
 }
 
-Eigen::Vector3d ParticleBelief::mean_direction() const {
-  const Eigen::Vector3d mean = detail::weighted_sum({x_, y_, z_}, weights_);
+Direction ParticleBelief::mean_direction() const {
+  if (dimension_ != kSpace) {
+    const Direction mean = detail::weighted_sum(detail::AxisPoints{points_, dimension_}, weights_);
+    const double length = mean.norm();
+    if (length < 1e-12) return point(0);
+    return mean / length;
+  }
+  const Eigen::Vector3d mean = detail::weighted_sum({x(), y(), z()}, weights_);
   const double length = mean.norm();
   if (length < 1e-12) return point(0);
-  return mean / length;
+  return Direction{mean / length};
 }
 
 double ParticleBelief::spread() const {
-  return std::sqrt(detail::weighted_square_angles({x_, y_, z_}, weights_, mean_direction()));
+  const Direction centre = mean_direction();
+  if (dimension_ != kSpace) {
+    return std::sqrt(detail::weighted_square_angles(detail::AxisPoints{points_, dimension_}, weights_, centre));
+  }
+  return std::sqrt(detail::weighted_square_angles({x(), y(), z()}, weights_, Eigen::Vector3d{centre}));
 }
 
 std::vector<ParticleBelief::Draw> ParticleBelief::systematic_draws(std::size_t n, RandomStream random) const {

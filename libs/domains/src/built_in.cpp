@@ -12,6 +12,10 @@ const std::vector<BuiltInDomain>& built_in_domains() {
       {"skateboard", "a robot fetches a skateboard, takes the path or walks (8 MDPs)", detail::kSkateboardText},
       {"two-goals", "a robot chooses between two goals of different worth (64 MDPs)", detail::kTwoGoalsText},
       {"cookie-crumb", "a robot eats crumbs on the way to a jar, or leaves (64 MDPs)", detail::kCookieCrumbText},
+      {"navigation", "a robot goes across gravel and grass, by road, board or car (64 MDPs, seven features)",
+       detail::kNavigationText},
+      {"rescue-floor", "a robot makes two deliveries on a damaged floor (16 MDPs of 24 x 16 cells, five features)",
+       detail::kRescueFloorText},
   };
   return kDomains;
 }

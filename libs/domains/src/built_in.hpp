@@ -9,4 +9,6 @@ extern const std::string_view kColoredTilesText;
 extern const std::string_view kSkateboardText;
 extern const std::string_view kTwoGoalsText;
 extern const std::string_view kCookieCrumbText;
+extern const std::string_view kNavigationText;
+extern const std::string_view kRescueFloorText;
 }  // namespace kith::detail

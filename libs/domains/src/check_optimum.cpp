@@ -9,9 +9,6 @@
 namespace kith::detail {
 namespace {
 
-// Regions of weights, and with them teaching, exist in three dimensions.
-constexpr std::size_t kFeaturesWithRegions = 3;
-
 // Plans every MDP under the robot's weights and looks at the result.
 class OptimumChecker {
  public:
@@ -47,11 +44,10 @@ class OptimumChecker {
                           std::to_string(dynamics_.max_steps),
                       world_.groups.empty() ? "" : "the first: variant " + variant_text(world_, longest_variant_));
     }
-    if (dynamics_.features.size() != kFeaturesWithRegions) {
-      report_.warning(
-          "W0304", dynamics_.features.back().place,
-          std::to_string(dynamics_.features.size()) + " features: planning and inspection work, teaching does not",
-          "regions of weights are computed for exactly 3 features");
+    if (dynamics_.features.size() < 2) {
+      report_.warning("W0304", dynamics_.features.back().place,
+                      "a single feature: planning and inspection work, teaching does not",
+                      "a policy shows how features are weighed against each other: count something else too");
     }
     for (std::size_t k = 0; k < occurs_.size(); ++k) {
       if (occurs_[k] || num_failures_ > 0) continue;

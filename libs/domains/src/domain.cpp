@@ -12,7 +12,7 @@
 namespace kith {
 namespace {
 
-constexpr std::int64_t kExpectationScale = std::int64_t{1} << 20;
+constexpr std::int64_t kExpectationScale = std::int64_t{1} << 24;
 
 const DomainMember& member_of(const Domain::Data& data, MdpIndex m, const char* function) {
   if (m.value() < data.members.size()) return data.members[m.value()];

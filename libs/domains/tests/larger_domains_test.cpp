@@ -100,7 +100,7 @@ TEST(Navigation, TeachesEveryFeature) {
 
 TEST(Navigation, LeavesNothingToChance) {
   const auto reading = read_domain(KITH_SOURCE_DIR "/domains/navigation.toml");
-  for (const Diagnostic& d : reading.diagnostics) EXPECT_EQ(d.id, "W0304") << to_text(d);
+  for (const Diagnostic& d : reading.diagnostics) ADD_FAILURE() << to_text(d);
 }
 
 TEST(RescueFloor, HasSixteenWorldsOfAFewThousandStates) {
@@ -127,7 +127,7 @@ TEST(RescueFloor, TeachesEveryFeature) {
 
 TEST(RescueFloor, LeavesNothingToChance) {
   const auto reading = read_domain(KITH_SOURCE_DIR "/domains/rescue_floor.toml");
-  for (const Diagnostic& d : reading.diagnostics) EXPECT_EQ(d.id, "W0304") << to_text(d);
+  for (const Diagnostic& d : reading.diagnostics) ADD_FAILURE() << to_text(d);
 }
 
 TEST(RescueFloor, PutsThingsDownOnlyWhereTheyBelong) {

@@ -93,6 +93,12 @@ class RunImport {
 
   void check_study() {
     const auto study_file = folder_ / "inputs" / "study.toml";
+    if (!atlas_.is_tabulated()) {
+      throw Error{{detail::fault("E0711",
+                                 "people are fitted in exact domains of three features only, where all that they could "
+                                 "answer is known",
+                                 folder_ / "inputs" / "domain.toml", 0)}};
+    }
     for (const auto& variant : study_.study->variants) {
       if (variant.learner_counterfactuals_self) {
         throw Error{{detail::fault("E0706",

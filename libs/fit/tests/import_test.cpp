@@ -159,6 +159,37 @@ TEST(RunImport, RefusesRecordsOfTeamsOnlyAndCounterfactualsOfPeoplesOwn) {
   EXPECT_EQ(import_fault(folder.path() / "own"), "E0706 study.toml:0");
 }
 
+TEST(RunImport, RefusesDomainsWithoutTables) {
+  const testing::TemporaryFolder folder;
+  const auto domain = folder.path() / "two.toml";
+  write_file_atomically(domain, R"(schema = "kith.domain/1"
+id = "two"
+[mdp]
+[map]
+rows = ["S.rG", "...."]
+[map.legend]
+"." = "floor"
+"r" = { terrain = "rubble", optional = true }
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "rubble"
+when = "leave:rubble"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { rubble = -3, step = -1 }
+[prior]
+halfspaces = [ { step = -1 } ]
+)");
+  testing::run_into(folder.path() / "run",
+                    "schema = \"kith.study/1\"\nid = \"two\"\ndomain = \"" + domain.string() +
+                        "\"\nseed = 3\nreplicates = 2\n[design]\nstrategies = [\"common\"]\ncompositions = [\"NN\"]\n" +
+                        kTypes);
+  EXPECT_EQ(import_fault(folder.path() / "run"), "E0711 domain.toml:0");
+}
+
 TEST(RunImport, WarnsOfPeopleWhoAreInSeveralTeams) {
   const testing::TemporaryFolder folder;
   testing::run_into(

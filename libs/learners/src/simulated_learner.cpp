@@ -37,23 +37,23 @@ SimulatedLearner::SimulatedLearner(const Atlas& atlas, ParticleBelief initial, c
       ability_{parameters.ability} {}
 
 HalfSpaceLikelihood SimulatedLearner::likelihood() const {
-  return HalfSpaceLikelihood{scaled_ability(ability_, parameters_.ability_scale), form_};
+  return HalfSpaceLikelihood{scaled_ability(ability_, parameters_.ability_scale), form_, belief_.dimension()};
 }
 
 void SimulatedLearner::watch(std::span<const HalfSpace> half_spaces, std::size_t period) {
   belief_.observe(half_spaces, likelihood(), person_.split("watch").split(period));
 }
 
-std::vector<HalfSpace> SimulatedLearner::own_counterfactuals(Regions& regions,
+std::vector<HalfSpace> SimulatedLearner::own_counterfactuals(Behaviours& behaviours, Regions& regions,
                                                              std::span<const DemoIndex> demonstrations, std::size_t n,
                                                              std::size_t period) const {
   std::vector<PolicyCellIndex> cells;
   for (const auto& draw : belief_.systematic_draws(n, person_.split("imagine").split(period))) {
-    cells.push_back(atlas_->cells().locate(belief_.point(draw.index)));
+    cells.push_back(behaviours.locate(belief_.point(draw.index)));
   }
   std::vector<HalfSpace> result;
   for (const auto demo : demonstrations) {
-    const auto own = atlas_->constraints().half_spaces(regions.of(atlas_->conveyed(demo, cells)).minimal);
+    const auto own = behaviours.constraints().half_spaces(regions.minimal(behaviours.conveyed(demo, cells)));
     result.insert(result.end(), own.begin(), own.end());
   }
   return result;
@@ -72,15 +72,42 @@ std::vector<double> SimulatedLearner::weights_with_answers(std::span<const DemoI
   return weights;
 }
 
-SimulatedLearner::Response SimulatedLearner::answer(std::span<const DemoIndex> tests, std::size_t period) const {
+SimulatedLearner::Response SimulatedLearner::answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+                                                    std::size_t period) const {
+  const auto random = person_.split("answer").split(period);
+  return atlas_->is_tabulated() ? tabulated_answer(behaviours, tests, random)
+                                : planned_answer(behaviours, tests, random);
+}
+
+SimulatedLearner::Response SimulatedLearner::tabulated_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+                                                              RandomStream random) const {
   Response response;
   response.answers.resize(tests.size());
   const std::vector<double> weights = weights_with_answers(tests);
   if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0.0; })) return response;
-  auto random = person_.split("answer").split(period);
   response.weights = belief_.point(categorical(weights, random));
-  const auto cell = atlas_->cells().locate(*response.weights);
-  for (std::size_t t = 0; t < tests.size(); ++t) response.answers[t] = atlas_->answer(tests[t], cell);
+  const auto cell = behaviours.locate(*response.weights);
+  for (std::size_t t = 0; t < tests.size(); ++t) response.answers[t] = behaviours.answer(tests[t], cell);
+  return response;
+}
+
+// Draws until the tests have an answer; a weight without one is not drawn again.
+SimulatedLearner::Response SimulatedLearner::planned_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+                                                            RandomStream random) const {
+  Response response;
+  std::vector<double> weights(belief_.weights().begin(), belief_.weights().end());
+  while (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; })) {
+    const std::size_t drawn = categorical(weights, random);
+    const auto cell = behaviours.locate(belief_.point(drawn));
+    response.answers.clear();
+    for (const DemoIndex test : tests) response.answers.push_back(behaviours.answer(test, cell));
+    if (std::all_of(response.answers.begin(), response.answers.end(), [](const auto& a) { return a.has_value(); })) {
+      response.weights = belief_.point(drawn);
+      return response;
+    }
+    weights[drawn] = 0.0;
+  }
+  response.answers.assign(tests.size(), std::nullopt);
   return response;
 }
 

@@ -69,10 +69,11 @@ TEST(SimulatedLearner, AbilityScaleTempersEveryUpdate) {
 
 TEST(SimulatedLearner, AnswersAllTestsFromOneWeightThatHasAnOptimumInAllOfThem) {
   const auto& atlas = item_delivery();
+  Behaviours behaviours{atlas};
   const auto learner = make_learner(kNovice);
   const std::array tests{DemoIndex{10}, DemoIndex{4000}, DemoIndex{9000}};
   for (std::size_t period = 1; period <= 200; ++period) {
-    const auto response = learner.answer(tests, period);
+    const auto response = learner.answer(behaviours, tests, period);
     ASSERT_TRUE(response.weights.has_value());
     const auto cell = atlas.cells().locate(*response.weights);
     for (std::size_t t = 0; t < tests.size(); ++t) {
@@ -83,31 +84,35 @@ TEST(SimulatedLearner, AnswersAllTestsFromOneWeightThatHasAnOptimumInAllOfThem) 
 }
 
 TEST(SimulatedLearner, AnswersOfAPeriodDoNotDependOnWhatWasAskedBefore) {
+  Behaviours behaviours{item_delivery()};
   const std::array tests{DemoIndex{10}, DemoIndex{4000}};
   const auto learner = make_learner(kNovice);
-  const auto fresh = learner.answer(tests, 7);
-  (void)learner.answer(tests, 3);
-  EXPECT_EQ(learner.answer(tests, 7).answers, fresh.answers);
-  EXPECT_EQ(learner.answer(tests, 7).weights, fresh.weights);
+  const auto fresh = learner.answer(behaviours, tests, 7);
+  (void)learner.answer(behaviours, tests, 3);
+  EXPECT_EQ(learner.answer(behaviours, tests, 7).answers, fresh.answers);
+  EXPECT_EQ(learner.answer(behaviours, tests, 7).weights, fresh.weights);
 }
 
 // Somebody to whom every step is a reward has no plan that ends.
 TEST(SimulatedLearner, HasNoAnswerWhenNoWeightHasAFiniteOptimum) {
   const auto& atlas = item_delivery();
+  Behaviours behaviours{atlas};
   const auto likes_steps = Cone::intersection(half_spaces({{0, 0, 1}}));
   ASSERT_TRUE(likes_steps.has_value());
   const SimulatedLearner learner{atlas, ParticleBelief{*likes_steps, {}}, kNovice, LikelihoodForm::kDiscontinuous,
                                  RandomStream{3}};
-  const auto response = learner.answer(std::array{DemoIndex{0}, DemoIndex{1}}, 1);
+  const auto response = learner.answer(behaviours, std::array{DemoIndex{0}, DemoIndex{1}}, 1);
   EXPECT_FALSE(response.weights.has_value());
   for (const auto& answer : response.answers) EXPECT_FALSE(answer.has_value());
 }
 
 TEST(SimulatedLearner, OwnCounterfactualsHoldAtTheRobotsWeights) {
   const auto& atlas = item_delivery();
-  Regions regions{atlas.constraints()};
+  Behaviours behaviours{atlas};
+  Regions regions{behaviours.constraints()};
   const auto learner = make_learner(kNovice);
-  const auto conveyed = learner.own_counterfactuals(regions, std::array{DemoIndex{8000}, DemoIndex{9000}}, 8, 1);
+  const auto conveyed =
+      learner.own_counterfactuals(behaviours, regions, std::array{DemoIndex{8000}, DemoIndex{9000}}, 8, 1);
   EXPECT_FALSE(conveyed.empty());
   for (const auto& half_space : conveyed) {
     EXPECT_GE(sign_of_dot(half_space.normal(), atlas.domain().weights().integer), 0);

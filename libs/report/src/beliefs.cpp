@@ -188,8 +188,13 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 
 std::optional<Json> belief_spheres(const RunFiles& run, const ReportDesign& design, const RunData& data,
                                    const Atlas& atlas, std::size_t particles, std::vector<std::string>& notes) {
+  if (run.domain.num_features() != 3) {
+    notes.push_back("Beliefs are drawn for three features; this domain has " +
+                    std::to_string(run.domain.num_features()) + ".");
+    return std::nullopt;
+  }
   Json teams = Json::array();
-  TeachingCache cache{atlas.constraints()};
+  TeachingCache cache{atlas};
   for (const auto& [team, why] : telling_teams(design, data)) {
     const auto& address = run.teams.addresses[team];
     const auto& series = design.series[design.cells[design.cell_of_team[team]].series];

@@ -12,8 +12,8 @@ constexpr std::int64_t kMaxEntry = 1000;
 std::optional<IntegerVector> read_normal(const TomlValue& element, const TomlTable& names, const Domain& domain,
                                          TomlReport& report) {
   const auto& features = domain.feature_names();
-  IntegerVector normal(3);
-  bool good = features.size() <= normal.size();
+  bool good = features.size() >= 2 && features.size() <= IntegerVector::kMaxDimension;
+  IntegerVector normal(good ? features.size() : 0);
   for (const auto& entry : names.entries()) {
     const auto feature = std::find(features.begin(), features.end(), entry.key);
     const auto value = read_integer(entry.value, "a weight in 'prior'", {-kMaxEntry, kMaxEntry}, report);

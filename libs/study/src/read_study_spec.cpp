@@ -29,6 +29,10 @@ class SpecReader {
       : root_{document.root, TomlPlace{}, "the study file", report}, domain_{domain}, report_{report} {}
 
   StudySpec read() {
+    if (domain_ != nullptr) {
+      spec_.num_features = domain_->num_features();
+      spec_.count_scale = domain_->count_scale();
+    }
     read_top();
     read_learner_types();
     if (auto design = root_.table("design", Presence::kRequired)) read_design(*design);

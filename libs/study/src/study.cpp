@@ -38,7 +38,7 @@ void share_work(const Atlas& atlas, std::size_t n, const StreamOptions& options,
       const auto begin = counter.take(options.chunk);
       if (begin >= n) return;
       const auto end = std::min<std::uint64_t>(n, begin + options.chunk);
-      if (!cache) cache.emplace(atlas.constraints());
+      if (!cache) cache.emplace(atlas);
       try {
         for (auto i = begin; i < end && !failed; ++i) body(*cache, static_cast<std::size_t>(i));
       } catch (...) {

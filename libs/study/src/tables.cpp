@@ -1,5 +1,8 @@
 #include "kith/study/tables.hpp"
 
+#include <array>
+#include <charconv>
+
 #include "kith/table/codebook.hpp"
 #include "kith/table/csv_writer.hpp"
 
@@ -95,7 +98,9 @@ Columns response_columns() {
           column("correct", kBoolean, "Whether the answer is as good as the robot's path."),
           optional_column("regret", kReal,
                           "Return of the robot's path minus that of the answer; missing without an answer."),
-          optional_column("answer", kText, "Feature counts of the answer, separated by blanks; missing without one."),
+          optional_column(
+              "answer", kText,
+              "Feature counts of the answer, or expectations of them, separated by blanks; missing without one."),
           column("constraint", kText,
                  "Half-spaces that the answer shows: entries of a normal separated by blanks, normals by ';'."),
           column("covered", kText, "Half-spaces that the test examines and that its feedback teaches.")};
@@ -123,15 +128,28 @@ Columns progress_columns() {
           column("all_correct", kBoolean, "Whether the member answered every test of the period correctly.")};
 }
 
-Columns particle_columns() {
-  return {column("period", kInteger, "Number of the period at whose end the belief was this."),
-          column("belief", kText,
-                 "Whose: 'own N' (of member N), 'teacher N' (the teacher's about member N), 'common' or 'joint'."),
-          column("particle", kInteger, "Number of the particle, from 1."),
-          column("x", kReal, "First entry of a direction of reward weights, at length 1."),
-          column("y", kReal, "Second entry."),
-          column("z", kReal, "Third entry."),
-          column("weight", kReal, "Weight of the particle; those of a belief sum to 1.")};
+// x, y, z in space; w1, w2, ... elsewhere.
+Columns direction_columns(std::size_t num_features) {
+  if (num_features == 3) {
+    return {column("x", kReal, "First entry of a direction of reward weights, at length 1."),
+            column("y", kReal, "Second entry."), column("z", kReal, "Third entry.")};
+  }
+  Columns columns;
+  for (std::size_t k = 1; k <= num_features; ++k) {
+    columns.push_back(column("w" + std::to_string(k), kReal,
+                             "Entry " + std::to_string(k) + " of a direction of reward weights, at length 1."));
+  }
+  return columns;
+}
+
+Columns particle_columns(std::size_t num_features) {
+  const Columns first{column("period", kInteger, "Number of the period at whose end the belief was this."),
+                      column("belief", kText,
+                             "Whose: 'own N' (of member N), 'teacher N' (the teacher's about member N), 'common' or "
+                             "'joint'."),
+                      column("particle", kInteger, "Number of the particle, from 1.")};
+  const Columns last{column("weight", kReal, "Weight of the particle; those of a belief sum to 1.")};
+  return first + direction_columns(num_features) + last;
 }
 
 }  // namespace
@@ -147,7 +165,8 @@ std::vector<TableDescription> study_tables(const Study& study) {
        keys + demonstration_columns()},
       {"progress.csv", "One row per member and period; none if only teams are recorded.", keys + progress_columns()}};
   if (study.variants.front().record == RecordLevel::kParticles) {
-    tables.push_back({"particles.csv", "One row per particle, belief and period.", keys + particle_columns()});
+    tables.push_back({"particles.csv", "One row per particle, belief and period.",
+                      keys + particle_columns(study.variants.front().num_features)});
   }
   return tables;
 }
@@ -159,6 +178,19 @@ std::int64_t count(std::size_t n) { return static_cast<std::int64_t>(n); }
 std::string blank_separated(const IntegerVector& v) {
   std::string text;
   for (const auto entry : v) text += (text.empty() ? "" : " ") + std::to_string(entry);
+  return text;
+}
+
+// Counts in units of 1 / scale.
+std::string counts_text(const IntegerVector& counts, std::int64_t scale) {
+  if (scale == 1) return blank_separated(counts);
+  std::string text;
+  for (const auto entry : counts) {
+    std::array<char, 32> digits{};
+    const double value = static_cast<double>(entry) / static_cast<double>(scale);
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    text += (text.empty() ? "" : " ") + std::string{digits.data(), end};
+  }
   return text;
 }
 
@@ -248,7 +280,9 @@ class Tables {
   }
 
   void add_response(const TeamRecord& team, const ResponseRecord& response) {
-    const auto answer = response.answer ? std::optional{blank_separated(*response.answer)} : std::nullopt;
+    const auto answer = response.answer
+                            ? std::optional{counts_text(*response.answer, study_.variants.front().count_scale)}
+                            : std::nullopt;
     begin_row(3, team.address)
         .integer(count(response.period))
         .integer(count(response.component))
@@ -290,15 +324,12 @@ class Tables {
 
   void add_belief(const TeamRecord& team, const BeliefSnapshot& belief) {
     for (std::size_t i = 0; i < belief.weights.size(); ++i) {
-      begin_row(6, team.address)
-          .integer(count(belief.period))
-          .text(std::string_view{belief.belief})
-          .integer(count(i + 1))
-          .real(belief.x[i])
-          .real(belief.y[i])
-          .real(belief.z[i])
-          .real(belief.weights[i])
-          .end_row();
+      auto& row = begin_row(6, team.address)
+                      .integer(count(belief.period))
+                      .text(std::string_view{belief.belief})
+                      .integer(count(i + 1));
+      for (std::size_t at = i; at < belief.points.size(); at += belief.weights.size()) row.real(belief.points[at]);
+      row.real(belief.weights[i]).end_row();
     }
   }
 

@@ -66,9 +66,7 @@ template <typename Coder, Is<BeliefSnapshot> X>
 void code(Coder& coder, X& x) {
   coder.count(x.period);
   coder.text(x.belief);
-  coder.reals(x.x);
-  coder.reals(x.y);
-  coder.reals(x.z);
+  coder.reals(x.points);
   coder.reals(x.weights);
 }
 

@@ -77,9 +77,9 @@ class TeamRun {
     const auto& type = learner_type(spec_, person.type);
     auto prior = atlas_.prior_cone();
     if (type.prior) {
-      const auto own = Cone::intersection(*type.prior);
-      KITH_ASSERT(own.has_value());  // checked when the study was read
-      prior = *own;
+      prior = Cone{atlas_.domain().num_features()};
+      const bool has_room = prior.clip(*type.prior);
+      KITH_ASSERT(has_room);  // checked when the study was read
     }
     return {atlas_, ParticleBelief{cache_.cover(prior, type.filter.particles), type.filter}, person.parameters,
             spec_.teaching.likelihood, person.stream.split("learner")};
@@ -133,7 +133,7 @@ class TeamRun {
     std::vector<SimulatedLearner::Response> responses;
     std::vector<std::vector<Answer>> answers;
     for (const auto& one : learners) {
-      responses.push_back(one.answer(tests, lesson.period));
+      responses.push_back(one.answer(cache_.behaviours(), tests, lesson.period));
       answers.push_back(responses.back().answers);
     }
     const auto feedback = session.submit(answers);
@@ -164,7 +164,8 @@ class TeamRun {
     }
     for (auto& one : learners) {
       if (spec_.learner_counterfactuals_self) {
-        one.watch(one.own_counterfactuals(cache_.regions(), demos, spec_.teaching.counterfactuals, lesson.period),
+        one.watch(one.own_counterfactuals(cache_.behaviours(), cache_.regions(), demos, spec_.teaching.counterfactuals,
+                                          lesson.period),
                   lesson.period);
       } else {
         one.watch(conveyed, lesson.period);
@@ -250,11 +251,13 @@ class TeamRun {
   void write_beliefs(const Session& session, std::size_t period, const std::vector<SimulatedLearner>& learners,
                      const std::vector<LearnerRecord>& rows) {
     const auto keep = [&](std::string name, const ParticleBelief& belief) {
-      const auto copy = [](std::span<const double> values) {
-        return std::vector<double>{values.begin(), values.end()};
-      };
-      record_.beliefs.push_back(
-          {period, std::move(name), copy(belief.x()), copy(belief.y()), copy(belief.z()), copy(belief.weights())});
+      const auto weights = belief.weights();
+      BeliefSnapshot snapshot{period, std::move(name), {}, {weights.begin(), weights.end()}};
+      for (std::size_t k = 0; k < belief.dimension(); ++k) {
+        const auto axis = belief.axis(k);
+        snapshot.points.insert(snapshot.points.end(), axis.begin(), axis.end());
+      }
+      record_.beliefs.push_back(std::move(snapshot));
     };
     for (std::size_t i = 0; i < rows.size(); ++i) {
       keep("own " + std::to_string(rows[i].member), learners[i].belief());
@@ -306,11 +309,13 @@ class TeamRun {
 
 TeamRecord run_team(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
                     TeamObserver* observer) {
+  cache.trim();
   return TeamRun{atlas, cache, spec, address, observer, {}}.run().value();
 }
 
 std::optional<TeamRecord> run_team_unless(const std::function<bool()>& stopped, const Atlas& atlas,
                                           TeachingCache& cache, const StudySpec& spec, const TeamAddress& address) {
+  cache.trim();
   return TeamRun{atlas, cache, spec, address, nullptr, stopped}.run();
 }
 

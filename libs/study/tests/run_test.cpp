@@ -130,7 +130,7 @@ TEST(RunTeams, RecordsEveryBeliefAtTheEndOfEveryPeriodWhenAskedTo) {
     ASSERT_EQ(belief.weights.size(), 1000u);
     double in_bec = 0.0;
     for (std::size_t i = 0; i < belief.weights.size(); ++i) {
-      const Eigen::Vector3d w{belief.x[i], belief.y[i], belief.z[i]};
+      const Eigen::Vector3d w{belief.points[i], belief.points[1000 + i], belief.points[2000 + i]};
       if (std::all_of(bec.begin(), bec.end(), [&](const HalfSpace& h) { return h.contains(w); }))
         in_bec += belief.weights[i];
     }
@@ -153,7 +153,7 @@ TEST(RunTeams, StopsWhenAskedTo) {
 TEST(Teams, PermutingTheMembersPermutesTheirResults) {
   const auto& atlas = item_delivery();
   const auto teach = [&](Strategy strategy, const std::vector<std::uint64_t>& seats) {
-    TeachingCache cache{atlas.constraints()};
+    TeachingCache cache{atlas};
     std::vector<RandomStream> streams;
     std::vector<SimulatedLearner> learners;
     for (const auto person : seats) {
@@ -176,7 +176,7 @@ TEST(Teams, PermutingTheMembersPermutesTheirResults) {
       std::vector<std::vector<Answer>> answers;
       for (auto& learner : learners) {
         for (const auto& shown : lesson.demonstrations) learner.watch(shown.half_spaces, lesson.period);
-        answers.push_back(learner.answer(tests, lesson.period).answers);
+        answers.push_back(learner.answer(cache.behaviours(), tests, lesson.period).answers);
       }
       const auto feedback = session.submit(answers);
       for (std::size_t i = 0; i < learners.size(); ++i) {

@@ -4,18 +4,11 @@
 
 namespace kith {
 
-std::span<const std::uint64_t> TeachingCache::conveyed_by_class(const Atlas& atlas,
-                                                                std::span<const PolicyCellIndex> cells) {
-  conveyed_by_cell_.resize(atlas.cells().size());
-  conveyed_.assign(atlas.num_demo_classes() * atlas.words_per_set(), 0);
-  for (const auto cell : cells) {
-    auto& rows = conveyed_by_cell_[cell.value()];
-    if (rows.empty()) rows = atlas.conveyed_by_class({&cell, 1});
-    const std::uint64_t* const from = rows.data();  // unchecked, for speed
-    std::uint64_t* const to = conveyed_.data();
-    for (std::size_t i = 0; i < rows.size(); ++i) to[i] |= from[i];
-  }
-  return conveyed_;
+void TeachingCache::trim() {
+  constexpr std::size_t kMuch = 50'000;
+  const Atlas& atlas = known_->behaviours.atlas();
+  if (atlas.is_tabulated() || constraints().size() + regions().size() + behaviours().num_cells() < kMuch) return;
+  known_ = std::make_unique<Known>(atlas);
 }
 
 const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points) {

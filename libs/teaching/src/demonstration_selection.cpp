@@ -4,7 +4,6 @@
 #include <bit>
 #include <optional>
 
-#include "kith/core/assert.hpp"
 #include "kith/geometry/cover.hpp"
 #include "visual_order.hpp"
 
@@ -26,11 +25,6 @@ struct Prospect {
 // What the rows of one selection would do, found by the row: most classes share theirs with others.
 class Effects {
  public:
-  struct Effect {
-    double gain = 1.0;
-    std::size_t num_new = 0;
-  };
-
   // Forgets everything; at most `most` different rows come next, of `words` words each.
   void restart(std::size_t words, std::size_t most) {
     words_ = words;
@@ -40,7 +34,7 @@ class Effects {
 
   // The row's effect, from `compute` when it is met for the first time. The row's words must stay where they are.
   template <typename Compute>
-  const Effect& of(const std::uint64_t* row, Compute compute) {
+  const RegionEffect& of(const std::uint64_t* row, Compute compute) {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = hash_words({row, words_}) & mask;
     while (slots_[slot] != kEmpty) {
@@ -55,7 +49,7 @@ class Effects {
  private:
   struct Entry {
     const std::uint64_t* row;
-    Effect effect;
+    RegionEffect effect;
   };
   static constexpr std::uint32_t kEmpty = 0xFFFFFFFF;
   std::size_t words_ = 0;
@@ -66,7 +60,7 @@ class Effects {
 class Selection {
  public:
   Selection(const Atlas& atlas, TeachingCache& cache, const KnowledgeComponent& component, VisitedDemos& visited)
-      : atlas_{atlas}, cache_{cache}, visited_{visited} {
+      : atlas_{atlas}, cache_{cache}, component_{component}, visited_{visited} {
     for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
       if (atlas.belongs_to(c, component)) classes_.push_back(c);
     }
@@ -75,7 +69,7 @@ class Selection {
   // The next demonstration of the unit, or nothing if none has gain.
   std::optional<Demonstration> next(std::span<const PolicyCellIndex> cells, const ConstraintSet& taught_region,
                                     const std::vector<Demonstration>& unit, const RandomStream& random) {
-    conveyed_ = cache_.conveyed_by_class(atlas_, cells);
+    conveyed_ = cache_.behaviours().conveyed_by_class(component_, cells);
     auto prospects = prospects_with_gain(taught_region);
     // Fewest new facets first, then the best gain; classes whose members were all visited do not count.
     std::erase_if(prospects, [&](const Prospect& p) { return !has_unvisited(p.demo_class); });
@@ -92,32 +86,16 @@ class Selection {
   }
 
  private:
-  [[nodiscard]] std::span<const std::uint64_t> row(DemoClassIndex c) const {
-    const auto words = atlas_.words_per_set();
-    return conveyed_.subspan(c.value() * words, words);
-  }
-
   std::vector<Prospect> prospects_with_gain(const ConstraintSet& taught_region) {
     std::vector<Prospect> prospects;
-    const double area_before = cache_.regions().of(taught_region).area_sr;
-    const std::size_t words = atlas_.words_per_set();
+    const std::size_t words = conveyed_.words;
     effects_.restart(words, classes_.size());
     for (const auto c : classes_) {
-      const std::uint64_t* const conveyed = conveyed_.data() + c.value() * words;
-      const auto& effect = effects_.of(conveyed, [&] { return effect_of(row(c), taught_region, area_before); });
+      const std::uint64_t* const row = conveyed_.rows.data() + c.value() * words;
+      const auto& effect = effects_.of(row, [&] { return cache_.regions().effect(taught_region, conveyed_.set(c)); });
       if (effect.gain > 1.0 + kGainTolerance) prospects.push_back({c, effect.gain, effect.num_new});
     }
     return prospects;
-  }
-
-  Effects::Effect effect_of(std::span<const std::uint64_t> conveyed, const ConstraintSet& taught_region,
-                            double area_before) {
-    union_ = taught_region;
-    for (std::size_t i = 0; i < conveyed.size(); ++i) union_.words()[i] |= conveyed[i];
-    if (union_ == taught_region) return {};
-    const auto& region = cache_.regions().of(union_);
-    KITH_ASSERT(region.area_sr > 0.0);  // the robot's weights satisfy everything that is conveyed
-    return {area_before / region.area_sr, region.minimal.without(taught_region).count()};
   }
 
   [[nodiscard]] bool has_unvisited(DemoClassIndex c) const {
@@ -145,8 +123,8 @@ class Selection {
         best.num_new = prospect.num_new;
       }
     }
-    best.constraints = cache_.regions().of(ConstraintSet{row(atlas_.demo_class(best.demo))}).minimal;
-    best.half_spaces = atlas_.constraints().half_spaces(best.constraints);
+    best.constraints = cache_.regions().minimal(conveyed_.set(atlas_.demo_class(best.demo)));
+    best.half_spaces = cache_.constraints().half_spaces(best.constraints);
     return best;
   }
 
@@ -158,11 +136,11 @@ class Selection {
 
   const Atlas& atlas_;
   TeachingCache& cache_;
+  const KnowledgeComponent& component_;
   VisitedDemos& visited_;
-  std::vector<DemoClassIndex> classes_;      // those of the component
-  std::span<const std::uint64_t> conveyed_;  // by class
+  std::vector<DemoClassIndex> classes_;  // those of the component
+  Behaviours::Conveyed conveyed_;
   Effects effects_;
-  ConstraintSet union_;
 };
 
 std::vector<std::size_t> sampled_particles(const ParticleBelief& belief, const SelectionOptions& options,
@@ -172,7 +150,7 @@ std::vector<std::size_t> sampled_particles(const ParticleBelief& belief, const S
     for (const auto& draw : belief.systematic_draws(options.counterfactuals, random)) particles.push_back(draw.index);
     return particles;
   }
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(belief.size()));
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(belief.dimension()), static_cast<Eigen::Index>(belief.size()));
   for (std::size_t i = 0; i < belief.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = belief.point(i);
   const auto weights = belief.weights();
   const auto heaviest = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
@@ -181,11 +159,10 @@ std::vector<std::size_t> sampled_particles(const ParticleBelief& belief, const S
 
 }  // namespace
 
-std::vector<PolicyCellIndex> sample_counterfactuals(const Atlas& atlas, const ParticleBelief& belief,
+std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, const ParticleBelief& belief,
                                                     const SelectionOptions& options, RandomStream random) {
   std::vector<PolicyCellIndex> cells;
-  for (const auto i : sampled_particles(belief, options, random))
-    cells.push_back(atlas.cells().locate(belief.point(i)));
+  for (const auto i : sampled_particles(belief, options, random)) cells.push_back(behaviours.locate(belief.point(i)));
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
@@ -199,12 +176,12 @@ Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBel
   Selection selection{atlas, cache, component, visited};
   for (std::uint64_t step = 0;; ++step) {
     const auto here = random.split(step);
-    const auto cells = sample_counterfactuals(atlas, belief, options, here.split("counterfactuals"));
+    const auto cells = sample_counterfactuals(cache.behaviours(), belief, options, here.split("counterfactuals"));
     auto next = selection.next(cells, unit.taught_region, unit.demonstrations, here.split("looks"));
     if (!next) return unit;
     if (unit.demonstrations.empty()) unit.counterfactuals = cells;
     visited.insert(next->demo);
-    unit.taught_region = cache.regions().of(unit.taught_region | next->constraints).minimal;
+    unit.taught_region = cache.regions().minimal(unit.taught_region | next->constraints);
     belief.observe(next->half_spaces, options.likelihood, here.split("copy"));
     unit.demonstrations.push_back(std::move(*next));
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kith/bec/comparison.hpp"
 #include "kith/teaching/test_selection.hpp"
 
 namespace kith {
@@ -16,13 +17,16 @@ void require(bool holds, const std::string& rule) {
   if (!holds) throw std::invalid_argument{"Session: " + rule};
 }
 
-TeamBelief::Options belief_options(const TeachingOptions& options, Strategy strategy) {
+// Returns that differ by less than this, relative to the robot's, are equal where they are expectations.
+constexpr double kReturnTolerance = 1e-6;
+
+TeamBelief::Options belief_options(const TeachingOptions& options, Strategy strategy, std::size_t dimension) {
   auto parts = entry_of(strategy).reads;
   parts.members = parts.members || options.also_record.members;
   parts.common = parts.common || options.also_record.common;
   parts.joint = parts.joint || options.also_record.joint;
   return {.filter = options.filter,
-          .likelihood = HalfSpaceLikelihood{options.assumed_ability, options.likelihood},
+          .likelihood = HalfSpaceLikelihood{options.assumed_ability, options.likelihood, dimension},
           .response_noise = options.response_noise,
           .reduce_before_update = options.reduce_before_update,
           .parts = parts};
@@ -38,11 +42,11 @@ Session::Session(const Atlas& atlas, TeachingCache& cache, const TeachingOptions
       strategy_{strategy},
       persons_{std::move(persons)},
       teacher_{teacher},
-      belief_{cache.cover(atlas.prior_cone(), options.filter.particles), belief_options(options, strategy), persons_,
-              teacher.split("team belief")},
+      belief_{cache.cover(atlas.prior_cone(), options.filter.particles),
+              belief_options(options, strategy, atlas.domain().num_features()), persons_, teacher.split("team belief")},
       components_(atlas.knowledge_components().size(), ComponentStatus::kOpen),
       visited_{atlas.num_demos()},
-      taught_before_{cache.regions().of(atlas.prior()).minimal},
+      taught_before_{cache.regions().minimal(atlas.prior())},
       taught_with_unit_{taught_before_} {
   require(persons_.size() <= kMaxMembers, "a team has at most 30 members");
   require(strategy_ != Strategy::kBaseline || persons_.size() == 1, "the baseline teaches one person per session");
@@ -95,7 +99,7 @@ std::optional<Unit> Session::choose_unit(SourceBelief source, const RandomStream
   const auto& component = atlas_->knowledge_components()[component_];
   const SelectionOptions selection{.counterfactuals = options_.counterfactuals,
                                    .sampling = options_.sampling,
-                                   .likelihood = HalfSpaceLikelihood{options_.assumed_ability, options_.likelihood}};
+                                   .likelihood = belief_.options().likelihood};
   auto unit = select_demonstrations(*atlas_, *cache_, belief_of(source), component, taught_before_, visited_, selection,
                                     random.split("new"));
   if (unit.demonstrations.empty() && last_of_component_) {
@@ -135,7 +139,7 @@ void Session::describe_lesson(const ConstraintSet& taught_region) {
   auto conveyed = atlas_->prior();
   for (const auto& shown : lesson_.demonstrations) conveyed |= shown.constraints;
   const auto& region = cache_->regions().of(conveyed);
-  lesson_.taught = atlas_->constraints().half_spaces(region.minimal.without(atlas_->prior()));
+  lesson_.taught = cache_->constraints().half_spaces(region.minimal.without(atlas_->prior()));
   lesson_.area_sr = region.area_sr;
   lesson_.running_area_sr = cache_->regions().of(taught_region).area_sr;
   lesson_.gain = std::log(cache_->regions().of(taught_before_).area_sr / lesson_.running_area_sr);
@@ -156,13 +160,22 @@ Verdict Session::judge(const Test& test, const Answer& answer) const {
   Verdict verdict;
   verdict.answered = answer.has_value();
   if (!answer) return verdict;
-  const auto& weights = atlas_->domain().weights();
-  const auto loss = atlas_->feature_counts(test.demo) - *answer;
-  const auto sign = sign_of_dot(weights.integer, loss);
-  if (sign < 0) throw std::invalid_argument{"Session::submit: an answer earns more than the robot's optimal path"};
+  const auto& domain = atlas_->domain();
+  const auto scale = static_cast<double>(domain.count_scale());
+  const auto& robot = atlas_->feature_counts(test.demo);
+  const auto loss = robot - *answer;
+  const double regret = domain.weights().return_of(loss) / scale;
+  const double tolerance =
+      domain.is_exact() ? 0.0 : kReturnTolerance * std::max(1.0, std::abs(domain.weights().return_of(robot)) / scale);
+  const int sign = std::abs(regret) <= tolerance ? 0 : sign_of_dot(domain.weights().integer, loss);
+  if (sign < 0) throw std::invalid_argument{"Session::submit: an answer earns more than the robot's optimal behaviour"};
   verdict.correct = sign == 0;
-  verdict.regret = verdict.correct ? 0.0 : weights.return_of(loss);
-  verdict.half_spaces = verdict.correct ? test.covered : std::vector{HalfSpace{-loss}};
+  verdict.regret = verdict.correct ? 0.0 : regret;
+  if (verdict.correct) {
+    verdict.half_spaces = test.covered;
+  } else if (auto preferred = preference(-loss, domain.count_scale())) {
+    verdict.half_spaces.push_back(std::move(*preferred));
+  }
   return verdict;
 }
 

@@ -23,6 +23,11 @@ bool same_features(const HalfSpace& a, const HalfSpace& b) {
   return true;
 }
 
+double cosine(const HalfSpace& a, const HalfSpace& b) {
+  if (a.dimension() == 3) return a.unit_normal().dot(b.unit_normal());
+  return a.unit().dot(b.unit());
+}
+
 class TestSelection {
  public:
   TestSelection(const Atlas& atlas, const KnowledgeComponent& component, const std::vector<Demonstration>& unit,
@@ -71,7 +76,7 @@ class TestSelection {
     std::pair<bool, double> least;
     for (ConstraintIndex c{0}; c.value() < atlas_.constraints().size(); ++c) {
       const auto& other = atlas_.constraints()[c];
-      const std::pair rank{!same_features(other, constraint), -other.unit_normal().dot(constraint.unit_normal())};
+      const std::pair rank{!same_features(other, constraint), -cosine(other, constraint)};
       if (nearest && !(rank < least)) continue;
       const auto demos = atlas_.tests_for(c);
       if (std::none_of(demos.begin(), demos.end(), [&](DemoIndex demo) { return is_in_component(demo); })) continue;

@@ -49,7 +49,7 @@ std::vector<std::vector<Answer>> wrong_answers(const Session& session) {
 class EveryStrategy : public ::testing::TestWithParam<Strategy> {
  protected:
   [[nodiscard]] std::size_t team_size() const { return GetParam() == Strategy::kBaseline ? 1 : 3; }
-  TeachingCache cache_{item_delivery().constraints()};
+  TeachingCache cache_{item_delivery()};
 };
 
 TEST_P(EveryStrategy, PerfectAnswersLearnEveryComponentInOnePeriodEach) {
@@ -115,7 +115,7 @@ TEST_P(EveryStrategy, LessonsKeepTheirPromises) {
 }
 
 TEST_P(EveryStrategy, EqualStreamsAndAnswersGiveEqualSessions) {
-  TeachingCache other_cache{item_delivery().constraints()};
+  TeachingCache other_cache{item_delivery()};
   (void)other_cache.regions().of(item_delivery().policy_bec());  // a cache that has seen other things
   auto a = make_session(cache_, GetParam(), team_size());
   auto b = make_session(other_cache, GetParam(), team_size());
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryStrategy,
 TEST(Session, ATeamOfOneIsTaughtAlikeByEveryStrategy) {
   std::vector<std::vector<DemoIndex>> shown;
   for (const auto& entry : strategies()) {
-    TeachingCache cache{item_delivery().constraints()};
+    TeachingCache cache{item_delivery()};
     auto session = make_session(cache, entry.strategy, 1);
     auto& list = shown.emplace_back();
     for (int i = 0; i < 6 && !session.finished(); ++i) {
@@ -155,7 +155,7 @@ TEST(Session, ATeamOfOneIsTaughtAlikeByEveryStrategy) {
 }
 
 TEST(Session, ConsecutiveCorrectAsksForSeveralGoodPeriods) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   auto session = make_session(cache, Strategy::kCommon, 2, {.consecutive_correct = 2});
   EXPECT_FALSE(session.submit(robots_answers(session)).component_learned);
   EXPECT_FALSE(session.submit(wrong_answers(session)).component_learned);
@@ -164,14 +164,14 @@ TEST(Session, ConsecutiveCorrectAsksForSeveralGoodPeriods) {
 }
 
 TEST(Session, DuplicateSetsAskAboutEveryConstraintThatOften) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   const auto once = make_session(cache, Strategy::kCommon, 2);
   const auto twice = make_session(cache, Strategy::kCommon, 2, {.duplicate_sets = 2});
   EXPECT_GE(twice.lesson().tests.size(), 2 * once.lesson().tests.size());
 }
 
 TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   auto session = make_session(cache, Strategy::kJoint, 3);
   auto answers = robots_answers(session);
   answers[1][0] = worse_answer(session.lesson().tests[0].demo);
@@ -183,7 +183,7 @@ TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
 }
 
 TEST(Session, AMissingAnswerIsWrongAndShowsNothing) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   auto session = make_session(cache, Strategy::kCommon, 1);
   const auto feedback =
       session.submit(std::vector<std::vector<Answer>>(1, std::vector<Answer>(session.lesson().tests.size())));
@@ -195,7 +195,7 @@ TEST(Session, AMissingAnswerIsWrongAndShowsNothing) {
 }
 
 TEST(Session, AWrongAnswerShowsTheHalfSpaceInWhichItWins) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   auto session = make_session(cache, Strategy::kCommon, 1);
   const auto test = session.lesson().tests[0].demo;
   auto answers = wrong_answers(session);
@@ -206,7 +206,7 @@ TEST(Session, AWrongAnswerShowsTheHalfSpaceInWhichItWins) {
 }
 
 TEST(Session, RefusesAnswersOfTheWrongShapeOrBetterThanOptimal) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   auto session = make_session(cache, Strategy::kCommon, 2);
   auto answers = robots_answers(session);
   EXPECT_THROW(session.submit(std::span{answers}.first(1)), std::invalid_argument);
@@ -219,7 +219,7 @@ TEST(Session, RefusesAnswersOfTheWrongShapeOrBetterThanOptimal) {
 }
 
 TEST(Session, RefusesBadOptionsAndTeams) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   EXPECT_THROW(make_session(cache, Strategy::kCommon, 0), std::invalid_argument);
   EXPECT_THROW(make_session(cache, Strategy::kCommon, 31), std::invalid_argument);
   EXPECT_THROW(make_session(cache, Strategy::kBaseline, 2), std::invalid_argument);
@@ -229,7 +229,7 @@ TEST(Session, RefusesBadOptionsAndTeams) {
 }
 
 TEST(Session, HasNoLessonOnceFinished) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   auto session = make_session(cache, Strategy::kCommon, 1);
   while (!session.finished()) session.submit(robots_answers(session));
   EXPECT_THROW((void)session.lesson(), std::logic_error);
@@ -237,7 +237,7 @@ TEST(Session, HasNoLessonOnceFinished) {
 }
 
 TEST(Session, ThirtyMembersAreTaught) {
-  TeachingCache cache{item_delivery().constraints()};
+  TeachingCache cache{item_delivery()};
   auto session = make_session(cache, Strategy::kJoint, 30, {.max_periods = 3});
   for (int i = 0; !session.finished(); ++i) {
     auto answers = robots_answers(session);
@@ -262,7 +262,7 @@ TEST(Session, SkipsEveryComponentWhenThePriorSaysItAll) {
   auto reading = parse_domain(text, "all-known.toml");
   ASSERT_TRUE(reading.domain.has_value());
   const Atlas atlas{*reading.domain};
-  TeachingCache cache{atlas.constraints()};
+  TeachingCache cache{atlas};
   const Session session{atlas, cache, {}, Strategy::kCommon, persons(2), RandomStream{1}};
   EXPECT_EQ(session.status(), SessionStatus::kComplete);
   EXPECT_EQ(session.periods(), 0u);

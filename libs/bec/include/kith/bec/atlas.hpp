@@ -22,44 +22,63 @@ using DemoIndex = Index<struct DemoTag>;
 /// Demonstrations that convey the same to everybody; see Atlas::demo_class.
 using DemoClassIndex = Index<struct DemoClassTag>;
 
+/// How an Atlas knows what learners would do.
+enum class BehaviourSource {
+  kAutomatic,  ///< kTabulated where that is possible and cheap, else kOnDemand.
+  kTabulated,  ///< Coverage sets and policy cells of all weights, found once.
+  kOnDemand,   ///< Planned when a weight is met: Behaviours remembers them.
+};
+
 /// Everything about a domain that does not depend on who is taught: the robot's
-/// trajectories, one-step constraints, coverage sets, knowledge components, and
+/// trajectories, one-step constraints and knowledge components. Where all MDPs
+/// are exact (Domain::is_exact()), small and of three features also the coverage sets and
 /// the policy cell of every weight, so that "what would this person expect the
-/// robot to do?" is a look-up.
+/// robot to do?" is a look-up; elsewhere that is planned on demand. Behaviours answers
+/// it either way.
 ///
 /// Comparisons of equally good paths with different feature counts hold with
 /// equality at the robot's weights. If all of them together leave a region they
 /// count like any other constraint; if the robot's choices contradict each
-/// other, it is indifferent and none of them counts.
+/// other, it is indifferent and none of them counts. Without tables none of them ever counts.
+///
+/// Feature counts are in units of 1 / Domain::count_scale(); for stochastic and discounted MDPs they are
+/// expectations. What is shown of the robot is then the likeliest path under its policy.
 ///
 /// Immutable after construction and safe to share between threads.
 class Atlas {
  public:
   /// Plans everything; item delivery takes tens of milliseconds.
-  /// @throws kith::Error (kInfeasible) if the domain does not have three features, is not deterministic and
-  /// undiscounted with integer features, or the robot has no finite optimum in some MDP.
-  explicit Atlas(Domain domain);
+  /// @throws kith::Error (kInfeasible) if the domain has a single feature or the robot has no finite optimum in some
+  /// MDP; or if tables are asked for where there can be none.
+  explicit Atlas(Domain domain, BehaviourSource source = BehaviourSource::kAutomatic);
 
   [[nodiscard]] const Domain& domain() const noexcept { return domain_; }
+  /// Whether behaviours are tabulated. What is marked so below is for tabulated ones only.
+  [[nodiscard]] bool is_tabulated() const noexcept { return tabulated_; }
   [[nodiscard]] const ConstraintTable& constraints() const noexcept { return constraints_; }
   /// The prior's half-spaces as constraints and as a cone.
   [[nodiscard]] const ConstraintSet& prior() const noexcept { return prior_; }
   [[nodiscard]] const Cone& prior_cone() const noexcept { return prior_cone_; }
 
   // --- demonstrations -------------------------------------------------------
+  /// Of all non-terminal states; not all need be candidates.
   [[nodiscard]] std::size_t num_demos() const noexcept { return demos_.size(); }
+  /// Whether demonstrations and tests may start there (Domain::starts()).
+  [[nodiscard]] bool is_candidate(DemoIndex demo) const { return demos_[demo.value()].demo_class != kNoClass; }
   [[nodiscard]] DemoId id(DemoIndex demo) const { return demos_[demo.value()].id; }
   [[nodiscard]] DemoIndex index(DemoId id) const { return DemoIndex{first_demo_[id.mdp.value()] + id.start.value()}; }
-  /// The robot's canonical path.
+  /// The robot's canonical path; the likeliest where chance has a part.
   [[nodiscard]] Trajectory trajectory(DemoIndex demo) const;
-  /// mu of the robot's path, shape [d].
+  /// The states of that path that are not terminal, as demonstrations of their own, in order.
+  [[nodiscard]] std::vector<DemoIndex> path(DemoIndex demo) const;
+  /// mu of the robot's path, or its expectation, shape [d].
   [[nodiscard]] const IntegerVector& feature_counts(DemoIndex demo) const { return demos_[demo.value()].counts; }
   /// Whether the robot's optimal path is unique (ties in features or not).
   [[nodiscard]] bool is_unique(DemoIndex demo) const { return demos_[demo.value()].unique; }
   /// Whether some optimal action besides the canonical one exists in the start state itself.
   [[nodiscard]] bool has_tie(DemoIndex demo) const { return demos_[demo.value()].tie; }
   /// Minimal set of the one-step deviation constraints along the path:
-  /// mu_robot(s_t) - mu(s_t, b) for every state s_t of the path and every action b.
+  /// mu_robot(s_t) - mu(s_t, b) for every state s_t of the path and every action b. @pre is_candidate(demo).
   [[nodiscard]] const ConstraintSet& one_step(DemoIndex demo) const {
     return one_step_sets_[demos_[demo.value()].one_step];
   }
@@ -74,13 +93,15 @@ class Atlas {
   [[nodiscard]] const std::vector<HalfSpace>& policy_bec_half_spaces() const noexcept {
     return policy_bec_half_spaces_;
   }
-  /// Solid angle of the policy's BEC with the prior, in steradian.
-  [[nodiscard]] double policy_bec_area_sr() const noexcept { return policy_bec_area_; }
+  /// Area of the policy's BEC with the prior on the unit sphere, steradian for d = 3.
+  [[nodiscard]] double policy_bec_area_sr() const noexcept { return policy_bec_area_.value; }
+  /// The same with its standard error.
+  [[nodiscard]] const SolidAngle& policy_bec_area() const noexcept { return policy_bec_area_; }
   [[nodiscard]] const std::vector<KnowledgeComponent>& knowledge_components() const noexcept { return components_; }
   /// z_k: how many rows of all demonstrations' one-step minimal sets have a non-zero k-th entry, shape [d].
   [[nodiscard]] const std::vector<std::size_t>& mask_counters() const noexcept { return mask_counters_; }
 
-  // --- what a learner would do ----------------------------------------------
+  // --- what a learner would do: tabulated behaviours only --------------------
   [[nodiscard]] const PolicyCells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::size_t num_hulls() const noexcept { return hulls_.size(); }
   [[nodiscard]] HullIndex hull(DemoIndex demo) const { return demos_[demo.value()].hull; }
@@ -106,30 +127,36 @@ class Atlas {
   // --- counterfactuals ------------------------------------------------------
   [[nodiscard]] std::size_t num_demo_classes() const noexcept { return classes_.size(); }
   [[nodiscard]] DemoClassIndex demo_class(DemoIndex demo) const { return demos_[demo.value()].demo_class; }
-  /// In ascending order.
+  /// In ascending order; all are candidates.
   [[nodiscard]] std::span<const DemoIndex> members(DemoClassIndex c) const { return classes_[c.value()].members; }
   /// Whether the class's MDPs lack the component's masked feature (the same for all of its members).
   [[nodiscard]] bool belongs_to(DemoClassIndex c, const KnowledgeComponent& component) const {
     return component.uses_mdp[id(classes_[c.value()].members.front()).mdp.value()];
   }
-  /// What demonstrations convey to people who hold weights of the given cells: per class, one row of
+  /// Tabulated only: what demonstrations convey to people who hold weights of the given cells: per class, one row of
   /// words, the union over cells and over the states s_t of the path of mu_robot(s_t) - mu_learner(s_t).
   /// Cells without an optimum in the MDP contribute nothing. Shape [num_demo_classes, words_per_set()].
   [[nodiscard]] std::vector<std::uint64_t> conveyed_by_class(std::span<const PolicyCellIndex> cells) const;
-  /// The same for one demonstration, not reduced.
+  /// Tabulated only: the same for one demonstration, not reduced.
   [[nodiscard]] ConstraintSet conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) const;
   [[nodiscard]] std::size_t words_per_set() const noexcept { return (constraints_.size() + 63) / 64; }
 
   // --- tests ----------------------------------------------------------------
-  /// Demonstrations whose one-step set contains c and whose start discriminates c (it is a facet of
-  /// the robot's cell there): what can test c. Ascending.
-  [[nodiscard]] std::span<const DemoIndex> tests_for(ConstraintIndex c) const { return tests_for_[c.value()]; }
+  /// Demonstrations whose one-step set contains c and, where behaviours are tabulated, whose start discriminates c (it
+  /// is a facet of the robot's cell there): what can test c. Ascending; none for constraints that are not in
+  /// constraints().
+  [[nodiscard]] std::span<const DemoIndex> tests_for(ConstraintIndex c) const {
+    if (c.value() >= tests_for_.size()) return {};
+    return tests_for_[c.value()];
+  }
 
   /// The set of all constraints in the table that are empty: a fresh set of the right size.
   [[nodiscard]] ConstraintSet no_constraints() const { return ConstraintSet{constraints_.size()}; }
 
  private:
   friend class AtlasBuilder;
+  static constexpr std::uint32_t kTerminal = 0xFFFFFFFF;
+  static constexpr DemoClassIndex kNoClass{0xFFFFFFFF};
 
   struct Demo {
     DemoId id;
@@ -140,29 +167,30 @@ class Atlas {
     std::uint32_t trajectory_class = 0;
     int mean_dissimilarity = 0;
     HullIndex hull;
-    DemoClassIndex demo_class;
+    DemoClassIndex demo_class = kNoClass;
     std::uint32_t next = kTerminal;  // demo index of the next state on the path
   };
   struct DemoClass {
     std::vector<HullIndex> hulls;  // of all states on the path, those with anything to convey
     std::vector<DemoIndex> members;
   };
-  static constexpr std::uint32_t kTerminal = 0xFFFFFFFF;
 
   // ORs into `row` what hull h conveys to the cells.
   void add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells, std::span<std::uint64_t> row) const;
 
   Domain domain_;
+  bool tabulated_ = true;
   ConstraintTable constraints_;
   ConstraintSet prior_;
   Cone prior_cone_;
   std::vector<std::size_t> first_demo_;
   std::vector<Demo> demos_;
   std::vector<std::vector<std::uint32_t>> canonical_choices_;  // per MDP, shape [num_states]
+  std::vector<std::vector<std::uint32_t>> shown_next_;         // the same: the state after s on the shown path
   std::vector<ConstraintSet> one_step_sets_;
   ConstraintSet policy_bec_;
   std::vector<HalfSpace> policy_bec_half_spaces_;
-  double policy_bec_area_ = 0.0;
+  SolidAngle policy_bec_area_;
   std::vector<KnowledgeComponent> components_;
   std::vector<std::size_t> mask_counters_;
   std::vector<Hull> hulls_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -14,30 +15,38 @@ namespace kith {
 /// A distinct half-space of one domain; see ConstraintTable.
 using ConstraintIndex = Index<struct ConstraintTag>;
 
-/// A set of a domain's constraints, one bit each, in machine words.
+/// A set of a domain's constraints, one bit each, in machine words. It grows as
+/// constraints with higher numbers come in; how far it has grown does not count
+/// when sets are compared.
 class ConstraintSet {
  public:
   ConstraintSet() = default;
-  /// The empty set among `capacity` constraints.
+  /// The empty set, with room for `capacity` constraints.
   explicit ConstraintSet(std::size_t capacity) : words_((capacity + kBits - 1) / kBits) {}
   /// A copy of a row of words.
   explicit ConstraintSet(std::span<const std::uint64_t> words) : words_(words.begin(), words.end()) {}
 
   [[nodiscard]] bool contains(ConstraintIndex c) const {
-    return (words_[c.value() / kBits] >> (c.value() % kBits) & 1u) != 0;
+    const std::size_t word = c.value() / kBits;
+    return word < words_.size() && (words_[word] >> (c.value() % kBits) & 1u) != 0;
   }
-  void insert(ConstraintIndex c) { words_[c.value() / kBits] |= std::uint64_t{1} << (c.value() % kBits); }
+  void insert(ConstraintIndex c) {
+    make_room(c.value() / kBits + 1);
+    words_[c.value() / kBits] |= std::uint64_t{1} << (c.value() % kBits);
+  }
 
-  /// Union. @pre equal capacities.
+  /// Union.
   ConstraintSet& operator|=(const ConstraintSet& other) {
-    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= other.words_[i];
+    make_room(other.words_.size());
+    for (std::size_t i = 0; i < other.words_.size(); ++i) words_[i] |= other.words_[i];
     return *this;
   }
   [[nodiscard]] friend ConstraintSet operator|(ConstraintSet a, const ConstraintSet& b) { return a |= b; }
   /// What is here and not in `other`.
   [[nodiscard]] ConstraintSet without(const ConstraintSet& other) const {
     ConstraintSet rest = *this;
-    for (std::size_t i = 0; i < words_.size(); ++i) rest.words_[i] &= ~other.words_[i];
+    const std::size_t common = std::min(words_.size(), other.words_.size());
+    for (std::size_t i = 0; i < common; ++i) rest.words_[i] &= ~other.words_[i];
     return rest;
   }
 
@@ -61,10 +70,24 @@ class ConstraintSet {
 
   [[nodiscard]] std::span<const std::uint64_t> words() const noexcept { return words_; }
   [[nodiscard]] std::span<std::uint64_t> words() noexcept { return words_; }
+  /// The words up to the last that is not 0.
+  [[nodiscard]] std::span<const std::uint64_t> used_words() const noexcept {
+    std::size_t used = words_.size();
+    while (used > 0 && words_[used - 1] == 0) --used;
+    return {words_.data(), used};
+  }
 
-  friend bool operator==(const ConstraintSet&, const ConstraintSet&) = default;
+  friend bool operator==(const ConstraintSet& a, const ConstraintSet& b) noexcept {
+    const auto left = a.used_words();
+    const auto right = b.used_words();
+    return std::equal(left.begin(), left.end(), right.begin(), right.end());
+  }
 
  private:
+  void make_room(std::size_t num_words) {
+    if (words_.size() < num_words) words_.resize(num_words);
+  }
+
   static constexpr std::size_t kBits = 64;
   std::vector<std::uint64_t> words_;
 };
@@ -83,5 +106,5 @@ class ConstraintSet {
 
 template <>
 struct std::hash<kith::ConstraintSet> {
-  std::size_t operator()(const kith::ConstraintSet& set) const noexcept { return kith::hash_words(set.words()); }
+  std::size_t operator()(const kith::ConstraintSet& set) const noexcept { return kith::hash_words(set.used_words()); }
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -13,6 +14,10 @@ namespace kith {
 /// The distinct half-spaces that matter in one domain, numbered in order of first use.
 class ConstraintTable {
  public:
+  /// @param dimension d, the number of reward features.
+  explicit ConstraintTable(std::size_t dimension = 3) : dimension_{dimension} {}
+
+  [[nodiscard]] std::size_t dimension() const noexcept { return dimension_; }
   /// The number of `half_space`, which is added if it is new.
   ConstraintIndex add(const HalfSpace& half_space);
 
@@ -26,6 +31,7 @@ class ConstraintTable {
   [[nodiscard]] ConstraintSet set_of(std::span<const HalfSpace> half_spaces) const;
 
  private:
+  std::size_t dimension_;
   std::vector<HalfSpace> half_spaces_;
   std::unordered_map<HalfSpace, ConstraintIndex> index_;
 };

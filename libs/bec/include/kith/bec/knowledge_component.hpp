@@ -1,22 +1,27 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "kith/bec/constraint_set.hpp"
+#include "kith/domains/domain.hpp"
 
 namespace kith {
 
 /// One piece of what a team is to learn: how the reward trades some features
-/// against each other, taught in the MDPs that lack the masked feature.
+/// against the reference feature, taught in the MDPs that lack all others.
 struct KnowledgeComponent {
   std::string name;                   ///< The features weighed against the reference feature, joined by '+'.
-  std::optional<std::size_t> masked;  ///< Index of the feature that must not occur; none for the last component.
-  std::vector<bool> uses_mdp;         ///< Shape [num_mdps]: whether the MDP lacks the masked feature.
+  std::vector<std::size_t> features;  ///< Their indices, ascending.
+  std::vector<std::size_t> masked;    ///< Indices of the features that must not occur, ascending; none for the last.
+  std::vector<bool> uses_mdp;         ///< Shape [num_mdps]: whether the MDP lacks the masked features.
   ConstraintSet constraints;          ///< Minimal set of the one-step constraints of those MDPs.
-  double area_sr = 0.0;               ///< Solid angle of the constraints with the prior.
+  double area_sr = 0.0;               ///< Area of the constraints with the prior on the unit sphere; sr for d = 3.
+  double area_error = 0.0;            ///< Its standard error; 0 for d = 2 and 3.
 };
+
+/// The names of the masked features: "recharge", "rubble or smoke", "" for none.
+[[nodiscard]] std::string masked_names(const Domain& domain, const KnowledgeComponent& component);
 
 }  // namespace kith

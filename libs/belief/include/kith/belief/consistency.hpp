@@ -22,10 +22,11 @@ struct ConsistentSubsets {
 /// newer, i.e. later, half-spaces); nothing may remain of it, and then it counts
 /// as an empty list. No members give one empty set.
 ///
-/// Exact, in time cubic in the number of different half-spaces: every cell of the
+/// Exact. In three dimensions in time cubic in the number of different half-spaces: every cell of the
 /// arrangement of all boundary planes, cut further by the coordinate planes, is a
 /// sector about one of the rays in which two planes meet. The rays are walked
-/// through, and each sector knows, by integer signs, whom it satisfies.
+/// through, and each sector knows, by integer signs, whom it satisfies. In other dimensions by trying without the
+/// members of irreducible conflicts (irreducible_conflict), the fewest first.
 /// @throws std::overflow_error if a product of normals leaves 64 bits, which cannot happen while entries stay below
 /// 2^30.
 [[nodiscard]] ConsistentSubsets largest_consistent_subsets(std::span<const std::vector<HalfSpace>> lists,

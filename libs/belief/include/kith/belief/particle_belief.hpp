@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,14 +22,14 @@ struct FilterOptions {
 };
 
 /// A belief about the reward weights: M weighted points of the unit sphere in
-/// three dimensions, none of them outside the hard prior.
+/// d = 2 to 8 dimensions, none of them outside the hard prior.
 ///
 /// An update multiplies the weights by the likelihoods of all half-spaces at
 /// once, in log space, and normalises. The log weights are kept, so no product
 /// underflows, however long. When the effective sample size
 /// 1 / sum p_i^2 falls below its threshold, the points are resampled
 /// systematically and each is moved by N(0, h^2) per axis in its tangent plane,
-///   h = a * s * M^(-1/6),
+///   h = a * s * M^(-1/(d+3)),
 /// where s is the root mean square geodesic distance of the weighted points to
 /// their normalised mean, taken before resampling. A move that would leave the
 /// prior is drawn again, at most 20 times, else the point stays.
@@ -41,18 +42,31 @@ class ParticleBelief {
   ParticleBelief(const PriorCover& cover, const FilterOptions& options);
 
   [[nodiscard]] std::size_t size() const noexcept { return weights_.size(); }
-  [[nodiscard]] std::span<const double> x() const noexcept { return x_; }
-  [[nodiscard]] std::span<const double> y() const noexcept { return y_; }
-  [[nodiscard]] std::span<const double> z() const noexcept { return z_; }
+  /// d.
+  [[nodiscard]] std::size_t dimension() const noexcept { return dimension_; }
+  /// Coordinate k of all points, shape [size()]. @pre k < dimension().
+  [[nodiscard]] std::span<const double> axis(std::size_t k) const noexcept {
+    return {points_.data() + k * size(), size()};
+  }
+  [[nodiscard]] std::span<const double> x() const noexcept { return axis(0); }
+  [[nodiscard]] std::span<const double> y() const noexcept { return axis(1); }
+  /// @pre dimension() > 2.
+  [[nodiscard]] std::span<const double> z() const noexcept { return axis(2); }
   /// Sum to 1. Shape [size()].
   [[nodiscard]] std::span<const double> weights() const noexcept { return weights_; }
-  [[nodiscard]] Eigen::Vector3d point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  /// Shape [d], of length 1.
+  [[nodiscard]] Direction point(std::size_t i) const {
+    Direction point(static_cast<Eigen::Index>(dimension_));
+    for (std::size_t k = 0; k < dimension_; ++k) point[static_cast<Eigen::Index>(k)] = points_[k * size() + i];
+    return point;
+  }
   [[nodiscard]] const FilterOptions& options() const noexcept { return options_; }
 
   /// Bayes update with the product of the half-spaces' likelihoods; an empty list changes nothing.
   /// A half-space listed twice counts twice; the order does not change a bit. Without a resampling, `random`
   /// is not used; with one, its first draw is the systematic offset and the rest moves the points.
-  /// @throws kith::Error (kInfeasible), and leaves the belief as it was, if no particle remains possible.
+  /// @throws kith::Error (kInfeasible), and leaves the belief as it was, if no particle remains possible;
+  /// std::invalid_argument unless belief, half-spaces and likelihood have the same dimension.
   void observe(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, RandomStream random);
 
   /// Update of a joint belief: each point's factor is the largest, over the
@@ -76,7 +90,7 @@ class ParticleBelief {
   /// 1 / sum p_i^2, in [1, size()].
   [[nodiscard]] double effective_sample_size() const noexcept;
   /// The normalised weighted mean direction; the first point's direction if the mean vanishes.
-  [[nodiscard]] Eigen::Vector3d mean_direction() const;
+  [[nodiscard]] Direction mean_direction() const;
   /// Root mean square geodesic distance to mean_direction(), radians.
   [[nodiscard]] double spread() const;
 
@@ -95,13 +109,20 @@ class ParticleBelief {
   friend bool operator==(const ParticleBelief&, const ParticleBelief&) = default;
 
  private:
+  void check(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) const;
+  void weigh(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
+             std::span<double> factors) const;
   void reweigh(std::span<double> log_factors, RandomStream random);
   [[nodiscard]] double effective_size(double sum, double sum_of_squares) const noexcept;
   void resample(double sum, RandomStream& random);
+  [[nodiscard]] double kernel_angle(double sum) const;
+  void draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random);
+  void move(double angle, RandomStream& random);
 
   FilterOptions options_;
-  std::vector<Eigen::Vector3d> prior_normals_;
-  std::vector<double> x_, y_, z_;
+  std::size_t dimension_;
+  std::vector<Direction> prior_normals_;
+  std::vector<double> points_;       // shape [d, M]
   std::vector<double> log_weights_;  // up to a constant; the largest is 0
   std::vector<double> weights_;      // exp(log_weights_) / their sum
   double log_sum_ = 0.0;             // log of that sum

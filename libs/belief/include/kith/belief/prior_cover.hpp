@@ -21,18 +21,18 @@ class PriorCover {
 
   [[nodiscard]] const Cone& prior() const noexcept { return prior_; }
   /// M.
-  [[nodiscard]] std::size_t size() const noexcept { return x_.size(); }
-  /// Coordinates of the points, shape [size()] each.
-  [[nodiscard]] const std::vector<double>& x() const noexcept { return x_; }
-  [[nodiscard]] const std::vector<double>& y() const noexcept { return y_; }
-  [[nodiscard]] const std::vector<double>& z() const noexcept { return z_; }
+  [[nodiscard]] std::size_t size() const noexcept { return points_.size() / dimension(); }
+  /// d.
+  [[nodiscard]] std::size_t dimension() const noexcept { return prior_.dimension(); }
+  /// Coordinates of the points, axis by axis, shape [d, size()].
+  [[nodiscard]] const std::vector<double>& points() const noexcept { return points_; }
   /// Unit normals of the prior's facets.
-  [[nodiscard]] const std::vector<Eigen::Vector3d>& normals() const noexcept { return normals_; }
+  [[nodiscard]] const std::vector<Direction>& normals() const noexcept { return normals_; }
 
  private:
   Cone prior_;
-  std::vector<double> x_, y_, z_;
-  std::vector<Eigen::Vector3d> normals_;
+  std::vector<double> points_;
+  std::vector<Direction> normals_;
 };
 
 }  // namespace kith

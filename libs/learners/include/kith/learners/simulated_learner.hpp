@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kith/bec/atlas.hpp"
+#include "kith/bec/behaviours.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "kith/learners/population.hpp"
 
@@ -39,16 +39,18 @@ class SimulatedLearner {
 
   /// What the demonstrations convey to this person's own N systematically drawn beliefs, instead of
   /// to those that the teacher imagined; concatenated over the demonstrations, each reduced to its minimal set.
-  [[nodiscard]] std::vector<HalfSpace> own_counterfactuals(Regions& regions, std::span<const DemoIndex> demonstrations,
-                                                           std::size_t n, std::size_t period) const;
+  /// @param regions over behaviours.constraints().
+  [[nodiscard]] std::vector<HalfSpace> own_counterfactuals(Behaviours& behaviours, Regions& regions,
+                                                           std::span<const DemoIndex> demonstrations, std::size_t n,
+                                                           std::size_t period) const;
 
   /// One answer per test, all from one weight drawn from the belief among those with
   /// a finite optimum in every test; no answers at all if there is no such weight.
   struct Response {
-    std::vector<std::optional<IntegerVector>> answers;  ///< Feature counts of the path, per test.
-    std::optional<Eigen::Vector3d> weights;             ///< The weight that was drawn.
+    std::vector<std::optional<IntegerVector>> answers;  ///< Feature counts of the path, or expectations, per test.
+    std::optional<Direction> weights;                   ///< The weight that was drawn.
   };
-  [[nodiscard]] Response answer(std::span<const DemoIndex> tests, std::size_t period) const;
+  [[nodiscard]] Response answer(Behaviours& behaviours, std::span<const DemoIndex> tests, std::size_t period) const;
 
   /// Hears which answers were right: the ability changes, then the true half-spaces are learned with it.
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period);
@@ -56,6 +58,10 @@ class SimulatedLearner {
  private:
   [[nodiscard]] HalfSpaceLikelihood likelihood() const;
   [[nodiscard]] std::vector<double> weights_with_answers(std::span<const DemoIndex> tests) const;
+  [[nodiscard]] Response tabulated_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+                                          RandomStream random) const;
+  [[nodiscard]] Response planned_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
+                                        RandomStream random) const;
 
   const Atlas* atlas_;
   LearnerParameters parameters_;

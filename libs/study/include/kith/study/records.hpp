@@ -78,7 +78,7 @@ struct PeriodRecord {
 struct BeliefSnapshot {
   std::size_t period = 0;
   std::string belief;           ///< "own N", "teacher N" (member N, 1-based), "common" or "joint".
-  std::vector<double> x, y, z;  ///< Points of the unit sphere: directions of reward weights.
+  std::vector<double> points;   ///< Directions of reward weights, axis by axis, shape [d, weights.size()].
   std::vector<double> weights;  ///< Sum to 1.
 };
 

@@ -29,7 +29,7 @@ struct Unit {
 };
 
 /// The policy cells of N beliefs drawn from `belief`; ascending, each once.
-[[nodiscard]] std::vector<PolicyCellIndex> sample_counterfactuals(const Atlas& atlas, const ParticleBelief& belief,
+[[nodiscard]] std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, const ParticleBelief& belief,
                                                                   const SelectionOptions& options, RandomStream random);
 
 /// Chooses demonstrations for a belief until none adds knowledge.

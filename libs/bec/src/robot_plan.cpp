@@ -1,0 +1,206 @@
+#include "robot_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include "kith/mdp/behaviour.hpp"
+#include "kith/mdp/planner.hpp"
+
+namespace kith {
+namespace {
+
+constexpr double kTieTolerance = 1e-9;
+
+std::vector<double> as_reals(const IntegerVector& weights) {
+  std::vector<double> result;
+  for (const std::int64_t w : weights) result.push_back(static_cast<double>(w));
+  return result;
+}
+
+// Exact domains: equal values are equal integers.
+std::optional<RobotPlan> plan_exact(const Mdp& mdp, const IntegerVector& weights) {
+  auto exact = plan_exactly(mdp, weights);
+  if (!exact.solution) return std::nullopt;
+  RobotPlan plan;
+  plan.choice = std::move(exact.solution->canonical_choice);
+  plan.counts = std::move(exact.solution->feature_counts);
+  const auto& values = exact.solution->values;
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    std::uint32_t optimal = 0;
+    for (const Choice& choice : mdp.choices(s)) {
+      const Outcome& outcome = mdp.outcomes(choice).front();
+      const auto value = dot(weights, mdp.integer_features(outcome)) + values[outcome.next.value()];
+      optimal += value == values[s.value()] ? 1u : 0u;
+    }
+    plan.optimal_choices.push_back(optimal);
+    const Choice& chosen = mdp.choices(s)[plan.choice[s.value()]];
+    plan.next.push_back(static_cast<std::uint32_t>(mdp.outcomes(chosen).front().next.value()));
+  }
+  return plan;
+}
+
+double value_of(const Mdp& mdp, const Choice& choice, const std::vector<double>& weights,
+                const std::vector<double>& values) {
+  double value = 0.0;
+  for (const Outcome& outcome : mdp.outcomes(choice)) {
+    double reward = 0.0;
+    const auto features = mdp.features(outcome);
+    for (std::size_t k = 0; k < features.size(); ++k) reward += weights[k] * features[k];
+    value += outcome.probability * (reward + mdp.discount() * values[outcome.next.value()]);
+  }
+  return value;
+}
+
+// The likeliest way to an end under the plan: from every state the outcome from which the product of probabilities
+// along the best path is largest (Dijkstra from the terminal states); ties: the outcome listed first.
+class LikeliestPaths {
+ public:
+  LikeliestPaths(const Mdp& mdp, const std::vector<std::uint32_t>& choice) : mdp_{mdp}, choice_{choice} {
+    likelihood_.assign(mdp.num_states() + mdp.num_terminals(), 0.0);
+    next_.assign(mdp.num_states(), RobotPlan::kEnd);
+    for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) add_ways_into(s);
+  }
+
+  std::vector<std::uint32_t> next() && {
+    reach_back();
+    follow_where_there_is_no_end();
+    return std::move(next_);
+  }
+
+ private:
+  struct Way {
+    std::uint32_t from;
+    double probability;
+  };
+
+  [[nodiscard]] std::span<const Outcome> outcomes(StateIndex s) const {
+    return mdp_.outcomes(mdp_.choices(s)[choice_[s.value()]]);
+  }
+
+  void add_ways_into(StateIndex s) {
+    ways_.resize(likelihood_.size());
+    for (const Outcome& outcome : outcomes(s)) {
+      ways_[outcome.next.value()].push_back({static_cast<std::uint32_t>(s.value()), outcome.probability});
+    }
+  }
+
+  void reach_back() {
+    using Entry = std::pair<double, std::uint32_t>;
+    // The likeliest first; among equals the lowest state, so that the result does not depend on the heap.
+    const auto later = [](const Entry& a, const Entry& b) {
+      return a.first != b.first ? a.first < b.first : a.second > b.second;
+    };
+    std::priority_queue<Entry, std::vector<Entry>, decltype(later)> open{later};
+    for (std::size_t t = mdp_.num_states(); t < likelihood_.size(); ++t) {
+      likelihood_[t] = 1.0;
+      open.emplace(1.0, static_cast<std::uint32_t>(t));
+    }
+    std::vector<bool> done(likelihood_.size(), false);
+    while (!open.empty()) {
+      const auto [likelihood, at] = open.top();
+      open.pop();
+      if (done[at]) continue;
+      done[at] = true;
+      for (const Way& way : ways_[at]) {
+        if (done[way.from] || !(likelihood * way.probability > likelihood_[way.from])) continue;
+        likelihood_[way.from] = likelihood * way.probability;
+        next_[way.from] = at;
+        open.emplace(likelihood_[way.from], way.from);
+      }
+    }
+  }
+
+  // States that never end: the likeliest outcome each, until the path would close.
+  void follow_where_there_is_no_end() {
+    constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> walked_by(mdp_.num_states(), kNobody);
+    for (std::size_t start = 0; start < mdp_.num_states(); ++start) {
+      std::size_t at = start;
+      while (likelihood_[at] == 0.0 && walked_by[at] == kNobody) {
+        walked_by[at] = start;
+        const auto all = outcomes(StateIndex{at});
+        const auto likeliest = std::max_element(
+            all.begin(), all.end(), [](const Outcome& a, const Outcome& b) { return a.probability < b.probability; });
+        const std::size_t to = likeliest->next.value();
+        if (walked_by[to] == start) break;
+        next_[at] = static_cast<std::uint32_t>(to);
+        at = to;
+      }
+    }
+  }
+
+  const Mdp& mdp_;
+  const std::vector<std::uint32_t>& choice_;
+  std::vector<std::vector<Way>> ways_;  // into each state
+  std::vector<double> likelihood_;      // of reaching an end along the best path
+  std::vector<std::uint32_t> next_;
+};
+
+std::optional<RobotPlan> plan_expected(const Mdp& mdp, const RewardWeights& robot, std::int64_t scale) {
+  const auto weights = as_reals(robot.integer);
+  auto behaviour = behave(mdp, weights, {.scale = scale});
+  if (!behaviour) return std::nullopt;
+  RobotPlan plan;
+  plan.choice = std::move(behaviour->choice);
+  plan.counts = std::move(behaviour->counts);
+  const auto& values = behaviour->values;
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    const double least = values[s.value()] - kTieTolerance * std::max(1.0, std::abs(values[s.value()]));
+    const auto choices = mdp.choices(s);
+    plan.optimal_choices.push_back(static_cast<std::uint32_t>(std::count_if(
+        choices.begin(), choices.end(), [&](const Choice& c) { return value_of(mdp, c, weights, values) >= least; })));
+  }
+  plan.next = LikeliestPaths{mdp, plan.choice}.next();
+  return plan;
+}
+
+}  // namespace
+
+std::optional<RobotPlan> plan_robot(const Domain& domain, MdpIndex m) {
+  const Mdp& mdp = domain.mdp(m);
+  if (domain.is_exact()) return plan_exact(mdp, domain.weights().integer);
+  return plan_expected(mdp, domain.weights(), domain.count_scale());
+}
+
+std::vector<std::uint32_t> likeliest_next(const Mdp& mdp, const std::vector<std::uint32_t>& choice) {
+  return LikeliestPaths{mdp, choice}.next();
+}
+
+IntegerVector counts_of(const Mdp& mdp, const Choice& choice, const std::vector<IntegerVector>& counts,
+                        std::int64_t scale) {
+  const auto outcomes = mdp.outcomes(choice);
+  if (scale == 1) return mdp.integer_features(outcomes.front()) + counts[outcomes.front().next.value()];
+  std::array<double, IntegerVector::kMaxDimension> sum{};
+  for (const Outcome& outcome : outcomes) {
+    const auto features = mdp.features(outcome);
+    const auto& rest = counts[outcome.next.value()];
+    for (std::size_t k = 0; k < features.size(); ++k) {
+      sum[k] += outcome.probability *
+                (features[k] * static_cast<double>(scale) + mdp.discount() * static_cast<double>(rest[k]));
+    }
+  }
+  IntegerVector result(mdp.num_features());
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::llround(sum[k]);
+  return result;
+}
+
+std::vector<StateIndex> successors_first(const Mdp& mdp, const RobotPlan& plan) {
+  std::vector<StateIndex> order;
+  order.reserve(mdp.num_states());
+  std::vector<bool> placed(mdp.num_states(), false);
+  std::vector<StateIndex> path;
+  for (std::uint32_t start = 0; start < mdp.num_states(); ++start) {
+    for (std::uint32_t s = start; s < mdp.num_states() && !placed[s]; s = plan.next[s]) {
+      placed[s] = true;
+      path.emplace_back(s);
+    }
+    order.insert(order.end(), path.rbegin(), path.rend());
+    path.clear();
+  }
+  return order;
+}
+
+}  // namespace kith

@@ -1,0 +1,173 @@
+#include "kith/bec/behaviours.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "item_delivery.hpp"
+#include "kith/bec/comparison.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/random/distributions.hpp"
+
+namespace kith {
+namespace {
+
+using testing::item_delivery;
+
+Direction random_weights(RandomStream& random, std::size_t d) {
+  Direction weights(static_cast<Eigen::Index>(d));
+  for (double& w : weights) w = standard_normal(random);
+  return weights.normalized();
+}
+
+std::string text_of(const std::string& name) {
+  for (const auto& domain : built_in_domains()) {
+    if (domain.name == name) return std::string{domain.text};
+  }
+  return {};
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+Domain domain_from(const std::string& text) {
+  auto reading = parse_domain(text, "test.toml");
+  for (const auto& diagnostic : reading.diagnostics) ADD_FAILURE() << diagnostic.id << ' ' << diagnostic.message;
+  return *std::move(reading.domain);
+}
+
+const Atlas& on_demand() {
+  static const Atlas atlas{item_delivery().domain(), BehaviourSource::kOnDemand};
+  return atlas;
+}
+
+TEST(Behaviours, AtlasWithoutTablesKnowsTheSamePolicy) {
+  const auto& tables = item_delivery();
+  EXPECT_TRUE(tables.is_tabulated());
+  EXPECT_FALSE(on_demand().is_tabulated());
+  EXPECT_EQ(on_demand().policy_bec_half_spaces(), tables.policy_bec_half_spaces());
+  EXPECT_EQ(on_demand().policy_bec_area_sr(), tables.policy_bec_area_sr());
+  ASSERT_EQ(on_demand().num_demos(), tables.num_demos());
+  for (DemoIndex demo{0}; demo.value() < tables.num_demos(); ++demo) {
+    ASSERT_EQ(on_demand().feature_counts(demo), tables.feature_counts(demo));
+    ASSERT_EQ(on_demand().constraints().half_spaces(on_demand().one_step(demo)),
+              tables.constraints().half_spaces(tables.one_step(demo)));
+    ASSERT_EQ(on_demand().mean_dissimilarity(demo), tables.mean_dissimilarity(demo));
+    ASSERT_TRUE(on_demand().is_candidate(demo));
+  }
+}
+
+TEST(Behaviours, PlansWhatTheTablesSay) {
+  Behaviours tables{item_delivery()};
+  Behaviours plans{on_demand()};
+  auto random = RandomStream{5}.split("weights");
+  const auto& all = item_delivery().knowledge_components().back();
+  std::size_t with_optimum = 0;
+  for (int round = 0; round < 6; ++round) {
+    std::vector<PolicyCellIndex> in_tables;
+    std::vector<PolicyCellIndex> in_plans;
+    for (int i = 0; i < 4; ++i) {
+      const auto weights = random_weights(random, 3);
+      in_tables.push_back(tables.locate(weights));
+      in_plans.push_back(plans.locate(weights));
+      EXPECT_EQ(plans.locate(weights), in_plans.back());
+    }
+    const auto from_tables = tables.conveyed_by_class(all, in_tables);
+    const auto from_plans = plans.conveyed_by_class(all, in_plans);
+    for (DemoIndex demo{0}; demo.value() < item_delivery().num_demos(); demo = DemoIndex{demo.value() + 7}) {
+      ASSERT_EQ(plans.constraints().half_spaces(from_plans.set(on_demand().demo_class(demo))),
+                tables.constraints().half_spaces(from_tables.set(item_delivery().demo_class(demo))));
+      for (std::size_t i = 0; i < in_plans.size(); ++i) {
+        const auto answer = plans.answer(demo, in_plans[i]);
+        ASSERT_EQ(answer, tables.answer(demo, in_tables[i]));
+        with_optimum += answer.has_value() ? 1u : 0u;
+      }
+    }
+  }
+  EXPECT_GT(with_optimum, 1000u);
+}
+
+TEST(Behaviours, ForgetsAndPlansAgain) {
+  Behaviours plenty{on_demand()};
+  Behaviours few{on_demand(), 2};
+  auto random = RandomStream{6}.split("weights");
+  std::vector<Direction> weights;
+  for (int i = 0; i < 5; ++i) weights.push_back(random_weights(random, 3));
+  for (int round = 0; round < 2; ++round) {
+    for (const auto& w : weights) {
+      for (const DemoIndex demo : {DemoIndex{17}, DemoIndex{4000}, DemoIndex{9000}}) {
+        EXPECT_EQ(few.answer(demo, few.locate(w)), plenty.answer(demo, plenty.locate(w)));
+        const auto cell = few.locate(w);
+        const auto other = plenty.locate(w);
+        EXPECT_EQ(few.constraints().half_spaces(few.conveyed(demo, {&cell, 1})),
+                  plenty.constraints().half_spaces(plenty.conveyed(demo, {&other, 1})));
+      }
+    }
+  }
+}
+
+TEST(Behaviours, DiscountedOnesAreComparedByExpectedCounts) {
+  const Atlas atlas{domain_from(replaced(text_of("item-delivery"), "discount  = 1.0", "discount = 0.98"))};
+  EXPECT_FALSE(atlas.is_tabulated());
+  EXPECT_FALSE(atlas.domain().is_exact());
+  EXPECT_GT(atlas.policy_bec_half_spaces().size(), 2u);
+  const auto& robot = atlas.domain().weights();
+  for (const auto& half_space : atlas.policy_bec_half_spaces()) {
+    EXPECT_GT(sign_of_dot(half_space.normal(), robot.integer), 0);
+  }
+  // Counts of the path that is shown, discounted.
+  const auto scale = static_cast<double>(atlas.domain().count_scale());
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 101}) {
+    const auto path = atlas.trajectory(demo);
+    const double steps = (1.0 - std::pow(0.98, static_cast<double>(path.actions.size()))) / 0.02;
+    EXPECT_NEAR(static_cast<double>(atlas.feature_counts(demo)[2]) / scale, steps, 1e-6);
+  }
+  // The robot's own weights expect what the robot does; nobody else's earn more.
+  Behaviours behaviours{atlas};
+  const auto own = behaviours.locate(robot.unit);
+  auto random = RandomStream{8}.split("weights");
+  const auto other = behaviours.locate(random_weights(random, 3));
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 997}) {
+    EXPECT_TRUE(behaviours.conveyed(demo, {&own, 1}).empty());
+    const auto answer = behaviours.answer(demo, other);
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_GT(robot.return_of(atlas.feature_counts(demo) - *answer) / scale, -1e-6);
+  }
+}
+
+TEST(Preference, IsExactForCounts) {
+  EXPECT_EQ(preference(IntegerVector{-2, 0, 4}, 1), HalfSpace(IntegerVector{-1, 0, 2}));
+  EXPECT_FALSE(preference(IntegerVector{0, 0, 0}, 1).has_value());
+}
+
+TEST(Preference, IsRoundedToLengthsThatConesTakeForExpectations) {
+  const std::int64_t scale = std::int64_t{1} << 24;
+  EXPECT_FALSE(preference(IntegerVector{100, -50, 3}, scale).has_value());  // less than 1e-4 of a count
+  for (std::size_t d = 2; d <= 8; ++d) {
+    IntegerVector difference(d);
+    for (std::size_t k = 0; k < d; ++k)
+      difference[k] = (k % 2 == 0 ? 1 : -1) * static_cast<std::int64_t>(k + 1) * scale * 3 + 12345;
+    const auto rounded = preference(difference, scale);
+    ASSERT_TRUE(rounded.has_value());
+    double product = 0.0;
+    double length = 0.0;
+    double exact_length = 0.0;
+    for (std::size_t k = 0; k < d; ++k) {
+      const auto a = static_cast<double>(rounded->normal()[k]);
+      const auto b = static_cast<double>(difference[k]);
+      product += a * b;
+      length += a * a;
+      exact_length += b * b;
+    }
+    length = std::sqrt(length);
+    EXPECT_LE(length, std::ldexp(1.0, d <= 3 ? 20 : 19) + 4.0);
+    EXPECT_GE(product / (length * std::sqrt(exact_length)), d == 8 ? 0.99998 : 0.999999);
+  }
+}
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,160 @@
+// Teams are taught in domains of two to eight features, discounted or not, with tables and without.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "kith/domains/domain_file.hpp"
+#include "kith/geometry/cone.hpp"
+#include "kith/study/study.hpp"
+
+namespace kith {
+namespace {
+
+// Rubble, smoke and a charger on the way to a goal: four features.
+constexpr const char* kFourFeatures = R"(
+schema = "kith.domain/1"
+id = "four"
+[mdp]
+discount = 1.0
+[map]
+rows = ["..r.G",
+        ".#s#.",
+        "S.rBs"]
+[map.legend]
+"#" = "wall"
+"." = "floor"
+"r" = { terrain = "rubble", optional = true }
+"s" = { terrain = "smoke", optional = true }
+"B" = { station = "charger", optional = true }
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "rubble"
+when = "leave:rubble"
+[[feature]]
+name = "smoke"
+when = "leave:smoke"
+[[feature]]
+name = "recharge"
+when = "leave:charger"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { rubble = -3, smoke = -1.5, recharge = 2.5, step = -1 }
+[prior]
+halfspaces = [ { step = -1 } ]
+)";
+
+constexpr const char* kTwoFeatures = R"(
+schema = "kith.domain/1"
+id = "two"
+[mdp]
+discount = 1.0
+[map]
+rows = ["..rG",
+        ".#r.",
+        "S..."]
+[map.legend]
+"#" = "wall"
+"." = "floor"
+"r" = { terrain = "rubble", optional = true }
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "rubble"
+when = "leave:rubble"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { rubble = -3, step = -1 }
+[prior]
+halfspaces = [ { step = -1 } ]
+)";
+
+Domain domain_from(const std::string& text) {
+  auto reading = parse_domain(text, "test.toml");
+  for (const auto& diagnostic : reading.diagnostics) {
+    EXPECT_EQ(diagnostic.severity, Severity::kWarning) << diagnostic.id << ' ' << diagnostic.message;
+  }
+  return *std::move(reading.domain);
+}
+
+LearnerType learner(char letter, double ability, double sd, double confirm, double correct) {
+  Population population;
+  population.ability_mean = ability;
+  population.ability_sd = sd;
+  population.confirm_gain = {.half_normal = confirm, .value = {}};
+  population.correct_gain = {.half_normal = correct, .value = {}};
+  FilterOptions filter;
+  filter.particles = 300;
+  return {.letter = letter, .population = population, .filter = filter, .prior = {}};
+}
+
+Study study_for(const Domain& domain) {
+  StudySpec spec;
+  spec.id = "any";
+  spec.seed = 3;
+  spec.replicates = 2;
+  spec.num_features = domain.num_features();
+  spec.count_scale = domain.count_scale();
+  spec.strategies = {Strategy::kBaseline, Strategy::kIndividualLow, Strategy::kCommon, Strategy::kJoint};
+  spec.compositions = {"NP"};
+  spec.learner_types = {learner('N', 0.703, 0.034, 0.033, 0.056), learner('P', 0.809, 0.025, 0.022, 0.052)};
+  spec.teaching.filter.particles = 300;
+  spec.teaching.max_periods = 30;
+  return {{spec}};
+}
+
+void expect_taught(const Atlas& atlas) {
+  const auto study = study_for(atlas.domain());
+  const auto teams = run_teams(atlas, study, team_addresses(study)).teams;
+  ASSERT_EQ(teams.size(), 8u);
+  double knowledge = 0.0;
+  for (const auto& team : teams) {
+    EXPECT_GT(team.periods, 0u);
+    EXPECT_GT(team.demonstrations, 0u);
+    EXPECT_GT(team.tests, 0u);
+    EXPECT_LE(team.knowledge, 1.0);
+    knowledge += team.knowledge / static_cast<double>(teams.size());
+    for (const auto& period : team.period_records) {
+      EXPECT_GT(period.area_sr, 0.0);
+      EXPECT_LE(period.running_area_sr, sphere_area(atlas.domain().num_features()) / 2.0 * (1.0 + 1e-9));
+    }
+    for (const auto& response : team.responses) {
+      EXPECT_EQ(response.correct, response.regret.has_value() && *response.regret == 0.0);
+    }
+  }
+  // Far more than somebody knows who knows the prior only.
+  EXPECT_GT(knowledge, 3.0 * atlas.policy_bec_area_sr() / atlas.prior_cone().solid_angle());
+  // The same again, on another thread count.
+  RunOptions two;
+  two.threads = 2;
+  const auto again = run_teams(atlas, study, team_addresses(study), two).teams;
+  for (std::size_t i = 0; i < teams.size(); ++i) {
+    EXPECT_EQ(again[i].knowledge, teams[i].knowledge);
+    EXPECT_EQ(again[i].periods, teams[i].periods);
+  }
+}
+
+TEST(AnyDomain, TwoFeaturesAreTaught) { expect_taught(Atlas{domain_from(kTwoFeatures)}); }
+
+TEST(AnyDomain, FourFeaturesAreTaughtOneByOneThenTogether) {
+  const Atlas atlas{domain_from(kFourFeatures)};
+  EXPECT_FALSE(atlas.is_tabulated());
+  std::vector<std::string> names;
+  for (const auto& component : atlas.knowledge_components()) names.push_back(component.name);
+  EXPECT_EQ(names.size(), 7u);  // three single ones, three pairs, all
+  EXPECT_EQ(names.back(), "rubble+smoke+recharge");
+  expect_taught(atlas);
+}
+
+TEST(AnyDomain, DiscountedOnesAreTaught) {
+  std::string text{kFourFeatures};
+  const std::string from = "discount = 1.0";
+  expect_taught(Atlas{domain_from(text.replace(text.find(from), from.size(), "discount = 0.97"))});
+}
+
+}  // namespace
+}  // namespace kith
