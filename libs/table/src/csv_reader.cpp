@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -244,7 +245,7 @@ class Reader {
         cells_[c] = std::move(parsed.cell);
       }
     }
-    if (diagnostics_.size() == before) on_row_({record.line, cells_});
+    if (diagnostics_.size() == before) on_row_({record.line, cells_, record.text, source_});
   }
 
   const std::string& file_;
@@ -259,6 +260,14 @@ class Reader {
 };
 
 }  // namespace
+
+std::string_view CsvRow::written(std::size_t column) const {
+  if (column >= fields.size()) throw std::out_of_range{"CsvRow::written: there is no such column"};
+  const detail::CsvPlace place = detail::locate(text, fields[column]);
+  const auto begin = static_cast<std::size_t>(place.line_text.data() - text.data()) + place.offset;
+  const bool empty = begin >= text.size() || text[begin] == ',' || text[begin] == '\r' || text[begin] == '\n';
+  return text.substr(begin, empty ? 0 : place.length);
+}
 
 std::vector<Diagnostic> read_csv(std::string_view text, const std::string& file, std::span<const Column> columns,
                                  const std::function<void(const CsvRow&)>& on_row, OtherColumns others) {

@@ -332,5 +332,22 @@ TEST(CsvReader, RefusesAHeaderWithoutNames) {
   EXPECT_EQ(id_of("\xFF\n"), "E0509");
 }
 
+TEST(CsvReader, SaysWhereACellIsWritten) {
+  const std::string_view text = "\xEF\xBB\xBFx,name,count\n,\"a,\nb\",7\r\n1,,8";
+  std::vector<std::string_view> cells;
+  const std::vector<Column> wanted{{.name = "count", .type = ColumnType::kInteger}, {.name = "name"}};
+  const auto keep = [&](const CsvRow& row) {
+    cells.push_back(row.written(0));
+    cells.push_back(row.written(1));
+    EXPECT_THROW((void)row.written(2), std::out_of_range);
+  };
+  EXPECT_TRUE(read_csv(text, "t.csv", wanted, keep, OtherColumns::kIgnore).empty());
+  EXPECT_THAT(cells, ElementsAre("7", "\"a,", "8", ""));  // of a cell on several lines the first one
+  for (const auto cell : cells) {
+    EXPECT_GE(cell.data(), text.data());
+    EXPECT_LE(cell.data() + cell.size(), text.data() + text.size());
+  }
+}
+
 }  // namespace
 }  // namespace kith

@@ -20,8 +20,15 @@ using TableCell = std::variant<std::monostate, std::string, std::int64_t, double
 
 /// One row, in the order of the columns that were asked for.
 struct CsvRow {
-  std::size_t line;                  ///< Where the row begins in the file, from 1.
-  std::span<const TableCell> cells;  ///< One per column, each missing or of the column's type.
+  std::size_t line;                     ///< Where the row begins in the file, from 1.
+  std::span<const TableCell> cells;     ///< One per column, each missing or of the column's type.
+  std::string_view text;                ///< All of the row as written, a part of the text that is read.
+  std::span<const std::size_t> fields;  ///< Per column, which cell of the row it is.
+
+  /// The cell of a column as written, quotes included (of several lines the first one): a part of the text that is
+  /// read, so it says where the cell is.
+  /// @throws std::out_of_range if there is no such column.
+  [[nodiscard]] std::string_view written(std::size_t column) const;
 };
 
 /// What to do with columns of a file that were not asked for.
