@@ -23,27 +23,23 @@ char glyph_for(const World& world, std::size_t cell, const SymbolContent& conten
 
 }  // namespace
 
-void Domain::Data::describe_members() {
-  for (const DomainMember& member : members) {
-    num_starts += member.starts.size();
-    exact = exact && member.mdp.is_deterministic() && member.mdp.is_integral() && member.mdp.discount() == 1.0;
-  }
+void GridFamily::describe_states() {
   const std::size_t num_groups = world.groups.size();
   for (std::size_t group = 0; group < num_groups; ++group) {
     const auto is_station = [&](std::size_t cell) { return !world.content(cell).station.empty(); };
     const bool only_stations = std::ranges::all_of(world.groups[group].cells, is_station);
     if (!only_stations) non_station_groups |= world.bit_of(group);
   }
-  digits_per_start = 2 + 3 * world.items.size() + 2 * world.stations.size();
-  first_start.push_back(0);
+  digits_per_state = 2 + 3 * world.items.size() + 2 * world.stations.size();
+  first_state.push_back(0);
   for (const DomainMember& member : members) {
-    first_start.push_back(first_start.back() + member.mdp.num_states());
-    for (std::size_t s = 0; s < member.mdp.num_states(); ++s) describe_start(member, member.states[s]);
+    first_state.push_back(first_state.back() + member.mdp.num_states());
+    for (std::size_t s = 0; s < member.mdp.num_states(); ++s) describe_state(member, member.states[s]);
   }
 }
 
 // Digits: robot x y; per item of the MDP x y carried; per station still there x y.
-void Domain::Data::describe_start(const DomainMember& member, detail::PackedState s) {
+void GridFamily::describe_state(const DomainMember& member, detail::PackedState s) {
   const std::size_t row_begin = digits.size();
   const auto add_cell = [&](std::size_t index) {
     const Cell cell = world.cell_at(index);
@@ -64,28 +60,35 @@ void Domain::Data::describe_start(const DomainMember& member, detail::PackedStat
   }
   num_stations.push_back(stations);
   num_digits.push_back(static_cast<std::uint16_t>(digits.size() - row_begin));
-  digits.resize(row_begin + digits_per_start, 0);
+  digits.resize(row_begin + digits_per_state, 0);
 }
 
 std::string Domain::state_name(MdpIndex m, StateIndex s) const {
+  if (!data_->has_map()) {
+    const Mdp& process = mdp(m);
+    if (s.value() < process.num_states() + process.num_terminals()) {
+      return data_->model().members[m.value()].names[s.value()];
+    }
+    throw std::invalid_argument{"Domain::state_name: there is no state " + std::to_string(s.value())};
+  }
   const GridState now = state(m, s);
   const std::vector<std::size_t> items = items_in(m);
-  const auto at = [&](Cell cell) { return cell_text(data_->world, *data_->world.index_of(cell)); };
+  const auto at = [&](Cell cell) { return cell_text(data_->grid().world, *data_->grid().world.index_of(cell)); };
   std::string text = now.exited ? "gone from " + at(now.robot) : "robot at " + at(now.robot);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::string& item = data_->item_names[items[i]];
+    const std::string& item = data_->grid().item_names[items[i]];
     text += now.carried[i] ? ", carrying " + item : ", " + item + " at " + at(now.items[i]);
   }
-  for (std::size_t i = 0; i < data_->world.stations.size(); ++i) {
-    const detail::Station& station = data_->world.stations[i];
-    if (std::ranges::find(now.stations, data_->world.cell_at(station.cell)) == now.stations.end()) continue;
-    text += ", " + station.name + " at " + cell_text(data_->world, station.cell);
+  for (std::size_t i = 0; i < data_->grid().world.stations.size(); ++i) {
+    const detail::Station& station = data_->grid().world.stations[i];
+    if (std::ranges::find(now.stations, data_->grid().world.cell_at(station.cell)) == now.stations.end()) continue;
+    text += ", " + station.name + " at " + cell_text(data_->grid().world, station.cell);
   }
   return text;
 }
 
 std::vector<std::string> Domain::draw(MdpIndex m, std::optional<StateIndex> s) const {
-  const World& world = data_->world;
+  const World& world = data_->grid().world;
   const GridState now = s ? state(m, *s) : GridState{};
   const std::vector<std::size_t> items = items_in(m);
   std::vector<std::string> rows(static_cast<std::size_t>(world.height));
@@ -97,7 +100,7 @@ std::vector<std::string> Domain::draw(MdpIndex m, std::optional<StateIndex> s) c
       content.start = false;
       if (std::ranges::find(now.stations, at) == now.stations.end()) content.station.clear();
       for (std::size_t i = 0; i < items.size(); ++i) {
-        const std::string& name = data_->item_names[items[i]];
+        const std::string& name = data_->grid().item_names[items[i]];
         if (now.items[i] != at && content.item == name) content.item.clear();
         moved_here = moved_here || (now.items[i] == at && content.item != name);
       }

@@ -14,16 +14,39 @@ namespace {
 
 constexpr std::int64_t kExpectationScale = std::int64_t{1} << 24;
 
-const DomainMember& member_of(const Domain::Data& data, MdpIndex m, const char* function) {
-  if (m.value() < data.members.size()) return data.members[m.value()];
-  throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
+// visit(member) of either kind.
+template <typename Visit>
+decltype(auto) visit_member(const Domain::Data& data, MdpIndex m, const char* function, const Visit& visit) {
+  return std::visit(
+      [&](const auto& family) -> decltype(auto) {
+        if (m.value() < family.members.size()) return visit(family.members[m.value()]);
+        throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
+      },
+      data.family);
 }
 
-std::size_t row_of(const Domain::Data& data, DemoId demo, const char* function) {
-  const DomainMember& member = member_of(data, demo.mdp, function);
-  if (demo.start.value() < member.mdp.num_states()) return data.first_start[demo.mdp.value()] + demo.start.value();
+void check_mdp(const Domain::Data& data, MdpIndex m, const char* function) {
+  visit_member(data, m, function, [](const auto&) {});
+}
+
+const DomainMember& member_of(const Domain::Data& data, MdpIndex m, const char* function) {
+  const auto& members = data.grid().members;
+  check_mdp(data, m, function);
+  return members[m.value()];
+}
+
+const Mdp& mdp_of(const Domain::Data& data, MdpIndex m, const char* function) {
+  return visit_member(data, m, function, [](const auto& member) -> const Mdp& { return member.mdp; });
+}
+
+void check_start(const Domain::Data& data, DemoId demo, const char* function) {
+  if (demo.start.value() < mdp_of(data, demo.mdp, function).num_states()) return;
   throw std::invalid_argument{std::string{function} + ": there is no start state " +
                               std::to_string(demo.start.value())};
+}
+
+std::size_t row_of(const GridFamily& grid, DemoId demo) {
+  return grid.first_state[demo.mdp.value()] + demo.start.value();
 }
 
 }  // namespace
@@ -57,55 +80,67 @@ const std::string& Domain::feature_words(std::size_t k) const { return data_->fe
 const RewardWeights& Domain::weights() const noexcept { return data_->weights; }
 const std::vector<HalfSpace>& Domain::prior() const noexcept { return data_->prior; }
 std::size_t Domain::max_steps() const noexcept { return data_->max_steps; }
-std::size_t Domain::num_mdps() const noexcept { return data_->members.size(); }
+std::size_t Domain::num_mdps() const noexcept {
+  return std::visit([](const auto& family) { return family.members.size(); }, data_->family);
+}
 std::size_t Domain::num_starts() const noexcept { return data_->num_starts; }
 bool Domain::is_exact() const noexcept { return data_->exact; }
 std::int64_t Domain::count_scale() const noexcept { return data_->exact ? 1 : kExpectationScale; }
-bool Domain::has_map() const noexcept { return true; }
-const Mdp& Domain::mdp(MdpIndex m) const { return member_of(*data_, m, "Domain::mdp").mdp; }
-int Domain::width() const noexcept { return data_->world.width; }
-int Domain::height() const noexcept { return data_->world.height; }
-const std::vector<std::string>& Domain::item_names() const noexcept { return data_->item_names; }
+bool Domain::has_map() const noexcept { return data_->has_map(); }
+const Mdp& Domain::mdp(MdpIndex m) const { return mdp_of(*data_, m, "Domain::mdp"); }
+int Domain::width() const { return data_->grid().world.width; }
+int Domain::height() const { return data_->grid().world.height; }
+const std::vector<std::string>& Domain::item_names() const noexcept {
+  static const std::vector<std::string> kNone;
+  return data_->has_map() ? std::get<GridFamily>(data_->family).item_names : kNone;
+}
 
 StateIndex Domain::initial_state(MdpIndex m) const {
-  static_cast<void>(member_of(*data_, m, "Domain::initial_state"));
-  return StateIndex{0};  // the search starts there
+  check_mdp(*data_, m, "Domain::initial_state");
+  if (data_->has_map()) return StateIndex{0};  // the search starts there
+  return data_->model().members[m.value()].initial;
 }
 
 const std::vector<StateIndex>& Domain::starts(MdpIndex m) const {
-  return member_of(*data_, m, "Domain::starts").starts;
+  return visit_member(
+      *data_, m, "Domain::starts", [](const auto& member) -> const auto& { return member.starts; });
 }
 
 std::vector<bool> Domain::variant(MdpIndex m) const {
-  static_cast<void>(member_of(*data_, m, "Domain::variant"));
+  check_mdp(*data_, m, "Domain::variant");
   std::vector<bool> bits;
-  for (std::size_t g = 0; g < data_->world.groups.size(); ++g) bits.push_back(data_->world.is_on(g, m.value()));
+  if (!data_->has_map()) return bits;
+  for (std::size_t g = 0; g < data_->grid().world.groups.size(); ++g)
+    bits.push_back(data_->grid().world.is_on(g, m.value()));
   return bits;
 }
 
 std::string Domain::describe_variant(MdpIndex m) const {
-  static_cast<void>(member_of(*data_, m, "Domain::describe_variant"));
-  return variant_text(data_->world, m.value());
+  check_mdp(*data_, m, "Domain::describe_variant");
+  if (!data_->has_map()) return data_->model().members[m.value()].name;
+  return variant_text(data_->grid().world, m.value());
 }
 
 bool Domain::has_feature(MdpIndex m, std::size_t k) const {
-  const DomainMember& member = member_of(*data_, m, "Domain::has_feature");
+  const Mdp& mdp = mdp_of(*data_, m, "Domain::has_feature");
   if (k >= num_features()) throw std::invalid_argument{"Domain::has_feature: there is no feature " + std::to_string(k)};
-  return k + 1 == num_features() || member.mdp.has_feature(k);
+  return k + 1 == num_features() || mdp.has_feature(k);
 }
 
 CellContent Domain::content(MdpIndex m, Cell cell) const {
-  static_cast<void>(member_of(*data_, m, "Domain::content"));
-  const auto index = data_->world.index_of(cell);
+  (void)member_of(*data_, m, "Domain::content");
+  const auto index = data_->grid().world.index_of(cell);
   if (!index) throw std::invalid_argument{"Domain::content: the cell is off the map"};
-  if (!data_->world.is_present(*index, m.value())) return {};
-  const detail::SymbolContent& content = data_->world.content(*index);
+  if (!data_->grid().world.is_present(*index, m.value())) return {};
+  const detail::SymbolContent& content = data_->grid().world.content(*index);
   return {content.wall, content.goal, content.terrain, content.destination};
 }
 
 std::vector<std::size_t> Domain::items_in(MdpIndex m) const {
-  const DomainMember& member = member_of(*data_, m, "Domain::items_in");
+  check_mdp(*data_, m, "Domain::items_in");
   std::vector<std::size_t> items;
+  if (!data_->has_map()) return items;
+  const DomainMember& member = data_->grid().members[m.value()];
   for (std::size_t i = 0; i < member.item_present.size(); ++i) {
     if (member.item_present[i]) items.push_back(i);
   }
@@ -118,41 +153,41 @@ GridState Domain::state(MdpIndex m, StateIndex s) const {
     throw std::invalid_argument{"Domain::state: there is no state " + std::to_string(s.value())};
   }
   const detail::PackedState packed = member.states[s.value()];
-  const detail::World& world = data_->world;
+  const detail::World& world = data_->grid().world;
   GridState state;
-  state.robot = world.cell_at(data_->layout.robot(packed));
+  state.robot = world.cell_at(data_->grid().layout.robot(packed));
   for (std::size_t i = 0; i < member.item_present.size(); ++i) {
     if (!member.item_present[i]) continue;
-    state.items.push_back(world.cell_at(data_->layout.item(packed, i)));
-    state.carried.push_back(data_->layout.carried(packed) == i + 1);
+    state.items.push_back(world.cell_at(data_->grid().layout.item(packed, i)));
+    state.carried.push_back(data_->grid().layout.carried(packed) == i + 1);
   }
   for (std::size_t i = 0; i < world.stations.size(); ++i) {
-    if (data_->layout.has_station(packed, i)) state.stations.push_back(world.cell_at(world.stations[i].cell));
+    if (data_->grid().layout.has_station(packed, i)) state.stations.push_back(world.cell_at(world.stations[i].cell));
   }
-  state.exited = data_->layout.exited(packed);
+  state.exited = data_->grid().layout.exited(packed);
   return state;
 }
 
 std::optional<StateIndex> Domain::find_state(MdpIndex m, const GridState& state) const {
   const DomainMember& member = member_of(*data_, m, "Domain::find_state");
-  const detail::World& world = data_->world;
+  const detail::World& world = data_->grid().world;
   const auto robot = world.index_of(state.robot);
   const std::vector<std::size_t> items = items_in(m);
   if (!robot || state.items.size() != items.size() || state.carried.size() != items.size()) return std::nullopt;
-  detail::PackedState packed = data_->layout.with_robot(0, *robot);
+  detail::PackedState packed = data_->grid().layout.with_robot(0, *robot);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto cell = world.index_of(state.items[i]);
     if (!cell) return std::nullopt;
-    packed = data_->layout.with_item(packed, items[i], *cell);
-    if (state.carried[i]) packed = data_->layout.with_carried(packed, items[i] + 1);
+    packed = data_->grid().layout.with_item(packed, items[i], *cell);
+    if (state.carried[i]) packed = data_->grid().layout.with_carried(packed, items[i] + 1);
   }
   std::uint64_t stations = 0;
   for (std::size_t i = 0; i < world.stations.size(); ++i) {
     const Cell cell = world.cell_at(world.stations[i].cell);
     if (std::ranges::find(state.stations, cell) != state.stations.end()) stations |= std::uint64_t{1} << i;
   }
-  packed = data_->layout.with_stations(packed, stations);
-  if (state.exited) packed = data_->layout.with_exit(packed);
+  packed = data_->grid().layout.with_stations(packed, stations);
+  if (state.exited) packed = data_->grid().layout.with_exit(packed);
 
   const auto it =
       std::ranges::lower_bound(member.by_state, packed, {}, [&](std::uint32_t s) { return member.states[s]; });
@@ -162,23 +197,62 @@ std::optional<StateIndex> Domain::find_state(MdpIndex m, const GridState& state)
 }
 
 int Domain::complexity(DemoId demo) const {
-  const std::size_t row = row_of(*data_, demo, "Domain::complexity");
-  return data_->members[demo.mdp.value()].num_toggled + data_->num_stations[row];
+  check_start(*data_, demo, "Domain::complexity");
+  if (!data_->has_map()) return 0;
+  const GridFamily& grid = data_->grid();
+  return grid.members[demo.mdp.value()].num_toggled + grid.num_stations[row_of(grid, demo)];
 }
 
-int Domain::dissimilarity(DemoId a, DemoId b) const {
-  const std::size_t row_a = row_of(*data_, a, "Domain::dissimilarity");
-  const std::size_t row_b = row_of(*data_, b, "Domain::dissimilarity");
-  const std::size_t common = std::min<std::size_t>(data_->num_digits[row_a], data_->num_digits[row_b]);
-  const std::int32_t* digits_a = data_->digits.data() + row_a * data_->digits_per_start;
-  const std::int32_t* digits_b = data_->digits.data() + row_b * data_->digits_per_start;
+namespace {
+
+int dissimilarity_of(const GridFamily& grid, DemoId a, DemoId b) {
+  const std::size_t row_a = row_of(grid, a);
+  const std::size_t row_b = row_of(grid, b);
+  const std::size_t common = std::min<std::size_t>(grid.num_digits[row_a], grid.num_digits[row_b]);
+  const std::int32_t* digits_a = grid.digits.data() + row_a * grid.digits_per_state;
+  const std::int32_t* digits_b = grid.digits.data() + row_b * grid.digits_per_state;
   int moved = 0;
   for (std::size_t i = 0; i < common; ++i) moved += std::abs(digits_a[i] - digits_b[i]);
-  const detail::World& world = data_->world;
+  const detail::World& world = grid.world;
   const std::uint64_t toggled =
-      (world.variant(a.mdp.value()) ^ world.variant(b.mdp.value())) & data_->non_station_groups;
-  const int stations = data_->num_stations[row_a] - data_->num_stations[row_b];
+      (world.variant(a.mdp.value()) ^ world.variant(b.mdp.value())) & grid.non_station_groups;
+  const int stations = grid.num_stations[row_a] - grid.num_stations[row_b];
   return 2 * moved + std::popcount(toggled) + std::abs(stations);
+}
+
+int dissimilarity_of(const ExplicitFamily& model, DemoId a, DemoId b) {
+  const ExplicitMember& member_a = model.members[a.mdp.value()];
+  const ExplicitMember& member_b = model.members[b.mdp.value()];
+  const std::size_t num_variables = model.variables.size();
+  constexpr std::int64_t kFarthest = 1'000'000'000;
+  std::int64_t moved = member_a.keys[a.start.value()] == member_b.keys[b.start.value()] ? 0 : 1;
+  if (num_variables > 0) {
+    moved = 0;
+    for (std::size_t v = 0; v < num_variables; ++v) {
+      moved += std::abs(std::int64_t{member_a.variables[a.start.value() * num_variables + v]} -
+                        member_b.variables[b.start.value() * num_variables + v]);
+    }
+  }
+  return static_cast<int>(2 * std::min(moved, kFarthest)) + (a.mdp == b.mdp ? 0 : 1);
+}
+
+}  // namespace
+
+int Domain::dissimilarity(DemoId a, DemoId b) const {
+  check_start(*data_, a, "Domain::dissimilarity");
+  check_start(*data_, b, "Domain::dissimilarity");
+  return std::visit([&](const auto& family) { return dissimilarity_of(family, a, b); }, data_->family);
+}
+
+void Domain::Data::sum_up() {
+  std::visit(
+      [&](const auto& family_of_either_kind) {
+        for (const auto& member : family_of_either_kind.members) {
+          num_starts += member.starts.size();
+          exact = exact && member.mdp.is_deterministic() && member.mdp.is_integral() && member.mdp.discount() == 1.0;
+        }
+      },
+      family);
 }
 
 }  // namespace kith

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "explicit_family.hpp"
 #include "kith/domains/domain.hpp"
 #include "state_layout.hpp"
 #include "world.hpp"
@@ -20,6 +23,28 @@ struct DomainMember {
   int num_toggled = 0;                      // optional cells that are there, stations apart
 };
 
+// Gridworlds on one map.
+struct GridFamily {
+  detail::World world;
+  detail::StateLayout layout;
+  std::vector<std::string> item_names;
+  std::vector<DomainMember> members;  // per MDP
+
+  // Looks of the states, one row per (MDP, non-terminal state) in order; see complexity() and dissimilarity().
+  std::vector<std::size_t> first_state;  // per MDP, row of its state 0; one more at the end
+  std::size_t digits_per_state = 0;
+  std::vector<std::int32_t> digits;  // shape [rows, digits_per_state], padded with zeros
+  std::vector<std::uint16_t> num_digits;
+  std::vector<std::uint16_t> num_stations;  // still there
+  std::uint64_t non_station_groups = 0;     // as a mask of variants
+
+  // Fills in the looks from the members.
+  void describe_states();
+
+ private:
+  void describe_state(const DomainMember& member, detail::PackedState s);
+};
+
 struct Domain::Data {
   std::string id;
   std::string title;
@@ -29,27 +54,20 @@ struct Domain::Data {
   RewardWeights weights;
   std::vector<HalfSpace> prior;
   std::size_t max_steps = 0;
+  std::variant<GridFamily, ExplicitFamily> family;
+  std::size_t num_starts = 0;  // of all MDPs
+  bool exact = true;           // see Domain::is_exact()
 
-  detail::World world;
-  detail::StateLayout layout;
-  std::vector<std::string> item_names;
-  std::vector<DomainMember> members;  // per MDP
-  std::size_t num_starts = 0;         // of all members
-  bool exact = true;                  // see Domain::is_exact()
+  [[nodiscard]] bool has_map() const noexcept { return std::holds_alternative<GridFamily>(family); }
+  // The gridworlds. @throws std::logic_error if the MDPs are none.
+  [[nodiscard]] const GridFamily& grid() const {
+    if (const auto* found = std::get_if<GridFamily>(&family)) return *found;
+    throw std::logic_error{"Domain: an explicit model has no map"};
+  }
+  [[nodiscard]] const ExplicitFamily& model() const { return std::get<ExplicitFamily>(family); }
 
-  // Looks of the start states, one row per (MDP, start) in order; see complexity() and dissimilarity().
-  std::vector<std::size_t> first_start;  // per MDP, row of its state 0; one more at the end
-  std::size_t digits_per_start = 0;
-  std::vector<std::int32_t> digits;  // shape [num_starts, digits_per_start], padded with zeros
-  std::vector<std::uint16_t> num_digits;
-  std::vector<std::uint16_t> num_stations;  // still there
-  std::uint64_t non_station_groups = 0;     // as a mask of variants
-
-  // Fills in what follows from the members: sums over them, and the looks of their states.
-  void describe_members();
-
- private:
-  void describe_start(const DomainMember& member, detail::PackedState s);
+  // Fills in the sums over the members.
+  void sum_up();
 };
 
 }  // namespace kith

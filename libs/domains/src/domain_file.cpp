@@ -10,6 +10,7 @@
 #include "family.hpp"
 #include "kith/core/error.hpp"
 #include "kith/toml/reader.hpp"
+#include "read_model.hpp"
 #include "reward.hpp"
 
 namespace kith {
@@ -45,33 +46,29 @@ void check_has_goal(const detail::World& world, const detail::Dynamics& dynamics
                "declare a symbol with goal = true or destination = \"ITEM\", or the action \"exit\"");
 }
 
-Domain::Data data_from(std::string id, std::string title, detail::World world, const detail::Dynamics& dynamics,
-                       detail::Reward reward, std::vector<DomainMember> members) {
+// What both kinds of domains have.
+Domain::Data data_from(const detail::Dynamics& dynamics, detail::Reward reward) {
   Domain::Data data;
-  data.id = std::move(id);
-  data.title = std::move(title);
   data.feature_names = dynamics.feature_names();
-  for (const detail::Action action : dynamics.actions) {
-    data.action_names.push_back(detail::all_action_names()[static_cast<std::size_t>(action)]);
-  }
   data.feature_words = std::move(reward.words);
   data.weights = std::move(reward.weights);
   data.prior = std::move(reward.prior);
   data.max_steps = dynamics.max_steps;
-  for (const detail::Item& item : world.items) data.item_names.push_back(item.name);
-  data.layout = detail::StateLayout{world};
-  data.world = std::move(world);
-  data.members = std::move(members);
-  data.describe_members();
   return data;
 }
 
-std::optional<Domain> read_document(const TomlDocument& document, const DomainLimits& limits, TomlReport& report) {
-  TomlReader file{document.root, {0, 1, 1, 1}, "the file", report};
-  if (!check_schema(file)) return std::nullopt;
-  const auto id = file.string("id", Presence::kRequired);
-  if (id) check_id(file, *id);
-  const auto title = file.string("title", Presence::kOptional);
+GridFamily grid_from(detail::World world, std::vector<DomainMember> members) {
+  GridFamily grid;
+  for (const detail::Item& item : world.items) grid.item_names.push_back(item.name);
+  grid.layout = detail::StateLayout{world};
+  grid.world = std::move(world);
+  grid.members = std::move(members);
+  grid.describe_states();
+  return grid;
+}
+
+std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limits) {
+  TomlReport& report = file.report();
   detail::World world = detail::read_world(file);
   const detail::Dynamics dynamics = detail::read_dynamics(file, world);
   detail::Reward reward = detail::read_reward(file, dynamics);
@@ -83,7 +80,59 @@ std::optional<Domain> read_document(const TomlDocument& document, const DomainLi
   if (report.has_errors()) return std::nullopt;
   detail::check_optimum(world, dynamics, reward, members, report);
   if (report.has_errors()) return std::nullopt;
-  return Domain{data_from(*id, title.value_or(*id), std::move(world), dynamics, std::move(reward), std::move(members))};
+  Domain::Data data = data_from(dynamics, std::move(reward));
+  for (const detail::Action action : dynamics.actions) {
+    data.action_names.push_back(detail::all_action_names()[static_cast<std::size_t>(action)]);
+  }
+  data.family = grid_from(std::move(world), std::move(members));
+  return data;
+}
+
+std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& limits, const DomainFiles& files,
+                                          detail::ModelReport& model_report, DomainReading& reading) {
+  TomlReport& report = file.report();
+  detail::ModelReading model = detail::read_model(file, files, model_report);
+  reading.files = std::move(model.files);
+  const auto failed = [&] { return report.has_errors() || model_report.has_errors(); };
+  const bool knows_features = !model.dynamics.features.empty() && (model.weights || !failed());
+  if (!knows_features && failed()) {  // the rest speaks of features
+    for (const char* key : {"reward", "prior", "words"}) file.know(key);
+    file.finish();
+    return std::nullopt;
+  }
+  detail::Reward reward = detail::read_reward(file, model.dynamics, model.weights);
+  file.finish();
+  if (failed()) return std::nullopt;
+
+  Domain::Data data = data_from(model.dynamics, std::move(reward));
+  data.action_names = model.model.actions.all();
+  ExplicitFamily family = detail::build_explicit_family(std::move(model.model), data.feature_names.size(),
+                                                        model.dynamics.discount, limits, model_report);
+  if (failed()) return std::nullopt;
+  detail::check_model(family, data, model.dynamics, reward.weights_place, report);
+  if (failed()) return std::nullopt;
+  data.family = std::move(family);
+  return data;
+}
+
+std::optional<Domain> read_document(const TomlDocument& document, const DomainLimits& limits, const DomainFiles& files,
+                                    TomlReport& report, detail::ModelReport& model_report, DomainReading& reading) {
+  TomlReader file{document.root, {0, 1, 1, 1}, "the file", report};
+  if (!check_schema(file)) return std::nullopt;
+  const auto id = file.string("id", Presence::kRequired);
+  if (id) check_id(file, *id);
+  const auto title = file.string("title", Presence::kOptional);
+  const TomlEntry* model = document.root.find_entry("model");
+  if (model != nullptr && document.root.find("map") != nullptr) {
+    report.error("E0230", model->place, "a domain has a map or a model, not both", "remove one of [map] and [model]");
+    return std::nullopt;
+  }
+  auto data = model == nullptr ? read_grid(file, limits) : read_explicit(file, limits, files, model_report, reading);
+  if (!data || report.has_errors()) return std::nullopt;
+  data->id = *id;
+  data->title = title.value_or(*id);
+  data->sum_up();
+  return Domain{*std::move(data)};
 }
 
 Domain domain_or_error(DomainReading reading) {
@@ -93,12 +142,20 @@ Domain domain_or_error(DomainReading reading) {
 
 }  // namespace
 
-DomainReading parse_domain(std::string_view text, const std::string& name, const DomainLimits& limits) {
+DomainReading parse_domain(std::string_view text, const std::string& name, const DomainLimits& limits,
+                           const DomainFiles& files) {
   TomlParsing parsing = parse_toml(text, name);
-  if (!parsing.document) return {std::nullopt, std::move(parsing.diagnostics)};
+  if (!parsing.document) return {std::nullopt, std::move(parsing.diagnostics), {}};
   TomlReport report{*parsing.document};
-  std::optional<Domain> domain = read_document(*parsing.document, limits, report);
-  return {std::move(domain), report.diagnostics()};
+  detail::ModelReport model_report;
+  DomainReading reading;
+  reading.domain = read_document(*parsing.document, limits, files, report, model_report, reading);
+  reading.diagnostics = report.diagnostics();
+  for (Diagnostic diagnostic : model_report.diagnostics()) {
+    if (diagnostic.file.empty()) diagnostic.file = name;
+    reading.diagnostics.push_back(std::move(diagnostic));
+  }
+  return reading;
 }
 
 DomainReading read_domain(const std::filesystem::path& path) {
@@ -108,14 +165,15 @@ DomainReading read_domain(const std::filesystem::path& path) {
   if (!in || std::filesystem::is_directory(path)) {
     throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string()};
   }
-  return parse_domain(text.str(), path.string());
+  return parse_domain(text.str(), path.string(), {}, {.folder = path.parent_path()});
 }
 
 Domain load_domain(const std::string& name_or_path) {
   std::vector<std::string> names;
   for (const BuiltInDomain& built_in : built_in_domains()) {
     if (built_in.name == name_or_path) {
-      return domain_or_error(parse_domain(built_in.text, std::string{built_in.name} + " (built in)"));
+      return domain_or_error(
+          parse_domain(built_in.text, std::string{built_in.name} + " (built in)", {}, {.known = built_in.files}));
     }
     names.emplace_back(built_in.name);
   }

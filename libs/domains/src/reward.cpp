@@ -15,8 +15,8 @@ bool has_regions(std::size_t num_features) { return num_features >= 2 && num_fea
 
 class RewardReader {
  public:
-  RewardReader(TomlReader& file, const Dynamics& dynamics)
-      : file_{file}, report_{file.report()}, dynamics_{dynamics}, names_{dynamics.feature_names()} {}
+  RewardReader(TomlReader& file, const Dynamics& dynamics, const std::optional<std::vector<double>>& given)
+      : file_{file}, report_{file.report()}, dynamics_{dynamics}, given_{given}, names_{dynamics.feature_names()} {}
 
   Reward read() {
     read_weights();
@@ -27,9 +27,12 @@ class RewardReader {
 
  private:
   void read_weights() {
-    auto table = file_.table("reward", Presence::kRequired);
+    if (given_) take_given();
+    auto table = file_.table("reward", given_ ? Presence::kOptional : Presence::kRequired);
     if (!table) return;
-    if (const TomlValue* weights = table->value("weights", Presence::kRequired)) {
+    if (given_) {
+      refuse_weights(*table);
+    } else if (const TomlValue* weights = table->value("weights", Presence::kRequired)) {
       reward_.weights_place = weights->place();
       if (read_table(*weights, "'weights'", report_) != nullptr) take_weights(*weights);
     }
@@ -37,6 +40,21 @@ class RewardReader {
       reward_.weights.norm = WeightNorm::kL1;
     }
     table->finish();
+  }
+
+  void take_given() {
+    reward_.weights_place = dynamics_.features.front().place;
+    if (const auto integer = exact_direction(*given_)) return set_weights(*given_, *integer);
+    report_.error("E0315", reward_.weights_place, "the rewards need more digits than exact arithmetic takes",
+                  "at a common denominator every reward must stay below 2^31: round them");
+  }
+
+  void refuse_weights(TomlReader& table) {
+    table.know("weights");
+    if (const TomlValue* weights = table.content().find("weights")) {
+      report_.error("E0263", weights->place(), "the weights follow from the rewards of the model",
+                    "leave them out, or write feature vectors in the place of rewards");
+    }
   }
 
   void take_weights(const TomlValue& value) {
@@ -167,6 +185,7 @@ class RewardReader {
   TomlReader& file_;
   TomlReport& report_;
   const Dynamics& dynamics_;
+  const std::optional<std::vector<double>>& given_;
   std::vector<std::string> names_;
   Reward reward_;
   bool prior_clashes_ = false;
@@ -174,6 +193,8 @@ class RewardReader {
 
 }  // namespace
 
-Reward read_reward(TomlReader& file, const Dynamics& dynamics) { return RewardReader{file, dynamics}.read(); }
+Reward read_reward(TomlReader& file, const Dynamics& dynamics, const std::optional<std::vector<double>>& given) {
+  return RewardReader{file, dynamics, given}.read();
+}
 
 }  // namespace kith::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct Reward {
   std::vector<std::string> words;  // per feature
 };
 
-[[nodiscard]] Reward read_reward(TomlReader& file, const Dynamics& dynamics);
+// `given`: the weights, shape [d], where they follow from a model and the file has none.
+[[nodiscard]] Reward read_reward(TomlReader& file, const Dynamics& dynamics,
+                                 const std::optional<std::vector<double>>& given = std::nullopt);
 
 }  // namespace kith::detail

@@ -64,10 +64,11 @@ struct CellContent {
   std::string destination_of;  ///< Item that belongs here; empty: none.
 };
 
-/// A family of MDPs that share actions, features, reward weights and discount,
-/// and differ in which optional things are on the map.
+/// A family of MDPs that share actions, features, reward weights and discount:
+/// gridworlds that differ in which optional things are on the map, or an explicit
+/// model of one or several MDPs.
 ///
-/// MDP m's things are the bits of m, the first optional group in the most
+/// In gridworlds MDP m's things are the bits of m, the first optional group in the most
 /// significant bit; where the file builds only some of the family, variant()
 /// knows them. Immutable and self-contained: a value.
 class Domain {
@@ -104,24 +105,26 @@ class Domain {
   /// Number of (MDP, start) pairs.
   [[nodiscard]] std::size_t num_starts() const noexcept;
   [[nodiscard]] const Mdp& mdp(MdpIndex m) const;
-  /// The state in which a robot first enters MDP m (the map's start).
+  /// The state in which a robot first enters MDP m (the map's start, or what the model calls initial).
   [[nodiscard]] StateIndex initial_state(MdpIndex m) const;
-  /// Which optional groups are there, in legend order and within a symbol in reading order.
+  /// Which optional groups are there, in legend order and within a symbol in reading order. Empty without a map.
   [[nodiscard]] std::vector<bool> variant(MdpIndex m) const;
   /// The optional things that MDP m has, in words: "rubble@{(2,1),(2,2)} charger@{}". Here cells are
-  /// (column, row) from the top left, as in all messages about domain files.
+  /// (column, row) from the top left, as in all messages about domain files. Without a map the name of the MDP.
   [[nodiscard]] std::string describe_variant(MdpIndex m) const;
   /// Whether feature k can occur in MDP m at all. The last feature counts as always present.
   [[nodiscard]] bool has_feature(MdpIndex m, std::size_t k) const;
 
   /// A state in words, also a terminal one: "robot at (2,1), carrying the parcel". Cells are (column, row) from the top
-  /// left, as in all messages. @throws std::invalid_argument if there is no such state.
+  /// left, as in all messages. Without a map the name that the model gives it. @throws std::invalid_argument if there
+  /// is no such state.
   [[nodiscard]] std::string state_name(MdpIndex m, StateIndex s) const;
 
-  /// Whether the MDPs are gridworlds on one map. What follows up to dissimilarity() is about maps.
+  /// Whether the MDPs are gridworlds on one map, rather than an explicit model that was given state by state. What is
+  /// about maps throws std::logic_error without one: width(), height(), content(), state(), find_state() and draw().
   [[nodiscard]] bool has_map() const noexcept;
-  [[nodiscard]] int width() const noexcept;
-  [[nodiscard]] int height() const noexcept;
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int height() const;
   [[nodiscard]] CellContent content(MdpIndex m, Cell cell) const;
   /// Also for terminal states.
   [[nodiscard]] GridState state(MdpIndex m, StateIndex s) const;
@@ -133,11 +136,13 @@ class Domain {
   [[nodiscard]] std::vector<std::size_t> items_in(MdpIndex m) const;
 
   /// How much there is to look at: optional things present in the start state
-  /// (terrain cells and stations that are toggled, plus stations still there).
+  /// (terrain cells and stations that are toggled, plus stations still there). 0 without a map.
   [[nodiscard]] int complexity(DemoId demo) const;
   /// How different two start pictures are:
   ///   2 * sum |differences of the state's coordinates and flags| (over their common length)
   ///   + number of optional groups other than stations that differ + |difference of station counts|.
+  /// Without a map: 2 * sum |differences of the states' variables| (without variables: 2 for different states),
+  /// plus 1 for different MDPs.
   [[nodiscard]] int dissimilarity(DemoId a, DemoId b) const;
 
   /// The map of MDP m as text, top row first, one row per string, in the

@@ -12,11 +12,25 @@
 
 namespace kith {
 
+/// A file that a domain file names: a part of an explicit model.
+struct DomainFile {
+  std::string name;  ///< As the domain file says it, relative to its folder.
+  std::string text;
+  friend bool operator==(const DomainFile&, const DomainFile&) = default;
+};
+
+/// Where the files are that a domain file names.
+struct DomainFiles {
+  std::filesystem::path folder{};      ///< That of the domain file; empty: the working directory.
+  std::vector<DomainFile> known = {};  ///< Files that need not be read any more.
+};
+
 /// What came of reading a domain file: a domain unless there are errors, and
 /// everything worth saying about the file, in file order.
 struct DomainReading {
   std::optional<Domain> domain;
   std::vector<Diagnostic> diagnostics;
+  std::vector<DomainFile> files;  ///< Those that the domain file names, as far as they could be read.
 };
 
 /// How large a domain may become before it is refused (E0219). A small file can describe a large one.
@@ -26,18 +40,19 @@ struct DomainLimits {
 
 /// Parses and checks a domain file (schema kith.domain/1, see docs/formats.md).
 /// All errors of a file are reported at once (at most 20); `name` is used in
-/// messages. Never throws for bad content.
+/// messages. The files of an explicit model are read too. Never throws for bad content.
 [[nodiscard]] DomainReading parse_domain(std::string_view text, const std::string& name,
-                                         const DomainLimits& limits = {});
+                                         const DomainLimits& limits = {}, const DomainFiles& files = {});
 
-/// Reads the file and parses it. @throws kith::Error (kIo) if it cannot be read.
+/// Reads the file, and those that it names, and parses them. @throws kith::Error (kIo) if it cannot be read.
 [[nodiscard]] DomainReading read_domain(const std::filesystem::path& path);
 
 /// A domain that comes with kith.
 struct BuiltInDomain {
   std::string_view name;  ///< "item-delivery"
   std::string_view description;
-  std::string_view text;  ///< The TOML file, embedded when kith was built.
+  std::string_view text;               ///< The TOML file, embedded when kith was built.
+  std::vector<DomainFile> files = {};  ///< Those that it names.
 };
 [[nodiscard]] const std::vector<BuiltInDomain>& built_in_domains();
 

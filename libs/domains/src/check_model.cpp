@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <optional>
+
+#include "domain_data.hpp"
+#include "family.hpp"
+#include "kith/mdp/behaviour.hpp"
+#include "kith/mdp/planner.hpp"
+
+namespace kith::detail {
+namespace {
+
+// Plans every MDP of an explicit model under the robot's weights and looks at the result.
+class ModelChecker {
+ public:
+  ModelChecker(const ExplicitFamily& family, const Domain::Data& data, const Dynamics& dynamics,
+               TomlPlace weights_place, TomlReport& report)
+      : family_{family}, data_{data}, dynamics_{dynamics}, weights_place_{weights_place}, report_{report} {}
+
+  void run() {
+    for (const ExplicitMember& member : family_.members) {
+      for (std::size_t k = 0; k < occurs_.size(); ++k) occurs_[k] = occurs_[k] || member.mdp.has_feature(k);
+      if (member.mdp.discount() == 1.0) check(member);  // every discounted optimum is finite
+    }
+    if (num_failures_ > 0) report_failure();
+    for (std::size_t k = 0; k < occurs_.size(); ++k) {
+      if (occurs_[k] || num_failures_ > 0) continue;
+      report_.warning("W0301", dynamics_.features[k].place,
+                      "feature '" + dynamics_.features[k].name + "' occurs in no MDP");
+    }
+  }
+
+ private:
+  void check(const ExplicitMember& member) {
+    if (!member.mdp.is_deterministic() || !member.mdp.is_integral()) {
+      if (!behave(member.mdp, data_.weights.raw)) note_failure(member, "E0323", "");
+      return;
+    }
+    const ExactPlan plan = plan_exactly(member.mdp, data_.weights.integer);
+    if (plan.solution) return;
+    note_failure(member, plan.failure == PlanFailure::kPositiveCycle ? "E0321" : "E0322",
+                 cycle_text(member, plan.cycle));
+  }
+
+  void note_failure(const ExplicitMember& member, const std::string& id, std::string cycle) {
+    if (++num_failures_ > 1) return;
+    failure_ = id;
+    cycle_ = std::move(cycle);
+    failing_ = member.name;
+  }
+
+  // "at the door -> in the hall -> at the door".
+  [[nodiscard]] static std::string cycle_text(const ExplicitMember& member, const std::vector<StateIndex>& cycle) {
+    constexpr std::size_t kShown = 12;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(cycle.size(), kShown); ++i) text += member.names[cycle[i].value()] + " -> ";
+    return text + (cycle.size() > kShown || cycle.empty() ? "..." : member.names[cycle[0].value()]);
+  }
+
+  void report_failure() {
+    std::string where;
+    if (family_.members.size() > 1) {
+      where = "; in " + std::to_string(num_failures_) + " of " + std::to_string(family_.members.size()) +
+              " MDPs, first in '" + failing_ + "'";
+    }
+    const std::string hint = "give what the robot does a cost, so that finishing is better than wandering";
+    if (failure_ == "E0321") {
+      report_.infeasible("E0321", weights_place_,
+                         "the robot can go round in circles for ever-growing reward: " + cycle_ + where, hint);
+    } else if (failure_ == "E0322") {
+      report_.infeasible("E0322", weights_place_, "the robot can go round in circles for nothing: " + cycle_ + where,
+                         hint);
+    } else {
+      report_.infeasible("E0323", weights_place_,
+                         "there is no best way to finish: the robot can collect reward for ever" + where,
+                         hint + ", or set a discount below 1");
+    }
+  }
+
+  const ExplicitFamily& family_;
+  const Domain::Data& data_;
+  const Dynamics& dynamics_;
+  TomlPlace weights_place_;
+  TomlReport& report_;
+  std::vector<bool> occurs_ = std::vector<bool>(dynamics_.features.size(), false);
+  std::size_t num_failures_ = 0;
+  std::string failure_;
+  std::string cycle_;
+  std::string failing_;
+};
+
+}  // namespace
+
+void check_model(const ExplicitFamily& family, const Domain::Data& data, const Dynamics& dynamics,
+                 const TomlPlace& weights_place, TomlReport& report) {
+  ModelChecker{family, data, dynamics, weights_place, report}.run();
+}
+
+}  // namespace kith::detail

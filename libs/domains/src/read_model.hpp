@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics.hpp"
+#include "explicit_family.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/toml/reader.hpp"
+
+namespace kith::detail {
+
+// What a domain file and the files that it names say about an explicit model.
+struct ModelReading {
+  Dynamics dynamics;  // discount, max_steps and features; no actions, atoms or rules
+  RawModel model;
+  std::optional<std::vector<double>> weights;  // where the rewards of the model are the weights
+  TomlPlace place;                             // of [model]
+  std::vector<DomainFile> files;
+};
+
+// Reads [mdp], [model] and [[feature]], and the files.
+[[nodiscard]] ModelReading read_model(TomlReader& file, const DomainFiles& files, ModelReport& report);
+
+}  // namespace kith::detail

@@ -1,0 +1,257 @@
+// What is wrong with an explicit model is said with its file, line, column and mend.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "error_ids.hpp"
+#include "models_under_test.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Case {
+  std::string name;
+  const ModelTexts* base;
+  std::string file;
+  std::string from;
+  std::string to;
+  std::string expected;  // "E0240 transitions.csv 3:8": the first complaint
+  std::string message = "";
+  std::string hint = "";
+  bool infeasible = false;
+};
+
+const std::string kNine =
+    "[[feature]]\nname = \"a\"\n[[feature]]\nname = \"b\"\n[[feature]]\nname = \"c\"\n[[feature]]\nname = \"d\"\n"
+    "[[feature]]\nname = \"e\"\n[[feature]]\nname = \"f\"\n[[feature]]\nname = \"g\"\n[reward]";
+
+std::vector<Case> cases() {
+  const auto* csv = &kIceCsv;
+  const auto* json = &kIceJson;
+  const auto* prism = &kIcePrism;
+  const auto* gym = &kIceGym;
+  const std::string toml = "domain.toml";
+  const std::string states = "states.csv";
+  const std::string rows = "transitions.csv";
+  return {
+      // the domain file
+      {"map_and_model", csv, toml, "[model]", "[map]\nrows = [\"SG\"]\n[model]", "E0230 domain.toml 7:2", "not both"},
+      {"feature_like_a_column", csv, toml, "\"slip\"", "\"next\"", "E0231 domain.toml 10:8", "cannot be called"},
+      {"no_mdp", prism, toml, "[[model.mdp]]\ntransitions", "mdp = []\n[more]\ntransitions", "E0231 domain.toml 7:7"},
+      {"mdp_twice", gym, toml, "[[model.mdp]]",
+       "[[model.mdp]]\nname = \"a\"\nfile = \"ice.json\"\n[[model.mdp]]\nname = \"a\"", "E0231 domain.toml 11:8",
+       "twice", "line 7"},
+      {"file_above", csv, toml, "\"states.csv\"", "\"../states.csv\"", "E0232 domain.toml 7:10",
+       "cannot be a file of a model", "beside"},
+      {"file_elsewhere", csv, toml, "\"states.csv\"", "\"/etc/states.csv\"", "E0232 domain.toml 7:10"},
+      {"file_missing", csv, toml, "\"states.csv\"", "\"state.csv\"", "E0233 domain.toml 7:10", "cannot be read",
+       "state.csv"},
+      {"unknown_format", csv, toml, "\"csv\"", "\"cvs\"", "E0112 domain.toml 6:10", "", "csv"},
+      {"unknown_key", csv, toml, "format", "colour = 1\nformat", "E0107 domain.toml 6:1"},
+      {"no_feature", csv, toml, "[[feature]]\nname = \"slip\"\n[[feature]]\nname = \"step\"\n", "",
+       "E0301 domain.toml 1:1"},
+      {"nine_features", csv, toml, "[reward]", kNine, "E0301 domain.toml 25:1", "not 9"},
+      {"weight_missing", csv, toml, "slip = -2, ", "", "E0311 domain.toml 14:11"},
+      {"action_twice", csv, toml, "discount = 1.0", "actions = [\"go\", \"creep\", \"go\"]", "E0222 domain.toml 4:27"},
+      // tables
+      {"state_column_missing", csv, states, "state,name", "stat,name", "E0502 states.csv 1:1", "\"state\" is missing"},
+      {"variable_no_integer", csv, states, "true,0", "true,left", "E0506 states.csv 2:29", "integer"},
+      {"state_twice", csv, states, "ice,on the ice", "bank,on the ice", "E0241 states.csv 3:1",
+       "'bank' is there twice"},
+      {"feature_column_missing", csv, rows, "slip,step", "slap,step", "E0503 transitions.csv 1:31", "", "slip"},
+      {"unknown_state", csv, rows, "bank,go", "bnak,go", "E0240 transitions.csv 2:1", "no state 'bnak' in states.csv",
+       "did you mean 'bank'?"},
+      {"unknown_next", csv, rows, "go,shore", "go,shor", "E0240 transitions.csv 3:8", "'shor'",
+       "did you mean 'shore'?"},
+      {"unknown_mdp", csv, states, "state,name", "mdp,state,name", "E0505 states.csv 2:29"},
+      {"row_twice", csv, rows, "ice,creep,ice,0.5,0,1\n", "ice,creep,shore,0.5,0,1\n", "E0246 transitions.csv 6:1",
+       "twice", "sum of the probabilities"},
+      {"probability_zero", csv, rows, "0.25", "0", "E0247 transitions.csv 4:13", "above 0"},
+      {"probability_negative", csv, rows, "0.75", "-0.75", "E0247 transitions.csv 3:14"},
+      {"probability_above_one", csv, rows, "0.75", "1.75", "E0247 transitions.csv 3:14", "at most 1"},
+      {"sum_not_one", csv, rows, "0.75", "0.7", "E0248 transitions.csv 4:13", "sum to 0.950000, not 1", "2 outcomes"},
+      {"feature_not_finite", csv, rows, "0.25,1,1", "0.25,inf,1", "E0249 transitions.csv 4:18",
+       "feature 'slip' is not a finite number"},
+      {"feature_nan", csv, rows, "0.25,1,1", "0.25,nan,1", "E0506 transitions.csv 4:18"},
+      {"rows_of_a_terminal_state", csv, rows, "bank,creep,bank", "shore,creep,bank", "E0254 transitions.csv 7:1",
+       "'shore' is terminal"},
+      {"state_without_action", csv, states, "shore,ashore,true,false,2\n",
+       "shore,ashore,true,false,2\npier,on a pier,false,false,3\n", "E0255 states.csv 5:1", "'pier'", "terminal"},
+      {"no_end", csv, states, "ashore,true", "ashore,false", "E0256 states.csv 1:1", "no terminal state"},
+      {"terminal_start", csv, states, "true,false,2", "true,true,2", "E0258 states.csv 4:1", "cannot be a start"},
+      {"undeclared_action", csv, toml, "discount = 1.0", "actions = [\"go\", \"crawl\"]", "E0243 transitions.csv 5:5",
+       "'creep'", "known: go, crawl"},
+      {"unreachable_end", csv, rows, "bank,go,ice,1,0,1\n", "bank,go,bank,1,0,1\n", "W0203 states.csv 2:1", "left out"},
+      {"variable_too_large", csv, states, "true,1", "true,3000000000", "E0249 states.csv 3:27", "too large"},
+      {"mdp_without_states", csv, states,
+       "state,name,terminal,start,x\nbank,on the bank,false,true,0\nice,on the "
+       "ice,false,true,1\nshore,ashore,true,false,2\n",
+       "mdp,state,terminal\na,bank,false\na,ice,false\na,shore,true\n", "E0502 transitions.csv 1:1",
+       "\"mdp\" is missing"},
+      // optimum
+      {"for_ever", csv, rows, "bank,creep,bank,1,0,1\n", "ice,pace,bank,0.5,-9,1\nice,pace,ice,0.5,-9,1\n",
+       "E0323 domain.toml 14:11", "collect reward for ever", "discount", true},
+      // JSON
+      {"json_broken", json, "ice.json", "\"features\": [", "\"features\" [", "E0234 ice.json 2:13", "not valid JSON",
+       "validator"},
+      {"json_key_twice", json, "ice.json", "\"variables\": [\"x\"]", "\"features\": []", "E0234 ice.json 3:2", "twice"},
+      {"json_deep", json, "ice.json", "[\"x\"]", "[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]", "E0234 ice.json 3:30",
+       "deeper"},
+      {"json_schema", json, "ice.json", "kith.model/1", "kith.model/9", "E0235 ice.json 1:12", "kith.model/9"},
+      {"json_key_missing", json, "ice.json", "\"transitions\"", "\"transition\"", "E0235 ice.json 9:3", "nobody reads",
+       "'transitions'"},
+      {"json_kind", json, "ice.json", "0.75", "\"0.75\"", "E0235 ice.json 11:69",
+       "\"probability\" must be a number, not a string"},
+      {"json_features_short", json, "ice.json", "\"features\": [1, 0]}", "\"features\": [1]}", "E0250 ice.json 10:65",
+       "there are 1 features, not 2"},
+      {"json_features_null", json, "ice.json", "\"features\": [1, 0]}", "\"features\": [1, null]}",
+       "E0235 ice.json 10:69", "not null"},
+      {"json_state_unknown", json, "ice.json", "\"next\": \"shore\"", "\"next\": \"sea\"", "E0240 ice.json 11:45",
+       "no state 'sea'", "known: bank, ice, shore"},
+      {"json_other_features", json, "ice.json", "[\"step\", \"slip\"]", "[\"step\", \"slap\"]", "E0253 ice.json 2:23",
+       "no feature 'slap'", "'slip'"},
+      {"json_variables_short", json, "ice.json", "\"variables\": [1]", "\"variables\": []", "E0250 ice.json 7:71",
+       "0 variables, not 1"},
+      {"json_state_twice", json, "ice.json", "\"state\": \"ice\"", "\"state\": \"bank\"", "E0241 ice.json 7:14",
+       "twice"},
+      // PRISM
+      {"prism_header", prism, "ice.tra", "3 4 6", "3 6", "E0236 ice.tra 1:1", "as in '6 10 16'"},
+      {"prism_line", prism, "ice.tra", "1 1 1 0.5 creep", "1 1 0.5", "E0236 ice.tra 5:1",
+       "state, choice, next state, probability"},
+      {"prism_probability", prism, "ice.tra", "1/4", "1/0", "E0236 ice.tra 3:7", "a probability"},
+      {"prism_count", prism, "ice.tra", "3 4 6", "3 4 7", "E0237 ice.tra 1:1",
+       "promises 7 transitions, but there are 6"},
+      {"prism_state", prism, "ice.tra", "0 0 1 1 go", "0 0 3 1 go", "E0240 ice.tra 2:5", "no state 3", "0 to 2"},
+      {"prism_two_choices", prism, "ice.tra", "0.5 creep", "0.5 go", "E0238 ice.tra 5:11", "do not match"},
+      {"prism_variables", prism, "ice.sta", "1:(1)", "1:(1,2)", "E0236 ice.sta 3:1", "1 values"},
+      {"prism_state_missing", prism, "ice.sta", "1:(1)\n", "", "E0237 ice.sta 4:1", "state 1 is missing"},
+      {"prism_no_states_file", prism, toml, "[[feature]]",
+       "[[model.mdp]]\nname = \"b\"\ntransitions = \"ice.tra\"\nlabels = \"ice.lab\"\nrewards = { slip = [], step = [] "
+       "}\n[[feature]]",
+       "E0109 domain.toml 7:1"},
+      {"prism_label", prism, toml, "\"goal\"", "\"done\"", "E0251 ice.lab 2:1", "no label 'done'",
+       "known: init, deadlock, goal, start"},
+      {"prism_rewards_elsewhere", prism, "ice.slip.trew", "1 0 0 1", "1 1 0 1", "E0252 ice.slip.trew 4:1",
+       "no such transition in ice.tra"},
+      {"prism_rewards_of_another", prism, "ice.step.srew", "3 3", "4 3", "E0237 ice.step.srew 3:1", "it has 3 states"},
+      {"prism_feature_unknown", prism, toml, "{ slip =", "{ slap =", "E0253 domain.toml 11:11", "no rewards"},
+      // Gymnasium
+      {"gym_outcome", gym, "ice.json", "[1.0, 1, -1.0, false]", "[1.0, 1, -1.0]", "E0235 ice.json 2:14",
+       "[probability, next state, reward, terminated]"},
+      {"gym_gap", gym, "ice.json", "\"2\": {", "\"3\": {", "E0237 ice.json 1:7", "one is number 3"},
+      {"gym_key", gym, "ice.json", "\"2\": {", "\"two\": {", "E0235 ice.json 4:2", "\"two\""},
+      {"gym_next", gym, "ice.json", "[1.0, 1, -1.0", "[1.0, 7, -1.0", "E0240 ice.json 2:20", "no such state"},
+      {"gym_mixed", gym, "ice.json", "0, -3.0,", "0, [1, 1],", "E0235 ice.json 3:47", "a number before"},
+      {"gym_sum", gym, "ice.json", "0.25, 0", "0.2, 0", "E0248 ice.json 3:38", "0.950000"},
+      {"gym_no_rewards", gym, "ice.json", R"(-1.0, false]], "1": [[1.0, 0, -1.0, false]]},
+ "1": {"0": [[0.75, 2, -1.0, true], [0.25, 0, -3.0, false]], "1": [[0.5, 2, -1.0, true], [0.5, 1, -1.0, false]]})",
+       R"(0, false]]}, "1": {"0": [[1, 2, 0, true]]})", "E0261 domain.toml 5:1", "0 different rewards"},
+      {"gym_weights", gym, toml, "[model]", "[reward]\nweights = { a = 1 }\n[model]", "E0263 domain.toml 6:11",
+       "follow from the rewards"},
+      {"gym_reward_unknown", gym, toml, "file = \"ice.json\"",
+       "file = \"ice.json\"\n[[feature]]\nname = \"step\"\nreward = -5", "E0262 domain.toml 10:8",
+       "no transition has the reward", "-1.0"},
+      {"gym_reward_undeclared", gym, toml, "file = \"ice.json\"",
+       "file = \"ice.json\"\n[[feature]]\nname = \"step\"\nreward = -1", "E0262 domain.toml 10:8",
+       "no feature stands for reward -3.0"},
+      {"gym_action_without_name", gym, toml, "[\"go\", \"creep\"]", "[\"go\"]", "E0243 ice.json 2:44",
+       "no name for action 1"},
+  };
+}
+
+std::string place_of(const Diagnostic& d) {
+  return d.id + " " + d.file + " " + std::to_string(d.line) + ":" + std::to_string(d.column);
+}
+
+class ModelError : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ModelError, IsReportedAtItsPlaceWithAHint) {
+  const Case& c = GetParam();
+  const DomainReading reading = read_model_texts(edited(*c.base, c.file, c.from, c.to));
+  std::string all;
+  for (const Diagnostic& d : reading.diagnostics) all += to_text(d);
+  ASSERT_FALSE(reading.diagnostics.empty());
+  const Diagnostic& first = reading.diagnostics.front();
+  EXPECT_EQ(place_of(first), c.expected) << all;
+  EXPECT_THAT(first.message, HasSubstr(c.message));
+  EXPECT_THAT(first.hint, HasSubstr(c.hint));
+  EXPECT_EQ(first.infeasible, c.infeasible);
+  EXPECT_EQ(reading.domain.has_value(), !has_errors(reading.diagnostics));
+  EXPECT_TRUE(first.id < "E0232" || first.id[0] != 'E' || first.id >= "E0300" || !first.hint.empty()) << all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ModelError, ::testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
+
+TEST(ModelErrors, AreNoneInSoundModels) {
+  for (const auto* texts : {&kIceCsv, &kIceJson, &kIcePrism, &kIceGym}) {
+    const auto diagnostics = read_model_texts(*texts).diagnostics;
+    EXPECT_FALSE(has_errors(diagnostics)) << to_text(diagnostics.front());
+  }
+}
+
+TEST(ModelErrors, SayThatAStartCannotEnd) {
+  auto texts = edited(kIceCsv, "transitions.csv", "bank,go,ice,1,0,1\n", "bank,go,bank,1,0,1\n");
+  const auto reading = read_model_texts(texts);
+  ASSERT_EQ(reading.diagnostics.size(), 2u);
+  EXPECT_EQ(place_of(reading.diagnostics[1]), "E0260 states.csv 2:1");
+  EXPECT_TRUE(reading.diagnostics[1].infeasible);
+}
+
+TEST(ModelErrors, SayThatThereAreTwoInitialStates) {
+  auto texts = edited(kIcePrism, "ice.lab", "1: 3", "1: 0 3");
+  EXPECT_EQ(place_of(read_model_texts(texts).diagnostics.at(0)), "E0259 ice.sta 3:1");
+}
+
+TEST(ModelErrors, SayThatMdpsShareTheirVariables) {
+  auto texts = edited(kIcePrism, "domain.toml", "[[model.mdp]]", "[[model.mdp]]\nname = \"a\"");
+  texts = edited(texts, "domain.toml", "[[feature]]",
+                 "[[model.mdp]]\nname = \"b\"\ntransitions = \"ice.tra\"\nlabels = \"ice.lab\"\nrewards = { slip = [], "
+                 "step = [] }\n[[feature]]");
+  EXPECT_EQ(place_of(read_model_texts(texts).diagnostics.at(0)), "E0239 ice.tra 1:1");
+}
+
+TEST(ModelErrors, NameAnMdpWithoutStates) {
+  auto texts = kIceCsv;
+  texts["states.csv"] = "mdp,state,terminal\ndry,bank,false\ndry,shore,true\n";
+  texts["transitions.csv"] = "mdp,state,action,next,slip,step\ndry,bank,go,shore,0,1\nwet,bank,go,shore,0,1\n";
+  const auto diagnostics = read_model_texts(texts).diagnostics;
+  EXPECT_EQ(place_of(diagnostics.at(0)), "E0242 transitions.csv 3:1");
+  EXPECT_EQ(diagnostics.at(0).hint, "known: dry");
+}
+
+TEST(ModelErrors, RefuseMoreStatesThanTheCallerWants) {
+  DomainFiles files;
+  for (const auto& [name, text] : kIceCsv) files.known.push_back({name, text});
+  const auto reading = parse_domain(kIceCsv.at("domain.toml"), "domain.toml", {.max_states = 2}, files);
+  ASSERT_EQ(reading.diagnostics.size(), 1u);
+  EXPECT_EQ(reading.diagnostics[0].id, "E0257");
+}
+
+TEST(ModelErrors, StopAtTwentyOfTheFiles) {
+  auto texts = kIceCsv;
+  for (int i = 0; i < 100; ++i) texts["transitions.csv"] += "x,go,y,1,0,1\n";
+  EXPECT_EQ(read_model_texts(texts).diagnostics.size(), 20u);
+}
+
+// Those of this page of the documentation; the others are those of grids.
+bool is_of_models(const std::string& id) {
+  return (id >= "E0230" && id < "E0300") || id == "E0323" || id == "W0203" || id == "W0204";
+}
+
+TEST(ModelErrorIds, AreAllTriggeredHere) {
+  std::set<std::string> triggered{"E0239", "E0242", "E0257",
+                                  "E0259", "E0260", "W0204"};  // above, and explicit_model_test
+  for (const Case& c : cases()) {
+    for (const Diagnostic& d : read_model_texts(edited(*c.base, c.file, c.from, c.to)).diagnostics)
+      triggered.insert(d.id);
+  }
+  for (const std::string& id : kith::testing::error_ids_in("domains")) {
+    EXPECT_TRUE(!is_of_models(id) || triggered.contains(id)) << id;
+  }
+}
+
+}  // namespace
+}  // namespace kith

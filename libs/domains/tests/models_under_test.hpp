@@ -1,0 +1,145 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "kith/domains/domain_file.hpp"
+
+namespace kith {
+
+/// Files by name; "domain.toml" is the domain file, the others are those that it names.
+using ModelTexts = std::map<std::string, std::string>;
+
+/// A robot on ice: it goes or creeps from the bank over the ice to the shore, and may slip back.
+inline const ModelTexts kIceCsv{{"domain.toml", R"(schema = "kith.domain/1"
+id = "ice"
+[mdp]
+discount = 1.0
+[model]
+format = "csv"
+states = "states.csv"
+transitions = "transitions.csv"
+[[feature]]
+name = "slip"
+[[feature]]
+name = "step"
+[reward]
+weights = { slip = -2, step = -1 }
+)"},
+                                {"states.csv", R"(state,name,terminal,start,x
+bank,on the bank,false,true,0
+ice,on the ice,false,true,1
+shore,ashore,true,false,2
+)"},
+                                {"transitions.csv", R"(state,action,next,probability,slip,step
+bank,go,ice,1,0,1
+ice,go,shore,0.75,0,1
+ice,go,bank,0.25,1,1
+ice,creep,shore,0.5,0,1
+ice,creep,ice,0.5,0,1
+bank,creep,bank,1,0,1
+)"}};
+
+inline const ModelTexts kIceJson{{"domain.toml", R"(schema = "kith.domain/1"
+id = "ice"
+[model]
+format = "json"
+file = "ice.json"
+[[feature]]
+name = "slip"
+[[feature]]
+name = "step"
+[reward]
+weights = { slip = -2, step = -1 }
+)"},
+                                 {"ice.json", R"({"schema": "kith.model/1",
+ "features": ["step", "slip"],
+ "variables": ["x"],
+ "mdps": [{
+  "states": [
+   {"state": "bank", "name": "on the bank", "start": true, "variables": [0]},
+   {"state": "ice", "name": "on the ice", "start": true, "variables": [1]},
+   {"state": "shore", "name": "ashore", "terminal": true, "variables": [2]}],
+  "transitions": [
+   {"state": "bank", "action": "go", "next": "ice", "features": [1, 0]},
+   {"state": "ice", "action": "go", "next": "shore", "probability": 0.75, "features": [1, 0]},
+   {"state": "ice", "action": "go", "next": "bank", "probability": 0.25, "features": [1, 1]},
+   {"state": "ice", "action": "creep", "next": "shore", "probability": 0.5, "features": [1, 0]},
+   {"state": "ice", "action": "creep", "next": "ice", "probability": 0.5, "features": [1, 0]}]}]}
+)"}};
+
+inline const ModelTexts kIcePrism{
+    {"domain.toml", R"(schema = "kith.domain/1"
+id = "ice"
+[model]
+format = "prism"
+terminal = "goal"
+start = "start"
+[[model.mdp]]
+transitions = "ice.tra"
+states = "ice.sta"
+labels = "ice.lab"
+rewards = { slip = "ice.slip.trew", step = ["ice.step.srew"] }
+[[feature]]
+name = "slip"
+[[feature]]
+name = "step"
+[reward]
+weights = { slip = -2, step = -1 }
+)"},
+    {"ice.tra", R"(3 4 6
+0 0 1 1 go
+1 0 0 1/4 go
+1 0 2 3/4 go
+1 1 1 0.5 creep
+1 1 2 0.5 creep
+2 0 2 1
+)"},
+    {"ice.sta", "(x)\n0:(0)\n1:(1)\n2:(2)\n"},
+    {"ice.lab", "# Labels\n0=\"init\" 1=\"deadlock\" 2=\"goal\" 3=\"start\"\n0: 0 3\n1: 3\n2: 2\n"},
+    {"ice.slip.trew", "# Reward structure \"slip\"\n# Transition rewards\n3 4 1\n1 0 0 1\n"},
+    {"ice.step.srew", "# Reward structure \"step\"\n# State rewards\n3 3\n0 1\n1 1\n2 1\n"}};
+
+inline const ModelTexts kIceGym{{"domain.toml", R"(schema = "kith.domain/1"
+id = "ice"
+[mdp]
+actions = ["go", "creep"]
+[model]
+format = "gym-json"
+[[model.mdp]]
+file = "ice.json"
+)"},
+                                {"ice.json", R"({"P": {
+ "0": {"0": [[1.0, 1, -1.0, false]], "1": [[1.0, 0, -1.0, false]]},
+ "1": {"0": [[0.75, 2, -1.0, true], [0.25, 0, -3.0, false]], "1": [[0.5, 2, -1.0, true], [0.5, 1, -1.0, false]]},
+ "2": {"0": [[1.0, 2, 0, true]], "1": [[1.0, 2, 0, true]]}}}
+)"}};
+
+inline DomainReading read_model_texts(const ModelTexts& texts) {
+  DomainFiles files;
+  for (const auto& [name, text] : texts) {
+    if (name != "domain.toml") files.known.push_back({name, text});
+  }
+  return parse_domain(texts.at("domain.toml"), "domain.toml", {}, files);
+}
+
+/// The texts with the first `from` of one of them replaced.
+inline ModelTexts edited(ModelTexts texts, const std::string& file, const std::string& from, const std::string& to) {
+  const auto at = texts.at(file).find(from);
+  if (at == std::string::npos) throw std::runtime_error{"nothing to edit: " + from};
+  texts.at(file).replace(at, from.size(), to);
+  return texts;
+}
+
+inline Domain sound_model(const ModelTexts& texts) {
+  DomainReading reading = read_model_texts(texts);
+  for (const Diagnostic& d : reading.diagnostics) {
+    if (d.severity == Severity::kError) ADD_FAILURE() << to_text(d);
+  }
+  if (!reading.domain) throw std::runtime_error{"the model of the test is not sound"};
+  return *std::move(reading.domain);
+}
+
+}  // namespace kith
