@@ -11,6 +11,7 @@ namespace {
 
 void check_states(const Domain& domain, MdpIndex m) {
   const auto& mdp = domain.mdp(m);
+  if (!domain.has_map()) return;  // models are a target of their own
   for (std::size_t s = 0; s < std::min<std::size_t>(mdp.num_states(), 8); ++s) {
     const auto picture = domain.state(m, StateIndex{s});
     fuzzing::require(domain.find_state(m, picture) == StateIndex{s}, "a state is found by its picture");

@@ -1,0 +1,86 @@
+// Explicit models. The first byte says which file of which layout the rest is; the others are sound. A domain or
+// errors, never both; what a domain is exported to is read again as a domain with as many states.
+
+#include <array>
+
+#include "../fuzzing.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/domains/export_model.hpp"
+
+using namespace kith;
+
+namespace {
+
+const std::string kHead = "schema = \"kith.domain/1\"\nid = \"m\"\n[mdp]\ndiscount = 0.5\n[model]\n";
+const std::string kTail =
+    "[[feature]]\nname = \"f\"\n[[feature]]\nname = \"g\"\n[reward]\nweights = { f = -1, g = 2 }\n";
+const std::string kCsv = kHead + "format = \"csv\"\nstates = \"a.csv\"\ntransitions = \"b.csv\"\n" + kTail;
+const std::string kJson = kHead + "format = \"json\"\nfile = \"m.json\"\n" + kTail;
+const std::string kPrism = kHead +
+                           "format = \"prism\"\nterminal = \"goal\"\n[[model.mdp]]\ntransitions = \"m.tra\"\nstates = "
+                           "\"m.sta\"\nlabels = \"m.lab\"\nrewards = { f = \"m.srew\", g = \"m.trew\" }\n" +
+                           kTail;
+const std::string kGymVectors = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n" + kTail;
+const std::string kGymNumbers = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n";
+
+struct Layout {
+  const std::string* domain;
+  const char* fuzzed;  // the name of the file that the bytes are
+};
+const std::array<Layout, 10>& layouts() {
+  static const std::array<Layout, 10> kLayouts{{{&kCsv, "a.csv"},
+                                                {&kCsv, "b.csv"},
+                                                {&kJson, "m.json"},
+                                                {&kPrism, "m.tra"},
+                                                {&kPrism, "m.sta"},
+                                                {&kPrism, "m.lab"},
+                                                {&kPrism, "m.srew"},
+                                                {&kPrism, "m.trew"},
+                                                {&kGymVectors, "m.json"},
+                                                {&kGymNumbers, "m.json"}}};
+  return kLayouts;
+}
+
+DomainFiles files_with(const char* name, std::string_view text) {
+  DomainFiles files;
+  files.known = {{name, std::string{text}},
+                 {"a.csv", "state,terminal,x\na,false,1\nb,false,2\nc,true,3\n"},
+                 {"b.csv", "state,action,next,probability,f,g\na,go,b,1,0,1\nb,go,c,0.5,1,0\nb,go,a,0.5,0,0\n"},
+                 {"m.tra", "3 3 4\n0 0 1 1 go\n1 0 0 0.5 go\n1 0 2 0.5 go\n2 0 2 1\n"},
+                 {"m.sta", "(x)\n0:(1)\n1:(2)\n2:(3)\n"},
+                 {"m.lab", "0=\"init\" 1=\"goal\"\n0: 0\n2: 1\n"},
+                 {"m.srew", "3 1\n0 1\n"},
+                 {"m.trew", "3 3 1\n1 0 2 1\n"}};
+  return files;
+}
+
+void export_and_read(const Domain& domain, ModelFormat format, const std::string& name) {
+  auto exported = export_mdp(domain, MdpIndex{0}, format, name);
+  DomainFiles files;
+  std::string text;
+  for (auto& file : exported) {
+    if (file.name.ends_with(".toml")) text = file.text;
+    files.known.push_back({file.name, file.text});
+  }
+  const auto again = parse_domain(text, "again.toml", {}, files);
+  fuzzing::require(again.domain.has_value(), "an export is read again");
+  fuzzing::require(again.domain->mdp(MdpIndex{0}).num_states() == domain.mdp(MdpIndex{0}).num_states(),
+                   "as large as it was");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const auto& layout = layouts()[data[0] % layouts().size()];
+  const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
+  const auto reading = parse_domain(*layout.domain, "m.toml", {.max_states = 2'000}, files_with(layout.fuzzed, text));
+  fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
+  fuzzing::require_good(reading.diagnostics, text, layout.fuzzed);
+  if (!reading.domain) return 0;
+  export_and_read(*reading.domain, ModelFormat::kGymJson, "e.json");
+  export_and_read(*reading.domain, ModelFormat::kPrism, "e");
+  (void)export_mdp(*reading.domain, MdpIndex{0}, ModelFormat::kDrn, "e");
+  (void)export_mdp(*reading.domain, MdpIndex{0}, ModelFormat::kCassandra, "e");
+  return 0;
+}
