@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -32,6 +33,25 @@ constexpr const char* kTables =
     "CREATE TABLE batches(id INTEGER PRIMARY KEY, session INTEGER NOT NULL, written REAL NOT NULL,"
     " teams INTEGER NOT NULL) STRICT;";
 
+// A line for each file: its hash and its name, which has no line break.
+std::string text_of(const std::vector<InputFile>& files) {
+  std::string text;
+  for (const auto& file : files) text += file.sha256 + " " + file.name + "\n";
+  return text;
+}
+
+std::vector<InputFile> files_from(const std::string& text) {
+  std::vector<InputFile> files;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const auto end = std::min(text.find('\n', begin), text.size());
+    const auto space = std::min(text.find(' ', begin), end);
+    files.push_back(
+        {text.substr(std::min(space + 1, end), end - std::min(space + 1, end)), text.substr(begin, space - begin), ""});
+    begin = end + 1;
+  }
+  return files;
+}
+
 std::vector<std::pair<std::string, std::string>> meta_of(const JournalIdentity& identity) {
   std::vector<std::pair<std::string, std::string>> meta{{"schema", kSchema},
                                                         {"program", identity.program},
@@ -40,6 +60,7 @@ std::vector<std::pair<std::string, std::string>> meta_of(const JournalIdentity& 
                                                         {"teams", std::to_string(identity.teams)},
                                                         {"shard", std::to_string(identity.shard.index)},
                                                         {"shards", std::to_string(identity.shard.count)}};
+  if (!identity.inputs.files.empty()) meta.emplace_back("files", text_of(identity.inputs.files));
   Sha256 hash;
   for (const auto& [key, value] : meta) hash.update(key + "=" + value + "\n");
   meta.emplace_back("checksum", std::move(hash).hex());
@@ -72,10 +93,11 @@ JournalIdentity read_identity(Database& database) {
       throw Error{ErrorKind::kUsage, database.path().string() + " was written by another version of kith (" + schema +
                                          ", not " + kSchema + "); start the study over with --resume never"};
     }
-    JournalIdentity identity{{meta_value(database, "study"), meta_value(database, "domain")},
-                             meta_value(database, "program"),
-                             number_of(meta_value(database, "teams")),
-                             {number_of(meta_value(database, "shard")), number_of(meta_value(database, "shards"))}};
+    JournalIdentity identity{
+        {meta_value(database, "study"), meta_value(database, "domain"), files_from(meta_value(database, "files"))},
+        meta_value(database, "program"),
+        number_of(meta_value(database, "teams")),
+        {number_of(meta_value(database, "shard")), number_of(meta_value(database, "shards"))}};
     for (const auto& [key, value] : meta_of(identity)) {
       if (meta_value(database, key) != value) beyond_help(database.path());
     }

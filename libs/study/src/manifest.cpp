@@ -54,6 +54,7 @@ std::string manifest(const Study& study, std::size_t num_teams, const RunInputs&
                 {"system", system_name()},
                 {"inputs", {{"study.toml", sha256(inputs.study)}, {"domain.toml", sha256(inputs.domain)}}},
                 {"tables", tables}};
+  for (const auto& file : inputs.files) document["inputs"][file.name] = file.sha256;
   if (!facts.failed.empty()) document["failed"] = facts.failed;
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -6,6 +6,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <map>
 #include <memory>
@@ -101,7 +102,9 @@ WrittenTables write_tables(const fs::path& folder, const Study& study, const Tea
 RunInputs freeze(const StudyReading& reading) {
   auto study = reading.study.value();
   for (auto& variant : study.variants) variant.domain = kFrozenDomain;
-  return {to_toml(study, reading.domain.value()), reading.domain_text};
+  RunInputs inputs{to_toml(study, reading.domain.value()), reading.domain_text, {}};
+  for (const auto& file : reading.domain_files) inputs.files.push_back({file.name, sha256(file.text), file.text});
+  return inputs;
 }
 
 RunFolder::RunFolder(fs::path path, RunInputs inputs, bool replace)
@@ -153,7 +156,7 @@ void RunFolder::check_content(bool replace) {
   if (empty) return;
   const auto study = text_if_any(path_ / "inputs" / "study.toml");
   const auto domain = text_if_any(path_ / "inputs" / kFrozenDomain);
-  has_inputs_ = study == inputs_.study && domain == inputs_.domain;
+  has_inputs_ = study == inputs_.study && domain == inputs_.domain && has_files();
   has_results_ = has_inputs_ && fs::exists(path_ / "manifest.json");
   // A run that has begun to replace another one's results has a journal of its own.
   const auto begun = journal_inputs(path_ / kJournalFile);
@@ -169,6 +172,11 @@ void RunFolder::check_content(bool replace) {
                                      "; choose another folder, or add --yes to replace them"};
 }
 
+bool RunFolder::has_files() const {
+  return std::all_of(inputs_.files.begin(), inputs_.files.end(),
+                     [&](const InputFile& file) { return text_if_any(path_ / "inputs" / file.name) == file.text; });
+}
+
 void RunFolder::reach(const std::string& instant) const {
   if (observer_) observer_(instant);
 }
@@ -181,6 +189,10 @@ void RunFolder::freeze_inputs() {
 void RunFolder::put_inputs() {
   make_folder(staging_ / "inputs");
   write_file_atomically(staging_ / "inputs" / "study.toml", inputs_.study, FolderSync::kLater);
+  for (const auto& file : inputs_.files) {
+    make_folder((staging_ / "inputs" / file.name).parent_path());
+    write_file_atomically(staging_ / "inputs" / file.name, file.text);
+  }
   write_file_atomically(staging_ / "inputs" / kFrozenDomain, inputs_.domain);
   put_in_place(staging_ / "inputs", path_ / "inputs");
   has_inputs_ = true;

@@ -60,12 +60,12 @@ class StudyParser {
     const auto& known = built_in_domains();
     const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
     if (built_in != known.end()) {
-      take_domain(std::string{built_in->text}, name);
+      take_domain(std::string{built_in->text}, name, {.known = built_in->files});
       return;
     }
     const auto path = value->place().source == 0 ? options_.folder / name : std::filesystem::path{name};
     if (auto text = text_of(path)) {
-      take_domain(*std::move(text), path.string());
+      take_domain(*std::move(text), path.string(), {.folder = path.parent_path()});
       return;
     }
     std::vector<std::string> names;
@@ -75,10 +75,11 @@ class StudyParser {
                   suggestion(name, names));
   }
 
-  void take_domain(std::string text, const std::string& name) {
-    auto parsed = parse_domain(text, name);
+  void take_domain(std::string text, const std::string& name, const DomainFiles& files) {
+    auto parsed = parse_domain(text, name, {}, files);
     reading_.domain = std::move(parsed.domain);
     reading_.domain_text = std::move(text);
+    reading_.domain_files = std::move(parsed.files);
     reading_.diagnostics = std::move(parsed.diagnostics);
   }
 

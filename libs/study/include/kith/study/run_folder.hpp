@@ -14,11 +14,20 @@
 
 namespace kith {
 
+/// A file that the domain file names, frozen.
+struct InputFile {
+  std::string name;    ///< As the domain file says it, so it is found beside the frozen domain file.
+  std::string sha256;  ///< Of the text.
+  std::string text;    ///< Empty if only the hash is known.
+  friend bool operator==(const InputFile& a, const InputFile& b) { return a.name == b.name && a.sha256 == b.sha256; }
+};
+
 /// The frozen inputs of a run: all that its tables follow from, together with the
 /// program. Two runs are of the same study iff these are equal.
 struct RunInputs {
-  std::string study;   ///< The resolved study file, every key written out; its domain is "domain.toml".
-  std::string domain;  ///< The text of the domain file.
+  std::string study;                  ///< The resolved study file, every key written out; its domain is "domain.toml".
+  std::string domain;                 ///< The text of the domain file.
+  std::vector<InputFile> files = {};  ///< Those that it names, equal iff their hashes are.
   friend bool operator==(const RunInputs&, const RunInputs&) = default;
 };
 /// @pre the reading has a study.
@@ -46,7 +55,7 @@ struct RunFacts {
 /// The folder that a study's results go to:
 ///
 ///   manifest.json    what was run, by which build, and hashes of inputs and tables
-///   inputs/          study.toml and domain.toml, frozen
+///   inputs/          study.toml, domain.toml and the files that it names, frozen
 ///   study.sqlite     the journal (journal.hpp)
 ///   tables/          teams.csv and the others (tables.hpp), codebook.json
 ///   timings.csv, log.txt
@@ -87,6 +96,7 @@ class RunFolder {
   void check_content(bool replace);
   void reach(const std::string& instant) const;
   void put_inputs();
+  [[nodiscard]] bool has_files() const;
 
   std::filesystem::path path_;
   std::filesystem::path staging_;

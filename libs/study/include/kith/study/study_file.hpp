@@ -8,6 +8,7 @@
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/domains/domain.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/study/study.hpp"
 
 namespace kith {
@@ -17,8 +18,9 @@ namespace kith {
 struct StudyReading {
   std::optional<Study> study;
   std::optional<Domain> domain;
-  std::string domain_text;              ///< The TOML text of the domain.
-  std::vector<Diagnostic> diagnostics;  ///< Of the study file, the overrides and the domain file.
+  std::string domain_text;               ///< The TOML text of the domain.
+  std::vector<DomainFile> domain_files;  ///< The files that the domain file names.
+  std::vector<Diagnostic> diagnostics;   ///< Of the study file, the overrides and the domain file.
 };
 
 struct StudyReadOptions {
