@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
@@ -12,6 +13,8 @@
 
 namespace kith::cli {
 namespace {
+
+constexpr std::size_t kListed = 20;  // without --all
 
 // Whether only the robot is elsewhere.
 bool same_things(const GridState& a, const GridState& b) {
@@ -24,7 +27,7 @@ bool same_things(const GridState& a, const GridState& b) {
 }  // namespace
 
 DomainView::DomainView(const Domain& domain, const InspectOptions& options, const Console& console)
-    : domain_{domain}, console_{console}, mdp_{options.mdp.value_or(domain.num_mdps() - 1)} {
+    : domain_{domain}, console_{console}, all_{options.all}, mdp_{options.mdp.value_or(domain.num_mdps() - 1)} {
   if (mdp_.value() < domain.num_mdps()) return;
   throw Error{ErrorKind::kUsage,
               fmt::format("there is no MDP {}: they are numbered 0 to {}", mdp_.value(), domain.num_mdps() - 1)};
@@ -37,9 +40,42 @@ std::string DomainView::title() const {
 }
 
 std::string DomainView::map() const {
+  if (!domain_.has_map()) return model();
   const DemoId start{mdp_, domain_.initial_state(mdp_)};
   return heading(fmt::format("Map of MDP {}, and its first start", mdp_.value())) +
          beside({bare_picture(domain_, start), start_picture(domain_, start)}, 2) + "\n" + legend(domain_, 2);
+}
+
+std::string DomainView::model() const {
+  const auto& mdp = domain_.mdp(mdp_);
+  const auto name = domain_.describe_variant(mdp_);
+  auto text = heading(fmt::format("Model of MDP {}{}", mdp_.value(), name.empty() ? "" : ": " + name)) +
+              fmt::format("  {} and {}, {}, {}\n", counted(mdp.num_states(), "state"),
+                          counted(mdp.num_terminals(), "terminal one"), counted(mdp.num_actions(), "action"),
+                          mdp.is_deterministic() ? "outcomes are certain" : "outcomes are uncertain") +
+              fmt::format("  discount {}\n  the robot enters at: {}\n", mdp.discount(),
+                          domain_.state_name(mdp_, domain_.initial_state(mdp_)));
+  for (std::size_t t = 0; t < std::min(mdp.num_terminals(), kListed); ++t) {
+    text += "  an end: " + domain_.state_name(mdp_, StateIndex{mdp.num_states() + t}) + "\n";
+  }
+  return text;
+}
+
+std::string DomainView::policy_table() const {
+  const auto& mdp = domain_.mdp(mdp_);
+  const auto behaviour = behave(mdp, domain_.weights().raw, {.scale = domain_.count_scale()});
+  if (!behaviour) return "  there is none with a finite return\n";
+  TextTable table{"llr"};
+  table.add({"  state", "action", "value"});
+  const auto shown = all_ ? mdp.num_states() : std::min(mdp.num_states(), kListed);
+  for (std::size_t s = 0; s < shown; ++s) {
+    const auto& choice = mdp.choices(StateIndex{s})[behaviour->choice[s]];
+    table.add({"  " + domain_.state_name(mdp_, StateIndex{s}), domain_.action_names()[choice.action.value()],
+               fmt::format("{:.4f}", behaviour->values[s])});
+  }
+  auto text = table.text(console_);
+  if (shown < mdp.num_states()) text += fmt::format("  ... {} more: --all shows them\n", mdp.num_states() - shown);
+  return text + "  values are with the weights as written\n";
 }
 
 std::string DomainView::reward() const {
@@ -59,6 +95,7 @@ std::string DomainView::reward() const {
 std::string DomainView::policy() const {
   auto text = heading(fmt::format("The robot's policy in MDP {}", mdp_.value()));
   const auto& mdp = domain_.mdp(mdp_);
+  if (!domain_.has_map()) return text + policy_table();
   if (!mdp.is_deterministic() || mdp.discount() != 1.0)
     return text + "  not shown: only that of certain, undiscounted MDPs is\n";
   const auto solution = plan_exactly(mdp, domain_.weights().integer).solution.value();

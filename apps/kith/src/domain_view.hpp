@@ -16,16 +16,20 @@ class DomainView {
   /// The MDP to show: the one asked for, else the last, which has everything.
   [[nodiscard]] MdpIndex mdp() const noexcept { return mdp_; }
   [[nodiscard]] std::string title() const;
-  [[nodiscard]] std::string map() const;     ///< With the legend of the symbols.
+  [[nodiscard]] std::string map() const;     ///< With the legend of the symbols; without a map the size of the model.
   [[nodiscard]] std::string reward() const;  ///< Raw and at length 1.
-  [[nodiscard]] std::string policy() const;  ///< For every configuration on the way from the start.
+  [[nodiscard]] std::string policy() const;  ///< For every configuration on the way from the start, or as a table.
 
  private:
   [[nodiscard]] std::string heading(const std::string& text) const { return "\n" + console_.bold(text) + "\n"; }
   [[nodiscard]] std::string configuration(const GridState& state) const;
 
+  [[nodiscard]] std::string model() const;         // what there is instead of a map
+  [[nodiscard]] std::string policy_table() const;  // what there is instead of arrows
+
   const Domain& domain_;
   const Console& console_;
+  bool all_;
   MdpIndex mdp_;
 };
 

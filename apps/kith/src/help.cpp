@@ -81,6 +81,9 @@ const std::vector<std::string>& examples_of(const std::string& command) {
         "kith power studies/paper.toml --findings studies/paper-targets.toml"}},
       {"status", {"kith status results/paper", "watch -n 5 kith status results/paper"}},
       {"verify", {"kith verify results/paper", "kith verify results/paper --sample 0.1"}},
+      {"export",
+       {"kith export item-delivery --mdp 63 --to gym-json -o delivery.json",
+        "kith export my-domain.toml --to prism -o models/my-domain"}},
       {"merge", {"kith merge results/part-* -o results/paper", "kith merge part-1 part-2 part-3 -o paper --json"}},
       {"bench", {"kith bench", "kith bench --save before.json", "kith bench --baseline before.json --filter belief"}},
       {"version", {"kith --version", "kith --version --json"}}};

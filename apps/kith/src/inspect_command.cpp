@@ -132,7 +132,11 @@ class Inspection {
   void counterfactuals() {
     const auto demo = atlas_.index({mdp_, domain_.initial_state(mdp_)});
     heading(fmt::format("What people could expect from the start of MDP {}", mdp_.value()));
-    out_ += beside({bare_picture(domain_, atlas_.id(demo)), start_picture(domain_, atlas_.id(demo))}, 4);
+    if (domain_.has_map()) {
+      out_ += beside({bare_picture(domain_, atlas_.id(demo)), start_picture(domain_, atlas_.id(demo))}, 4);
+    } else {
+      out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
+    }
     if (!atlas_.is_tabulated()) {
       out_ += "  planned when it is asked: this domain has no tables of all there could be\n";
       return;

@@ -57,6 +57,9 @@ Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension) {
 }
 
 Json start_to_json(const Domain& domain, DemoId id) {
+  if (!domain.has_map()) {
+    return {{"state", id.start.value()}, {"name", domain.state_name(id.mdp, id.start)}, {"mdp", id.mdp.value()}};
+  }
   const auto& state = domain.state(id.mdp, id.start);
   Json items = Json::array();
   Json stations = Json::array();

@@ -50,6 +50,8 @@ int run(const Options& options, Console& console) {
       return run_merge(options.merge, console);
     case Command::kBench:
       return run_bench(options.bench, console);
+    case Command::kExport:
+      return run_export(options.export_model, console);
     case Command::kPower:
       return run_power(options.power, console);
   }

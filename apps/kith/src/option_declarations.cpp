@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "kith/domains/export_model.hpp"
 #include "kith/teaching/strategy.hpp"
 #include "option_values.hpp"
 
@@ -343,6 +344,20 @@ void add_merge(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_export(CLI::App& app, Options& options) {
+  auto& model = options.export_model;
+  auto& command = *app.add_subcommand("export", "Write an MDP of a domain in the format of another program");
+  command.add_option("domain", model.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  takes_word(*command.add_option("--to", model.format, "The format")->required(), "FORMAT", model_format_names());
+  takes_integer(*command.add_option("--mdp", model.mdp, "Number of the MDP (default: the only one)"), 0);
+  command
+      .add_option("-o,--out", model.out,
+                  "File to write (default: '-', stdout), or with prism what the names of all files begin with")
+      ->type_name("FILE");
+  command.add_flag("--yes", model.yes, "Replace files that are there");
+  add_common(command, options.common);
+}
+
 void add_bench(CLI::App& app, Options& options) {
   auto& bench = options.bench;
   auto& command = *app.add_subcommand("bench", "Time kernels and whole studies, against rivals and a saved baseline");
@@ -398,6 +413,7 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_report(*app, options);
   add_fit(*app, options);
   add_bench(*app, options);
+  add_export(*app, options);
   add_others(*app, options);
   return app;
 }
@@ -409,7 +425,7 @@ Command command_of(const std::string& name) {
       {"fit", Command::kFit},         {"doctor", Command::kDoctor},       {"completion", Command::kCompletion},
       {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower},
       {"status", Command::kStatus},   {"bench", Command::kBench},         {"verify", Command::kVerify},
-      {"merge", Command::kMerge}};
+      {"merge", Command::kMerge},     {"export", Command::kExport}};
   return kCommands.at(name);
 }
 

@@ -23,7 +23,8 @@ enum class Command {
   kStatus,
   kVerify,
   kMerge,
-  kBench
+  kBench,
+  kExport
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -95,6 +96,14 @@ struct MergeOptions {
   std::vector<std::string> folders;
   std::string out;
   bool yes = false;  ///< Replace the results of a different study.
+};
+
+struct ExportOptions {
+  std::string domain;
+  std::string format;              ///< One of model_format_names().
+  std::optional<std::size_t> mdp;  ///< Needed where the domain has several.
+  std::string out;                 ///< A file, or with "prism" what the names of all files begin with; "-": stdout.
+  bool yes = false;                ///< Replace files that are there.
 };
 
 struct AnalyzeOptions {
@@ -196,6 +205,7 @@ struct Options {
   VerifyCommandOptions verify;
   MergeOptions merge;
   BenchOptions bench;
+  ExportOptions export_model;
 };
 
 /// What `kith inspect --show` can show.

@@ -53,7 +53,18 @@ std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajec
   return legs;
 }
 
+std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
+  const std::string blank(indent, ' ');
+  std::string text = blank + domain.state_name(id.mdp, path.states.front()) + "\n";
+  for (std::size_t i = 0; i < path.actions.size(); ++i) {
+    text += blank + "  " + domain.action_names()[path.actions[i].value()] + " -> " +
+            domain.state_name(id.mdp, path.states[i + 1]) + "\n";
+  }
+  return text;
+}
+
 std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
+  if (!domain.has_map()) return path_text(domain, id, path, indent);
   std::vector<Picture> pictures{bare_picture(domain, id), start_picture(domain, id)};
   for (auto& leg : path_pictures(domain, id, path)) pictures.push_back(std::move(leg));
   return beside(pictures, indent);

@@ -18,7 +18,10 @@ using Picture = std::vector<std::string>;
 /// A path drawn on the map, one picture per leg: a leg ends with an action that does not move the robot (a pick-up).
 /// Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends.
 [[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajectory& path);
-/// The bare map, the start picture and the legs of the path beside each other, each row indented.
+/// A path in words, a line per action: "go -> on the ice".
+[[nodiscard]] std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
+/// The bare map, the start picture and the legs of the path beside each other, each row indented; without a map the
+/// path in words.
 [[nodiscard]] std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
 /// What the robot does wherever it stands, while items and stations are as in `configuration`.
 /// @param choice  per state of the MDP, as in ExactSolution::canonical_choice.

@@ -49,6 +49,10 @@ class HeaderWriter {
 
   void pictures() {
     line();
+    if (!domain_.has_map()) {
+      line("MDP n is one of the model's MDPs; start m is one of its states. Paths are told in words.");
+      return;
+    }
     line("How to read the pictures, from left to right: the bare map; the start; the path, one picture per leg (a leg");
     line("ends where the robot does something without moving).");
     out_ += legend(domain_, 2);

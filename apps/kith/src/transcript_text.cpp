@@ -119,6 +119,7 @@ class TranscriptWriter {
 
   [[nodiscard]] std::string start_text(DemoId id) const {
     auto text = fmt::format("MDP {}, start {}", id.mdp.value(), id.start.value());
+    if (!domain_.has_map()) return text + ": " + domain_.state_name(id.mdp, id.start);
     const auto state = domain_.state(id.mdp, id.start);
     const auto items = domain_.items_in(id.mdp);
     for (std::size_t i = 0; i < items.size(); ++i) {

@@ -1,0 +1,202 @@
+// Models without a map on the command line: validated, shown, exported, taught, studied.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+const std::string kIce = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing";
+
+// A copy of the example in a folder of its own, with an edit in one of its files.
+class Model : public ::testing::Test {
+ protected:
+  Model() {
+    for (const auto* file : {".toml", "_states.csv", "_transitions.csv"}) {
+      std::ofstream{scratch_ / (std::string{"icy_crossing"} + file)} << text_of(kIce + file);
+    }
+  }
+
+  void edit(const std::string& file, const std::string& from, const std::string& to) {
+    auto text = text_of(scratch_ / file);
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    std::ofstream{scratch_ / file} << text.replace(at, from.size(), to);
+  }
+
+  Scratch scratch_;
+};
+
+TEST_F(Model, IsValidAndShown) {
+  const auto checked = run_kith({"validate", scratch_ / "icy_crossing.toml"});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("domain 'icy-crossing' is valid (3 MDPs, 45 start states)"));
+  const auto shown = run_kith({"inspect", scratch_ / "icy_crossing.toml", "--show", "map,policy"});
+  if (shown.code == 0) {
+    EXPECT_THAT(shown.out,
+                AllOf(HasSubstr("glaze"), HasSubstr("an end: in the hut at f1"), HasSubstr("on the bank at a1")));
+  }
+}
+
+struct Malformed {
+  std::string file, from, to;
+  std::string place;  // "_states.csv:3:1: error[E0241]"
+  std::string message, hint;
+  int code = 3;
+};
+
+TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
+  const std::string toml = "icy_crossing.toml";
+  const std::string states = "icy_crossing_states.csv";
+  const std::string rows = "icy_crossing_transitions.csv";
+  const std::vector<Malformed> cases{
+      {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:18:15: error[E0233]",
+       "'states.csv' cannot be read", "it is looked for beside the domain file"},
+      {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:18:15: error[E0232]",
+       "cannot be a file of a model", "beside the domain file"},
+      {toml, "[[feature]]\nname = \"step\"", "[[feature]]\nname = \"stop\"", "icy_crossing.toml:29:11: error[E0311]",
+       "'stop' has no weight", ""},
+      {states, "b1,on the ice", "a1,on the ice", "icy_crossing_states.csv:3:1: error[E0241]", "'a1' is there twice",
+       "one row"},
+      {states, "e2,in the water at e2,true", "e2,in the water at e2,false",
+       "icy_crossing_states.csv:12:1: error[E0255]", "'e2' is not terminal, but has no transition",
+       "mark it as terminal"},
+      {states, "false,true,1,1", "false,true,one,1", "icy_crossing_states.csv:2:35: error[E0506]",
+       "\"one\" in column \"x\" is not of type integer", "42"},
+      {rows, "a1,right,b1,1", "a1,right,b9,1", "icy_crossing_transitions.csv:3:19: error[E0240]",
+       "there is no state 'b9'", ""},
+      {rows, "a1,right,b1,1", "a1,rihgt,b1,1", "icy_crossing_transitions.csv:3:13: error[E0243]", "action 'rihgt'",
+       "did you mean 'right'?"},
+      {rows, "a1,right,b1,1,0,0,1", "a1,right,b1,0.9,0,0,1", "icy_crossing_transitions.csv:3:22: error[E0248]",
+       "sum to 0.900000, not 1", "outcomes missing"},
+      {rows, "a1,right,b1,1,0,0,1", "a1,right,b1,1,0,nan,1", "icy_crossing_transitions.csv:3:26: error[E0506]",
+       "\"nan\" in column \"home\"", ""},
+      {rows, "a1,right,b1,1,0,0,1", "a1,right,b1,1,0,0", "icy_crossing_transitions.csv:3:26: error[E0505]",
+       "7 cells, the header 8", "commas"},
+      {rows, "a1,right,b1,1,0,0,1", "a1,right,b1,1,0,0,1\nfirm ice,a1,right,b1,1,0,0,1",
+       "icy_crossing_transitions.csv:4:10: error[E0246]", "are there twice", "sum of the probabilities"},
+      {rows, "water,home", "wtaer,home", "icy_crossing_transitions.csv:1:35: error[E0503]",
+       "nobody knows a column \"wtaer\"", "did you mean water?"},
+      {rows, "firm ice,a1,down,a2", "firm ice,f1,down,a2", "icy_crossing_transitions.csv:2:10: error[E0254]",
+       "'f1' is terminal", "remove its transitions"},
+  };
+  for (const auto& c : cases) {
+    const auto before = text_of(scratch_ / c.file);
+    edit(c.file, c.from, c.to);
+    const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
+    EXPECT_EQ(ran.code, c.code) << ran.err;
+    EXPECT_THAT(ran.err, AllOf(HasSubstr(scratch_ / c.place), HasSubstr(c.message), HasSubstr(c.hint)));
+    std::ofstream{scratch_ / c.file} << before;
+  }
+}
+
+TEST_F(Model, IsInfeasibleWhereAStartCannotEnd) {
+  edit("icy_crossing_transitions.csv", "firm ice,a1,down,a2,1,0,0,1\nfirm ice,a1,right,b1,1,0,0,1\n",
+       "firm ice,a1,down,a1,1,0,0,1\n");
+  const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
+  EXPECT_EQ(ran.code, 4) << ran.err;
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing_states.csv:2:1: error[E0260]"),
+                             HasSubstr("no end can surely be reached"), HasSubstr("terminal")));
+}
+
+TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {
+  edit("icy_crossing.toml", "discount  = 0.95", "discount  = 1.0");
+  edit("icy_crossing.toml", "step = -1 }\n\n[prior]", "step = 1 }\n\n[prior]");
+  edit("icy_crossing.toml", "{ step = -1 } ]", "{ step = 1 } ]");
+  const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
+  EXPECT_EQ(ran.code, 4) << ran.err;
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing.toml:32:11: error[E0323]"),
+                             HasSubstr("in 3 of 3 MDPs, first in 'firm ice'"), HasSubstr("cost")));
+}
+
+TEST_F(Model, OfGymnasiumIsReadWithItsRewardsAsWeights) {
+  const auto ran = run_kith({"validate", std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("(1 MDPs, 37 start states)"));
+}
+
+TEST_F(Model, IsExported) {
+  const auto text = run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "drn"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("// icy-crossing, MDP 1 (wet ice)\n// discount 0.95\n@type: MDP\n"));
+  const auto ran = run_kith(
+      {"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet", "--json"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const auto document = Json::parse(ran.out);
+  EXPECT_EQ(document.at("schema"), "kith.export/1");
+  EXPECT_EQ(document.at("files").size(), 7u);
+  EXPECT_EQ(run_kith({"validate", scratch_ / "wet.toml"}).code, 0);
+  const auto again =
+      run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--yes"));
+}
+
+TEST_F(Model, IsExportedOnlyAsItCanBe) {
+  const auto ice = scratch_ / "icy_crossing.toml";
+  EXPECT_THAT(run_kith({"export", ice, "--to", "drn"}).err, HasSubstr("say which one with --mdp N, 0 to 2"));
+  EXPECT_THAT(run_kith({"export", ice, "--to", "drn", "--mdp", "3"}).err, HasSubstr("there is no MDP 3"));
+  EXPECT_THAT(run_kith({"export", ice, "--to", "prism", "--mdp", "0"}).err, HasSubstr("-o PREFIX"));
+  EXPECT_THAT(run_kith({"export", ice, "--to", "jani", "--mdp", "0"}).err,
+              HasSubstr("one of: drn, prism, cassandra, gym-json"));
+}
+
+// The paper's world with everything in it, as another program would give it.
+class Delivery : public ::testing::Test {
+ protected:
+  Delivery() {
+    const auto ran =
+        run_kith({"export", "item-delivery", "--mdp", "63", "--to", "gym-json", "-o", scratch_ / "delivery.json"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    auto study = text_of(std::string{KITH_SOURCE_DIR} + "/studies/quick.toml");
+    const auto at = study.find("\"item-delivery\"");
+    EXPECT_NE(at, std::string::npos);
+    study.replace(at, 15, "\"delivery.toml\"");
+    std::ofstream{scratch_ / "study.toml"} << study;
+  }
+  Scratch scratch_;
+};
+
+TEST_F(Delivery, IsTaughtInWords) {
+  const auto ran = run_kith({"teach", scratch_ / "delivery.toml", "--group", "N", "--seed", "1"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("Paths are told in words."), HasSubstr("-> robot at (")));
+  EXPECT_THAT(ran.out, Not(HasSubstr("bare map")));
+  const auto json = Json::parse(run_kith({"inspect", scratch_ / "delivery.toml", "--show", "demos", "--json"}).out);
+  EXPECT_THAT(json.at("demos").at(0).at("start").at("name").get<std::string>(), HasSubstr("robot at ("));
+}
+
+TEST_F(Delivery, IsStudiedResumedAndVerifiedFromItsFolder) {
+  const std::vector<std::string> study{"study", scratch_ / "study.toml", "-o", scratch_ / "run",
+                                       "--set", "replicates=2"};
+  const auto first = run_kith(study);
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(text_of(scratch_ / "run/inputs/delivery.json"), text_of(scratch_ / "delivery.json"));
+  EXPECT_THAT(text_of(scratch_ / "run/manifest.json"), HasSubstr("\"delivery.json\": \""));
+  EXPECT_EQ(run_kith(study).code, 0);  // all teams are there
+  std::filesystem::remove(scratch_ / "delivery.json");
+  const auto verified = run_kith({"verify", scratch_ / "run"});
+  EXPECT_EQ(verified.code, 0) << verified.err;
+  EXPECT_EQ(run_kith({"teach", "--from", scratch_ / "run", "--team", "1"}).code, 0);
+}
+
+TEST_F(Delivery, IsAnotherStudyWithAnotherModel) {
+  const std::vector<std::string> study{"study", scratch_ / "study.toml", "-o", scratch_ / "run",
+                                       "--set", "replicates=2"};
+  ASSERT_EQ(run_kith(study).code, 0);
+  std::ofstream{scratch_ / "delivery.json", std::ios::app} << "\n";
+  const auto ran = run_kith(study);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("different study"));
+}
+
+}  // namespace
+}  // namespace kith::testing
