@@ -11,11 +11,11 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/planning/calibration.hpp"
 #include "kith/table/atomic_file.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

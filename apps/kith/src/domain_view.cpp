@@ -6,10 +6,10 @@
 
 #include "kith/core/error.hpp"
 #include "kith/mdp/behaviour.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/mdp/planner.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include "domain_view.hpp"
 #include "inspect_json.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/words.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

@@ -7,10 +7,10 @@
 #include "commands.hpp"
 #include "failpoint.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/study/merge.hpp"
 #include "kith/study/study_run.hpp"
 #include "run_outcome.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 

@@ -10,10 +10,10 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/planning/power.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "build_facts.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "summary_json.hpp"
 #include "summary_table.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 

@@ -8,9 +8,9 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/study/journal.hpp"
 #include "progress.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

@@ -14,12 +14,12 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/study/study_run.hpp"
 #include "mpi_ranks.hpp"
 #include "progress.hpp"
 #include "run_outcome.hpp"
 #include "summary_json.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
+#include "kith/explain/words.hpp"
 #include "legend.hpp"
 #include "transcript.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "kith/explain/words.hpp"
 #include "picture.hpp"
 #include "transcript.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 namespace {

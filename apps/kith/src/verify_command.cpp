@@ -10,10 +10,10 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/study/run_folder.hpp"
 #include "kith/study/verify.hpp"
 #include "progress.hpp"
-#include "words.hpp"
 
 namespace kith::cli {
 

@@ -7,7 +7,7 @@
 #include "kith/geometry/half_space.hpp"
 #include "kith/mdp/planner.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 /// A constraint on reward weights as people would say it, with the robot's own
 /// likes and dislikes on either side: for (-1, 0, 2) "crossing rubble costs more than 2 steps". Where the words of a
@@ -24,4 +24,4 @@ namespace kith::cli {
 /// Actions with repetitions counted: "up, right x3".
 [[nodiscard]] std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions);
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,10 +1,10 @@
-#include "words.hpp"
+#include "kith/explain/words.hpp"
 
 #include <cctype>
 #include <cstdlib>
 #include <utility>
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 std::string listed(const std::vector<std::string>& things) {
@@ -143,4 +143,4 @@ std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& a
   return text;
 }
 
-}  // namespace kith::cli
+}  // namespace kith
