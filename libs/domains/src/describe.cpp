@@ -113,4 +113,18 @@ std::vector<std::string> Domain::draw(MdpIndex m, std::optional<StateIndex> s) c
   return rows;
 }
 
+std::vector<std::string> Domain::draw_bare(MdpIndex m, StateIndex s) const {
+  const World& world = data_->world;
+  const GridState now = state(m, s);
+  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
+  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
+    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
+    content.start = false;
+    content.item.clear();
+    if (std::ranges::find(now.stations, world.cell_at(cell)) == now.stations.end()) content.station.clear();
+    rows[cell / static_cast<std::size_t>(world.width)] += glyph_for(world, cell, content);
+  }
+  return rows;
+}
+
 }  // namespace kith

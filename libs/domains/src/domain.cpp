@@ -76,7 +76,8 @@ const std::string& Domain::title() const noexcept { return data_->title; }
 std::size_t Domain::num_features() const noexcept { return data_->feature_names.size(); }
 const std::vector<std::string>& Domain::feature_names() const noexcept { return data_->feature_names; }
 const std::vector<std::string>& Domain::action_names() const noexcept { return data_->action_names; }
-const std::string& Domain::feature_words(std::size_t k) const { return data_->feature_words.at(k); }
+const std::string& Domain::feature_words(std::size_t k) const { return wording(k).one; }
+const Wording& Domain::wording(std::size_t k) const { return data_->wordings.at(k); }
 const RewardWeights& Domain::weights() const noexcept { return data_->weights; }
 const std::vector<HalfSpace>& Domain::prior() const noexcept { return data_->prior; }
 std::size_t Domain::max_steps() const noexcept { return data_->max_steps; }
@@ -119,6 +120,38 @@ std::string Domain::describe_variant(MdpIndex m) const {
   check_mdp(*data_, m, "Domain::describe_variant");
   if (!data_->has_map()) return data_->model().members[m.value()].name;
   return variant_text(data_->grid().world, m.value());
+}
+
+std::vector<OptionalGroup> Domain::optional_groups() const {
+  const detail::World& world = data_->world;
+  std::vector<OptionalGroup> groups;
+  for (const detail::CellGroup& group : world.groups) {
+    OptionalGroup& added = groups.emplace_back();
+    for (const std::size_t cell : group.cells) added.cells.push_back(world.cell_at(cell));
+    if (!group.cells.empty()) added.name = symbol_name(world.symbols[world.symbol_of[group.cells.front()]]);
+  }
+  return groups;
+}
+
+std::vector<LegendEntry> Domain::legend() const {
+  std::vector<LegendEntry> entries;
+  for (const detail::Symbol& symbol : data_->world.symbols) {
+    const detail::SymbolContent& content = symbol.content;
+    entries.push_back({symbol.glyph,
+                       {content.wall, content.goal, content.terrain, content.destination},
+                       content.goal_name,
+                       content.station,
+                       content.item,
+                       content.start,
+                       symbol.is_optional()});
+  }
+  return entries;
+}
+
+std::size_t Domain::legend_index(Cell cell) const {
+  const auto index = data_->world.index_of(cell);
+  if (!index) throw std::invalid_argument{"Domain::legend_index: the cell is off the map"};
+  return data_->world.symbol_of[*index];
 }
 
 bool Domain::has_feature(MdpIndex m, std::size_t k) const {

@@ -50,7 +50,7 @@ struct Domain::Data {
   std::string title;
   std::vector<std::string> feature_names;
   std::vector<std::string> action_names;
-  std::vector<std::string> feature_words;
+  std::vector<Wording> wordings;
   RewardWeights weights;
   std::vector<HalfSpace> prior;
   std::size_t max_steps = 0;

@@ -50,7 +50,7 @@ void check_has_goal(const detail::World& world, const detail::Dynamics& dynamics
 Domain::Data data_from(const detail::Dynamics& dynamics, detail::Reward reward) {
   Domain::Data data;
   data.feature_names = dynamics.feature_names();
-  data.feature_words = std::move(reward.words);
+  data.wordings = std::move(reward.words);
   data.weights = std::move(reward.weights);
   data.prior = std::move(reward.prior);
   data.max_steps = dynamics.max_steps;

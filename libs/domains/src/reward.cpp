@@ -6,6 +6,7 @@
 
 #include "exact_vector.hpp"
 #include "kith/geometry/cone.hpp"
+#include "wording.hpp"
 
 namespace kith::detail {
 namespace {
@@ -172,13 +173,59 @@ class RewardReader {
   }
 
   void read_words() {
-    reward_.words = names_;
+    for (const std::string& name : names_) reward_.words.push_back(completed({name, "", "", ""}));
     auto table = file_.table("words", Presence::kOptional);
     if (!table) return;
     for (const TomlEntry& entry : table->content().entries()) {
       const auto feature = find_feature(entry, "[words]");
       if (!feature) continue;
-      if (auto words = read_string(entry.value, "words", report_)) reward_.words[*feature] = *std::move(words);
+      if (auto wording = read_wording(entry)) reward_.words[*feature] = completed(*std::move(wording));
+    }
+  }
+
+  // A text, or a table of texts. Nothing if something is wrong with it.
+  std::optional<Wording> read_wording(const TomlEntry& entry) {
+    const std::size_t errors_before = report_.num_errors();
+    Wording wording;
+    if (const TomlTable* table = entry.value.table()) {
+      TomlReader reader{*table, entry.value.place(), "the words of '" + entry.key + "'", report_};
+      wording.one = words(reader, "one", Presence::kRequired);
+      wording.many = plural_words(reader, "many");
+      wording.do_one = words(reader, "do", Presence::kOptional);
+      wording.do_many = plural_words(reader, "do_many");
+      if (!wording.do_many.empty() && wording.do_one.empty()) {
+        report_.error("E0109", entry.value.place(), reader.name() + " have do_many, but not do");
+      }
+      reader.finish();
+    } else if (entry.value.string() != nullptr) {
+      wording.one = *entry.value.string();
+      check_not_empty(entry.value);
+    } else {
+      report_.error("E0108", entry.value.place(),
+                    "words must be a string or a table, not " + std::string{entry.value.kind_name()});
+    }
+    if (report_.num_errors() > errors_before) return std::nullopt;
+    return wording;
+  }
+
+  std::string words(TomlReader& reader, std::string_view key, Presence presence) {
+    auto text = reader.string(key, presence);
+    if (text) check_not_empty(*reader.content().find(key));
+    return text.value_or("");
+  }
+
+  std::string plural_words(TomlReader& reader, std::string_view key) {
+    auto text = words(reader, key, Presence::kOptional);
+    if (!text.empty() && text.find("{n}") == std::string::npos) {
+      report_.error("E0316", reader.content().find(key)->place(),
+                    "'" + std::string{key} + "' does not say how often: {n} is missing", "for instance \"{n} steps\"");
+    }
+    return text;
+  }
+
+  void check_not_empty(const TomlValue& text) {
+    if (text.string()->find_first_not_of(' ') == std::string::npos) {
+      report_.error("E0317", text.place(), "these words are empty");
     }
   }
 

@@ -14,8 +14,8 @@ namespace kith::detail {
 struct Reward {
   RewardWeights weights;
   TomlPlace weights_place;
-  std::vector<HalfSpace> prior;    // empty for a single feature
-  std::vector<std::string> words;  // per feature
+  std::vector<HalfSpace> prior;  // empty for a single feature
+  std::vector<Wording> words;    // per feature
 };
 
 // `given`: the weights, shape [d], where they follow from a model and the file has none.

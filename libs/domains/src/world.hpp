@@ -37,7 +37,7 @@ struct Symbol {
 };
 
 // Cells that are there or not together: one bit of a variant.
-struct OptionalGroup {
+struct CellGroup {
   std::vector<std::size_t> cells;
 };
 
@@ -67,7 +67,7 @@ struct World {
   int height = 0;
   std::vector<Symbol> symbols;             // legend order
   std::vector<std::uint8_t> symbol_of;     // per cell, index into symbols
-  std::vector<OptionalGroup> groups;       // index order, most significant first
+  std::vector<CellGroup> groups;           // index order, most significant first
   std::vector<std::int32_t> group_of;      // per cell; -1: always there
   std::vector<Item> items;                 // legend order
   std::vector<Station> stations;           // reading order

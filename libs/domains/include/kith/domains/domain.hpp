@@ -64,6 +64,32 @@ struct CellContent {
   std::string destination_of;  ///< Item that belongs here; empty: none.
 };
 
+/// How people call a feature. "{n}" stands for how often it counts.
+struct Wording {
+  std::string one;      ///< What it is, once: "crossing rubble", "a step on the path". Never empty.
+  std::string many;     ///< Several times: "crossing rubble {n} times", "{n} steps on the path". Never empty.
+  std::string do_one;   ///< What the robot does, as a verb: "cross rubble"; empty: nobody said.
+  std::string do_many;  ///< The same several times: "cross rubble {n} times"; empty exactly where do_one is.
+  friend bool operator==(const Wording&, const Wording&) = default;
+};
+
+/// What a symbol of the legend puts on a cell.
+struct LegendEntry {
+  char symbol = '.';
+  CellContent content;       ///< Wall, goal, terrain and destination.
+  std::string goal_name;     ///< Empty: a goal without a name, or none.
+  std::string station;       ///< Empty: none.
+  std::string item;          ///< Empty: none.
+  bool start = false;        ///< Where the robot first enters.
+  bool is_optional = false;  ///< Whether some MDPs lack it.
+};
+
+/// Things that are there or not together: one bit of an MDP's index.
+struct OptionalGroup {
+  std::string name;         ///< What it is: "rubble", "charger".
+  std::vector<Cell> cells;  ///< In reading order.
+};
+
 /// A family of MDPs that share actions, features, reward weights and discount:
 /// gridworlds that differ in which optional things are on the map, or an explicit
 /// model of one or several MDPs.
@@ -88,6 +114,8 @@ class Domain {
   [[nodiscard]] const std::vector<std::string>& action_names() const noexcept;
   /// How people call feature k ("crossing rubble"); its name if the file gives no words.
   [[nodiscard]] const std::string& feature_words(std::size_t k) const;
+  /// All that the file says about how people call feature k, completed by rule where it says less.
+  [[nodiscard]] const Wording& wording(std::size_t k) const;
   [[nodiscard]] const RewardWeights& weights() const noexcept;
   /// What every learner is assumed to know; all hold at the weights. Empty for a single feature.
   [[nodiscard]] const std::vector<HalfSpace>& prior() const noexcept;
@@ -112,6 +140,8 @@ class Domain {
   /// The optional things that MDP m has, in words: "rubble@{(2,1),(2,2)} charger@{}". Here cells are
   /// (column, row) from the top left, as in all messages about domain files. Without a map the name of the MDP.
   [[nodiscard]] std::string describe_variant(MdpIndex m) const;
+  /// The optional groups in the order of variant().
+  [[nodiscard]] std::vector<OptionalGroup> optional_groups() const;
   /// Whether feature k can occur in MDP m at all. The last feature counts as always present.
   [[nodiscard]] bool has_feature(MdpIndex m, std::size_t k) const;
 
@@ -126,6 +156,11 @@ class Domain {
   [[nodiscard]] int width() const;
   [[nodiscard]] int height() const;
   [[nodiscard]] CellContent content(MdpIndex m, Cell cell) const;
+  /// The symbols of the file, in its order.
+  [[nodiscard]] std::vector<LegendEntry> legend() const;
+  /// The symbol that the file draws at a cell: an index into legend(). MDPs may lack what it stands for.
+  /// @throws std::invalid_argument if the cell is off the map.
+  [[nodiscard]] std::size_t legend_index(Cell cell) const;
   /// Also for terminal states.
   [[nodiscard]] GridState state(MdpIndex m, StateIndex s) const;
   /// The inverse of state(); nothing if the MDP has no such state.
@@ -150,6 +185,8 @@ class Domain {
   /// robot as '@' and the things where they are in `s`.
   /// An item away from its first cell is drawn as '*', unless the robot is there.
   [[nodiscard]] std::vector<std::string> draw(MdpIndex m, std::optional<StateIndex> s) const;
+  /// The same without the robot and the items: what stands on the map while the MDP is in state `s`.
+  [[nodiscard]] std::vector<std::string> draw_bare(MdpIndex m, StateIndex s) const;
 
  private:
   std::unique_ptr<const Data> data_;
