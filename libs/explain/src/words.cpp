@@ -7,21 +7,36 @@
 namespace kith {
 namespace {
 
-std::string listed(const std::vector<std::string>& things) {
-  std::string text;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == things.size() ? " and " : ", ") + things[i];
+constexpr const char* kNumber = "{n}";
+
+// The text with every {n} replaced.
+std::string with_number(std::string text, const std::string& number) {
+  constexpr std::size_t kLength = 3;
+  for (auto at = text.find(kNumber); at != std::string::npos; at = text.find(kNumber, at + number.size())) {
+    text.replace(at, kLength, number);
   }
   return text;
 }
 
-// "a step" and 2 -> "2 steps"; "crossing rubble" and 2 -> "crossing rubble twice".
-std::string times(const std::string& words, std::int64_t n) {
-  if (n == 1) return words;
-  for (const std::string article : {"a ", "an ", "one "}) {
-    if (words.rfind(article, 0) == 0) return std::to_string(n) + " " + words.substr(article.size()) + "s";
+void replace_first(std::string& text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  if (at != std::string::npos) text.replace(at, what.size(), by);
+}
+
+// "cross rubble {n} times" and 2 -> "cross rubble twice".
+std::string several(std::string many, std::int64_t n, bool more) {
+  if (!more && n == 2) replace_first(many, "{n} times", "twice");
+  return with_number(many, std::to_string(n) + (more ? " more" : ""));
+}
+
+// "take a step" -> "take one more step"; "cross rubble" -> "cross rubble once more".
+std::string one_more(const std::string& once) {
+  for (const std::string article : {"a", "an", "one"}) {
+    if (once.rfind(article + " ", 0) == 0) return "one more" + once.substr(article.size());
+    const auto at = once.find(" " + article + " ");
+    if (at != std::string::npos) return once.substr(0, at) + " one more" + once.substr(at + 1 + article.size());
   }
-  return words + (n == 2 ? " twice" : " " + std::to_string(n) + " times");
+  return once + " once more";
 }
 
 enum class Number { kSingular, kPlural, kUnknown };
@@ -32,14 +47,18 @@ struct Thing {
   Number number = Number::kUnknown;
 };
 
+bool is_gerund(const std::string& word) {
+  const auto letters = word.back() == ',' ? word.substr(0, word.size() - 1) : word;
+  return letters.size() > 4 && letters.substr(letters.size() - 3) == "ing";
+}
+
 // "a step", "the charger" and "crossing rubble" are singular, "2 steps" is plural; of other words nobody knows.
-Thing thing(const std::string& words, std::int64_t n) {
-  Thing result{times(words, n)};
-  const auto first = words.substr(0, words.find(' '));
-  const bool gerund = first.size() > 4 && first.substr(first.size() - 3) == "ing";
+Thing thing(const Wording& wording, std::int64_t n) {
+  Thing result{times(wording, n)};
+  const auto first = wording.one.substr(0, wording.one.find(' '));
   if (std::isdigit(static_cast<unsigned char>(result.words.front())) != 0) {
     result.number = Number::kPlural;
-  } else if (gerund || first == "a" || first == "an" || first == "one" || first == "the") {
+  } else if (is_gerund(first) || first == "a" || first == "an" || first == "one" || first == "the") {
     result.number = Number::kSingular;
   }
   return result;
@@ -78,32 +97,66 @@ struct Side {
 };
 
 // "crossing rubble costs more than 2 steps", "4 steps cost more than stopping at the charger is worth".
-std::string compared(const Side& more, const Side& less) {
+// @param even  both sides weigh the same to the robot: it says so with "at least as much as".
+std::string compared(const Side& more, const Side& less, bool even) {
   if (more.empty()) {
-    return less.can_be_said() ? less.words() + " " + less.verb() + " less than nothing"
-                              : less.amount() + less.is() + "less than nothing";
+    const auto nothing = even ? "at most nothing" : "less than nothing";
+    return less.can_be_said() ? less.words() + " " + less.verb() + " " + nothing : less.amount() + less.is() + nothing;
   }
   if (!more.can_be_said() || !less.can_be_said()) {
-    return more.amount() + (less.empty() ? more.is() + "more than nothing"
-                                         : (more.mixed() ? " outweigh " : " outweighs ") + less.amount());
+    if (less.empty()) return more.amount() + more.is() + (even ? "at least nothing" : "more than nothing");
+    if (even) return more.amount() + more.is() + "no less than " + less.amount();
+    return more.amount() + (more.mixed() ? " outweigh " : " outweighs ") + less.amount();
   }
   const auto start = more.words() + " " + more.verb();
-  if (less.empty()) return start + " something";
+  if (less.empty()) return start + (even ? " nothing or more" : " something");
   const bool same_verb = more.costs.empty() == less.costs.empty();
-  return start + " more than " + less.words() + (same_verb ? "" : " " + less.verb());
+  return start + (even ? " at least as much as " : " more than ") + less.words() + (same_verb ? "" : " " + less.verb());
 }
 
 }  // namespace
 
+std::string listed(const std::vector<std::string>& things) {
+  std::string text;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == things.size() ? " and " : ", ") + things[i];
+  }
+  return text;
+}
+
+std::string times(const Wording& wording, std::int64_t n) {
+  return n == 1 ? wording.one : several(wording.many, n, false);
+}
+
+std::string times_more(const Wording& wording, std::int64_t n) {
+  return n == 1 ? one_more(wording.one) : several(wording.many, n, true);
+}
+
+std::string doing(const Wording& wording, std::int64_t n, bool more) {
+  if (wording.do_one.empty()) return "";
+  if (n != 1) return several(wording.do_many, n, more);
+  return more ? one_more(wording.do_one) : wording.do_one;
+}
+
+std::string in_general(const Wording& wording) {
+  auto text = wording.many;
+  for (const std::string part : {" {n} times", "{n} ", " {n}"}) {
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part)) text.erase(at, part.size());
+  }
+  return text;
+}
+
 std::string in_words(const Domain& domain, const HalfSpace& half_space) {
   Side more, less;
+  Int128 value = 0;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const auto entry = half_space.normal()[k];
     if (entry == 0) continue;
     const bool is_cost = domain.weights().integer[k] < 0;
-    (is_cost == (entry < 0) ? more : less).add(thing(domain.feature_words(k), std::abs(entry)), is_cost);
+    (is_cost == (entry < 0) ? more : less).add(thing(domain.wording(k), std::abs(entry)), is_cost);
+    value += Int128{entry} * domain.weights().integer[k];
   }
-  return compared(more, less);
+  return compared(more, less, value == 0);
 }
 
 std::string normal_text(const Domain& domain, const HalfSpace& half_space) {
@@ -141,6 +194,20 @@ std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& a
     i += n;
   }
   return text;
+}
+
+std::string cell_text(const Domain& domain, const Cell& cell) {
+  return "(" + std::to_string(cell.x) + "," + std::to_string(domain.height() + 1 - cell.y) + ")";
+}
+
+std::string action_words(const std::string& action) {
+  for (const char* move : {"up", "down", "left", "right"}) {
+    if (action == move) return "goes " + action;
+  }
+  if (action == "pickup") return "picks it up";
+  if (action == "dropoff") return "puts it down";
+  if (action == "exit") return "leaves";
+  return "does '" + action + "'";
 }
 
 }  // namespace kith

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+
+namespace kith {
+
+/// The robot's path beside one that somebody could expect in its place.
+struct Contrast {
+  DemoIndex demo;
+  Trajectory robot;
+  Trajectory alternative;      ///< From the same start; as long together with the robot's path as it can be.
+  IntegerVector robot_counts;  ///< Of the whole path, shape [d].
+  IntegerVector alternative_counts;
+  /// Both take the same actions before this one, and different ones here.
+  std::size_t decisive = 0;
+};
+
+/// The contrast with a path that ends as some vertex of a coverage set says.
+/// @param from  position on the robot's path at which the vertex was taken, 0: at its start.
+/// @param vertex  one of the coverage set of that state; not the robot's own.
+/// @throws std::invalid_argument if there is no such position, or the vertex is none of the coverage set, or the
+/// robot's own.
+[[nodiscard]] Contrast contrast_with(const Atlas& atlas, DemoIndex demo, std::size_t from, const IntegerVector& vertex);
+
+/// The contrast that conveys a constraint: at the earliest state of the robot's path where some expected path differs
+/// from the robot's by a multiple of its normal, the smallest multiple. Nothing if there is none.
+[[nodiscard]] std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint);
+
+/// Of the paths that somebody could expect from the start, the one that is best for the robot among those that `admits`
+/// accepts; the robot's own is none of them. Nothing if none is accepted.
+template <typename Predicate>
+[[nodiscard]] std::optional<Contrast> best_contrast(const Atlas& atlas, DemoIndex demo, const Predicate& admits) {
+  const auto& weights = atlas.domain().weights().integer;
+  std::optional<Contrast> best;
+  for (const auto& vertex : atlas.coverage_set(demo)) {
+    if (vertex == atlas.feature_counts(demo)) continue;
+    if (best && dot(weights, vertex) <= dot(weights, best->alternative_counts)) continue;
+    auto contrast = contrast_with(atlas, demo, 0, vertex);
+    if (admits(contrast)) best = std::move(contrast);
+  }
+  return best;
+}
+
+/// A world like another one in which the robot decides differently.
+struct Flip {
+  DemoIndex demo;                    ///< The same start there.
+  Trajectory robot;                  ///< The robot's path there.
+  std::vector<std::size_t> toggled;  ///< Positions in Domain::optional_groups() of what differs.
+};
+
+/// The nearest world in which the robot decides as the alternative does: at the decisive step the alternative's action
+/// is optimal there and the robot's own is not (or does not exist), and all steps before are optimal in both. Nearest:
+/// the fewest optional groups differ, then the fewest cells, then the lowest number.
+[[nodiscard]] std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast);
+
+/// The start of a demonstration in another world: the robot and what it carries are the same, things that only one of
+/// the worlds has are there or not. Nothing if that world has no such state.
+[[nodiscard]] std::optional<DemoIndex> same_start(const Atlas& atlas, DemoIndex demo, MdpIndex world);
+
+/// How worlds differ: "without the rubble at (2,1)", "with the charger at (4,1) and without the rubble at (2,1)".
+/// @param toggled  positions in Domain::optional_groups() at which `world` differs from another one.
+[[nodiscard]] std::string difference_in_words(const Domain& domain, MdpIndex world,
+                                              std::span<const std::size_t> toggled);
+
+/// Positions in Domain::optional_groups() at which two worlds differ.
+[[nodiscard]] std::vector<std::size_t> toggled_groups(const Domain& domain, MdpIndex a, MdpIndex b);
+
+/// "without the rubble at (2,1) it goes left at (3,2) rather than going up".
+[[nodiscard]] std::string flip_in_words(const Atlas& atlas, const Contrast& contrast, const Flip& flip);
+
+}  // namespace kith

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/explain/contrast.hpp"
+#include "kith/teaching/session.hpp"
+
+namespace kith {
+
+/// A demonstration as people see it.
+struct CurriculumDemonstration {
+  DemoIndex demo;
+  std::vector<HalfSpace> conveys;  ///< What it conveys, minimal, sorted; without what is known beforehand.
+  HalfSpace main;                  ///< The one that narrows most what was taught before; the reason's.
+  Contrast contrast;               ///< With the path that a person who does not know `main` would expect.
+  std::string reason;              ///< One sentence; see reason().
+  std::optional<Flip> flip;        ///< Nothing if the robot decides alike in all worlds.
+};
+
+enum class Difficulty { kEasy, kMedium, kHard };
+
+/// "easy", "medium" or "hard".
+[[nodiscard]] const char* name_of(Difficulty difficulty) noexcept;
+
+/// A test, and how hard it is for those who have not been taught its component.
+struct CurriculumTest {
+  DemoIndex demo;
+  std::vector<HalfSpace> covers;  ///< Taught constraints that a right answer shows.
+  /// Share of the beliefs that answer right, in [0, 1]: beliefs are uniform over what was known before the component.
+  double share_right = 0.0;
+  Difficulty difficulty = Difficulty::kMedium;  ///< Easy from two thirds on, hard below one third.
+};
+
+/// A knowledge component with all that is shown and asked.
+struct CurriculumComponent {
+  std::size_t component = 0;           ///< Index into Atlas::knowledge_components().
+  std::string name;                    ///< "crossing rubble against steps".
+  std::vector<HalfSpace> constraints;  ///< Minimal, sorted, without what is known beforehand.
+  double area_sr = 0.0;                ///< Solid angle of the constraints with the prior.
+  std::vector<CurriculumDemonstration> demonstrations;
+  std::vector<CurriculumTest> tests;  ///< Easy ones first.
+};
+
+/// A component that is not taught, and why.
+struct SkippedComponent {
+  std::string name, why;
+};
+
+/// What would be taught to one attentive person, who answers every test right.
+struct Curriculum {
+  std::vector<CurriculumComponent> components;
+  std::vector<SkippedComponent> skipped;
+};
+
+struct CurriculumOptions {
+  TeachingOptions teaching{};
+  std::uint64_t seed = 1;      ///< Root of all that the teacher draws.
+  std::size_t beliefs = 4000;  ///< Points of the regular cover by which share_right is measured, >= 1.
+};
+
+/// Teaches one person all components by the baseline strategy and keeps what was shown. A pure function.
+/// @param atlas  of a domain with three features.
+/// @throws kith::Error (kInfeasible, E1001) if nothing can be taught, with the reason.
+/// @throws std::invalid_argument if an option is out of range.
+[[nodiscard]] Curriculum make_curriculum(const Atlas& atlas, const CurriculumOptions& options = {});
+
+/// A component's name in words: "crossing rubble and stopping at the charger against steps".
+[[nodiscard]] std::string component_in_words(const Atlas& atlas, std::size_t component);
+
+}  // namespace kith

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+
+namespace kith {
+
+/// A demonstration that shows part of an answer.
+struct Example {
+  DemoIndex demo;
+  Trajectory path;                        ///< The robot's.
+  std::string text;                       ///< One sentence: what it shows, and why.
+  std::optional<Trajectory> alternative;  ///< The path that the sentence compares with.
+  std::optional<std::size_t> decisive;    ///< The step at which both part, or at which it happens.
+};
+
+/// What the robot replies to a question.
+struct Reply {
+  std::string question;           ///< As it was understood: "when: stopping at the charger".
+  std::string text;               ///< The answer in a sentence or two.
+  std::vector<Example> examples;  ///< Pairs where it does and where it does not stand together.
+};
+
+/// Answers a question about the robot's behaviour with demonstrations that show it.
+///
+///   when HAPPENING [at CELL] [carrying ITEM] [in world N]   worlds that differ in little: it does here, not there
+///   where HAPPENING [in world N]                             cells
+///   why [HAPPENING] [not HAPPENING] [at CELL] [...]          the comparison that decides
+///   what if [no] THING [at CELL] [and ...] [in world N]      what changes
+///   what at CELL [carrying ITEM] [in world N]                what it does there
+///
+/// A HAPPENING is an action or a feature: its name, or words of [words] in any form ("recharges", "crossing rubble").
+/// A CELL is "(2,1)" or "2,1": column and row from the top left. Words such as "does it" may be left out or put in.
+/// Without a cell questions are about the path from the map's start; without a world about all of them, or the one with
+/// everything (`why`, `what`).
+/// @throws kith::Error (kInvalidInput) with diagnostics E1002 to E1008 that point into the question.
+[[nodiscard]] Reply answer_question(const Atlas& atlas, const std::string& question);
+
+}  // namespace kith

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "kith/domains/domain.hpp"
+#include "kith/geometry/half_space.hpp"
+
+namespace kith {
+
+/// What the robot does, rather than what: "it would rather take 2 more steps than cross rubble".
+///
+/// Compares the feature counts of the robot's path with those of another one, in the verbs of the domain's
+/// [words] or, where one of them has none, with its nouns ("it prefers 2 more steps to crossing rubble"). What both
+/// paths do counts as "more". Where both paths are worth the same to the robot: "it may as well ... as ...".
+/// @param alternative  shape [d].
+/// @throws std::invalid_argument unless both have d entries, they differ, and the robot's is worth at least as much.
+[[nodiscard]] std::string choice_in_words(const Domain& domain, const IntegerVector& robot,
+                                          const IntegerVector& alternative);
+
+/// What the robot does, rather than what, because of what: choice_in_words(), a colon, and in_words() of the
+/// constraint that the comparison conveys, { w : (robot - alternative) . w >= 0 }.
+/// @throws std::invalid_argument as choice_in_words(), and for domains with more than three features.
+[[nodiscard]] std::string reason(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative);
+
+/// The constraint of a comparison. @throws std::invalid_argument for domains with more than three features.
+[[nodiscard]] HalfSpace constraint_of(const IntegerVector& robot, const IntegerVector& alternative);
+
+}  // namespace kith

@@ -1,0 +1,218 @@
+#include "kith/explain/curriculum.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "kith/core/assert.hpp"
+#include "kith/core/error.hpp"
+#include "kith/explain/reason.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/geometry/cover.hpp"
+
+namespace kith {
+namespace {
+
+std::vector<HalfSpace> together(std::vector<HalfSpace> a, const std::vector<HalfSpace>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::vector<HalfSpace> without(std::vector<HalfSpace> all, const std::vector<HalfSpace>& known) {
+  std::erase_if(all, [&](const HalfSpace& c) { return std::find(known.begin(), known.end(), c) != known.end(); });
+  return all;
+}
+
+// Names of the features in `which`, joined by '+', as components are called.
+std::vector<std::string> parts_of(const std::string& name) {
+  std::vector<std::string> parts;
+  std::istringstream in{name};
+  for (std::string part; std::getline(in, part, '+');) parts.push_back(part);
+  return parts;
+}
+
+// Goes through the lessons of one person and describes each.
+class CurriculumMaker {
+ public:
+  CurriculumMaker(const Atlas& atlas, const CurriculumOptions& options)
+      : atlas_{atlas}, options_{options}, cache_{atlas.constraints()} {
+    if (options.beliefs == 0) throw std::invalid_argument{"make_curriculum: there must be at least one belief"};
+  }
+
+  Curriculum make() {
+    const RandomStream root{options_.seed};
+    Session session{
+        atlas_, cache_, options_.teaching, Strategy::kBaseline, {root.split("person")}, root.split("teacher")};
+    std::size_t next = 0;
+    while (!session.finished()) {
+      const auto& lesson = session.lesson();
+      for (; next < lesson.component; ++next) skip(next);
+      const auto before = atlas_.constraints().half_spaces(session.taught_region());
+      if (curriculum_.components.empty() || curriculum_.components.back().component != lesson.component) {
+        curriculum_.components.push_back(component(lesson, before));
+      }
+      next = lesson.component + 1;
+      known_ = together(before, lesson.taught);
+      answer_right(session, lesson.tests);
+    }
+    for (; next < atlas_.knowledge_components().size(); ++next) skip(next);
+    if (curriculum_.components.empty()) throw nothing_to_teach();
+    return std::move(curriculum_);
+  }
+
+ private:
+  void answer_right(Session& session, const std::vector<Test>& tests) const {
+    std::vector<Answer> answers;
+    for (const auto& test : tests) answers.emplace_back(atlas_.feature_counts(test.demo));
+    const std::vector<std::vector<Answer>> all{answers};
+    static_cast<void>(session.submit(all));
+  }
+
+  CurriculumComponent component(const Lesson& lesson, const std::vector<HalfSpace>& before) {
+    const auto& taught = atlas_.knowledge_components()[lesson.component];
+    CurriculumComponent result;
+    result.component = lesson.component;
+    result.name = component_in_words(atlas_, lesson.component);
+    result.constraints = without(atlas_.constraints().half_spaces(taught.constraints), atlas_.domain().prior());
+    result.area_sr = taught.area_sr;
+    auto known = before;
+    for (const auto& shown : lesson.demonstrations) {
+      result.demonstrations.push_back(demonstration(shown, known));
+      known = together(known, shown.half_spaces);
+    }
+    const auto points = beliefs(before);
+    for (const auto& test : lesson.tests) result.tests.push_back(graded(test, points));
+    std::stable_sort(result.tests.begin(), result.tests.end(),
+                     [](const CurriculumTest& a, const CurriculumTest& b) { return a.share_right > b.share_right; });
+    return result;
+  }
+
+  CurriculumDemonstration demonstration(const Demonstration& shown, const std::vector<HalfSpace>& known) {
+    auto conveys = without(shown.half_spaces, atlas_.domain().prior());
+    KITH_ASSERT(!conveys.empty());  // else it would have had no gain
+    const auto main = most_telling(conveys, known);
+    auto contrast = contrast_for(atlas_, shown.demo, main);
+    KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
+    auto sentence = choice_in_words(atlas_.domain(), contrast->robot_counts, contrast->alternative_counts) + ": " +
+                    in_words(atlas_.domain(), main);
+    auto flip = nearest_flip(atlas_, *contrast);
+    return {shown.demo, std::move(conveys), main, *std::move(contrast), std::move(sentence), std::move(flip)};
+  }
+
+  // The constraint that leaves the least of what was known before; among equals the first.
+  [[nodiscard]] static HalfSpace most_telling(const std::vector<HalfSpace>& conveys,
+                                              const std::vector<HalfSpace>& known) {
+    const auto left = [&](const HalfSpace& c) { return solid_angle(together(known, {c})); };
+    return *std::min_element(conveys.begin(), conveys.end(), [&](const HalfSpace& a, const HalfSpace& b) {
+      constexpr double kTolerance = 1e-9;
+      return left(a) < left(b) - kTolerance;
+    });
+  }
+
+  // Policy cells of beliefs that fill what was known before evenly.
+  [[nodiscard]] std::vector<PolicyCellIndex> beliefs(const std::vector<HalfSpace>& before) const {
+    const auto region = Cone::intersection(before);
+    KITH_ASSERT(region.has_value());  // the robot's weights are inside
+    const auto points = fibonacci_cover(*region, options_.beliefs);
+    std::vector<PolicyCellIndex> cells;
+    for (Eigen::Index i = 0; i < points.cols(); ++i) cells.push_back(atlas_.cells().locate(points.col(i)));
+    return cells;
+  }
+
+  [[nodiscard]] CurriculumTest graded(const Test& test, const std::vector<PolicyCellIndex>& points) const {
+    constexpr double kEasy = 2.0 / 3.0;
+    constexpr double kHard = 1.0 / 3.0;
+    const auto& weights = atlas_.domain().weights().integer;
+    const auto right = std::count_if(points.begin(), points.end(), [&](PolicyCellIndex cell) {
+      const auto answer = atlas_.answer(test.demo, cell);
+      return answer && sign_of_dot(weights, atlas_.feature_counts(test.demo) - *answer) == 0;
+    });
+    const auto share = static_cast<double>(right) / static_cast<double>(points.size());
+    const auto difficulty = share >= kEasy  ? Difficulty::kEasy
+                            : share < kHard ? Difficulty::kHard
+                                            : Difficulty::kMedium;
+    return {test.demo, test.covered, share, difficulty};
+  }
+
+  void skip(std::size_t component) {
+    curriculum_.skipped.push_back({component_in_words(atlas_, component), why_skipped(component)});
+  }
+
+  [[nodiscard]] std::string why_skipped(std::size_t component) const {
+    const auto& skipped = atlas_.knowledge_components()[component];
+    const bool has_worlds = std::find(skipped.uses_mdp.begin(), skipped.uses_mdp.end(), true) != skipped.uses_mdp.end();
+    if (!has_worlds) return "every world has " + in_general(atlas_.domain().wording(*skipped.masked));
+    const auto constraints = atlas_.constraints().half_spaces(skipped.constraints);
+    if (implied_by(atlas_.domain().prior(), constraints)) return "all of it is known beforehand";
+    if (implied_by(known_, constraints)) return "what was taught before tells all of it";
+    return "no demonstration tells more about it than those before";
+  }
+
+  [[nodiscard]] static bool implied_by(const std::vector<HalfSpace>& known, const std::vector<HalfSpace>& constraints) {
+    const auto region = Cone::intersection(known);
+    return region && std::all_of(constraints.begin(), constraints.end(),
+                                 [&](const HalfSpace& constraint) { return region->implies(constraint); });
+  }
+
+  [[nodiscard]] Error nothing_to_teach() const {
+    const auto& domain = atlas_.domain();
+    std::vector<std::string> known;
+    for (const auto& half_space : domain.prior()) known.push_back(in_words(domain, half_space));
+    const bool all_known = implied_by(domain.prior(), atlas_.policy_bec_half_spaces());
+    std::string why = "no demonstration tells people more than they know beforehand";
+    if (atlas_.coverage().max == 1) why = "in every world, all who expect the robot to finish expect the same of it";
+    if (all_known && known.empty()) why = "the robot does the same whatever its reward";
+    if (all_known && !known.empty()) {
+      why = "whoever knows beforehand that " + listed(known) + " expects all that the robot does";
+    }
+    Diagnostic diagnostic;
+    diagnostic.id = "E1001";
+    diagnostic.message = "nothing about '" + domain.id() + "' can be taught: " + why;
+    diagnostic.hint = "give the robot a choice: worlds in which other weights would make it do something else";
+    diagnostic.infeasible = true;
+    return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
+  }
+
+  const Atlas& atlas_;
+  const CurriculumOptions& options_;
+  TeachingCache cache_;
+  Curriculum curriculum_;
+  std::vector<HalfSpace> known_ = atlas_.domain().prior();
+};
+
+}  // namespace
+
+const char* name_of(Difficulty difficulty) noexcept {
+  switch (difficulty) {
+    case Difficulty::kEasy:
+      return "easy";
+    case Difficulty::kMedium:
+      return "medium";
+    case Difficulty::kHard:
+      return "hard";
+  }
+  return "";
+}
+
+std::string component_in_words(const Atlas& atlas, std::size_t component) {
+  const auto& domain = atlas.domain();
+  const auto& components = atlas.knowledge_components();
+  const auto& names = domain.feature_names();
+  const auto weighed = [&](std::size_t c) { return parts_of(components.at(c).name); };
+  const auto all = weighed(components.size() - 1);  // the last component weighs all features
+  std::vector<std::string> things;
+  std::string reference;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    const auto parts = weighed(component);
+    const auto words = in_general(domain.wording(k));
+    if (std::find(parts.begin(), parts.end(), names[k]) != parts.end()) things.push_back(words);
+    if (std::find(all.begin(), all.end(), names[k]) == all.end()) reference = words;
+  }
+  return listed(things) + " against " + reference;
+}
+
+Curriculum make_curriculum(const Atlas& atlas, const CurriculumOptions& options) {
+  return CurriculumMaker{atlas, options}.make();
+}
+
+}  // namespace kith

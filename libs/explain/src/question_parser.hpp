@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+
+namespace kith::detail {
+
+// A stretch of the question, for messages: columns from 1.
+struct Place {
+  std::size_t column = 1;
+  std::size_t length = 1;
+};
+
+// Something the robot does: an action, or a feature that counts.
+struct Happening {
+  std::optional<ActionIndex> action;
+  std::size_t feature = 0;  // unless it is an action
+  Place place;
+};
+
+// A thing that the map may have or lack.
+struct Condition {
+  bool present = true;
+  std::string thing;
+  std::optional<Cell> cell;
+  Place place;
+};
+
+struct Question {
+  enum class Kind { kWhen, kWhere, kWhy, kWhatIf, kWhat };
+  Kind kind = Kind::kWhen;
+  std::optional<Happening> happening, instead;
+  std::vector<Condition> conditions;
+  std::optional<Cell> cell;
+  Place cell_place;
+  std::optional<std::size_t> carried;  // index into Domain::item_names()
+  std::optional<MdpIndex> world;
+};
+
+// @throws kith::Error: the question with a caret under the place.
+[[noreturn]] void fail(const std::string& question, const Place& place, const std::string& id,
+                       const std::string& message, const std::string& hint = {});
+
+// Understands a question. @throws kith::Error (E1002 to E1006).
+[[nodiscard]] Question parse_question(const Domain& domain, const std::string& text);
+
+}  // namespace kith::detail

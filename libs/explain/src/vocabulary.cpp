@@ -1,0 +1,162 @@
+#include "vocabulary.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace kith::detail {
+namespace {
+
+bool ends_with(const std::string& word, const std::string& ending) {
+  return word.size() > ending.size() && word.compare(word.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+std::vector<std::string> plain_words(const std::string& text) {
+  std::vector<std::string> words{""};
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_') {
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!words.back().empty()) {
+      words.emplace_back();
+    }
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+}  // namespace
+
+std::string stem(std::string word) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::size_t kShort = 4;
+  const auto drop = [&](std::size_t n) { word.resize(word.size() - n); };
+  if (word.size() > kShort && ends_with(word, "ing")) {
+    drop(3);
+  } else if (word.size() > kShort && ends_with(word, "ed")) {
+    drop(2);
+  } else if (word.size() > 3 && ends_with(word, "s")) {
+    drop(1);
+  }
+  if (word.size() > 3 && ends_with(word, "e")) drop(1);
+  if (word.size() > 3 && word.back() == word[word.size() - 2]) drop(1);
+  return word;
+}
+
+const std::set<std::string>& filler_words() {
+  static const std::set<std::string> kWords{
+      "a",       "an",     "the",     "it",    "its",    "he",      "she",    "robot", "does",   "do",
+      "did",     "is",     "are",     "be",    "will",   "would",   "should", "could", "can",    "may",
+      "there",   "then",   "to",      "of",    "in",     "at",      "on",     "from",  "for",    "by",
+      "than",    "go",     "goes",    "going", "move",   "moves",   "take",   "takes", "taking", "make",
+      "makes",   "happen", "happens", "this",  "that",   "one",     "n",      "times", "were",   "was",
+      "if",      "or",     "tell",    "me",    "show",   "please",  "ever",   "here",  "any",    "some",
+      "exactly", "about",  "start",   "cell",  "choose", "chooses", "use",    "uses",  "using",  "have",
+      "has",     "when",   "where",   "why",   "what",   "you",     "i",      "their"};
+  return kWords;
+}
+
+Vocabulary::Vocabulary(const Domain& domain) : domain_{domain} {
+  const auto d = domain.num_features();
+  for (std::size_t a = 0; a < domain.action_names().size(); ++a) {
+    const auto& name = domain.action_names()[a];
+    meanings_[stem(name)].insert(d + a);
+    words_.push_back(name);
+  }
+  for (std::size_t k = 0; k < d; ++k) {
+    meanings_[stem(domain.feature_names()[k])].insert(k);
+    words_.push_back(domain.feature_names()[k]);
+  }
+  for (std::size_t k = 0; k < d; ++k) {
+    add_words(domain.wording(k).one, k);
+    add_words(domain.wording(k).do_one, k);
+  }
+}
+
+void Vocabulary::add_words(const std::string& text, std::size_t feature) {
+  for (const auto& word : plain_words(text)) {
+    if (filler_words().count(word) != 0) continue;
+    // An action's name stays the action's, also where the words about a feature use it.
+    auto& meanings = meanings_[stem(word)];
+    const bool names_action =
+        std::any_of(meanings.begin(), meanings.end(), [&](std::size_t m) { return m >= domain_.num_features(); });
+    if (!names_action) meanings.insert(feature);
+    if (std::find(words_.begin(), words_.end(), word) == words_.end()) words_.push_back(word);
+  }
+}
+
+bool Vocabulary::is_item(const std::string& stem_of_word) const {
+  const auto& items = domain_.item_names();
+  return std::any_of(items.begin(), items.end(), [&](const auto& item) { return stem(item) == stem_of_word; });
+}
+
+bool Vocabulary::knows(const std::string& word) const {
+  // "pick up", "puts down" and "drop off" are two words for one action.
+  const auto known = stem(word);
+  if (is_item(known)) return true;
+  return meanings_.count(known) != 0 || known == "pick" || known == "drop" || known == "off" || known == "put";
+}
+
+std::vector<Happening> Vocabulary::happenings(const std::vector<std::string>& words) const {
+  std::vector<std::string> stems;
+  // "pick up the parcel": what is picked up is clear without saying.
+  for (const auto& word : words) {
+    if (!is_item(stem(word)) || meanings_.count(stem(word)) != 0) stems.push_back(stem(word));
+  }
+  const auto says = [&](const char* first, const char* second) {
+    return stems.size() >= 2 && stems[0] == first && stems[1] == second;
+  };
+  if (stems.size() > 1 && (stems.front() == stem("pickup") || stems.front() == stem("dropoff"))) stems.resize(1);
+  if (says("pick", "up")) stems = {stem("pickup")};
+  if (says("drop", "off") || says("put", "down")) stems = {stem("dropoff")};
+
+  std::optional<std::set<std::size_t>> common;
+  for (const auto& word : stems) {
+    const auto found = meanings_.find(word);
+    const auto meanings = found == meanings_.end() ? std::set<std::size_t>{} : found->second;
+    if (!common) {
+      common = meanings;
+      continue;
+    }
+    std::erase_if(*common, [&](std::size_t m) { return meanings.count(m) == 0; });
+  }
+  std::vector<Happening> result;
+  if (!common) return result;
+  const auto d = domain_.num_features();
+  const auto is_named = [&](std::size_t m) { return m < d && stem(domain_.feature_names()[m]) == stems.front(); };
+  const auto named = std::find_if(common->begin(), common->end(), is_named);
+  if (stems.size() == 1 && named != common->end()) common = std::set<std::size_t>{*named};
+  for (const auto m : *common) {
+    Happening happening;
+    if (m >= d) happening.action = ActionIndex{m - d};
+    if (m < d) happening.feature = m;
+    result.push_back(happening);
+  }
+  return result;
+}
+
+std::string Vocabulary::name_of(const Happening& happening) const {
+  return happening.action ? domain_.action_names()[happening.action->value()]
+                          : domain_.feature_names()[happening.feature];
+}
+
+std::vector<std::string> Vocabulary::happening_names() const {
+  auto names = domain_.action_names();
+  names.insert(names.end(), domain_.feature_names().begin(), domain_.feature_names().end());
+  return names;
+}
+
+std::optional<std::string> Vocabulary::optional_thing(const std::string& word) const {
+  for (const auto& thing : optional_things()) {
+    if (stem(thing) == stem(word)) return thing;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> Vocabulary::optional_things() const {
+  std::vector<std::string> things;
+  for (const auto& group : domain_.optional_groups()) {
+    if (std::find(things.begin(), things.end(), group.name) == things.end()) things.push_back(group.name);
+  }
+  return things;
+}
+
+}  // namespace kith::detail

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "question_parser.hpp"
+
+namespace kith::detail {
+
+// The part of a word that its forms share: "recharg" of "recharges" and "recharging".
+[[nodiscard]] std::string stem(std::string word);
+
+// Words that may stand in a question anywhere and say nothing.
+[[nodiscard]] const std::set<std::string>& filler_words();
+
+// What people can name in one domain, in any form of the word.
+class Vocabulary {
+ public:
+  explicit Vocabulary(const Domain& domain);
+
+  [[nodiscard]] bool knows(const std::string& word) const;
+  // What words together name: what every one of them can mean. A whole name wins over words about it.
+  [[nodiscard]] std::vector<Happening> happenings(const std::vector<std::string>& words) const;
+  [[nodiscard]] std::string name_of(const Happening& happening) const;
+  // All actions and features.
+  [[nodiscard]] std::vector<std::string> happening_names() const;
+  // Words to suggest for one that is not known.
+  [[nodiscard]] const std::vector<std::string>& all_words() const noexcept { return words_; }
+
+  // The optional thing of this name.
+  [[nodiscard]] std::optional<std::string> optional_thing(const std::string& word) const;
+  [[nodiscard]] std::vector<std::string> optional_things() const;
+
+ private:
+  [[nodiscard]] bool is_item(const std::string& stem_of_word) const;
+  void add_words(const std::string& text, std::size_t feature);
+
+  const Domain& domain_;
+  std::map<std::string, std::set<std::size_t>> meanings_;  // by stem; features, then actions
+  std::vector<std::string> words_;
+};
+
+}  // namespace kith::detail

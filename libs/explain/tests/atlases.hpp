@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+#include "kith/domains/domain_file.hpp"
+
+namespace kith::testing {
+
+/// The atlas of a built-in domain, made once.
+[[nodiscard]] inline const Atlas& atlas_of(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<const Atlas>> known;
+  auto& atlas = known[name];
+  if (!atlas) atlas = std::make_unique<const Atlas>(load_domain(name));
+  return *atlas;
+}
+
+/// The built-in domains that can be taught; colored-tiles, the largest, last.
+inline const std::vector<std::string> kSmallDomains{"item-delivery", "skateboard", "two-goals", "cookie-crumb"};
+
+/// A domain with one road, five cells long, that has everything on it: whatever the robot likes, it takes it.
+inline const std::string kOneRoad = R"(schema = "kith.domain/1"
+id = "one-road"
+[map]
+rows = ["S.r.G"]
+[map.legend]
+"." = "floor"
+"r" = { terrain = "rubble", optional = true }
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "rubble"
+when = "leave:rubble"
+[[feature]]
+name = "arrival"
+when = "goal"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { rubble = -2, arrival = 1, step = -1 }
+[prior]
+halfspaces = [ { step = -1 } ]
+[words]
+step = "a step"
+)";
+
+}  // namespace kith::testing

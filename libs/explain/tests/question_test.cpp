@@ -1,0 +1,204 @@
+#include "kith/explain/question.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "atlases.hpp"
+#include "kith/core/error.hpp"
+
+namespace kith {
+namespace {
+
+using testing::atlas_of;
+using ::testing::HasSubstr;
+
+Reply ask(const std::string& question, const std::string& domain = "item-delivery") {
+  return answer_question(atlas_of(domain), question);
+}
+
+// "ID COLUMN" of what is wrong with a question, and the hint.
+std::string complaint(const std::string& question, const std::string& domain = "item-delivery") {
+  try {
+    static_cast<void>(ask(question, domain));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+    const auto& d = error.diagnostics().at(0);
+    EXPECT_EQ(d.file, "question");
+    EXPECT_EQ(d.source_line, question);
+    return d.id + " " + std::to_string(d.column) + ": " + d.message + " | " + d.hint;
+  }
+  return "answered";
+}
+
+bool counts(const Atlas& atlas, const Example& example, std::size_t feature) {
+  return atlas.feature_counts(example.demo)[feature] != 0;
+}
+
+TEST(AskWhen, CountsWorldsAndShowsPairsThatDifferInOneThing) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto reply = ask("when does it recharge?");
+  std::size_t with = 0;
+  for (MdpIndex m{0}; m.value() < 64; ++m) {
+    with += atlas.feature_counts(atlas.index({m, atlas.domain().initial_state(m)}))[1] != 0 ? 1U : 0U;
+  }
+  EXPECT_EQ(reply.text, "Stopping at the charger happens in " + std::to_string(with) +
+                            " of 64 worlds, counting from the map's start.");
+  ASSERT_GE(reply.examples.size(), 2u);
+  ASSERT_EQ(reply.examples.size() % 2, 0u);
+  for (std::size_t i = 0; i < reply.examples.size(); i += 2) {
+    const auto& yes = reply.examples[i];
+    const auto& no = reply.examples[i + 1];
+    EXPECT_TRUE(counts(atlas, yes, 1)) << yes.text;
+    EXPECT_FALSE(counts(atlas, no, 1)) << no.text;
+    const auto toggled = atlas.id(yes.demo).mdp.value() ^ atlas.id(no.demo).mdp.value();
+    EXPECT_EQ(toggled & (toggled - 1), 0u) << "one group";
+    EXPECT_THAT(yes.text, HasSubstr("it does: "));
+    EXPECT_THAT(no.text, HasSubstr("it does not: "));
+  }
+}
+
+TEST(AskWhen, UnderstandsTheSameQuestionInManyForms) {
+  const auto first = ask("when does it recharge?");
+  for (const auto* question :
+       {"when recharge", "When does the robot recharge", "when is it recharging?", "when does it stop at the charger?",
+        "when does it not recharge", "tell me when it recharges"}) {
+    const auto reply = ask(question);
+    EXPECT_EQ(reply.question, "when: stopping at the charger") << question;
+    EXPECT_EQ(reply.text, first.text) << question;
+  }
+  EXPECT_EQ(ask("when does it pick up the parcel?").question, ask("when pickup").question);
+  EXPECT_EQ(ask("when does it go up").question, "when: 'up'");
+}
+
+TEST(AskWhen, LooksAtTheNextStepWhereACellIsNamed) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto reply = ask("when up at (4,3) carrying the parcel");
+  EXPECT_EQ(reply.question, "when: 'up' at (4,3) carrying parcel");
+  ASSERT_GE(reply.examples.size(), 2u);
+  EXPECT_EQ(atlas.domain().action_names()[reply.examples[0].path.actions[0].value()], "up");
+  EXPECT_NE(atlas.domain().action_names()[reply.examples[1].path.actions[0].value()], "up");
+  EXPECT_EQ(atlas.domain().state(atlas.id(reply.examples[0].demo).mdp, reply.examples[0].path.states[0]).robot,
+            (Cell{4, 1}));
+  EXPECT_EQ(ask("where up at 4,3 carrying parcel").text, reply.text);
+}
+
+TEST(AskWhen, SaysSoWhereItIsTheSameEverywhere) {
+  const auto reply = ask("when pickup");
+  EXPECT_EQ(reply.text, "'pickup' happens in 64 of 64 worlds, counting from the map's start.");
+  ASSERT_EQ(reply.examples.size(), 1u);
+  EXPECT_THAT(reply.examples[0].text, HasSubstr("world 63, it does: no way round it is best for anybody"));
+}
+
+TEST(AskWhere, ListsCellsWithAPathForEach) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto reply = ask("where does it recharge?");
+  EXPECT_THAT(reply.text, HasSubstr("Stopping at the charger happens at (4,1) in "));
+  ASSERT_EQ(reply.examples.size(), 1u);
+  const auto& example = reply.examples[0];
+  ASSERT_TRUE(example.decisive.has_value());
+  EXPECT_EQ(atlas.domain().state(atlas.id(example.demo).mdp, example.path.states[*example.decisive]).robot,
+            (Cell{4, 3}));
+  EXPECT_EQ(ask("where recharge in world 0").text,
+            "Stopping at the charger happens nowhere on the way from the map's start.");
+}
+
+TEST(AskWhy, ComparesTheStepWithTheOneInstead) {
+  const auto reply = ask("why left, not up, at (4,3) in world 0?");
+  EXPECT_EQ(reply.question, "why: 'left' and not 'up' at (4,3) in world 0");
+  ASSERT_EQ(reply.examples.size(), 1u);
+  ASSERT_TRUE(reply.examples[0].alternative.has_value());
+}
+
+TEST(AskWhy, TellsWhenItDoesNot) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto demo = atlas.index({MdpIndex{0}, atlas.domain().initial_state(MdpIndex{0})});
+  ASSERT_EQ(atlas.domain().action_names()[atlas.trajectory(demo).actions[0].value()], "pickup");
+  EXPECT_THAT(ask("why up at (4,3) in world 0").text, HasSubstr("It does not: at (4,3) in world 0 it picks it up; "));
+}
+
+TEST(AskWhy, ComparesWholeWaysWithoutACell) {
+  const auto reply = ask("why does it not recharge in world 31?");
+  EXPECT_THAT(reply.text, HasSubstr("in world 31; "));
+  const auto goals = ask("why far and not near in world 0", "two-goals");
+  EXPECT_EQ(goals.examples.size(), 1u);
+}
+
+TEST(AskWhatIf, ShowsBothWorlds) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto reply = ask("what if there is no charger?");
+  EXPECT_EQ(reply.question, "what if: world 63 without the charger at (4,1)");
+  ASSERT_EQ(reply.examples.size(), 2u);
+  EXPECT_EQ(atlas.id(reply.examples[0].demo).mdp, MdpIndex{63});
+  EXPECT_EQ(atlas.id(reply.examples[1].demo).mdp, MdpIndex{62});
+  const auto both = ask("what if rubble at (3,3) and charger");
+  EXPECT_EQ(both.question, "what if: world 0 with the rubble at (3,3) and the charger at (4,1)");
+  const auto none = ask("what if no charger and no rubble in world 63");
+  EXPECT_EQ(atlas.id(none.examples[1].demo).mdp, MdpIndex{0});
+}
+
+TEST(AskWhat, TellsTheNextStep) {
+  const auto reply = ask("what does it do at (2,3) carrying the parcel?");
+  EXPECT_EQ(reply.text, "At (2,3) in world 63 it goes left.");
+}
+
+TEST(AskErrors, PointIntoTheQuestion) {
+  EXPECT_EQ(complaint("").substr(0, 8), "E1002 1:");
+  EXPECT_THAT(complaint("wen recharge"), HasSubstr("E1002 1: a question begins with when, where, why or what | did you "
+                                                   "mean 'when'?"));
+  EXPECT_THAT(complaint("when does it rechrge?"), HasSubstr("E1003 14: nobody knows 'rechrge' here | did you mean "
+                                                            "'recharge'?"));
+  EXPECT_THAT(complaint("when up 3"), HasSubstr("E1003 9: "));
+  EXPECT_THAT(complaint("why up at (9,9)"),
+              HasSubstr("E1004 12: the map has no cell (9,9) | it has 4 columns and 3 rows"));
+  EXPECT_THAT(complaint("why up at (1,1)"), HasSubstr("E1004 12: the robot is never at (1,1) in world 63"));
+  EXPECT_THAT(complaint("when up in world 99"),
+              HasSubstr("E1005 18: there is no world 99 | they are numbered 0 to 63"));
+  EXPECT_THAT(complaint("when up in world"), HasSubstr("E1005 12: which world?"));
+  EXPECT_THAT(complaint("when"), HasSubstr("E1006 1: when does what happen?"));
+  EXPECT_THAT(complaint("why"), HasSubstr("E1006 1: why what?"));
+  EXPECT_THAT(complaint("what if"), HasSubstr("E1006 1: what if what?"));
+  EXPECT_THAT(complaint("what does it do"), HasSubstr("E1006 1: what does it do where?"));
+  EXPECT_THAT(complaint("when up and down"), HasSubstr("E1006 13: one thing at a time"));
+  EXPECT_THAT(complaint("why down at (4,3)"), HasSubstr("E1007 5: 'down' is not possible at (4,3) in world 63"));
+  EXPECT_THAT(complaint("what if no parcel"), HasSubstr("E1008 12: 'parcel' is nothing that worlds may have or lack | "
+                                                        "these may be there or not: rubble and charger"));
+  EXPECT_THAT(complaint("what if charger in world 63"), HasSubstr("E1008 9: world 63 has charger anyway"));
+  EXPECT_THAT(complaint("what if charger at (1,2)"), HasSubstr("E1008 9: no world has charger at (1,2)"));
+  EXPECT_THAT(complaint("what at (2,3) carrying a goat"), HasSubstr("E1003 26: carrying what? | it can carry parcel"));
+}
+
+TEST(AskErrors, NameWhatWordsCouldMean) {
+  EXPECT_THAT(complaint("when goal", "two-goals"),
+              HasSubstr("E1003 6: 'goal' could mean several things: near and far"));
+}
+
+TEST(AskErrors, NeverEscapeOtherwise) {
+  const std::vector<std::string> odd{
+      "?",         "(((",          "when (1,2),(2,1)", "1,1",           "why not",   "what if no no no",
+      "when when", "where not",    "what if with and", "when carrying", "why at 1,", "when up at 99999999999,1",
+      "world",     "what without", "when -1,2"};
+  for (const auto& question : odd) {
+    const auto said = complaint(question);
+    EXPECT_TRUE(said == "answered" || said.substr(0, 3) == "E10") << question << ": " << said;
+  }
+}
+
+TEST(Ask, WorksInAllSmallDomains) {
+  for (const auto& name : testing::kSmallDomains) {
+    const auto& atlas = atlas_of(name);
+    for (const auto& feature : atlas.domain().feature_names()) {
+      for (const auto* form : {"when ", "where ", "why ", "why not "}) {
+        const auto reply = answer_question(atlas, form + feature);
+        EXPECT_FALSE(reply.text.empty());
+        EXPECT_EQ(reply.text.find('{'), std::string::npos);
+        for (const auto& example : reply.examples) {
+          EXPECT_FALSE(example.text.empty());
+          EXPECT_TRUE(atlas.domain().mdp(atlas.id(example.demo).mdp).is_terminal(example.path.states.back()));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kith

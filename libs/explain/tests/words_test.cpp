@@ -1,0 +1,178 @@
+#include "kith/explain/words.hpp"
+
+#include <gtest/gtest.h>
+
+#include "kith/domains/domain_file.hpp"
+#include "kith/explain/reason.hpp"
+
+namespace kith {
+namespace {
+
+std::string sentence(const std::string& domain, const IntegerVector& normal) {
+  return in_words(load_domain(domain), HalfSpace{normal});
+}
+
+// A domain with these weights and words for mud, dock and step.
+Domain domain_with(const std::string& weights, const std::string& words) {
+  auto reading = parse_domain(R"(schema = "kith.domain/1"
+id = "tiny"
+[map]
+rows = ["S.mDG"]
+[map.legend]
+"." = "floor"
+"m" = { terrain = "mud", optional = true }
+"D" = { station = "dock", optional = true }
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "mud"
+when = "leave:mud"
+[[feature]]
+name = "dock"
+when = "leave:dock"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = )" + weights + "\n[words]\n" +
+                                  words,
+                              "test.toml");
+  for (const auto& diagnostic : reading.diagnostics) {
+    EXPECT_NE(diagnostic.severity, Severity::kError) << to_text(diagnostic);
+  }
+  return *std::move(reading.domain);
+}
+
+TEST(InWords, ReadsRightForItemDelivery) {
+  EXPECT_EQ(sentence("item-delivery", {-1, 0, 2}), "crossing rubble costs more than 2 steps");
+  EXPECT_EQ(sentence("item-delivery", {1, 0, -4}), "4 steps cost more than crossing rubble");
+  EXPECT_EQ(sentence("item-delivery", {0, 1, 3}), "stopping at the charger is worth more than 3 steps cost");
+  EXPECT_EQ(sentence("item-delivery", {0, -1, -5}), "5 steps cost more than stopping at the charger is worth");
+  EXPECT_EQ(sentence("item-delivery", {1, 1, 0}), "stopping at the charger is worth more than crossing rubble costs");
+  EXPECT_EQ(sentence("item-delivery", {0, 0, -1}), "a step costs something");
+  EXPECT_EQ(sentence("item-delivery", {-2, 0, 5}), "crossing rubble twice costs more than 5 steps");
+  EXPECT_EQ(sentence("item-delivery", {-1, 0, 1}), "crossing rubble costs more than a step");
+}
+
+TEST(InWords, ReadsRightForTheOtherDomains) {
+  EXPECT_EQ(sentence("colored-tiles", {-1, 0, 6}), "crossing an orange tile costs more than 6 steps");
+  EXPECT_EQ(sentence("colored-tiles", {-3, 1, 0}), "crossing 3 orange tiles costs more than crossing a blue tile");
+  EXPECT_EQ(sentence("colored-tiles", {-1, -1, 11}),
+            "crossing an orange tile and crossing a blue tile cost more than 11 steps");
+  EXPECT_EQ(sentence("skateboard", {5, 0, -1}), "a step elsewhere costs more than 5 moves with the skateboard");
+  EXPECT_EQ(sentence("skateboard", {0, 1, -1}), "a step elsewhere costs more than a step on the path");
+  EXPECT_EQ(sentence("skateboard", {2, -1, 0}), "a step on the path costs more than 2 moves with the skateboard");
+  EXPECT_EQ(sentence("skateboard", {0, 5, -3}), "3 steps elsewhere cost more than 5 steps on the path");
+  EXPECT_EQ(sentence("two-goals", {-1, 1, 3}),
+            "the gain of reaching the far goal outweighs the cost of 3 steps and the gain of reaching the near goal");
+  EXPECT_EQ(sentence("cookie-crumb", {0, 1, 1}), "eating a crumb is worth more than a step costs");
+  EXPECT_EQ(sentence("cookie-crumb", {0, -1, -2}), "2 steps cost more than eating a crumb is worth");
+  EXPECT_EQ(sentence("cookie-crumb", {0, 3, 5}), "eating 3 crumbs is worth more than 5 steps cost");
+}
+
+TEST(InWords, SaysAtLeastWhereTheRobotIsIndifferent) {
+  const auto domain = domain_with("{ mud = -2, dock = 3, step = -1 }",
+                                  "mud = \"crossing mud\"\nstep = \"a step\"\n"
+                                  "dock = \"stopping at the dock\"\n");
+  EXPECT_EQ(in_words(domain, HalfSpace{{-1, 0, 2}}), "crossing mud costs at least as much as 2 steps");
+  EXPECT_EQ(in_words(domain, HalfSpace{{1, 0, -2}}), "2 steps cost at least as much as crossing mud");
+  EXPECT_EQ(in_words(domain, HalfSpace{{0, 1, 3}}), "stopping at the dock is worth at least as much as 3 steps cost");
+}
+
+TEST(InWords, AvoidsTheVerbWhereWordsDoNotTellTheirNumber) {
+  const auto domain =
+      domain_with("{ mud = -2, dock = 2.5, step = -1 }", "mud = \"mud crossings\"\nstep = \"a step\"\n");
+  EXPECT_EQ(in_words(domain, HalfSpace{{-1, 0, 1}}), "the cost of mud crossings outweighs the cost of a step");
+  EXPECT_EQ(in_words(domain, HalfSpace{{0, 1, 2}}), "the gain of dock outweighs the cost of 2 steps");
+}
+
+TEST(Times, CountsNounsAndVerbs) {
+  const Wording step{"a step on the path", "{n} steps on the path", "take a step", "take {n} steps"};
+  EXPECT_EQ(times(step, 1), "a step on the path");
+  EXPECT_EQ(times(step, 5), "5 steps on the path");
+  EXPECT_EQ(times_more(step, 1), "one more step on the path");
+  EXPECT_EQ(times_more(step, 2), "2 more steps on the path");
+  EXPECT_EQ(doing(step, 1, false), "take a step");
+  EXPECT_EQ(doing(step, 1, true), "take one more step");
+  EXPECT_EQ(doing(step, 3, true), "take 3 more steps");
+  const Wording rubble{"crossing rubble", "crossing rubble {n} times", "cross rubble", "cross rubble {n} times"};
+  EXPECT_EQ(times(rubble, 2), "crossing rubble twice");
+  EXPECT_EQ(times(rubble, 3), "crossing rubble 3 times");
+  EXPECT_EQ(times_more(rubble, 1), "crossing rubble once more");
+  EXPECT_EQ(times_more(rubble, 2), "crossing rubble 2 more times");
+  EXPECT_EQ(doing(rubble, 2, false), "cross rubble twice");
+  EXPECT_EQ(doing(Wording{"a step", "{n} steps", "", ""}, 2, false), "");
+}
+
+TEST(InGeneral, LeavesOutTheNumber) {
+  EXPECT_EQ(in_general({"a step on the path", "{n} steps on the path", "", ""}), "steps on the path");
+  EXPECT_EQ(in_general({"crossing rubble", "crossing rubble {n} times", "", ""}), "crossing rubble");
+  EXPECT_EQ(in_general({"crossing a tile", "crossing {n} tiles", "", ""}), "crossing tiles");
+}
+
+// Item delivery: rubble, recharge, step; weights -3, 3.5, -1.
+std::string choice(const IntegerVector& robot, const IntegerVector& alternative) {
+  return choice_in_words(load_domain("item-delivery"), robot, alternative);
+}
+
+TEST(Reason, SaysWhatTheRobotDoesRatherThanWhatBecauseOfWhat) {
+  EXPECT_EQ(reason(load_domain("item-delivery"), {0, 0, 7}, {1, 0, 5}),
+            "it would rather take 2 more steps than cross rubble: crossing rubble costs more than 2 steps");
+}
+
+TEST(Reason, HasAFormForEveryMixtureOfCostsAndGains) {
+  EXPECT_EQ(choice({1, 0, 5}, {0, 0, 9}), "it would rather cross rubble than take 4 more steps");
+  EXPECT_EQ(choice({0, 1, 8}, {0, 0, 5}), "it will take 3 more steps to stop at the charger");
+  EXPECT_EQ(choice({0, 0, 5}, {0, 1, 10}), "it would rather do without stopping at the charger than take 5 more steps");
+  EXPECT_EQ(choice({0, 1, 5}, {0, 0, 5}), "it would rather stop at the charger than not");
+  EXPECT_EQ(choice({1, 0, 5}, {2, 0, 5}), "it would rather not cross rubble once more");
+  EXPECT_EQ(choice({0, 1, 6}, {1, 0, 5}),
+            "it would rather take one more step and stop at the charger than cross rubble");
+  EXPECT_EQ(choice({0, 0, 4}, {2, 1, 3}),
+            "it would rather take one more step than cross rubble twice to stop at the charger");
+}
+
+TEST(Reason, ComparesTwoGains) {
+  const auto goals = load_domain("two-goals");
+  EXPECT_EQ(choice_in_words(goals, {0, 1, 8}, {1, 0, 6}),
+            "it will take 2 more steps to go to the far goal rather than go to the near goal");
+  EXPECT_EQ(choice_in_words(goals, {1, 0, 4}, {0, 1, 8}),
+            "it would rather go to the near goal than take 4 more steps to go to the far goal");
+}
+
+TEST(Reason, UsesNounsWhereAVerbIsMissing) {
+  const auto domain = domain_with("{ mud = -2.2, dock = 2.5, step = -1 }",
+                                  "mud = \"crossing mud\"\ndock = \"stopping at the dock\"\nstep = \"a step\"\n");
+  EXPECT_EQ(choice_in_words(domain, {0, 0, 7}, {1, 0, 5}), "it prefers 2 more steps to crossing mud");
+  EXPECT_EQ(choice_in_words(domain, {0, 1, 7}, {0, 0, 5}), "it accepts 2 more steps for stopping at the dock");
+  EXPECT_EQ(choice_in_words(domain, {0, 0, 5}, {0, 1, 8}),
+            "it does without stopping at the dock to avoid 3 more steps");
+  EXPECT_EQ(choice_in_words(domain, {0, 0, 5}, {1, 0, 5}), "it avoids crossing mud");
+  EXPECT_EQ(choice_in_words(domain, {0, 1, 5}, {0, 0, 5}), "it chooses stopping at the dock");
+}
+
+TEST(Reason, AdmitsIndifference) {
+  const auto domain = domain_with("{ mud = -2, dock = 2.5, step = -1 }",
+                                  "mud = { one = \"crossing mud\", do = \"cross mud\" }\n"
+                                  "dock = \"stopping at the dock\"\n"
+                                  "step = { one = \"a step\", do = \"take a step\" }\n");
+  EXPECT_EQ(reason(domain, {0, 0, 7}, {1, 0, 5}),
+            "it may as well take 2 more steps as cross mud: crossing mud costs at least as much as 2 steps");
+}
+
+TEST(Reason, RefusesWhatIsNoReason) {
+  const auto domain = load_domain("item-delivery");
+  EXPECT_THROW(static_cast<void>(reason(domain, {0, 0, 5}, {0, 0, 5})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(reason(domain, {0, 0, 7}, {0, 0, 5})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(reason(domain, {0, 0}, {0, 0, 5})), std::invalid_argument);
+}
+
+TEST(ActionsText, CountsRepetitions) {
+  const auto domain = load_domain("item-delivery");
+  EXPECT_EQ(actions_text(domain, {ActionIndex{0}, ActionIndex{3}, ActionIndex{3}}), "up, right x2");
+  EXPECT_EQ(counts_text(domain, {1, 0, 7}), "rubble 1, step 7");
+  EXPECT_EQ(counts_text(domain, {0, 0, 0}), "nothing");
+}
+
+}  // namespace
+}  // namespace kith
