@@ -60,6 +60,11 @@ const std::vector<std::string>& examples_of(const std::string& command) {
   static const std::map<std::string, std::vector<std::string>> kExamples{
       {"validate", {"kith validate my-domain.toml my-study.toml", "kith validate --strict --json domains/*.toml"}},
       {"inspect", {"kith inspect item-delivery", "kith inspect item-delivery --show policy,demos --mdp 63"}},
+      {"init", {"kith init my-robot", "kith init my-robot --template blank"}},
+      {"curriculum", {"kith curriculum item-delivery", "kith curriculum my-domain.toml --seed 2 --json"}},
+      {"ask",
+       {"kith ask item-delivery 'when does it recharge?'",
+        "kith ask item-delivery 'why up, not left, at (4,3) carrying the parcel?'"}},
       {"teach", {"kith teach item-delivery --group NNP --strategy joint", "kith teach --from results/paper --team 17"}},
       {"study",
        {"kith study studies/paper.toml -o results/paper",

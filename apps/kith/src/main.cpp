@@ -24,6 +24,12 @@ int run(const Options& options, Console& console) {
       return run_validate(options.validate, console);
     case Command::kInspect:
       return run_inspect(options.inspect, console);
+    case Command::kInit:
+      return run_init(options.init, console);
+    case Command::kCurriculum:
+      return run_curriculum(options.curriculum, console);
+    case Command::kAsk:
+      return run_ask(options.ask, console);
     case Command::kTeach:
       return run_teach(options.teach, console);
     case Command::kStudy:

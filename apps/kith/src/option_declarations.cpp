@@ -86,6 +86,33 @@ void add_inspect(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_init(CLI::App& app, Options& options) {
+  auto& init = options.init;
+  auto& command = *app.add_subcommand("init", "Write a domain, a study and a README to start from");
+  command.add_option("folder", init.folder, "Where to write them")->capture_default_str()->type_name("DIR");
+  takes_word(*command.add_option("--template", init.template_name, "What to start from")->capture_default_str(), "NAME",
+             {"item-delivery", "blank", "human-study"});
+  add_common(command, options.common);
+}
+
+void add_curriculum(CLI::App& app, Options& options) {
+  auto& curriculum = options.curriculum;
+  auto& command =
+      *app.add_subcommand("curriculum", "Show what would be taught: demonstrations with reasons, and tests");
+  command.add_option("domain", curriculum.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  takes_integer(*command.add_option("--seed", curriculum.seed, "Root of all random streams")->capture_default_str(), 0);
+  add_common(command, options.common);
+}
+
+void add_ask(CLI::App& app, Options& options) {
+  auto& command = *app.add_subcommand("ask", "Answer a question about the robot with demonstrations");
+  command.add_option("domain", options.ask.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  command.add_option("question", options.ask.question, "Begins with when, where, why or what")
+      ->required()
+      ->type_name("QUESTION");
+  add_common(command, options.common);
+}
+
 void add_teach(CLI::App& app, Options& options) {
   auto& teach = options.teach;
   std::vector<std::string> names;
@@ -400,8 +427,11 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   auto app = std::make_unique<CLI::App>("Teach a robot's policy to a group of people by demonstration", "kith");
   app->set_help_flag();
   app->require_subcommand(1);
+  add_init(*app, options);
   add_validate(*app, options);
   add_inspect(*app, options);
+  add_curriculum(*app, options);
+  add_ask(*app, options);
   add_teach(*app, options);
   add_study(*app, options);
   add_status(*app, options);
@@ -419,13 +449,26 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
 }
 
 Command command_of(const std::string& name) {
-  static const std::map<std::string, Command> kCommands{
-      {"report", Command::kReport},   {"validate", Command::kValidate},   {"inspect", Command::kInspect},
-      {"teach", Command::kTeach},     {"study", Command::kStudy},         {"analyze", Command::kAnalyze},
-      {"fit", Command::kFit},         {"doctor", Command::kDoctor},       {"completion", Command::kCompletion},
-      {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower},
-      {"status", Command::kStatus},   {"bench", Command::kBench},         {"verify", Command::kVerify},
-      {"merge", Command::kMerge},     {"export", Command::kExport}};
+  static const std::map<std::string, Command> kCommands{{"report", Command::kReport},
+                                                        {"validate", Command::kValidate},
+                                                        {"inspect", Command::kInspect},
+                                                        {"teach", Command::kTeach},
+                                                        {"study", Command::kStudy},
+                                                        {"analyze", Command::kAnalyze},
+                                                        {"fit", Command::kFit},
+                                                        {"doctor", Command::kDoctor},
+                                                        {"completion", Command::kCompletion},
+                                                        {"version", Command::kVersion},
+                                                        {"calibrate", Command::kCalibrate},
+                                                        {"power", Command::kPower},
+                                                        {"status", Command::kStatus},
+                                                        {"verify", Command::kVerify},
+                                                        {"merge", Command::kMerge},
+                                                        {"export", Command::kExport},
+                                                        {"bench", Command::kBench},
+                                                        {"curriculum", Command::kCurriculum},
+                                                        {"ask", Command::kAsk},
+                                                        {"init", Command::kInit}};
   return kCommands.at(name);
 }
 

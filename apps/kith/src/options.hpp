@@ -24,7 +24,10 @@ enum class Command {
   kVerify,
   kMerge,
   kBench,
-  kExport
+  kExport,
+  kCurriculum,
+  kAsk,
+  kInit
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -187,6 +190,21 @@ struct BenchOptions {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
+struct CurriculumCommandOptions {
+  std::string domain;
+  std::uint64_t seed = 1;
+};
+
+struct AskOptions {
+  std::string domain;
+  std::vector<std::string> question;  ///< In one argument or in several.
+};
+
+struct InitOptions {
+  std::string folder = ".";
+  std::string template_name = "item-delivery";
+};
+
 /// One command line, understood.
 struct Options {
   Command command = Command::kVersion;
@@ -206,6 +224,9 @@ struct Options {
   MergeOptions merge;
   BenchOptions bench;
   ExportOptions export_model;
+  CurriculumCommandOptions curriculum;
+  AskOptions ask;
+  InitOptions init;
 };
 
 /// What `kith inspect --show` can show.

@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "board_json.hpp"
+#include "build_facts.hpp"
+#include "commands.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/explain/question.hpp"
+#include "kith/explain/words.hpp"
+#include "legend.hpp"
+#include "picture.hpp"
+#include "wrapped.hpp"
+
+namespace kith::cli {
+namespace {
+
+Json reply_json(const Atlas& atlas, const Reply& reply) {
+  const auto& domain = atlas.domain();
+  Json examples = Json::array();
+  for (const auto& example : reply.examples) {
+    const auto id = atlas.id(example.demo);
+    auto json = board_json(domain, id);
+    json["frames"] = frames_json(domain, id.mdp, example.path);
+    json["text"] = example.text;
+    json["alternative"] = nullptr;
+    if (example.alternative) json["alternative"] = {{"frames", frames_json(domain, id.mdp, *example.alternative)}};
+    json["decisive"] = example.decisive ? step_json(domain, id.mdp, example.path, *example.decisive) : Json{};
+    examples.push_back(std::move(json));
+  }
+  return {{"schema", "kith.ask/1"},     {"program", program_name()}, {"domain", board_domain_json(domain)},
+          {"question", reply.question}, {"answer", reply.text},      {"examples", examples}};
+}
+
+std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& console) {
+  constexpr std::size_t kWidth = 100;
+  const auto& domain = atlas.domain();
+  std::string text = console.dim(reply.question) + "\n" + wrapped(reply.text, kWidth) + "\n";
+  for (const auto& example : reply.examples) {
+    text +=
+        "\n" + wrapped(example.text, kWidth) + "\n" + start_and_path(domain, atlas.id(example.demo), example.path, 2);
+    if (example.alternative) {
+      text += "  the robot: " + actions_text(domain, example.path.actions) + "\n";
+      text += "  otherwise: " + actions_text(domain, example.alternative->actions) + "\n";
+    }
+  }
+  return text + "\n" + legend(domain, 0);
+}
+
+}  // namespace
+
+int run_ask(const AskOptions& options, Console& console) {
+  const Atlas atlas{load_domain(options.domain)};
+  std::string question;
+  for (const auto& word : options.question) question += (question.empty() ? "" : " ") + word;
+  const auto reply = answer_question(atlas, question);
+  if (console.json()) {
+    console.print_json(reply_json(atlas, reply));
+  } else {
+    console.print(reply_text(atlas, reply, console));
+  }
+  return 0;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,89 @@
+#include "board_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "kith/explain/words.hpp"
+
+namespace kith::cli {
+namespace {
+
+Json cell_json(const Domain& domain, const Cell& cell) { return Json::array({cell.x, domain.height() + 1 - cell.y}); }
+
+struct Kind {
+  std::string kind, name;
+};
+
+Kind kind_of(const LegendEntry& entry) {
+  if (entry.content.wall) return {"wall", "wall"};
+  if (!entry.content.terrain.empty()) return {"terrain", entry.content.terrain};
+  if (!entry.station.empty()) return {"station", entry.station};
+  if (!entry.content.destination_of.empty()) return {"destination", "destination of " + entry.content.destination_of};
+  if (entry.content.goal) return {"goal", entry.goal_name.empty() ? "goal" : entry.goal_name + " goal"};
+  if (entry.start) return {"start", "start"};
+  if (!entry.item.empty()) return {"item", entry.item};
+  return {"floor", "floor"};
+}
+
+Json frame_json(const Domain& domain, MdpIndex world, StateIndex s) {
+  const auto state = domain.state(world, s);
+  const auto names = domain.items_in(world);
+  Json items = Json::array();
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    items.push_back({{"name", domain.item_names()[names[i]]},
+                     {"cell", cell_json(domain, state.items[i])},
+                     {"carried", bool{state.carried[i]}}});
+  }
+  Json stations = Json::array();
+  for (const auto& station : state.stations) stations.push_back(cell_json(domain, station));
+  return {{"robot", cell_json(domain, state.robot)}, {"items", items}, {"stations", stations}};
+}
+
+}  // namespace
+
+Json board_domain_json(const Domain& domain) {
+  Json features = Json::array();
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    features.push_back(
+        {{"name", domain.feature_names()[k]}, {"words", domain.feature_words(k)}, {"weight", domain.weights().raw[k]}});
+  }
+  Json legend = Json::array();
+  for (const auto& entry : domain.legend()) {
+    const auto [kind, name] = kind_of(entry);
+    if (kind == "floor") continue;
+    legend.push_back({{"symbol", std::string{entry.symbol}}, {"kind", kind}, {"name", name}});
+  }
+  return {{"id", domain.id()}, {"title", domain.title()}, {"features", features},
+          {"legend", legend},  {"width", domain.width()}, {"height", domain.height()}};
+}
+
+Json board_json(const Domain& domain, DemoId id) {
+  return {{"world", id.mdp.value()},
+          {"map", domain.draw(id.mdp, std::nullopt)},
+          {"start", frame_json(domain, id.mdp, id.start)}};
+}
+
+Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  Json frames = Json::array();
+  for (std::size_t t = 0; t < path.states.size(); ++t) {
+    auto frame = frame_json(domain, world, path.states[t]);
+    frame["action"] = t < path.actions.size() ? Json(domain.action_names()[path.actions[t].value()]) : Json{};
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step) {
+  return {{"frame", step}, {"cell", cell_json(domain, domain.state(world, path.states[step]).robot)}};
+}
+
+Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces) {
+  Json sentences = Json::array();
+  for (const auto& half_space : half_spaces) {
+    Json normal = Json::array();
+    for (std::size_t k = 0; k < domain.num_features(); ++k) normal.push_back(half_space.normal()[k]);
+    sentences.push_back({{"normal", normal}, {"text", in_words(domain, half_space)}});
+  }
+  return sentences;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "json.hpp"
+#include "kith/bec/atlas.hpp"
+
+namespace kith::cli {
+
+// Boards as pages animate them. Cells are [column, row] from the top left, from 1.
+
+/// {"id", "title", "features": [{name, words, weight}], "legend": [{symbol, kind, name}], "width", "height"}. A
+/// symbol's kind is the first of wall, terrain, station, destination, goal, start and item that it is.
+[[nodiscard]] Json board_domain_json(const Domain& domain);
+/// {"world", "map", "start"}: the number of the MDP, its map in the symbols of the file, and the state as a frame.
+[[nodiscard]] Json board_json(const Domain& domain, DemoId id);
+/// [{"robot", "items": [{name, cell, carried}], "stations", "action"}]: entry i is the state before action i; the last
+/// has action null.
+[[nodiscard]] Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path);
+/// {"frame", "cell"}: where a step of a path is taken.
+[[nodiscard]] Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step);
+/// [{"normal", "text"}]
+[[nodiscard]] Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces);
+
+}  // namespace kith::cli

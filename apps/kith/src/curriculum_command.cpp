@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "board_json.hpp"
+#include "build_facts.hpp"
+#include "commands.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/explain/curriculum.hpp"
+#include "kith/explain/words.hpp"
+#include "legend.hpp"
+#include "picture.hpp"
+#include "wrapped.hpp"
+
+namespace kith::cli {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+
+Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown) {
+  const auto& domain = atlas.domain();
+  const auto world = atlas.id(shown.demo).mdp;
+  auto json = board_json(domain, atlas.id(shown.demo));
+  json["frames"] = frames_json(domain, world, shown.contrast.robot);
+  json["reason"] = shown.reason;
+  json["conveys"] = sentences_json(domain, shown.conveys);
+  json["alternative"] = {{"frames", frames_json(domain, world, shown.contrast.alternative)}};
+  json["decisive"] = step_json(domain, world, shown.contrast.robot, shown.contrast.decisive);
+  json["flip"] = nullptr;
+  if (shown.flip) {
+    const auto id = atlas.id(shown.flip->demo);
+    json["flip"] = board_json(domain, id);
+    json["flip"]["frames"] = frames_json(domain, id.mdp, shown.flip->robot);
+    json["flip"]["text"] = flip_in_words(atlas, shown.contrast, *shown.flip);
+  }
+  return json;
+}
+
+Json test_json(const Atlas& atlas, const CurriculumTest& test) {
+  const auto id = atlas.id(test.demo);
+  auto json = board_json(atlas.domain(), id);
+  json["frames"] = frames_json(atlas.domain(), id.mdp, atlas.trajectory(test.demo));
+  json["difficulty"] = name_of(test.difficulty);
+  json["share_right"] = test.share_right;
+  json["covers"] = sentences_json(atlas.domain(), test.covers);
+  return json;
+}
+
+Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint64_t seed) {
+  Json components = Json::array();
+  for (std::size_t i = 0; i < curriculum.components.size(); ++i) {
+    const auto& component = curriculum.components[i];
+    Json demonstrations = Json::array();
+    for (const auto& shown : component.demonstrations) demonstrations.push_back(demonstration_json(atlas, shown));
+    Json tests = Json::array();
+    for (const auto& test : component.tests) tests.push_back(test_json(atlas, test));
+    components.push_back({{"number", i + 1},
+                          {"name", component.name},
+                          {"sentences", sentences_json(atlas.domain(), component.constraints)},
+                          {"area_sr", component.area_sr},
+                          {"demonstrations", demonstrations},
+                          {"tests", tests}});
+  }
+  Json skipped = Json::array();
+  for (const auto& one : curriculum.skipped) skipped.push_back({{"name", one.name}, {"why", one.why}});
+  return {{"schema", "kith.curriculum/1"},
+          {"program", program_name()},
+          {"seed", seed},
+          {"domain", board_domain_json(atlas.domain())},
+          {"components", components},
+          {"skipped", skipped}};
+}
+
+// The curriculum for a terminal.
+class CurriculumText {
+ public:
+  CurriculumText(const Atlas& atlas, const Curriculum& curriculum, const Console& console)
+      : atlas_{atlas}, domain_{atlas.domain()}, curriculum_{curriculum}, console_{console} {}
+
+  std::string text() {
+    out_ = console_.bold(domain_.id()) + (domain_.title().empty() ? "" : ": " + domain_.title()) + "\n" +
+           legend(domain_, 0);
+    for (std::size_t i = 0; i < curriculum_.components.size(); ++i) component(i);
+    for (const auto& one : curriculum_.skipped) out_ += "\nNot taught: " + one.name + "; " + one.why + ".\n";
+    return out_;
+  }
+
+ private:
+  void line(const std::string& text, std::size_t indent) {
+    const std::string blank(indent, ' ');
+    out_ += blank + wrapped(text, kWidth - indent, blank) + "\n";
+  }
+
+  void component(std::size_t i) {
+    const auto& component = curriculum_.components[i];
+    out_ += "\n" + console_.bold(fmt::format("{}. {}", i + 1, component.name)) + "\n";
+    for (const auto& half_space : component.constraints) line("- " + in_words(domain_, half_space), 3);
+    for (std::size_t j = 0; j < component.demonstrations.size(); ++j) demonstration(j, component.demonstrations[j]);
+    for (std::size_t j = 0; j < component.tests.size(); ++j) test(j, component.tests[j]);
+  }
+
+  void demonstration(std::size_t j, const CurriculumDemonstration& shown) {
+    const auto world = atlas_.id(shown.demo).mdp;
+    const auto& contrast = shown.contrast;
+    out_ += fmt::format("\n   Demonstration {}: world {}\n", j + 1, world.value());
+    line(shown.reason, 3);
+    out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
+    const auto cell = domain_.state(world, contrast.robot.states[contrast.decisive]).robot;
+    line("the robot: " + actions_text(domain_, contrast.robot.actions), 5);
+    line("expected instead: " + actions_text(domain_, contrast.alternative.actions), 5);
+    line(fmt::format("they part at {} with step {}", cell_text(domain_, cell), contrast.decisive + 1), 5);
+    if (shown.flip) {
+      line(fmt::format("world {}: {}", atlas_.id(shown.flip->demo).mdp.value(),
+                       flip_in_words(atlas_, contrast, *shown.flip)),
+           5);
+      out_ += start_and_path(domain_, atlas_.id(shown.flip->demo), shown.flip->robot, 5);
+    }
+  }
+
+  void test(std::size_t j, const CurriculumTest& test) {
+    const auto id = atlas_.id(test.demo);
+    const auto path = atlas_.trajectory(test.demo);
+    out_ += fmt::format("\n   Test {}: world {}, {} ({:.0f} % would know beforehand)\n", j + 1, id.mdp.value(),
+                        name_of(test.difficulty), 100.0 * test.share_right);
+    out_ += start_and_path(domain_, id, path, 5);
+    line("answer: " + actions_text(domain_, path.actions), 5);
+    for (const auto& half_space : test.covers) line("shows that " + in_words(domain_, half_space), 5);
+  }
+
+  const Atlas& atlas_;
+  const Domain& domain_;
+  const Curriculum& curriculum_;
+  const Console& console_;
+  std::string out_;
+};
+
+}  // namespace
+
+int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
+  const Atlas atlas{load_domain(options.domain)};
+  CurriculumOptions how;
+  how.seed = options.seed;
+  const auto curriculum = make_curriculum(atlas, how);
+  if (console.json()) {
+    console.print_json(curriculum_json(atlas, curriculum, options.seed));
+  } else {
+    console.print(CurriculumText{atlas, curriculum, console}.text());
+  }
+  return 0;
+}
+
+}  // namespace kith::cli
