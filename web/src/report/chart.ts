@@ -4,7 +4,7 @@ import embed, { type Result } from 'vega-embed';
 import { type Spec as VegaSpec, View, parse } from 'vega';
 import { expressionInterpreter } from 'vega-interpreter';
 import { type TopLevelSpec, compile } from 'vega-lite';
-import { color, inLight } from './theme';
+import { color, inLight } from '../shared/theme';
 
 // Specifications are data; the libraries check them.
 export type Json = string | number | boolean | null | undefined | Json[] | { [key: string]: Json };

@@ -1,5 +1,5 @@
 // A button that copies a text. The old way of copying serves browsers that do not count file:// as secure.
-import { announce, button } from './dom';
+import { announce, button } from '../shared/dom';
 
 function copyByCommand(text: string): boolean {
   const area = document.createElement('textarea');

@@ -1,7 +1,7 @@
 // A figure on the page: drawing, caption, save buttons and its data as a table.
 import { type Drawing, draw, toPng, toSvg } from './chart';
 import type { Table } from './document';
-import { announce, button, el, lazyDetails } from './dom';
+import { announce, button, el, lazyDetails } from '../shared/dom';
 import type { Figure } from './figures/figure';
 import { download, toCsv } from './save';
 import { tableView } from './table_view';

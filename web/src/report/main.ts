@@ -1,6 +1,6 @@
 // Puts the report together from the document inside the page.
 import { readReport } from './document';
-import { el } from './dom';
+import { el } from '../shared/dom';
 import { figureSections } from './sections/figures';
 import { findingsSection } from './sections/findings';
 import { methodsSection } from './sections/methods';
@@ -11,7 +11,7 @@ import { openForPrinting } from './print';
 import type { Section } from './sections/section';
 import { notesSection, summarySection } from './sections/summary';
 import { Study } from './study';
-import { installTheme, themeToggle } from './theme';
+import { installTheme, themeToggle } from '../shared/theme';
 
 function sectionView({ id, title, content }: Section): HTMLElement {
   return el('section', { id, 'aria-labelledby': `${id}-title` }, el('h2', { id: `${id}-title` }, title), ...content);

@@ -1,5 +1,5 @@
 // One colour, one shape and one dash per strategy, the same in every figure.
-import { color } from './theme';
+import { color } from '../shared/theme';
 import type { Report } from './document';
 import type { Words } from './words';
 

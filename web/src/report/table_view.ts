@@ -1,6 +1,6 @@
 // A document's table as an accessible table that scrolls inside its own box.
 import type { Table } from './document';
-import { el } from './dom';
+import { el } from '../shared/dom';
 import type { Words } from './words';
 
 export function tableView(table: Table, caption: string, words: Words): HTMLElement {

@@ -3,7 +3,7 @@ import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import { extent, panels, yAxis } from '../panels';
 import { type Study, componentName, rowsOf } from '../study';
-import { color } from '../theme';
+import { color } from '../../shared/theme';
 import type { Figure } from './figure';
 import { range } from './gist';
 

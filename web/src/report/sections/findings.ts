@@ -1,5 +1,5 @@
 import type { Finding } from '../document';
-import { el } from '../dom';
+import { el } from '../../shared/dom';
 import type { Study } from '../study';
 import { tableView } from '../table_view';
 import type { Section } from './section';

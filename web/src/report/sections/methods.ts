@@ -1,5 +1,5 @@
 import { copyButton } from '../copy';
-import { el } from '../dom';
+import { el } from '../../shared/dom';
 import type { Study } from '../study';
 import type { Section } from './section';
 

@@ -1,4 +1,4 @@
-import { el } from '../dom';
+import { el } from '../../shared/dom';
 import type { Section } from './section';
 
 // The texts are put into the page when it is bundled.

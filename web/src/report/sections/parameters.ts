@@ -1,4 +1,4 @@
-import { el } from '../dom';
+import { el } from '../../shared/dom';
 import type { Study } from '../study';
 import { tableView } from '../table_view';
 import type { Table } from '../document';

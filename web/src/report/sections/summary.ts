@@ -1,5 +1,5 @@
 import type { Headline } from '../document';
-import { el } from '../dom';
+import { el } from '../../shared/dom';
 import type { Study } from '../study';
 import { formatFixed, listOf, plural } from '../words';
 import type { Section } from './section';

@@ -1,5 +1,5 @@
 // Inputs with their labels and a text of the present value.
-import { el } from '../dom';
+import { el } from '../../shared/dom';
 
 export interface Slider {
   row: HTMLElement;

@@ -1,6 +1,6 @@
 // What a globe is drawn with, from the ground up.
 import type { Spec } from '../chart';
-import { color } from '../theme';
+import { color } from '../../shared/theme';
 import { kStar } from './sphere_legend';
 
 const geoshape = (from: string, encode: Spec, pointRadius?: number): Spec => ({

@@ -1,5 +1,5 @@
 // A button that steps through the periods. Who asks for reduced motion gets no such button.
-import { button } from '../dom';
+import { button } from '../../shared/dom';
 
 const kStepMs = 900;
 

@@ -1,7 +1,7 @@
 // The legend below the globes: regions, true reward, particles.
 import type { Json } from '../chart';
 import type { Beliefs } from '../document';
-import { color } from '../theme';
+import { color } from '../../shared/theme';
 
 export const kStar =
   'M0,-1L0.235,-0.324L0.951,-0.309L0.38,0.124L0.588,0.809L0,0.4L-0.588,0.809L-0.38,0.124L-0.951,-0.309L-0.235,-0.324Z';

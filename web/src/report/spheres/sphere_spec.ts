@@ -3,7 +3,7 @@
 // `zoom` of 1 a round window shows a part of them.
 import type { Json, Spec } from '../chart';
 import type { Beliefs, BeliefTeam, Vector } from '../document';
-import { color } from '../theme';
+import { color } from '../../shared/theme';
 import { formatFixed } from '../words';
 import { closedLine, polygon, toLonLat } from './geometry';
 import { globeMarks } from './globe_marks';

@@ -1,7 +1,7 @@
 // The section's figure: what the members and the team believed, period by period.
 import { toPng, toSvg } from '../chart';
 import type { Beliefs, BeliefTeam, Cell, Table } from '../document';
-import { el, lazyDetails } from '../dom';
+import { el, lazyDetails } from '../../shared/dom';
 import { kPaperWidth, saveButtons } from '../figure_view';
 import { tableView } from '../table_view';
 import { formatFixed, type Words } from '../words';

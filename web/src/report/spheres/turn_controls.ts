@@ -1,6 +1,6 @@
 // Sliders that turn all globes and zoom into them, for the keyboard; they follow dragging.
 import type { Beliefs } from '../document';
-import { button, el } from '../dom';
+import { button, el } from '../../shared/dom';
 import { slider } from './controls';
 import { type GlobeView, turnFor } from './globe_view';
 import type { Turn } from './sphere_spec';
