@@ -1,22 +1,21 @@
-# kith_add_web_report(<variable>)
+# kith_add_web_pages(<page>...)
 #
-# Sets the variable to the path, in the build tree, of the report's template (one HTML file, see
-# web/build.mjs) and defines the target kith_web_report, which makes it. Packages come from npm,
-# once per build tree and whenever the lock file changes; the source tree stays as it is. Tests of
-# the page run where Chromium is installed.
+# For every page, a folder of web/src, sets <page>_page to the path, in the build tree, of its
+# template (one HTML file, see web/build.mjs) and defines the target kith_web_<page>, which makes it.
+# Packages come from npm, once per build tree and whenever the lock file changes; the source tree
+# stays as it is. Tests of the pages run where Chromium is installed.
 find_program(KITH_NODE NAMES node nodejs DOC "Node.js, which bundles the pages")
 find_program(KITH_NPM npm DOC "npm, which fetches what the pages are made of")
 find_program(KITH_CHROMIUM NAMES chromium DOC "Browser that tests the pages")
 mark_as_advanced(KITH_NODE KITH_NPM KITH_CHROMIUM)
 
-function(kith_add_web_report variable)
+function(kith_add_web_pages)
   if(NOT KITH_NODE OR NOT KITH_NPM)
-    message(FATAL_ERROR "kith's report page is bundled with Node.js (18 or later) and npm, and one of them is missing. "
+    message(FATAL_ERROR "kith's pages are bundled with Node.js (18 or later) and npm, and one of them is missing. "
                         "On Debian: apt-get install nodejs npm")
   endif()
   set(source ${PROJECT_SOURCE_DIR}/web)
   set(build ${PROJECT_BINARY_DIR}/web)
-  set(page ${build}/report.html)
   set(stamp ${build}/node_modules/.kith-stamp)
   set(omit --omit=dev)  # the compiler of types, the browser's driver and axe: for tests only
   if(KITH_BUILD_TESTS)
@@ -31,30 +30,37 @@ function(kith_add_web_report variable)
     COMMAND ${KITH_NPM} ci --ignore-scripts --no-audit --no-fund --prefer-offline --loglevel=error ${omit}
     COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
     DEPENDS ${packages} WORKING_DIRECTORY ${build}
-    COMMENT "Fetching what the report page is made of (npm)" VERBATIM)
-  add_custom_command(OUTPUT ${page}
-    COMMAND ${KITH_NODE} ${source}/build.mjs --modules ${build} --out ${page}
-    DEPENDS ${stamp} ${source}/build.mjs ${source}/notices.mjs ${sources}
-    COMMENT "Bundling the report page" VERBATIM)
-  add_custom_target(kith_web_report DEPENDS ${page})
-  set(${variable} ${page} PARENT_SCOPE)
+    COMMENT "Fetching what the pages are made of (npm)" VERBATIM)
+  add_custom_target(kith_web_packages DEPENDS ${stamp})
+  foreach(page IN LISTS ARGN)
+    set(file ${build}/${page}.html)
+    add_custom_command(OUTPUT ${file}
+      COMMAND ${KITH_NODE} ${source}/build.mjs --page ${page} --modules ${build} --out ${file}
+      DEPENDS kith_web_packages ${stamp} ${source}/build.mjs ${source}/notices.mjs ${sources}
+      COMMENT "Bundling the ${page} page" VERBATIM)
+    add_custom_target(kith_web_${page} DEPENDS ${file})
+    set(${page}_page ${file} PARENT_SCOPE)
+  endforeach()
   if(KITH_BUILD_TESTS AND NOT KITH_SANITIZE)
-    kith_test_web_report(${source} ${build} ${page})
+    kith_test_web_pages(${source} ${build})
   endif()
 endfunction()
 
-# Types, the sample document as a reader sees it, and documents that lack parts. One browser at a time.
-function(kith_test_web_report source build page)
+# Types, sample documents as a reader sees them, and documents that lack parts. One browser at a time.
+function(kith_test_web_pages source build)
   add_test(NAME web.Types COMMAND ${KITH_NODE} ${source}/tests/types_test.mjs --modules ${build})
   set_tests_properties(web.Types PROPERTIES LABELS web)
   if(NOT KITH_CHROMIUM)
-    message(STATUS "No Chromium: the report page is not tested in a browser (apt-get install chromium)")
+    message(STATUS "No Chromium: pages are not tested in a browser (apt-get install chromium)")
     return()
   endif()
   set(sample ${source}/sample/report.json)
+  set(report ${build}/report.html)
   set(tools --modules ${build} --chromium ${KITH_CHROMIUM})
-  add_test(NAME web.Report COMMAND ${KITH_NODE} ${source}/tests/report_test.mjs ${page} --document ${sample} ${tools})
-  add_test(NAME web.ReportParts COMMAND ${KITH_NODE} ${source}/tests/parts_test.mjs ${page} ${sample} ${tools})
-  set_tests_properties(web.Report web.ReportParts PROPERTIES RESOURCE_LOCK browser TIMEOUT 600 LABELS web)
+  add_test(NAME web.Report COMMAND ${KITH_NODE} ${source}/tests/report_test.mjs ${report} --document ${sample} ${tools})
+  add_test(NAME web.ReportParts COMMAND ${KITH_NODE} ${source}/tests/parts_test.mjs ${report} ${sample} ${tools})
+  add_test(NAME web.Lesson COMMAND ${KITH_NODE} ${source}/tests/lesson_test.mjs ${build}/lesson.html
+    --document ${source}/sample/lesson.json ${tools})
+  set_tests_properties(web.Report web.ReportParts web.Lesson PROPERTIES RESOURCE_LOCK browser TIMEOUT 600 LABELS web)
   set_property(TEST web.ReportParts PROPERTY LABELS slow)
 endfunction()

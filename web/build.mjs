@@ -1,13 +1,14 @@
-// Makes the report's template: one HTML file which holds the script, the style and the licences
-// of everything that is in it, and needs no network.
+// Makes a page's template: one HTML file which holds the script, the style and the licences of
+// everything that is in it, and needs no network.
 //
-//   node build.mjs --out FILE [--modules DIR]
+//   node build.mjs --out FILE [--page report|lesson] [--modules DIR]
 //
 // DIR is a folder with node_modules (this one unless said otherwise), so that a build outside the
-// source tree leaves no file here. kith puts a document (schema kith.report/1) where
-// DATA_PLACEHOLDER stands and the escaped title where TITLE_PLACEHOLDER stands, each once.
+// source tree leaves no file here. kith puts a document (schema kith.report/1 or
+// kith.curriculum/1) where DATA_PLACEHOLDER stands and the escaped title where TITLE_PLACEHOLDER
+// stands, each once.
 import { createHash } from 'node:crypto';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -19,9 +20,12 @@ const TITLE_PLACEHOLDER = '/*KITH_REPORT_TITLE*/';
 const MAX_BYTES = 2_000_000;
 
 const here = dirname(fileURLToPath(import.meta.url));
-const { values } = parseArgs({ options: { out: { type: 'string' }, modules: { type: 'string' } } });
-if (!values.out) {
-  console.error('usage: node build.mjs --out FILE [--modules DIR]');
+const { values } = parseArgs({
+  options: { out: { type: 'string' }, modules: { type: 'string' }, page: { type: 'string', default: 'report' } },
+});
+const source = join('src', values.page);
+if (!values.out || !existsSync(join(here, source, 'template.html'))) {
+  console.error('usage: node build.mjs --out FILE [--page report|lesson] [--modules DIR]');
   process.exit(2);
 }
 const modulesRoot = resolve(values.modules ?? here);
@@ -61,12 +65,14 @@ function fill(template, name, value) {
   return parts[0] + value + parts[1];
 }
 
-const script = await bundle('src/report/main.ts', {
+const script = await bundle(existsSync(join(here, source, 'main.tsx')) ? `${source}/main.tsx` : `${source}/main.ts`, {
+  jsx: 'automatic',
+  jsxImportSource: 'preact',
   platform: 'browser',
   format: 'iife',
   target: ['chrome100', 'firefox100', 'safari15.4'],
 });
-const style = await bundle('src/report/style.css', { target: ['chrome100', 'firefox100', 'safari15.4'] });
+const style = await bundle(`${source}/style.css`, { target: ['chrome100', 'firefox100', 'safari15.4'] });
 const code = script.text.trimEnd();
 checkInlineScript(code);
 if (/<\/style/i.test(style.text)) throw new Error('the style contains </style');
@@ -81,7 +87,7 @@ const policy = [
   "form-action 'none'",
 ].join('; ');
 
-let page = readFileSync(join(here, 'src/report/template.html'), 'utf8');
+let page = readFileSync(join(here, source, 'template.html'), 'utf8');
 page = fill(page, '__POLICY__', policy);
 page = fill(page, '__STYLE__', style.text.trim());
 page = fill(page, '__NOTICES__', noticesHtml(collectNotices(script.metafile, modulesRoot)));

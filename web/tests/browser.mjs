@@ -22,8 +22,8 @@ export async function launch(modules, executablePath) {
   return chromium.launch({ executablePath, args: kFlags });
 }
 
-// A page with the report open in it.
-export async function openReport(browser, address, { width, dark, reducedMotion = false }) {
+// A page with the file open in it.
+export async function openPage(browser, address, { width, dark, reducedMotion = false }) {
   const context = await browser.newContext({
     viewport: { width, height: 900 },
     colorScheme: dark ? 'dark' : 'light',
@@ -45,8 +45,14 @@ export async function openReport(browser, address, { width, dark, reducedMotion 
   page.on('pageerror', (error) => trouble.push(`uncaught: ${error.message}`));
   await page.goto(address);
   await page.waitForSelector('main section');
-  await page.waitForFunction(() =>
+  return { context, page, trouble };
+}
+
+// The same for a report, with its charts drawn.
+export async function openReport(browser, address, look) {
+  const opened = await openPage(browser, address, look);
+  await opened.page.waitForFunction(() =>
     [...document.querySelectorAll('.drawing')].every((box) => box.dataset.drawn && box.querySelector('svg')),
   );
-  return { context, page, trouble };
+  return opened;
 }

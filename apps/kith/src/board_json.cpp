@@ -1,6 +1,8 @@
 #include "board_json.hpp"
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "kith/explain/words.hpp"
 
@@ -13,15 +15,19 @@ struct Kind {
   std::string kind, name;
 };
 
-Kind kind_of(const LegendEntry& entry) {
-  if (entry.content.wall) return {"wall", "wall"};
-  if (!entry.content.terrain.empty()) return {"terrain", entry.content.terrain};
-  if (!entry.station.empty()) return {"station", entry.station};
-  if (!entry.content.destination_of.empty()) return {"destination", "destination of " + entry.content.destination_of};
-  if (entry.content.goal) return {"goal", entry.goal_name.empty() ? "goal" : entry.goal_name + " goal"};
-  if (entry.start) return {"start", "start"};
-  if (!entry.item.empty()) return {"item", entry.item};
-  return {"floor", "floor"};
+// All that a symbol puts on a cell.
+std::vector<Kind> parts_of(const LegendEntry& entry) {
+  std::vector<Kind> parts;
+  if (entry.content.wall) parts.push_back({"wall", "wall"});
+  if (!entry.content.terrain.empty()) parts.push_back({"terrain", entry.content.terrain});
+  if (!entry.station.empty()) parts.push_back({"station", entry.station});
+  if (!entry.content.destination_of.empty()) {
+    parts.push_back({"destination", "destination of " + entry.content.destination_of});
+  }
+  if (entry.content.goal) parts.push_back({"goal", entry.goal_name.empty() ? "goal" : entry.goal_name + " goal"});
+  if (entry.start) parts.push_back({"start", "start"});
+  if (!entry.item.empty()) parts.push_back({"item", entry.item});
+  return parts;
 }
 
 Json frame_json(const Domain& domain, MdpIndex world, StateIndex s) {
@@ -48,9 +54,14 @@ Json board_domain_json(const Domain& domain) {
   }
   Json legend = Json::array();
   for (const auto& entry : domain.legend()) {
-    const auto [kind, name] = kind_of(entry);
-    if (kind == "floor") continue;
-    legend.push_back({{"symbol", std::string{entry.symbol}}, {"kind", kind}, {"name", name}});
+    const auto kinds = parts_of(entry);
+    if (kinds.empty()) continue;  // floor
+    Json parts = Json::array();
+    for (const auto& [kind, name] : kinds) parts.push_back({{"kind", kind}, {"name", name}});
+    legend.push_back({{"symbol", std::string{entry.symbol}},
+                      {"kind", kinds.front().kind},
+                      {"name", kinds.front().name},
+                      {"parts", parts}});
   }
   return {{"id", domain.id()}, {"title", domain.title()}, {"features", features},
           {"legend", legend},  {"width", domain.width()}, {"height", domain.height()}};

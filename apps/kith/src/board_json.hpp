@@ -9,8 +9,9 @@ namespace kith::cli {
 
 // Boards as pages animate them. Cells are [column, row] from the top left, from 1.
 
-/// {"id", "title", "features": [{name, words, weight}], "legend": [{symbol, kind, name}], "width", "height"}. A
-/// symbol's kind is the first of wall, terrain, station, destination, goal, start and item that it is.
+/// {"id", "title", "features": [{name, words, weight}], "legend": [{symbol, kind, name, parts: [{kind, name}]}],
+/// "width", "height"}. The parts of a symbol are what it puts on a cell, in the order wall, terrain, station,
+/// destination, goal, start, item; kind and name are those of the first.
 [[nodiscard]] Json board_domain_json(const Domain& domain);
 /// {"world", "map", "start"}: the number of the MDP, its map in the symbols of the file, and the state as a frame.
 [[nodiscard]] Json board_json(const Domain& domain, DemoId id);

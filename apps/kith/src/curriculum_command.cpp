@@ -5,10 +5,14 @@
 #include "board_json.hpp"
 #include "build_facts.hpp"
 #include "commands.hpp"
+#include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/report/report.hpp"
+#include "kith/table/atomic_file.hpp"
 #include "legend.hpp"
+#include "lesson_page.hpp"
 #include "picture.hpp"
 #include "wrapped.hpp"
 
@@ -63,7 +67,9 @@ Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint
   }
   Json skipped = Json::array();
   for (const auto& one : curriculum.skipped) skipped.push_back({{"name", one.name}, {"why", one.why}});
+  const auto& domain = atlas.domain();
   return {{"schema", "kith.curriculum/1"},
+          {"title", domain.title().empty() ? domain.id() : domain.title()},
           {"program", program_name()},
           {"seed", seed},
           {"domain", board_domain_json(atlas.domain())},
@@ -134,6 +140,19 @@ class CurriculumText {
   std::string out_;
 };
 
+void write_page(const std::string& out, const Json& document, Console& console) {
+  const auto page = render_report(document.dump(-1, ' ', true), detail::kLessonPage);
+  if (out == "-") {
+    if (console.json()) throw Error{ErrorKind::kUsage, "--json and -o - would both print to standard output"};
+    console.print(page);
+    return;
+  }
+  write_file_atomically(out, page);
+  constexpr double kKilobyte = 1e3;
+  console.info(fmt::format("lesson in {} ({:.0f} kB); open it in a browser, it needs no network", out,
+                           static_cast<double>(page.size()) / kKilobyte));
+}
+
 }  // namespace
 
 int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
@@ -141,11 +160,13 @@ int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
   CurriculumOptions how;
   how.seed = options.seed;
   const auto curriculum = make_curriculum(atlas, how);
-  if (console.json()) {
-    console.print_json(curriculum_json(atlas, curriculum, options.seed));
-  } else {
+  if (options.out.empty() && !console.json()) {
     console.print(CurriculumText{atlas, curriculum, console}.text());
+    return 0;
   }
+  const auto document = curriculum_json(atlas, curriculum, options.seed);
+  if (!options.out.empty()) write_page(options.out, document, console);
+  if (console.json()) console.print_json(document);
   return 0;
 }
 

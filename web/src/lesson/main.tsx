@@ -1,0 +1,21 @@
+// Puts the lesson together from the document inside the page.
+import { render } from 'preact';
+import { el } from '../shared/dom';
+import { installTheme } from '../shared/theme';
+import { readLesson } from './document';
+import { Page } from './page';
+
+installTheme();
+const page = document.getElementById('page');
+if (page) {
+  try {
+    const lesson = readLesson();
+    page.replaceChildren();
+    render(<Page lesson={lesson} />, page);
+  } catch (error) {
+    page.replaceChildren(
+      el('main', { id: 'main' }, el('h1', {}, 'This lesson cannot be shown'), el('p', {}, String(error))),
+    );
+    throw error;
+  }
+}

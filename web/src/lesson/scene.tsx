@@ -1,0 +1,116 @@
+// A board that plays, with its caption and its description in words. Without a map: the steps as a list.
+import type { ComponentChildren, JSX } from 'preact';
+import { BoardView } from './board';
+import type { Board, Domain, Frame, Place } from './document';
+import type { Legend } from './legend';
+import { Player, usePlayback } from './player';
+import { actionsText, cellText, listed, mapText, placeOf, stepText, upperFirst } from './words';
+
+export interface Context {
+  domain: Domain;
+  legend: Legend;
+}
+
+interface SceneProps extends Context {
+  board: Board;
+  name: string; // "the robot's path in world 3"
+  title: string;
+  other?: Frame[];
+  decisive?: { frame: number; cell?: Place } | null;
+  children?: ComponentChildren;
+}
+
+export function Scene(props: SceneProps): JSX.Element {
+  return (
+    <figure class="scene">
+      <h4>{props.title}</h4>
+      {props.board.map ? <PlayedBoard {...props} /> : <Steps {...props} />}
+      {props.children && <figcaption>{props.children}</figcaption>}
+      <InWords {...props} />
+    </figure>
+  );
+}
+
+function labelOf({ board, name, other, decisive }: SceneProps): string {
+  const from = board.start.robot ? ` from ${cellText(board.start.robot)}` : '';
+  const parting = decisive?.cell ? `, parting at ${cellText(decisive.cell)}` : '';
+  return (
+    `Map of world ${board.world}, ${name}${from}: ${actionsText(board.frames)}.` +
+    (other ? ` Dashed, what somebody could expect${parting}: ${actionsText(other)}.` : '')
+  );
+}
+
+function PlayedBoard(props: SceneProps): JSX.Element {
+  const { board, other } = props;
+  const playback = usePlayback(Math.max(board.frames.length, other?.length ?? 0) - 1);
+  const longer = other && other.length > board.frames.length ? other : board.frames;
+  const step = Math.min(playback.step, board.frames.length - 1);
+  return (
+    <>
+      <BoardView {...props} step={Math.min(playback.step, board.frames.length - 1)} label={labelOf(props)} path />
+      <Player frames={step < playback.step ? holding(board.frames, longer) : board.frames} playback={playback} what={props.name} />
+    </>
+  );
+}
+
+// The robot has arrived while the other one still goes on.
+function holding(frames: Frame[], longer: Frame[]): Frame[] {
+  const last = frames[frames.length - 1];
+  return longer.map((_, i) => frames[i] ?? last ?? {});
+}
+
+function Steps({ board, other, decisive, name }: SceneProps): JSX.Element {
+  const list = (frames: Frame[], title: string, first: number): JSX.Element => (
+    <div>
+      <p class="list-title">{title}</p>
+      <ol class="steps" start={first + 1}>
+        {frames.slice(first).map((frame, i) => (
+          <li class={decisive?.frame === first + i ? 'parting' : undefined}>
+            {upperFirst(placeOf(frame))}
+            {frame.action ? `: ${frame.action}` : ': the end'}
+            {decisive?.frame === first + i && <span class="mark">here they part</span>}
+          </li>
+        ))}
+      </ol>
+    </div>
+  );
+  return (
+    <div class={other ? 'step-lists two' : 'step-lists'}>
+      {list(board.frames, upperFirst(name), 0)}
+      {other && list(other, 'What somebody could expect', decisive?.frame ?? 0)}
+    </div>
+  );
+}
+
+function InWords(props: SceneProps): JSX.Element | null {
+  const { domain, legend, board, other, decisive } = props;
+  if (!board.map) return null;
+  const things = (frames: Frame[], first: number): JSX.Element => (
+    <ol start={first + 1}>
+      {frames.slice(first, -1).map((_, i) => (
+        <li>{stepText(frames, first + i).replace(/^Step \d+ of \d+: /, '').replace(/^./, (c) => c.toUpperCase())}</li>
+      ))}
+    </ol>
+  );
+  return (
+    <details class="in-words">
+      <summary>This board in words</summary>
+      {mapText(domain, legend, board).map((text) => (
+        <p>{text}</p>
+      ))}
+      <p>The robot:</p>
+      {things(board.frames, 0)}
+      {other && <p>What somebody could expect instead, from step {(decisive?.frame ?? 0) + 1} on:</p>}
+      {other && things(other, decisive?.frame ?? 0)}
+    </details>
+  );
+}
+
+// What is to be seen before an answer is given: the board with nobody having moved.
+export function Start({ domain, legend, board }: Context & { board: Board }): JSX.Element {
+  const text = mapText(domain, legend, board);
+  if (!board.map) return <p>{listed(text)}</p>;
+  return (
+    <BoardView domain={domain} legend={legend} board={board} step={0} label={`Map of world ${board.world}. ${text.join(' ')}`} />
+  );
+}

@@ -1,0 +1,166 @@
+// Opens a lesson as a reader would and checks what a reader needs.
+//
+//   node tests/lesson_test.mjs TEMPLATE.html --document FILE [--screenshots DIR] [--modules DIR] [--chromium FILE]
+import assert from 'node:assert/strict';
+import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
+import { fillPage } from '../sample/fill_page.mjs';
+import { launch, openPage, requireFrom } from './browser.mjs';
+import { largeLesson, mapless } from './lessons.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values, positionals } = parseArgs({
+  allowPositionals: true,
+  options: {
+    document: { type: 'string' },
+    screenshots: { type: 'string' },
+    modules: { type: 'string', default: join(here, '..') },
+    chromium: { type: 'string', default: '/usr/bin/chromium' },
+  },
+});
+if (positionals.length !== 1 || !values.document) {
+  console.error(
+    'usage: node tests/lesson_test.mjs TEMPLATE.html --document FILE [--screenshots DIR] [--modules DIR] [--chromium FILE]',
+  );
+  process.exit(2);
+}
+const template = readFileSync(resolve(positionals[0]), 'utf8');
+const folder = mkdtempSync(join(tmpdir(), 'kith-lesson-'));
+const sample = JSON.parse(readFileSync(values.document, 'utf8'));
+const axeSource = readFileSync(requireFrom(values.modules).resolve('axe-core/axe.min.js'), 'utf8');
+
+function addressOf(name, lesson) {
+  const file = join(folder, `${name}.html`);
+  writeFileSync(file, fillPage(template, JSON.stringify(lesson)));
+  return pathToFileURL(file).href;
+}
+const pages = {
+  sample: addressOf('sample', sample),
+  large: addressOf('large', largeLesson()),
+  mapless: addressOf('mapless', mapless()),
+};
+
+let browser;
+
+async function withLesson(name, look, body) {
+  const lesson = await openPage(browser, pages[name], look);
+  try {
+    await body(lesson.page);
+    assert.deepEqual(lesson.trouble, [], 'requests, console messages or uncaught errors');
+  } finally {
+    await lesson.context.close();
+  }
+}
+
+async function violations(page) {
+  await page.evaluate(axeSource); // from the debugger, so that the page's policy stays as it is
+  const { violations: found } = await page.evaluate(() => axe.run(document, { resultTypes: ['violations'] }));
+  return found
+    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
+}
+
+const robotOf = (page) =>
+  page.$eval('.demonstration .mover:not(.ghost)', (mover) => mover.style.transform.match(/[\d.]+/g).map(Number));
+
+describe('a lesson', () => {
+  before(async () => (browser = await launch(values.modules, values.chromium)));
+  after(async () => browser?.close());
+
+  for (const name of Object.keys(pages)) {
+    for (const [width, dark] of [
+      [1280, false],
+      [768, true],
+      [320, false],
+    ]) {
+      it(`of ${name} at ${width} px ${dark ? 'dark' : 'light'}: no overflow, no serious axe violation`, async () => {
+        await withLesson(name, { width, dark }, async (page) => {
+          await page.evaluate(() => document.querySelectorAll('.test details').forEach((box) => (box.open = true)));
+          await page.waitForSelector('.test .answer');
+          if (values.screenshots) {
+            mkdirSync(values.screenshots, { recursive: true });
+            await page.screenshot({ path: join(values.screenshots, `${name}-${width}.png`), fullPage: true });
+          }
+          assert.deepEqual(await violations(page), []);
+          await page.evaluate(() => document.querySelectorAll('details').forEach((box) => (box.open = true)));
+          const { body, view } = await page.evaluate(() => ({
+            body: document.documentElement.scrollWidth,
+            view: document.documentElement.clientWidth,
+          }));
+          assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
+        });
+      });
+    }
+  }
+
+  it('shows every component, demonstration and test, and says every board in words', async () => {
+    await withLesson('sample', { width: 1280, dark: false }, async (page) => {
+      const count = (selector) => page.$$eval(selector, (all) => all.length);
+      const sum = (key) => sample.components.reduce((n, component) => n + component[key].length, 0);
+      assert.equal(await count('section[id^=component-]'), sample.components.length);
+      assert.equal(await count('.demonstration'), sum('demonstrations'));
+      assert.equal(await count('.test'), sum('tests'));
+      const labels = await page.$$eval('.board svg', (all) => all.map((svg) => svg.getAttribute('aria-label') ?? ''));
+      assert.ok(labels.length > 0 && labels.every((label) => label.length > 40), `labels: ${labels}`);
+      const reason = sample.components[0].demonstrations[0].reason;
+      assert.match((await page.textContent('.reason')).toLowerCase(), new RegExp(reason.slice(3, 30)));
+      const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));
+      levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
+      const lost = await page.$$eval('nav a', (all) =>
+        all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)),
+      );
+      assert.deepEqual(lost, []);
+    });
+  });
+
+  it('plays, pauses and steps, by keyboard alone', async () => {
+    await withLesson('sample', { width: 1280, dark: false }, async (page) => {
+      const { frames } = sample.components[0].demonstrations[0];
+      const text = () => page.textContent('.demonstration .step');
+      const first = await robotOf(page);
+      await page.focus('.demonstration .play');
+      await page.keyboard.press('Enter');
+      assert.equal(await page.textContent('.demonstration .play'), 'Pause');
+      await page.waitForFunction(() => document.querySelector('.demonstration .step').textContent.startsWith('Step 2'));
+      await page.keyboard.press('Enter');
+      assert.equal(await page.textContent('.demonstration .play'), 'Play');
+      await page.focus('.demonstration input[type=range]');
+      await page.keyboard.press('End');
+      assert.match(await text(), /it ends at/);
+      await page.keyboard.press('Home');
+      assert.deepEqual(await robotOf(page), first);
+      await page.keyboard.press('ArrowRight');
+      assert.match(await text(), new RegExp(`^Step 2 of ${frames.length - 1}`));
+    });
+  });
+
+  it('has nothing that moves for who asks for less motion', async () => {
+    await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
+      assert.equal(await page.locator('.play').count(), 0);
+      await page.click('.demonstration button[aria-label="One step on"]');
+      assert.match(await page.textContent('.demonstration .step'), /^Step 2/);
+      const duration = await page.$eval('.mover', (mover) => getComputedStyle(mover).transitionDuration);
+      assert.equal(duration, '0s');
+    });
+  });
+
+  it('keeps the answers of tests to itself until they are asked for', async () => {
+    await withLesson('sample', { width: 1280, dark: false }, async (page) => {
+      assert.equal(await page.locator('.test .way').count(), 0);
+      await page.click('.test summary');
+      await page.waitForSelector('.test .answer .way');
+      assert.ok((await page.textContent('.test .answer .sentences')).length > 10);
+    });
+  });
+
+  it('lists states and actions where there is no map', async () => {
+    await withLesson('mapless', { width: 1280, dark: false }, async (page) => {
+      assert.equal(await page.locator('.board').count(), 0);
+      assert.match(await page.textContent('.steps .parting'), /dock: wait.*here they part/);
+    });
+  });
+});

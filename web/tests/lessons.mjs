@@ -1,0 +1,101 @@
+// Lessons that no small domain has: a large map with many things, and a model without a map.
+
+const sentence = { normal: [-1, 0, 2, 0, 0, 0, 0, 1], text: 'crossing rubble costs more than 2 steps' };
+
+function robotAlong(cells, actions) {
+  return cells.map(([x, y], i) => ({
+    robot: [x, y],
+    items: [{ name: 'medicine', cell: i < 5 ? [12, 8] : [x, y], carried: i >= 5 }],
+    stations: [[20, 3]],
+    action: actions[i] ?? null,
+  }));
+}
+
+// 24 columns, 16 rows.
+export function largeLesson() {
+  const map = Array.from({ length: 16 }, (_, y) =>
+    Array.from({ length: 24 }, (_, x) => {
+      if (y === 2 && x === 19) return 'C';
+      if (y === 15 && x === 23) return 'D';
+      if (x % 7 === 3 && y % 5 !== 2) return '#';
+      if ((x * 5 + y * 3) % 11 === 0) return 'r';
+      if ((x * 3 + y * 7) % 13 === 0) return 's';
+      return '.';
+    }).join(''),
+  );
+  const across = Array.from({ length: 20 }, (_, i) => [i + 3, 8]);
+  const frames = robotAlong(across, Array.from({ length: 19 }, () => 'right'));
+  const other = [...frames.slice(0, 4), ...frames.slice(4).map((frame) => ({ ...frame, robot: [frame.robot[0] - 1, 9] }))];
+  other[3] = { ...other[3], action: 'down' };
+  const board = { world: 4711, map, start: frames[0], frames };
+  return {
+    schema: 'kith.curriculum/1',
+    title: 'Search and rescue',
+    program: 'kith',
+    domain: {
+      id: 'rescue',
+      title: 'Search and rescue on a large floor',
+      width: 24,
+      height: 16,
+      features: Array.from({ length: 8 }, (_, k) => ({ name: `f${k}`, words: `thing ${k}`, weight: -k })),
+      legend: [
+        { symbol: '#', kind: 'wall', name: 'wall' },
+        { symbol: 'r', kind: 'terrain', name: 'rubble' },
+        { symbol: 's', kind: 'terrain', name: 'smoke' },
+        { symbol: 'C', kind: 'terrain', name: 'rubble', parts: [{ kind: 'terrain', name: 'rubble' }, { kind: 'station', name: 'charger' }] },
+        { symbol: 'D', kind: 'destination', name: 'destination of medicine' },
+      ],
+    },
+    components: [
+      {
+        number: 1,
+        name: 'crossing rubble against steps',
+        sentences: [sentence],
+        demonstrations: [
+          {
+            ...board,
+            reason: 'it would rather take 2 more steps than cross rubble: crossing rubble costs more than 2 steps',
+            conveys: [sentence, sentence],
+            alternative: { frames: other },
+            decisive: { frame: 3, cell: [6, 8] },
+            flip: { ...board, world: 4710, text: 'without the rubble at (7,8) it goes down at (6,8) rather than going right' },
+          },
+        ],
+        tests: [{ ...board, difficulty: 'hard', share_right: 0.214, covers: [sentence] }],
+      },
+    ],
+    skipped: [],
+  };
+}
+
+export function mapless() {
+  const frames = (...steps) => steps.map(([state, action]) => ({ state, action: action ?? null }));
+  const own = frames(['dock', 'wait'], ['dock, charged', 'leave'], ['hall', 'forward'], ['done']);
+  const other = frames(['dock', 'leave'], ['hall, nearly empty', 'forward'], ['done']);
+  const board = { world: 0, start: { state: 'dock' }, frames: own };
+  return {
+    schema: 'kith.curriculum/1',
+    title: 'A model without a map',
+    program: 'kith',
+    domain: { id: 'model', title: 'A model without a map', features: [{ name: 'time', words: 'a minute', weight: -1 }] },
+    components: [
+      {
+        number: 1,
+        name: 'waiting against time',
+        sentences: [sentence],
+        demonstrations: [
+          {
+            ...board,
+            reason: 'it would rather wait than run empty: running empty costs more than a minute',
+            conveys: [sentence],
+            alternative: { frames: other },
+            decisive: { frame: 0 },
+            flip: null,
+          },
+        ],
+        tests: [{ ...board, difficulty: 'easy', share_right: 0.9, covers: [sentence] }],
+      },
+    ],
+    skipped: [{ name: 'something', why: 'all of it is known beforehand' }],
+  };
+}
