@@ -1,0 +1,133 @@
+// Edits domain files as text, so that what people wrote in them stays.
+#include "kith/domains/variation.hpp"
+
+#include <cctype>
+
+#include "kith/domains/domain_file.hpp"
+
+namespace kith {
+namespace {
+
+// Walks through a TOML text and says which characters are code, outside strings and comments.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : is_code_(text.size(), true) {
+    char quote = 0;
+    bool comment = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const char c = text[i];
+      if (comment) {
+        comment = c != '\n';
+        is_code_[i] = !comment;
+      } else if (quote != 0) {
+        is_code_[i] = false;
+        if (c == '\\' && quote == '"' && i + 1 < text.size()) {
+          is_code_[++i] = false;
+        } else if (c == quote) {
+          quote = 0;
+        }
+      } else if (c == '"' || c == '\'') {
+        quote = c;
+        is_code_[i] = false;
+      } else if (c == '#') {
+        comment = true;
+        is_code_[i] = false;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_code(std::size_t i) const { return is_code_[i]; }
+
+ private:
+  std::vector<bool> is_code_;
+};
+
+constexpr auto kNowhere = std::string_view::npos;
+
+bool is_key_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; }
+
+// Where `key =` begins at or after `from`, as code.
+std::size_t find_key(std::string_view text, const Scanner& scanner, std::string_view key, std::size_t from) {
+  for (auto at = text.find(key, from); at != kNowhere; at = text.find(key, at + 1)) {
+    const auto end = at + key.size();
+    if (!scanner.is_code(at) || (at > 0 && is_key_character(text[at - 1]))) continue;
+    const auto next = text.find_first_not_of(" \t", end);
+    if (next != kNowhere && text[next] == '=') return at;
+  }
+  return kNowhere;
+}
+
+// The first of these characters that is code.
+std::size_t find_code(std::string_view text, const Scanner& scanner, std::string_view characters, std::size_t from) {
+  for (auto at = text.find_first_of(characters, from); at != kNowhere; at = text.find_first_of(characters, at + 1)) {
+    if (scanner.is_code(at)) return at;
+  }
+  return kNowhere;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+// Puts `value` where the value of a key stands.
+bool replace_value(std::string& text, std::string_view key, char last, const std::string& value) {
+  const Scanner scanner{text};
+  const auto at = find_key(text, scanner, key, 0);
+  if (at == kNowhere) return false;
+  const auto begin = text.find_first_not_of(" \t", text.find('=', at) + 1);
+  if (begin == kNowhere) return false;
+  std::size_t end = kNowhere;
+  if (last == ']') {
+    end = find_code(text, scanner, "]", begin);
+  } else {
+    end = text.find(text[begin], begin + 1);  // the closing quote: ids have none inside
+  }
+  if (end == kNowhere) return false;
+  text.replace(begin, end + 1 - begin, value);
+  return true;
+}
+
+// Removes `optional = ...` from the tables of the legend.
+void remove_options(std::string& text) {
+  for (std::size_t from = 0;;) {
+    const Scanner scanner{text};
+    auto begin = find_key(text, scanner, "optional", from);
+    if (begin == kNowhere) return;
+    auto end = find_code(text, scanner, ",}\n", begin);
+    if (end == kNowhere) end = text.size();
+    if (end < text.size() && text[end] == ',') {
+      end = text.find_first_not_of(" \t", end + 1);
+    } else {
+      const auto comma = text.find_last_not_of(" \t", begin - 1);
+      if (comma != kNowhere && text[comma] == ',') begin = comma;
+      while (end > begin && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;
+    }
+    text.erase(begin, end - begin);
+    from = begin;
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> with_one_map(std::string_view text, const std::string& id,
+                                        const std::vector<std::string>& rows) {
+  std::string result{text};
+  std::string array = "[";
+  for (std::size_t i = 0; i < rows.size(); ++i) array += (i == 0 ? "" : ",\n        ") + quoted(rows[i]);
+  if (!replace_value(result, "id", '"', quoted(id)) || !replace_value(result, "rows", ']', array + "]")) {
+    return std::nullopt;
+  }
+  remove_options(result);
+  const auto reading = parse_domain(result, id);
+  if (!reading.domain || reading.domain->num_mdps() != 1 || reading.domain->draw(MdpIndex{0}, std::nullopt) != rows) {
+    return std::nullopt;
+  }
+  return result;
+}
+
+}  // namespace kith
