@@ -126,12 +126,7 @@ std::string choice_in_words(const Domain& domain, const IntegerVector& robot, co
 }
 
 HalfSpace constraint_of(const IntegerVector& robot, const IntegerVector& alternative) {
-  constexpr std::size_t kDimension = 3;
-  if (robot.size() > kDimension) throw std::invalid_argument{"constraint_of: there are more than three features"};
-  const auto difference = robot - alternative;
-  IntegerVector normal(kDimension);
-  for (std::size_t k = 0; k < difference.size(); ++k) normal[k] = difference[k];
-  return HalfSpace{normal};
+  return HalfSpace{robot - alternative};
 }
 
 std::string reason(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative) {

@@ -19,10 +19,10 @@ namespace kith {
 
 /// What the robot does, rather than what, because of what: choice_in_words(), a colon, and in_words() of the
 /// constraint that the comparison conveys, { w : (robot - alternative) . w >= 0 }.
-/// @throws std::invalid_argument as choice_in_words(), and for domains with more than three features.
+/// @throws std::invalid_argument as choice_in_words().
 [[nodiscard]] std::string reason(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative);
 
-/// The constraint of a comparison. @throws std::invalid_argument for domains with more than three features.
+/// The constraint of a comparison. @throws std::invalid_argument if the counts are the same.
 [[nodiscard]] HalfSpace constraint_of(const IntegerVector& robot, const IntegerVector& alternative);
 
 }  // namespace kith

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+
+namespace kith {
+
+/// What a world is wanted for.
+enum class Purpose {
+  kTeach,  ///< The one-step comparisons along the robot's path convey the constraint and nothing else.
+  kTest    ///< The expected paths from the start discriminate the constraint and nothing else.
+};
+
+/// Whether a demonstration conveys exactly the constraint to those who know the prior: with it, the one-step set of the
+/// path (kTeach) or the facets of the robot's cell in the coverage set of the start (kTest) leave the same weights as
+/// the constraint does.
+[[nodiscard]] bool isolates(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint, Purpose purpose);
+
+/// The simplest demonstration that isolates the constraint: the least to look at (Domain::complexity), then the
+/// shortest path, then the lowest index. Nothing if there is none.
+[[nodiscard]] std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint,
+                                                          Purpose purpose);
+
+/// How many demonstrations isolate a constraint.
+struct Isolated {
+  HalfSpace constraint;
+  std::size_t teaching = 0;  ///< Purpose::kTeach.
+  std::size_t testing = 0;   ///< Purpose::kTest.
+};
+
+/// Every constraint of the policy's behaviour equivalence class, and every other that some demonstration isolates;
+/// sorted. Without what is known beforehand.
+[[nodiscard]] std::vector<Isolated> isolated_constraints(const Atlas& atlas);
+
+/// The constraint that people mean: its normal ("(-1,0,2)", "-1 0 2") or its sentence as in_words() has it, in any case
+/// and with or without the full stop.
+/// @throws kith::Error (kInvalidInput, E1009) if it is neither, (kInfeasible, E1010) if the robot's weights contradict
+/// it or everybody knows it beforehand.
+[[nodiscard]] HalfSpace parse_constraint(const Atlas& atlas, const std::string& text);
+
+/// A cell of a map that was changed.
+struct CellChange {
+  Cell cell;
+  char from = ' ';
+  char to = ' ';
+};
+
+/// A world that was made for a constraint.
+struct MadeWorld {
+  std::string text;  ///< A domain file with this one world.
+  MdpIndex base;     ///< The world of the family that it was made from.
+  std::vector<CellChange> changes;
+  Atlas atlas;     ///< Of the new domain.
+  DemoIndex demo;  ///< The simplest of it that isolates the constraint.
+};
+
+struct MakeWorldOptions {
+  std::size_t max_changes = 2;      ///< Cells, at least 1.
+  std::size_t max_states = 400000;  ///< Of all worlds that are tried together; bounds the time.
+};
+
+/// Makes a world out of one of the family by changing as few cells as possible: floor, walls, terrain and stations
+/// become one another. Worlds with a demonstration that conveys the constraint among the fewest others come first.
+/// @param text  the domain file of the atlas's domain.
+/// @return nothing if no world within the options isolates the constraint.
+[[nodiscard]] std::optional<MadeWorld> make_world(const Atlas& atlas, std::string_view text,
+                                                  const HalfSpace& constraint, Purpose purpose,
+                                                  const MakeWorldOptions& options = {});
+
+/// "rubble at (2,1) becomes floor".
+[[nodiscard]] std::string change_in_words(const Domain& domain, const CellChange& change);
+
+}  // namespace kith

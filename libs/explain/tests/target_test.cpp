@@ -1,0 +1,137 @@
+#include "kith/explain/target.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "atlases.hpp"
+#include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
+
+namespace kith {
+namespace {
+
+using testing::atlas_of;
+
+// Whether two sets leave the same weights of the prior, by implication both ways.
+bool same_weights(const Atlas& atlas, const std::vector<HalfSpace>& a, const std::vector<HalfSpace>& b) {
+  auto left = atlas.prior_cone();
+  auto right = atlas.prior_cone();
+  if (!left.clip(a) || !right.clip(b)) return false;
+  return std::all_of(b.begin(), b.end(), [&](const HalfSpace& one) { return left.implies(one); }) &&
+         std::all_of(a.begin(), a.end(), [&](const HalfSpace& one) { return right.implies(one); });
+}
+
+TEST(SimplestIsolating, IsTheSimplestOfAllThatConveyExactlyTheConstraint) {
+  for (const auto* name : {"item-delivery", "skateboard"}) {
+    const auto& atlas = atlas_of(name);
+    for (const auto& one : isolated_constraints(atlas)) {
+      SCOPED_TRACE(std::string{name} + ": " + described(atlas.domain(), one.constraint));
+      std::size_t n = 0;
+      std::optional<DemoIndex> best;
+      const auto rank = [&](DemoIndex demo) {
+        return std::pair{atlas.domain().complexity(atlas.id(demo)), atlas.trajectory(demo).actions.size()};
+      };
+      for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+        if (!same_weights(atlas, atlas.constraints().half_spaces(atlas.one_step(demo)), {one.constraint})) continue;
+        ++n;
+        if (!best || rank(demo) < rank(*best)) best = demo;
+      }
+      EXPECT_EQ(n, one.teaching);
+      EXPECT_EQ(simplest_isolating(atlas, one.constraint, Purpose::kTeach), best);
+      if (best) EXPECT_TRUE(isolates(atlas, *best, one.constraint, Purpose::kTeach));
+    }
+  }
+}
+
+TEST(SimplestIsolating, FindsTestsThatDiscriminateTheConstraintAlone) {
+  const auto& atlas = atlas_of("item-delivery");
+  std::size_t tests = 0;
+  for (const auto& one : isolated_constraints(atlas)) {
+    const auto demo = simplest_isolating(atlas, one.constraint, Purpose::kTest);
+    EXPECT_EQ(demo.has_value(), one.testing > 0);
+    if (!demo) continue;
+    ++tests;
+    EXPECT_TRUE(same_weights(atlas, atlas.constraints().half_spaces(atlas.robot_cell_facets(*demo)), {one.constraint}));
+  }
+  EXPECT_GT(tests, 0u);
+}
+
+TEST(IsolatedConstraints, HoldAtTheRobotsWeightsAndAreNotKnownBeforehand) {
+  for (const auto& name : testing::kSmallDomains) {
+    const auto& atlas = atlas_of(name);
+    const auto all = isolated_constraints(atlas);
+    EXPECT_FALSE(all.empty()) << name;
+    for (const auto& one : all) {
+      EXPECT_GE(sign_of_dot(one.constraint.normal(), atlas.domain().weights().integer), 0);
+      EXPECT_FALSE(atlas.prior_cone().implies(one.constraint));
+    }
+  }
+}
+
+TEST(ParseConstraint, TakesNormalsAndSentences) {
+  const auto& atlas = atlas_of("item-delivery");
+  const HalfSpace two_steps{IntegerVector{-1, 0, 2}};
+  for (const auto* text : {"(-1,0,2)", "-1, 0, 2", " -2 0 4 ", "crossing rubble costs more than 2 steps",
+                           "Crossing rubble  costs more than 2 steps."}) {
+    EXPECT_EQ(parse_constraint(atlas, text), two_steps) << text;
+  }
+}
+
+std::string id_of(const Atlas& atlas, const std::string& text) {
+  try {
+    static_cast<void>(parse_constraint(atlas, text));
+  } catch (const Error& error) {
+    return error.diagnostics().front().id + " " + std::to_string(error.exit_code());
+  }
+  return "none";
+}
+
+TEST(ParseConstraint, RefusesWhatIsNoneOrCannotBeTaught) {
+  const auto& atlas = atlas_of("item-delivery");
+  for (const auto* text : {"", "(1,2)", "(0,0,0)", "(1,2,3,4)", "(-1,0,x)", "(99999999999,0,1)", "rubble is bad"}) {
+    EXPECT_EQ(id_of(atlas, text), "E1009 3") << text;
+  }
+  EXPECT_EQ(id_of(atlas, "(1,0,-2)"), "E1010 4") << "contradicts the robot";
+  EXPECT_EQ(id_of(atlas, "(0,0,-1)"), "E1010 4") << "known beforehand";
+}
+
+TEST(MakeWorld, ChangesFewCellsUntilOneConstraintIsLeft) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto& built_in = built_in_domains();
+  const auto text =
+      std::find_if(built_in.begin(), built_in.end(), [](const auto& one) { return one.name == "item-delivery"; })->text;
+  const HalfSpace constraint{IntegerVector{-2, 0, 5}};
+  ASSERT_FALSE(simplest_isolating(atlas, constraint, Purpose::kTeach).has_value());
+  const auto made = make_world(atlas, text, constraint, Purpose::kTeach);
+  ASSERT_TRUE(made.has_value());
+  EXPECT_TRUE(isolates(made->atlas, made->demo, constraint, Purpose::kTeach));
+  EXPECT_EQ(made->atlas.domain().num_mdps(), 1u);
+  EXPECT_LE(made->changes.size(), 2u);
+  // The text is the world, and the changes are what differs.
+  const auto reading = parse_domain(made->text, "made");
+  ASSERT_TRUE(reading.domain.has_value());
+  auto rows = atlas.domain().draw(made->base, std::nullopt);
+  for (const auto& change : made->changes) {
+    char& symbol =
+        rows[rows.size() - static_cast<std::size_t>(change.cell.y)][static_cast<std::size_t>(change.cell.x - 1)];
+    EXPECT_EQ(symbol, change.from);
+    symbol = change.to;
+    EXPECT_NE(change_in_words(atlas.domain(), change).find(" becomes "), std::string::npos);
+  }
+  EXPECT_EQ(reading.domain->draw(MdpIndex{0}, std::nullopt), rows);
+}
+
+TEST(MakeWorld, IsNothingWhereNoWorldWithinTheOptionsWillDo) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto& text = built_in_domains().front().text;
+  MakeWorldOptions options;
+  options.max_states = 2000;
+  EXPECT_FALSE(make_world(atlas, text, HalfSpace{IntegerVector{-1, 0, 100}}, Purpose::kTeach, options).has_value());
+  options.max_changes = 0;
+  EXPECT_THROW(static_cast<void>(make_world(atlas, text, HalfSpace{IntegerVector{-1, 0, 4}}, Purpose::kTeach, options)),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kith
