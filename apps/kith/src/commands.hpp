@@ -13,6 +13,7 @@ int run_inspect(const InspectOptions& options, Console& console);
 int run_init(const InitOptions& options, Console& console);
 int run_curriculum(const CurriculumCommandOptions& options, Console& console);
 int run_ask(const AskOptions& options, Console& console);
+int run_find(const FindOptions& options, Console& console);
 int run_teach(const TeachOptions& options, Console& console);
 int run_study(const StudyOptions& options, Console& console);
 int run_analyze(const AnalyzeOptions& options, Console& console);

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
-#include "kith/mdp/behaviour.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
@@ -15,14 +15,6 @@ namespace kith::cli {
 namespace {
 
 constexpr std::size_t kListed = 20;  // without --all
-
-// Whether only the robot is elsewhere.
-bool same_things(const GridState& a, const GridState& b) {
-  for (std::size_t i = 0; i < a.items.size(); ++i) {
-    if (a.carried[i] != b.carried[i] || (!a.carried[i] && a.items[i] != b.items[i])) return false;
-  }
-  return a.stations == b.stations;
-}
 
 }  // namespace
 
@@ -101,31 +93,14 @@ std::string DomainView::policy() const {
   const auto solution = plan_exactly(mdp, domain_.weights().integer).solution.value();
   const auto start = domain_.initial_state(mdp_);
   const auto path = canonical_trajectory(mdp, solution.canonical_choice, start);
-  std::vector<GridState> seen;
-  for (const auto state : path.states) {
-    if (mdp.is_terminal(state)) continue;
-    const auto now = domain_.state(mdp_, state);
-    if (std::any_of(seen.begin(), seen.end(), [&](const auto& other) { return same_things(now, other); })) continue;
-    seen.push_back(now);
-    text +=
-        "  " + configuration(now) + "\n" + beside({policy_picture(domain_, mdp_, solution.canonical_choice, now)}, 4);
+  for (const auto& now : configurations_on(domain_, mdp_, path)) {
+    text += "  " + configuration_in_words(domain_, mdp_, now) + "\n" +
+            beside({policy_picture(domain_, mdp_, solution.canonical_choice, now)}, 4);
   }
   const auto& counts = solution.feature_counts[start.value()];
   text += "  ^ v < > move the robot; a letter begins the name of another action\n";
   return text + "  from the start: " + actions_text(domain_, path.actions) + "\n" +
          fmt::format("  {}, return {:.4f}\n", counts_text(domain_, counts), domain_.weights().return_of(counts));
-}
-
-std::string DomainView::configuration(const GridState& state) const {
-  std::string text;
-  const auto names = domain_.items_in(mdp_);
-  for (std::size_t i = 0; i < state.items.size(); ++i) {
-    const auto& name = domain_.item_names()[names[i]];
-    text += (state.carried[i] ? "carrying " + name
-                              : fmt::format("{} at ({},{})", name, state.items[i].x, state.items[i].y)) +
-            ", ";
-  }
-  return text + counted(state.stations.size(), "station") + " left";
 }
 
 }  // namespace kith::cli

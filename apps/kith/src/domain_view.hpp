@@ -22,7 +22,6 @@ class DomainView {
 
  private:
   [[nodiscard]] std::string heading(const std::string& text) const { return "\n" + console_.bold(text) + "\n"; }
-  [[nodiscard]] std::string configuration(const GridState& state) const;
 
   [[nodiscard]] std::string model() const;         // what there is instead of a map
   [[nodiscard]] std::string policy_table() const;  // what there is instead of arrows

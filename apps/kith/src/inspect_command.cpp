@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "domain_view.hpp"
 #include "inspect_json.hpp"
+#include "inspect_svg.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/words.hpp"
 #include "legend.hpp"
@@ -169,9 +170,17 @@ class Inspection {
   std::string out_;
 };
 
+void write_svg(const InspectOptions& options, const std::vector<SvgFile>& files, Console& console) {
+  write_pictures(options.svg, files);
+  std::vector<std::string> names;
+  for (const auto& file : files) names.push_back(file.name);
+  console.info(fmt::format("{} in {}", listed(names), options.svg));
+}
+
 // With a single feature there is nothing to teach, but still something to see.
 int inspect_without_atlas(const Domain& domain, const InspectOptions& options, Console& console) {
   const DomainView view{domain, options, console};
+  if (!options.svg.empty()) write_svg(options, domain_pictures(domain, view.mdp()), console);
   if (console.json()) {
     print_inspection(domain, console);
   } else {
@@ -193,7 +202,12 @@ int run_inspect(const InspectOptions& options, Console& console) {
   auto domain = load_domain(options.domain);
   if (domain.num_features() < 2) return inspect_without_atlas(domain, options, console);
   const Atlas atlas{std::move(domain)};
-  (void)DomainView{atlas.domain(), options, console};  // is there such an MDP?
+  const auto mdp = DomainView{atlas.domain(), options, console}.mdp();
+  if (!options.svg.empty()) {
+    auto files = domain_pictures(atlas.domain(), mdp);
+    for (auto& file : atlas_pictures(atlas, mdp)) files.push_back(std::move(file));
+    write_svg(options, files, console);
+  }
   if (console.json()) {
     print_inspection(atlas, options, console);
   } else {

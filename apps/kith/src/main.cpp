@@ -30,6 +30,8 @@ int run(const Options& options, Console& console) {
       return run_curriculum(options.curriculum, console);
     case Command::kAsk:
       return run_ask(options.ask, console);
+    case Command::kFind:
+      return run_find(options.find, console);
     case Command::kTeach:
       return run_teach(options.teach, console);
     case Command::kStudy:

@@ -83,6 +83,8 @@ void add_inspect(CLI::App& app, Options& options) {
                                     "Number of the MDP to show (default: the last, with everything)"),
                 0);
   command.add_flag("--all", options.inspect.all, "Do not cut long lists short");
+  command.add_option("--svg", options.inspect.svg, "Write pictures to this folder: map, policy, region, coverage")
+      ->type_name("DIR");
   add_common(command, options.common);
 }
 
@@ -100,6 +102,8 @@ void add_curriculum(CLI::App& app, Options& options) {
   auto& command =
       *app.add_subcommand("curriculum", "Show what would be taught: demonstrations with reasons, and tests");
   command.add_option("domain", curriculum.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  command.add_option("-o,--out", curriculum.out, "Write one HTML page for a browser; '-' is standard output")
+      ->type_name("FILE");
   takes_integer(*command.add_option("--seed", curriculum.seed, "Root of all random streams")->capture_default_str(), 0);
   add_common(command, options.common);
 }
@@ -110,6 +114,20 @@ void add_ask(CLI::App& app, Options& options) {
   command.add_option("question", options.ask.question, "Begins with when, where, why or what")
       ->required()
       ->type_name("QUESTION");
+  add_common(command, options.common);
+}
+
+void add_find(CLI::App& app, Options& options) {
+  auto& find = options.find;
+  auto& command = *app.add_subcommand("find", "Find, or make, a world that teaches or tests exactly one constraint");
+  command.add_option("domain", find.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  command
+      .add_option("constraint", find.constraint,
+                  "A normal, such as '(-1,0,2)', or its sentence; without one, all that can be isolated are listed")
+      ->type_name("CONSTRAINT");
+  command.add_flag("--test", find.test, "For a test rather than for a demonstration");
+  command.add_flag("--no-make", find.no_make, "Do not make a world where the domain has none");
+  command.add_option("-o,--out", find.out, "Write the world to this file, as a domain of its own")->type_name("FILE");
   add_common(command, options.common);
 }
 
@@ -432,6 +450,7 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_inspect(*app, options);
   add_curriculum(*app, options);
   add_ask(*app, options);
+  add_find(*app, options);
   add_teach(*app, options);
   add_study(*app, options);
   add_status(*app, options);
@@ -449,26 +468,14 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
 }
 
 Command command_of(const std::string& name) {
-  static const std::map<std::string, Command> kCommands{{"report", Command::kReport},
-                                                        {"validate", Command::kValidate},
-                                                        {"inspect", Command::kInspect},
-                                                        {"teach", Command::kTeach},
-                                                        {"study", Command::kStudy},
-                                                        {"analyze", Command::kAnalyze},
-                                                        {"fit", Command::kFit},
-                                                        {"doctor", Command::kDoctor},
-                                                        {"completion", Command::kCompletion},
-                                                        {"version", Command::kVersion},
-                                                        {"calibrate", Command::kCalibrate},
-                                                        {"power", Command::kPower},
-                                                        {"status", Command::kStatus},
-                                                        {"verify", Command::kVerify},
-                                                        {"merge", Command::kMerge},
-                                                        {"export", Command::kExport},
-                                                        {"bench", Command::kBench},
-                                                        {"curriculum", Command::kCurriculum},
-                                                        {"ask", Command::kAsk},
-                                                        {"init", Command::kInit}};
+  static const std::map<std::string, Command> kCommands{
+      {"report", Command::kReport},   {"validate", Command::kValidate},   {"inspect", Command::kInspect},
+      {"teach", Command::kTeach},     {"study", Command::kStudy},         {"analyze", Command::kAnalyze},
+      {"fit", Command::kFit},         {"doctor", Command::kDoctor},       {"completion", Command::kCompletion},
+      {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower},
+      {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge},
+      {"export", Command::kExport},   {"bench", Command::kBench},         {"curriculum", Command::kCurriculum},
+      {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind}};
   return kCommands.at(name);
 }
 

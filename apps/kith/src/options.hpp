@@ -27,6 +27,7 @@ enum class Command {
   kExport,
   kCurriculum,
   kAsk,
+  kFind,
   kInit
 };
 enum class ColorMode { kAuto, kAlways, kNever };
@@ -51,6 +52,7 @@ struct InspectOptions {
   std::vector<std::string> show;   ///< Some of inspect_parts(); empty: the overview.
   std::optional<std::size_t> mdp;  ///< The MDP whose map, policy or demonstrations are shown.
   bool all = false;                ///< No list is cut short.
+  std::string svg;                 ///< Folder for pictures; empty: none.
 };
 
 struct TeachOptions {
@@ -192,12 +194,21 @@ struct BenchOptions {
 
 struct CurriculumCommandOptions {
   std::string domain;
+  std::string out;  ///< Where the page goes; "-" is standard output; empty: no page.
   std::uint64_t seed = 1;
 };
 
 struct AskOptions {
   std::string domain;
   std::vector<std::string> question;  ///< In one argument or in several.
+};
+
+struct FindOptions {
+  std::string domain;
+  std::vector<std::string> constraint;  ///< A normal or a sentence, in one argument or in several; empty: list all.
+  bool test = false;                    ///< Wanted for a test rather than for a demonstration.
+  bool no_make = false;                 ///< Make no world where the family has none.
+  std::string out;                      ///< Where the world goes as a domain file; empty: nowhere.
 };
 
 struct InitOptions {
@@ -226,6 +237,7 @@ struct Options {
   ExportOptions export_model;
   CurriculumCommandOptions curriculum;
   AskOptions ask;
+  FindOptions find;
   InitOptions init;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kith/explain/words.hpp"
 #include "legend.hpp"
 
 namespace kith::cli {
@@ -19,8 +20,17 @@ char& at(Picture& picture, const Cell& cell) {
   return picture[picture.size() - static_cast<std::size_t>(cell.y)][static_cast<std::size_t>(cell.x - 1)];
 }
 
-// The same configuration with the robot at another cell; what is carried comes along.
-GridState moved(GridState state, const Cell& cell) {
+// Whether only the robot is elsewhere.
+bool same_things(const GridState& a, const GridState& b) {
+  for (std::size_t i = 0; i < a.items.size(); ++i) {
+    if (a.carried[i] != b.carried[i] || (!a.carried[i] && a.items[i] != b.items[i])) return false;
+  }
+  return a.stations == b.stations;
+}
+
+}  // namespace
+
+GridState with_robot_at(GridState state, const Cell& cell) {
   state.robot = cell;
   for (std::size_t i = 0; i < state.items.size(); ++i) {
     if (state.carried[i]) state.items[i] = cell;
@@ -28,7 +38,27 @@ GridState moved(GridState state, const Cell& cell) {
   return state;
 }
 
-}  // namespace
+std::vector<GridState> configurations_on(const Domain& domain, MdpIndex m, const Trajectory& path) {
+  std::vector<GridState> seen;
+  for (const auto s : path.states) {
+    if (domain.mdp(m).is_terminal(s)) continue;
+    const auto now = domain.state(m, s);
+    if (std::none_of(seen.begin(), seen.end(), [&](const auto& other) { return same_things(now, other); })) {
+      seen.push_back(now);
+    }
+  }
+  return seen;
+}
+
+std::string configuration_in_words(const Domain& domain, MdpIndex m, const GridState& state) {
+  std::string text;
+  const auto names = domain.items_in(m);
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    const auto& name = domain.item_names()[names[i]];
+    text += (state.carried[i] ? "carrying " + name : name + " at " + cell_text(domain, state.items[i])) + ", ";
+  }
+  return text + counted(state.stations.size(), "station") + " left";
+}
 
 Picture start_picture(const Domain& domain, DemoId id) { return domain.draw(id.mdp, id.start); }
 
@@ -76,7 +106,7 @@ Picture policy_picture(const Domain& domain, MdpIndex m, std::span<const std::ui
   for (int y = 1; y <= domain.height(); ++y) {
     for (int x = 1; x <= domain.width(); ++x) {
       const Cell cell{x, y};
-      const auto state = domain.find_state(m, moved(configuration, cell));
+      const auto state = domain.find_state(m, with_robot_at(configuration, cell));
       if (!state || domain.mdp(m).is_terminal(*state)) continue;
       const auto path = canonical_trajectory(domain.mdp(m), choice, *state);
       at(picture, cell) = arrow_of(domain.action_names()[path.actions.front().value()]);

@@ -27,6 +27,12 @@ using Picture = std::vector<std::string>;
 /// @param choice  per state of the MDP, as in ExactSolution::canonical_choice.
 [[nodiscard]] Picture policy_picture(const Domain& domain, MdpIndex m, std::span<const std::uint32_t> choice,
                                      const GridState& configuration);
+/// The state with the robot at another cell; what it carries comes along.
+[[nodiscard]] GridState with_robot_at(GridState state, const Cell& cell);
+/// The states of a path before its end, without those in which only the robot is elsewhere than in one before.
+[[nodiscard]] std::vector<GridState> configurations_on(const Domain& domain, MdpIndex m, const Trajectory& path);
+/// "parcel at (4,3), 1 station left": what a state is like apart from where the robot is.
+[[nodiscard]] std::string configuration_in_words(const Domain& domain, MdpIndex m, const GridState& state);
 /// Pictures beside each other, each row indented.
 [[nodiscard]] std::string beside(const std::vector<Picture>& pictures, std::size_t indent);
 

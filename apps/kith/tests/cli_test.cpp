@@ -16,7 +16,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
-const std::vector<std::string> kCommands{"init",  "validate", "inspect", "curriculum", "ask",
+const std::vector<std::string> kCommands{"init",  "validate", "inspect", "curriculum", "ask",    "find",
                                          "teach", "study",    "doctor",  "completion", "version"};
 
 TEST(CommandLine, HasShortAndFullHelpForEveryCommand) {

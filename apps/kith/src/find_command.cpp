@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "board_json.hpp"
+#include "build_facts.hpp"
+#include "commands.hpp"
+#include "input.hpp"
+#include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/domains/variation.hpp"
+#include "kith/explain/contrast.hpp"
+#include "kith/explain/reason.hpp"
+#include "kith/explain/target.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/table/atomic_file.hpp"
+#include "legend.hpp"
+#include "picture.hpp"
+#include "wrapped.hpp"
+
+namespace kith::cli {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+
+// The text of a built-in domain or of a file.
+std::string text_of(const std::string& name_or_path) {
+  for (const auto& built_in : built_in_domains()) {
+    if (built_in.name == name_or_path) return std::string{built_in.text};
+  }
+  return read_input(name_or_path).text;
+}
+
+const char* name_of(Purpose purpose) { return purpose == Purpose::kTeach ? "teach" : "test"; }
+
+void list_constraints(const Atlas& atlas, Console& console) {
+  const auto all = isolated_constraints(atlas);
+  if (console.json()) {
+    Json constraints = Json::array();
+    for (const auto& one : all) {
+      auto json = sentences_json(atlas.domain(), std::vector{one.constraint}).front();
+      json["teaching"] = one.teaching;
+      json["testing"] = one.testing;
+      constraints.push_back(std::move(json));
+    }
+    console.print_json({{"schema", "kith.find/1"},
+                        {"program", program_name()},
+                        {"domain", board_domain_json(atlas.domain())},
+                        {"constraints", constraints}});
+    return;
+  }
+  TextTable table{"rrl"};
+  table.add({"teach", "test", "constraint"});
+  for (const auto& one : all) {
+    table.add({std::to_string(one.teaching), std::to_string(one.testing), described(atlas.domain(), one.constraint)});
+  }
+  console.print("start states that teach or test one constraint and nothing else\n" + table.text(console));
+}
+
+// A start that teaches or tests the constraint alone, in the family or in a world that was made.
+struct Finding {
+  const Atlas& atlas;
+  DemoIndex demo;
+  const MadeWorld* made;  // nothing: it is in the family
+};
+
+std::string reason_of(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+  const auto contrast = contrast_for(atlas, demo, constraint);
+  return contrast ? reason(atlas.domain(), contrast->robot_counts, contrast->alternative_counts)
+                  : in_words(atlas.domain(), constraint);
+}
+
+void print_finding(const Domain& family, const Finding& found, const HalfSpace& constraint, Purpose purpose,
+                   Console& console) {
+  const auto& domain = found.atlas.domain();
+  const auto id = found.atlas.id(found.demo);
+  const auto path = found.atlas.trajectory(found.demo);
+  const std::string verb = purpose == Purpose::kTeach ? "teaches" : "tests";
+  std::string text;
+  if (found.made == nullptr) {
+    text = fmt::format("World {}, start {} {} exactly this: {}\n", id.mdp.value(), id.start.value(), verb,
+                       described(domain, constraint));
+  } else {
+    std::vector<std::string> changes;
+    for (const auto& change : found.made->changes) changes.push_back(change_in_words(family, change));
+    text = wrapped(fmt::format("No world of {} {} exactly this: {}. One was made from world {}: {}.", family.id(), verb,
+                               described(domain, constraint), found.made->base.value(), listed(changes)),
+                   kWidth) +
+           "\n";
+  }
+  text += wrapped(reason_of(found.atlas, found.demo, constraint), kWidth) + "\n" + start_and_path(domain, id, path, 2) +
+          "  the robot: " + actions_text(domain, path.actions) + "\n\n" + legend(domain, 0);
+  console.print(text);
+}
+
+void print_finding_json(const Finding& found, const HalfSpace& constraint, Purpose purpose, Console& console) {
+  const auto& domain = found.atlas.domain();
+  const auto id = found.atlas.id(found.demo);
+  auto json = board_json(domain, id);
+  json["frames"] = frames_json(domain, id.mdp, found.atlas.trajectory(found.demo));
+  json["reason"] = reason_of(found.atlas, found.demo, constraint);
+  Json made = nullptr;
+  if (found.made != nullptr) {
+    made = {{"from", found.made->base.value()}, {"changes", Json::array()}, {"domain", found.made->text}};
+    for (const auto& change : found.made->changes) {
+      made["changes"].push_back({{"cell", {change.cell.x, domain.height() + 1 - change.cell.y}},
+                                 {"from", std::string{change.from}},
+                                 {"to", std::string{change.to}}});
+    }
+  }
+  console.print_json({{"schema", "kith.find/1"},
+                      {"program", program_name()},
+                      {"domain", board_domain_json(domain)},
+                      {"purpose", name_of(purpose)},
+                      {"constraint", sentences_json(domain, std::vector{constraint}).front()},
+                      {"found", std::move(json)},
+                      {"made", std::move(made)}});
+}
+
+// The world as a domain file of its own.
+void write_world(const std::string& out, const std::string& family_text, const Finding& found, Console& console) {
+  std::optional<std::string> text;
+  if (found.made != nullptr) {
+    text = found.made->text;
+  } else {
+    const auto& domain = found.atlas.domain();
+    const auto world = found.atlas.id(found.demo).mdp;
+    text =
+        with_one_map(family_text, fmt::format("{}-{}", domain.id(), world.value()), domain.draw(world, std::nullopt));
+    if (!text) throw Error{ErrorKind::kInfeasible, "this world cannot be written as a domain file of its own"};
+  }
+  write_file_atomically(out, *text);
+  console.info(fmt::format("world in {}; kith curriculum {} shows it", out, out));
+}
+
+Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose, bool tried_making) {
+  Diagnostic diagnostic;
+  diagnostic.id = "E1011";
+  diagnostic.message = fmt::format("no start state of '{}' {}s exactly {}", atlas.domain().id(), name_of(purpose),
+                                   described(atlas.domain(), constraint));
+  if (tried_making) diagnostic.message += ", and no world that differs in few cells does";
+  diagnostic.hint = tried_making ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made";
+  diagnostic.infeasible = true;
+  return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
+}
+
+}  // namespace
+
+int run_find(const FindOptions& options, Console& console) {
+  const Atlas atlas{load_domain(options.domain)};
+  std::string wanted;
+  for (const auto& word : options.constraint) wanted += (wanted.empty() ? "" : " ") + word;
+  if (wanted.empty()) {
+    list_constraints(atlas, console);
+    return 0;
+  }
+  const auto constraint = parse_constraint(atlas, wanted);
+  const auto purpose = options.test ? Purpose::kTest : Purpose::kTeach;
+  const auto demo = simplest_isolating(atlas, constraint, purpose);
+  std::optional<MadeWorld> made;
+  const auto text = !demo || !options.out.empty() ? text_of(options.domain) : std::string{};
+  if (!demo && !options.no_make) made = make_world(atlas, text, constraint, purpose);
+  if (!demo && !made) throw not_found(atlas, constraint, purpose, !options.no_make);
+  const Finding found = demo ? Finding{atlas, *demo, nullptr} : Finding{made->atlas, made->demo, &*made};
+  if (!options.out.empty()) write_world(options.out, text, found, console);
+  if (console.json()) {
+    print_finding_json(found, constraint, purpose, console);
+  } else {
+    print_finding(atlas.domain(), found, constraint, purpose, console);
+  }
+  return 0;
+}
+
+}  // namespace kith::cli
