@@ -31,6 +31,7 @@ std::vector<Kind> parts_of(const LegendEntry& entry) {
 }
 
 Json frame_json(const Domain& domain, MdpIndex world, StateIndex s) {
+  if (!domain.has_map()) return {{"state", domain.state_name(world, s)}};
   const auto state = domain.state(world, s);
   const auto names = domain.items_in(world);
   Json items = Json::array();
@@ -52,6 +53,8 @@ Json board_domain_json(const Domain& domain) {
     features.push_back(
         {{"name", domain.feature_names()[k]}, {"words", domain.feature_words(k)}, {"weight", domain.weights().raw[k]}});
   }
+  Json json{{"id", domain.id()}, {"title", domain.title()}, {"features", features}};
+  if (!domain.has_map()) return json;
   Json legend = Json::array();
   for (const auto& entry : domain.legend()) {
     const auto kinds = parts_of(entry);
@@ -63,14 +66,17 @@ Json board_domain_json(const Domain& domain) {
                       {"name", kinds.front().name},
                       {"parts", parts}});
   }
-  return {{"id", domain.id()}, {"title", domain.title()}, {"features", features},
-          {"legend", legend},  {"width", domain.width()}, {"height", domain.height()}};
+  json["legend"] = legend;
+  json["width"] = domain.width();
+  json["height"] = domain.height();
+  return json;
 }
 
 Json board_json(const Domain& domain, DemoId id) {
-  return {{"world", id.mdp.value()},
-          {"map", domain.draw(id.mdp, std::nullopt)},
-          {"start", frame_json(domain, id.mdp, id.start)}};
+  Json json{{"world", id.mdp.value()}};
+  if (domain.has_map()) json["map"] = domain.draw(id.mdp, std::nullopt);
+  json["start"] = frame_json(domain, id.mdp, id.start);
+  return json;
 }
 
 Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
@@ -84,7 +90,9 @@ Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
 }
 
 Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step) {
-  return {{"frame", step}, {"cell", cell_json(domain, domain.state(world, path.states[step]).robot)}};
+  Json json{{"frame", step}};
+  if (domain.has_map()) json["cell"] = cell_json(domain, domain.state(world, path.states[step]).robot);
+  return json;
 }
 
 Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces) {

@@ -7,7 +7,8 @@
 
 namespace kith::cli {
 
-// Boards as pages animate them. Cells are [column, row] from the top left, from 1.
+// Boards as pages animate them. Cells are [column, row] from the top left, from 1. Where a domain has no map, legend,
+// width, height, map and cell are left out, and a frame is {"state", "action"} with the state's name.
 
 /// {"id", "title", "features": [{name, words, weight}], "legend": [{symbol, kind, name, parts: [{kind, name}]}],
 /// "width", "height"}. The parts of a symbol are what it puts on a cell, in the order wall, terrain, station,

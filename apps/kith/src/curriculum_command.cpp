@@ -111,10 +111,12 @@ class CurriculumText {
     out_ += fmt::format("\n   Demonstration {}: world {}\n", j + 1, world.value());
     line(shown.reason, 3);
     out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
-    const auto cell = domain_.state(world, contrast.robot.states[contrast.decisive]).robot;
+    const auto parting = contrast.robot.states[contrast.decisive];
+    const auto where = domain_.has_map() ? "at " + cell_text(domain_, domain_.state(world, parting).robot)
+                                         : "in " + domain_.state_name(world, parting);
     line("the robot: " + actions_text(domain_, contrast.robot.actions), 5);
     line("expected instead: " + actions_text(domain_, contrast.alternative.actions), 5);
-    line(fmt::format("they part at {} with step {}", cell_text(domain_, cell), contrast.decisive + 1), 5);
+    line(fmt::format("they part {} with step {}", where, contrast.decisive + 1), 5);
     if (shown.flip) {
       line(fmt::format("world {}: {}", atlas_.id(shown.flip->demo).mdp.value(),
                        flip_in_words(atlas_, contrast, *shown.flip)),

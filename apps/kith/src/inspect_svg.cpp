@@ -171,6 +171,7 @@ SvgFile expected_picture(const Atlas& atlas, const BoardSvg& boards, MdpIndex m)
 }  // namespace
 
 std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
+  if (!domain.has_map()) return {};
   const BoardSvg boards{domain};
   std::vector<SvgFile> files{map_picture(domain, boards, m)};
   if (auto policy = policy_picture(domain, boards, m)) files.push_back(*std::move(policy));
@@ -178,6 +179,7 @@ std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
 }
 
 std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
+  if (!atlas.domain().has_map()) return {region_picture(atlas)};
   const BoardSvg boards{atlas.domain()};
   return {region_picture(atlas), coverage_picture(atlas, boards, m), expected_picture(atlas, boards, m)};
 }

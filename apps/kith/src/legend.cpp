@@ -57,6 +57,7 @@ std::string name_of(const Domain& domain, const Shown& what, const LegendEntry& 
 Picture bare_picture(const Domain& domain, DemoId id) { return domain.draw_bare(id.mdp, id.start); }
 
 std::string legend(const Domain& domain, std::size_t indent) {
+  if (!domain.has_map()) return "";
   const auto symbols = domain.legend();
   std::string text;
   for (const std::size_t number : {domain.num_mdps() - 1, std::size_t{0}}) {

@@ -163,6 +163,7 @@ std::string doing_instead(const std::string& action) {
 
 std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast) {
   const auto& domain = atlas.domain();
+  if (!domain.has_map()) return std::nullopt;  // then nothing says which worlds are alike
   const auto here = atlas.id(contrast.demo).mdp;
   const auto groups = domain.optional_groups();
   struct Candidate {

@@ -139,7 +139,8 @@ std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace&
   std::optional<std::tuple<int, std::size_t, DemoIndex>> best;
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
     if (regions.facets(set_for(atlas, demo, purpose)) != target) continue;
-    const std::tuple candidate{atlas.domain().complexity(atlas.id(demo)), atlas.trajectory(demo).actions.size(), demo};
+    const int complexity = atlas.domain().has_map() ? atlas.domain().complexity(atlas.id(demo)) : 0;
+    const std::tuple candidate{complexity, atlas.trajectory(demo).actions.size(), demo};
     if (!best || candidate < *best) best = candidate;
   }
   if (!best) return std::nullopt;

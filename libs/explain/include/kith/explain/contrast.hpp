@@ -55,7 +55,7 @@ struct Flip {
 
 /// The nearest world in which the robot decides as the alternative does: at the decisive step the alternative's action
 /// is optimal there and the robot's own is not (or does not exist), and all steps before are optimal in both. Nearest:
-/// the fewest optional groups differ, then the fewest cells, then the lowest number.
+/// the fewest optional groups differ, then the fewest cells, then the lowest number. Nothing for domains without a map.
 [[nodiscard]] std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast);
 
 /// The start of a demonstration in another world: the robot and what it carries are the same, things that only one of
