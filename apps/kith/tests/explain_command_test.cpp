@@ -89,6 +89,83 @@ TEST(CurriculumCommand, FailsWithFourWhereNothingCanBeTaught) {
   EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1001");
 }
 
+TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {
+  const Scratch scratch;
+  const auto ran = run_kith({"curriculum", "item-delivery", "-o", scratch / "lesson.html"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.out, "");
+  EXPECT_THAT(ran.err, HasSubstr("lesson.html"));
+  const auto page = text_of(scratch / "lesson.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("<title>Deliver the item: rubble is slow, the charger helps</title>"),
+                          HasSubstr("\"schema\":\"kith.curriculum/1\""), HasSubstr("default-src 'none'")));
+  EXPECT_EQ(page.find("/*KITH_"), std::string::npos);
+  EXPECT_EQ(run_kith({"curriculum", "item-delivery", "-o", "-"}).out, page);
+  EXPECT_EQ(run_kith({"curriculum", "item-delivery", "-o", "-", "--json"}).code, 2);
+}
+
+TEST(CurriculumCommand, NamesAllThatASymbolPutsOnACell) {
+  const auto document = Json::parse(run_kith({"curriculum", "item-delivery", "--json"}).out);
+  for (const auto& entry : document["domain"]["legend"]) {
+    EXPECT_EQ(entry.at("kind"), entry.at("parts").at(0).at("kind"));
+    if (entry["symbol"] == "S") {
+      EXPECT_EQ(entry["parts"],
+                Json::parse(R"([{"kind": "start", "name": "start"}, {"kind": "item", "name": "parcel"}])"));
+    }
+  }
+}
+
+TEST(FindCommand, ListsWhatCanBeIsolated) {
+  const auto ran = run_kith({"find", "item-delivery"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("(-1,0,2): crossing rubble costs more than 2 steps"));
+  const auto document = Json::parse(run_kith({"find", "item-delivery", "--json"}).out);
+  EXPECT_EQ(document.at("schema"), "kith.find/1");
+  EXPECT_FALSE(document.at("constraints").empty());
+}
+
+TEST(FindCommand, FindsAStartByNormalOrSentence) {
+  const auto by_normal = run_kith({"find", "item-delivery", "(-1,0,2)"});
+  EXPECT_EQ(by_normal.code, 0) << by_normal.err;
+  EXPECT_THAT(by_normal.out, HasSubstr("teaches exactly this: (-1,0,2)"));
+  EXPECT_EQ(run_kith({"find", "item-delivery", "crossing rubble costs more than 2 steps"}).out, by_normal.out);
+  const auto document = Json::parse(run_kith({"find", "item-delivery", "(-1,0,2)", "--test", "--json"}).out);
+  EXPECT_EQ(document.at("purpose"), "test");
+  EXPECT_TRUE(document.at("made").is_null());
+  expect_board(document, document.at("found"), document["found"].at("frames"));
+}
+
+TEST(FindCommand, MakesAWorldWhereThereIsNoneAndWritesItAsADomain) {
+  const Scratch scratch;
+  const auto none = run_kith({"find", "item-delivery", "(-2,0,5)", "--no-make"});
+  EXPECT_EQ(none.code, 4);
+  EXPECT_THAT(none.err, HasSubstr("no start state of 'item-delivery' teaches exactly (-2,0,5)"));
+  EXPECT_EQ(Json::parse(run_kith({"find", "item-delivery", "(-2,0,5)", "--no-make", "--json"}).out)["errors"][0]["id"],
+            "E1011");
+  const auto made = run_kith({"find", "item-delivery", "(-2,0,5)", "-o", scratch / "world.toml"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("One was made from world "));
+  const auto again = run_kith({"find", scratch / "world.toml", "(-2,0,5)", "--no-make"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("World 0, start "));
+  EXPECT_EQ(run_kith({"validate", "--strict", scratch / "world.toml"}).code, 0);
+}
+
+TEST(Inspect, WritesPictures) {
+  const Scratch scratch;
+  const auto folder = scratch / "pictures";
+  const auto ran = run_kith({"inspect", "item-delivery", "--show", "map", "--svg", folder});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  for (const std::string name : {"map", "policy", "bec", "coverage", "counterfactuals"}) {
+    const auto text = text_of(folder + "/" + name + ".svg");
+    EXPECT_THAT(text, AllOf(HasSubstr("<svg xmlns=\"http://www.w3.org/2000/svg\""), HasSubstr("<title>"),
+                            ::testing::EndsWith("</svg>\n")))
+        << name;
+    EXPECT_EQ(text.find("nan"), std::string::npos) << name;
+  }
+  EXPECT_THAT(text_of(folder + "/bec.svg"), HasSubstr("crossing rubble costs more than 2 steps"));
+  EXPECT_EQ(run_kith({"inspect", "item-delivery", "--svg", folder + "/map.svg/below"}).code, 5);
+}
+
 TEST(AskCommand, AnswersInTextAndJson) {
   const auto ran = run_kith({"ask", "item-delivery", "when", "does", "it", "recharge?"});
   EXPECT_EQ(ran.code, 0) << ran.err;
