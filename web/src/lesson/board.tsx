@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import type { Board, Domain, Frame, Place } from './document';
 import { centre, kUnit, lineOf } from './geometry';
-import { At, Destination, Goal, PartGlyph, Robot, Station, Thing } from './glyphs';
+import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
 
 export const kFew = 12; // columns of a map whose every row and column is numbered
@@ -32,7 +32,7 @@ export function BoardView(props: BoardProps): JSX.Element {
     <div class={isLarge ? 'board large' : 'board'} style={{ maxWidth: `${isLarge ? width : width * 1.45}px` }}>
       <svg viewBox={`${-margin} ${-margin} ${width} ${height}`} role="img" aria-label={label}>
         <Numbers columns={columns} rows={rows} every={isLarge ? 5 : 1} margin={margin} />
-        <Ground {...props} frame={frame} />
+        <Ground {...props} />
         {decisive?.cell && <Decisive cell={decisive.cell} />}
         {other && <Way frames={other} first={decisive?.frame ?? 0} lane={kOtherLane} kind="other" />}
         {path && <Way frames={board.frames} first={0} lane={kRobotLane} kind="own" />}
@@ -63,22 +63,9 @@ function Numbers({ columns, rows, every, margin }: { columns: number; rows: numb
   );
 }
 
-// What stays where it is: walls, terrain, goals, destinations.
-function Ground({ domain, legend, board }: BoardProps & { frame: Frame }): JSX.Element {
-  const cells = (board.map ?? []).flatMap((row, y) =>
-    [...row].map((symbol, x) => ({ parts: legend.parts(symbol), at: centre([x + 1, y + 1]) })),
-  );
+// What covers cells: walls and terrain.
+function Ground({ domain, legend, board }: BoardProps): JSX.Element {
   const [width, height] = [(domain.width ?? 0) * kUnit, (domain.height ?? 0) * kUnit];
-  const drawn = (kinds: string[]): JSX.Element[] =>
-    cells.flatMap(({ parts, at }) =>
-      parts
-        .filter(({ kind }) => kinds.includes(kind))
-        .map((part) => (
-          <At at={at}>
-            <PartGlyph part={part} legend={legend} />
-          </At>
-        )),
-    );
   const lines = [
     ...Array.from({ length: (domain.width ?? 0) - 1 }, (_, i) => `M${(i + 1) * kUnit} 0v${height}`),
     ...Array.from({ length: (domain.height ?? 0) - 1 }, (_, i) => `M0 ${(i + 1) * kUnit}h${width}`),
@@ -86,29 +73,36 @@ function Ground({ domain, legend, board }: BoardProps & { frame: Frame }): JSX.E
   return (
     <g>
       <rect class="floor" width={width} height={height} />
-      {drawn(['terrain'])}
+      <Parts board={board} legend={legend} kinds={['terrain']} />
       <path class="grid" d={lines.join('')} />
-      {drawn(['wall'])}
+      <Parts board={board} legend={legend} kinds={['wall']} />
       <rect class="frame" width={width} height={height} />
-      {cells.flatMap(({ parts, at }) =>
-        parts.flatMap((part) => {
-          if (part.kind === 'goal') {
-            const letter = legend.hasPlainName(part.name) ? '' : legend.letter(part.name);
-            return [<At at={at}>{<Goal letter={letter} />}</At>];
-          }
-          if (part.kind !== 'destination') return [];
-          const letter = legend.letter(part.name.replace(/^destination of /, ''));
-          return [<At at={at}>{<Destination letter={letter} />}</At>];
-        }),
-      )}
     </g>
   );
 }
 
-// What may vanish or be carried away.
+function Parts({ board, legend, kinds }: { board: Board; legend: Legend; kinds: string[] }): JSX.Element {
+  const all = (board.map ?? []).flatMap((row, y) =>
+    [...row].flatMap((symbol, x) =>
+      legend
+        .parts(symbol)
+        .filter(({ kind }) => kinds.includes(kind))
+        .map((part) => (
+          <At at={centre([x + 1, y + 1])}>
+            <PartGlyph part={part} legend={legend} />
+          </At>
+        )),
+    ),
+  );
+  return <g>{all}</g>;
+}
+
+// What stands on cells, may vanish, or be carried away. What lies where the robot stands is beside its feet.
 function Things({ legend, board, frame }: BoardProps & { frame: Frame }): JSX.Element {
+  const isBelow = (cell: Place): boolean => cell[0] === frame.robot?.[0] && cell[1] === frame.robot?.[1];
   return (
     <g>
+      <Parts board={board} legend={legend} kinds={['goal', 'destination']} />
       {(frame.stations ?? []).map((cell) => (
         <At at={centre(cell)}>
           <Station letter={legend.letter(legend.stationAt(board.map ?? [], cell))} />
@@ -118,7 +112,9 @@ function Things({ legend, board, frame }: BoardProps & { frame: Frame }): JSX.El
         .filter(({ carried }) => !carried)
         .map(({ name, cell }) => (
           <At at={centre(cell)}>
-            <Thing letter={legend.letter(name)} />
+            <g transform={isBelow(cell) ? 'translate(-13 13)' : undefined}>
+              <Thing letter={legend.letter(name)} small={isBelow(cell)} />
+            </g>
           </At>
         ))}
     </g>

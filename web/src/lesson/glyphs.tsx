@@ -66,7 +66,7 @@ export function Station({ letter }: { letter: string }): JSX.Element {
   );
 }
 
-export function Thing({ letter, small }: { letter: string; small?: boolean }): JSX.Element {
+export function Thing({ letter, small }: { letter: string; small?: boolean | undefined }): JSX.Element {
   return (
     <g class="thing" transform={small ? 'scale(.72)' : undefined}>
       <circle r={10.5} />

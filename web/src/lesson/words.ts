@@ -11,6 +11,8 @@ export function listed(things: string[]): string {
   return `${things.slice(0, -1).join(', ')} and ${things[things.length - 1]}`;
 }
 
+const withArticle = (names: string[]): string => listed(names.map((name) => `the ${name}`));
+
 export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
 
 // "goes up": what the robot does with an action.
@@ -32,7 +34,7 @@ export function stepText(frames: Frame[], step: number): string {
   const steps = frames.length - 1;
   if (!frame) return '';
   const carried = (frame.items ?? []).filter((item) => item.carried).map((item) => item.name);
-  const load = carried.length > 0 ? `, carrying ${listed(carried)}` : '';
+  const load = carried.length > 0 ? `, carrying ${withArticle(carried)},` : '';
   if (!frame.action) return `After ${counted(steps, 'step')}: it ends ${placeOf(frame)}.`;
   return `Step ${step + 1} of ${steps}: ${placeOf(frame)}${load} it ${actionWords(frame.action)}.`;
 }
@@ -70,7 +72,7 @@ export function mapText(domain: Domain, legend: Legend, board: Board): string[] 
   const robot = board.start.robot ? ` at ${cellText(board.start.robot)}` : '';
   return [
     `The map has ${counted(domain.width ?? 0, 'column')} and ${counted(domain.height ?? 0, 'row')}; cells are (column,row) from the top left.`,
-    `The robot starts${robot}${carried.length > 0 ? `, carrying ${listed(carried)}` : ''}.`,
+    `The robot starts${robot}${carried.length > 0 ? `, carrying ${withArticle(carried)}` : ''}.`,
     ...[...places].map(([name, cells]) => `${upperFirst(name)}: ${listed(cells)}.`),
   ];
 }
