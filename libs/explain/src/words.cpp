@@ -71,6 +71,10 @@ struct Side {
   void add(Thing what, bool is_cost) { (is_cost ? costs : gains).push_back(std::move(what)); }
   [[nodiscard]] bool empty() const { return costs.empty() && gains.empty(); }
   [[nodiscard]] bool mixed() const { return !costs.empty() && !gains.empty(); }
+  [[nodiscard]] Side only_costs() const { return {costs, {}}; }
+  [[nodiscard]] Side only_gains() const { return {{}, gains}; }
+  // Whether the numbers of all verbs are known once costs and gains are told apart.
+  [[nodiscard]] bool parts_can_be_said() const { return only_costs().can_be_said() && only_gains().can_be_said(); }
   [[nodiscard]] const std::vector<Thing>& things() const { return costs.empty() ? gains : costs; }
   [[nodiscard]] std::string words() const {
     std::vector<std::string> words;
@@ -96,12 +100,32 @@ struct Side {
   [[nodiscard]] std::string is() const { return mixed() ? " together are " : " is "; }
 };
 
+// One side is of one kind, the other mixed: "crossing rubble costs less than 2 steps plus what stopping at the charger
+// is worth", "reaching the far goal is worth more than reaching the near goal plus what a step costs".
+std::string compared_with_mixed(const Side& plain, const std::string& than, const Side& mixed) {
+  const bool is_cost = plain.gains.empty();
+  const auto alike = is_cost ? mixed.only_costs() : mixed.only_gains();
+  const auto other = is_cost ? mixed.only_gains() : mixed.only_costs();
+  return plain.words() + " " + plain.verb() + " " + than + " " + alike.words() + " plus what " + other.words() + " " +
+         other.verb();
+}
+
 // "crossing rubble costs more than 2 steps", "4 steps cost more than stopping at the charger is worth".
 // @param even  both sides weigh the same to the robot: it says so with "at least as much as".
 std::string compared(const Side& more, const Side& less, bool even) {
   if (more.empty()) {
     const auto nothing = even ? "at most nothing" : "less than nothing";
     return less.can_be_said() ? less.words() + " " + less.verb() + " " + nothing : less.amount() + less.is() + nothing;
+  }
+  if (more.parts_can_be_said() && less.parts_can_be_said()) {
+    if (more.mixed() && less.empty()) {  // gains and avoided costs: the gains are better than the costs
+      const bool plural = more.only_gains().number() == Number::kPlural;
+      return more.only_gains().words() + (plural ? " are " : " is ") +
+             (even ? "at least as good as " : "better than ") + more.only_costs().words();
+    }
+    if (more.mixed() && !less.mixed()) return compared_with_mixed(less, even ? "no more than" : "less than", more);
+    if (less.mixed() && !more.mixed())
+      return compared_with_mixed(more, even ? "at least as much as" : "more than", less);
   }
   if (!more.can_be_said() || !less.can_be_said()) {
     if (less.empty()) return more.amount() + more.is() + (even ? "at least nothing" : "more than nothing");

@@ -39,7 +39,9 @@ TEST(SimplestIsolating, IsTheSimplestOfAllThatConveyExactlyTheConstraint) {
       }
       EXPECT_EQ(n, one.teaching);
       EXPECT_EQ(simplest_isolating(atlas, one.constraint, Purpose::kTeach), best);
-      if (best) EXPECT_TRUE(isolates(atlas, *best, one.constraint, Purpose::kTeach));
+      if (best) {
+        EXPECT_TRUE(isolates(atlas, *best, one.constraint, Purpose::kTeach));
+      }
     }
   }
 }

@@ -64,10 +64,23 @@ TEST(InWords, ReadsRightForTheOtherDomains) {
   EXPECT_EQ(sentence("skateboard", {2, -1, 0}), "a step on the path costs more than 2 moves with the skateboard");
   EXPECT_EQ(sentence("skateboard", {0, 5, -3}), "3 steps elsewhere cost more than 5 steps on the path");
   EXPECT_EQ(sentence("two-goals", {-1, 1, 3}),
-            "the gain of reaching the far goal outweighs the cost of 3 steps and the gain of reaching the near goal");
+            "reaching the far goal is worth more than reaching the near goal plus what 3 steps cost");
   EXPECT_EQ(sentence("cookie-crumb", {0, 1, 1}), "eating a crumb is worth more than a step costs");
   EXPECT_EQ(sentence("cookie-crumb", {0, -1, -2}), "2 steps cost more than eating a crumb is worth");
   EXPECT_EQ(sentence("cookie-crumb", {0, 3, 5}), "eating 3 crumbs is worth more than 5 steps cost");
+}
+
+TEST(InWords, PutsCostsAndGainsOfOneSideTogether) {
+  EXPECT_EQ(sentence("item-delivery", {1, 1, -2}),
+            "crossing rubble costs less than 2 steps plus what stopping at the charger is worth");
+  EXPECT_EQ(sentence("item-delivery", {-2, 1, 4}),
+            "4 steps cost less than crossing rubble twice plus what stopping at the charger is worth");
+  EXPECT_EQ(sentence("item-delivery", {-2, 1, 0}), "stopping at the charger is better than crossing rubble twice");
+  EXPECT_EQ(sentence("cookie-crumb", {0, 2, -3}), "eating 2 crumbs is better than 3 steps");
+  EXPECT_EQ(sentence("cookie-crumb", {1, -3, -4}),
+            "eating 3 crumbs is worth less than reaching the jar plus what 4 steps cost");
+  EXPECT_EQ(sentence("two-goals", {-1, 1, 1}),
+            "reaching the far goal is worth more than reaching the near goal plus what a step costs");
 }
 
 TEST(InWords, SaysAtLeastWhereTheRobotIsIndifferent) {
