@@ -129,9 +129,9 @@ TEST(MakeWorld, IsNothingWhereNoWorldWithinTheOptionsWillDo) {
   const auto& text = built_in_domains().front().text;
   MakeWorldOptions options;
   options.max_states = 2000;
-  EXPECT_FALSE(make_world(atlas, text, HalfSpace{IntegerVector{-1, 0, 100}}, Purpose::kTeach, options).has_value());
+  EXPECT_FALSE(make_world(atlas, text, HalfSpace{IntegerVector{-100, 0, 299}}, Purpose::kTeach, options).has_value());
   options.max_changes = 0;
-  EXPECT_THROW(static_cast<void>(make_world(atlas, text, HalfSpace{IntegerVector{-1, 0, 4}}, Purpose::kTeach, options)),
+  EXPECT_THROW(static_cast<void>(make_world(atlas, text, HalfSpace{IntegerVector{-2, 0, 5}}, Purpose::kTeach, options)),
                std::invalid_argument);
 }
 
