@@ -136,8 +136,9 @@ void write_world(const std::string& out, const std::string& family_text, const F
 Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose, bool tried_making) {
   Diagnostic diagnostic;
   diagnostic.id = "E1011";
-  diagnostic.message = fmt::format("no start state of '{}' {}s exactly {}", atlas.domain().id(), name_of(purpose),
-                                   described(atlas.domain(), constraint));
+  diagnostic.message =
+      fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
+                  purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));
   if (tried_making) diagnostic.message += ", and no world that differs in few cells does";
   diagnostic.hint = tried_making ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made";
   diagnostic.infeasible = true;

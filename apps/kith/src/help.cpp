@@ -67,7 +67,7 @@ const std::vector<std::string>& examples_of(const std::string& command) {
         "kith ask item-delivery 'why up, not left, at (4,3) carrying the parcel?'"}},
       {"find",
        {"kith find item-delivery", "kith find item-delivery '(-1,0,2)' --test",
-        "kith find item-delivery '(-2,0,5)' -o world.toml"}},
+        "kith find item-delivery '(-1,0,2)' -o world.toml"}},
       {"teach", {"kith teach item-delivery --group NNP --strategy joint", "kith teach --from results/paper --team 17"}},
       {"study",
        {"kith study studies/paper.toml -o results/paper",

@@ -6,6 +6,8 @@
 
 #include "atlases.hpp"
 #include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
+#include "kith/domains/variation.hpp"
 #include "kith/explain/words.hpp"
 
 namespace kith {
@@ -98,15 +100,23 @@ TEST(ParseConstraint, RefusesWhatIsNoneOrCannotBeTaught) {
   EXPECT_EQ(id_of(atlas, "(0,0,-1)"), "E1010 4") << "known beforehand";
 }
 
-TEST(MakeWorld, ChangesFewCellsUntilOneConstraintIsLeft) {
-  const auto& atlas = atlas_of("item-delivery");
+// Item delivery in a room without rubble and charger, which nothing can be taught about.
+std::string empty_room() {
   const auto& built_in = built_in_domains();
   const auto text =
       std::find_if(built_in.begin(), built_in.end(), [](const auto& one) { return one.name == "item-delivery"; })->text;
-  const HalfSpace constraint{IntegerVector{-2, 0, 5}};
+  return with_one_map(text, "empty-room", {"#...", "#...", "G..S"}).value();
+}
+
+TEST(MakeWorld, ChangesFewCellsUntilOneConstraintIsLeft) {
+  const auto text = empty_room();
+  const Atlas atlas{parse_domain(text, "empty-room").domain.value()};
+  const HalfSpace constraint{IntegerVector{-1, 0, 2}};
   ASSERT_FALSE(simplest_isolating(atlas, constraint, Purpose::kTeach).has_value());
   const auto made = make_world(atlas, text, constraint, Purpose::kTeach);
   ASSERT_TRUE(made.has_value());
+  ASSERT_EQ(made->changes.size(), 1u) << "one heap of rubble is enough";
+  EXPECT_EQ(made->changes[0].to, 'r');
   EXPECT_TRUE(isolates(made->atlas, made->demo, constraint, Purpose::kTeach));
   EXPECT_EQ(made->atlas.domain().num_mdps(), 1u);
   EXPECT_LE(made->changes.size(), 2u);
@@ -125,8 +135,8 @@ TEST(MakeWorld, ChangesFewCellsUntilOneConstraintIsLeft) {
 }
 
 TEST(MakeWorld, IsNothingWhereNoWorldWithinTheOptionsWillDo) {
-  const auto& atlas = atlas_of("item-delivery");
-  const auto& text = built_in_domains().front().text;
+  const auto text = empty_room();
+  const Atlas atlas{parse_domain(text, "empty-room").domain.value()};
   MakeWorldOptions options;
   options.max_states = 2000;
   EXPECT_FALSE(make_world(atlas, text, HalfSpace{IntegerVector{-100, 0, 299}}, Purpose::kTeach, options).has_value());
