@@ -101,15 +101,15 @@ class Inspection {
   }
 
   void demos() {
-    const auto first = atlas_.index({mdp_, StateIndex{0}}).value();
-    const auto n = domain_.mdp(mdp_).num_states();
+    const auto& starts = domain_.starts(mdp_);
+    const auto n = starts.size();
     heading(fmt::format("Demonstrations of MDP {}: {}", mdp_.value(), n));
     for (std::size_t i = 0; i < limited(n); ++i) {
-      const DemoIndex demo{first + i};
+      const auto demo = atlas_.index({mdp_, starts[i]});
       const auto path = atlas_.trajectory(demo);
       const auto& counts = atlas_.feature_counts(demo);
-      out_ += fmt::format("  start {}: {} ({}, return {:.4f}{})\n", i, actions_text(domain_, path.actions),
-                          counts_text(domain_, counts), domain_.weights().return_of(counts),
+      out_ += fmt::format("  start {}: {} ({}, return {:.4f}{})\n", starts[i].value(),
+                          actions_text(domain_, path.actions), counts_text(domain_, counts), return_of(domain_, counts),
                           atlas_.is_unique(demo) ? "" : ", not the only best path");
       out_ += start_and_path(domain_, atlas_.id(demo), path, 4);
       constraints(atlas_.constraints().half_spaces(atlas_.one_step(demo)), "    ");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json.hpp"
+#include "kith/explain/words.hpp"
 
 namespace kith::cli {
 namespace {
@@ -15,8 +16,8 @@ Json demo_to_json(const Atlas& atlas, DemoIndex demo) {
   const auto& counts = atlas.feature_counts(demo);
   return {{"start", start_to_json(domain, atlas.id(demo))},
           {"actions", actions},
-          {"features", to_json(counts)},
-          {"return", domain.weights().return_of(counts)},
+          {"features", counts_to_json(domain, counts)},
+          {"return", return_of(domain, counts)},
           {"one_step", to_json(atlas.constraints().half_spaces(atlas.one_step(demo)), domain.num_features())},
           {"unique", atlas.is_unique(demo)}};
 }
@@ -71,6 +72,7 @@ void print_inspection(const Atlas& atlas, const InspectOptions& options, Console
     Json demos = Json::array();
     for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
       const DemoIndex demo{i};
+      if (!atlas.is_candidate(demo)) continue;
       if (!options.mdp || atlas.id(demo).mdp.value() == *options.mdp) demos.push_back(demo_to_json(atlas, demo));
     }
     document["demos"] = std::move(demos);

@@ -180,6 +180,7 @@ std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
 
 std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
   if (!atlas.domain().has_map()) return {region_picture(atlas)};
+  if (!atlas.is_tabulated()) return {region_picture(atlas)};
   const BoardSvg boards{atlas.domain()};
   return {region_picture(atlas), coverage_picture(atlas, boards, m), expected_picture(atlas, boards, m)};
 }

@@ -40,6 +40,14 @@ Json to_json(const IntegerVector& v) {
   return array;
 }
 
+Json counts_to_json(const Domain& domain, const IntegerVector& counts) {
+  if (domain.count_scale() == 1) return to_json(counts);
+  Json array = Json::array();
+  for (const auto count : counts)
+    array.push_back(static_cast<double>(count) / static_cast<double>(domain.count_scale()));
+  return array;
+}
+
 Json to_json(const Direction& v) {
   Json array = Json::array();
   for (const double entry : v) array.push_back(entry);

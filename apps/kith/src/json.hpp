@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json to_json(const IntegerVector& v);
 [[nodiscard]] Json to_json(const Direction& v);
+/// Feature counts of a domain: integers, or real numbers where they are expectations.
+[[nodiscard]] Json counts_to_json(const Domain& domain, const IntegerVector& counts);
 /// Normals, shape [n, d]: entries beyond the domain's features are left out.
 [[nodiscard]] Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension);
 /// {"robot": [x, y], "items": [...], "stations": [...], "mdp": n}

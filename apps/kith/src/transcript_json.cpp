@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json.hpp"
+#include "kith/explain/words.hpp"
 
 namespace kith::cli {
 namespace {
@@ -112,8 +113,8 @@ class Converter {
     const auto& counts = atlas_.feature_counts(demo);
     return {{"start", start_to_json(domain_, atlas_.id(demo))},
             {"actions", actions(atlas_.trajectory(demo))},
-            {"features", kith::cli::to_json(counts)},
-            {"return", domain_.weights().return_of(counts)}};
+            {"features", counts_to_json(domain_, counts)},
+            {"return", return_of(domain_, counts)}};
   }
 
   [[nodiscard]] Json actions(const Trajectory& path) const {

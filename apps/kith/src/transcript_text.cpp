@@ -140,7 +140,7 @@ class TranscriptWriter {
     line(fmt::format("  Demonstration {}: {}", number, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
     line("    " + actions_text(domain_, path.actions));
-    line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), domain_.weights().return_of(counts)));
+    line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), return_of(domain_, counts)));
     line("    conveys to them:");
     for (const auto& half_space : shown.half_spaces) line("      " + described(domain_, half_space));
     line(fmt::format("    chosen because it adds the fewest new constraints: {}{}", shown.num_new,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "atlas_builder.hpp"
+#include "kith/core/error.hpp"
 
 namespace kith {
 
@@ -30,6 +31,11 @@ std::vector<DemoIndex> Atlas::path(DemoIndex demo) const {
 }
 
 std::vector<IntegerVector> Atlas::coverage_set(DemoIndex demo) const {
+  if (!tabulated_) {
+    throw Error{ErrorKind::kInfeasible,
+                "what people could expect in domain '" + domain_.id() +
+                    "' is not tabulated: that takes three features, exact counts and small worlds"};
+  }
   std::vector<IntegerVector> vertices;
   for (const auto& loss : hulls_[hull(demo).value()].losses) vertices.push_back(feature_counts(demo) - loss);
   std::sort(vertices.begin(), vertices.end());

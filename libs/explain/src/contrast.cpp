@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "kith/bec/comparison.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
@@ -88,6 +89,72 @@ std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const H
   return std::nullopt;
 }
 
+namespace {
+
+// How long the robot's path from step `from` on is as good as any to somebody with these weights.
+std::size_t steps_together(const Mdp& mdp, const Trajectory& robot, std::size_t from, std::span<const double> weights) {
+  const auto solution = plan(mdp, weights);
+  auto t = from;
+  while (solution && t + 1 < robot.actions.size()) {
+    const auto choices = mdp.choices(robot.states[t]);
+    const auto own = std::find_if(choices.begin(), choices.end(),
+                                  [&](const Choice& choice) { return choice.action == robot.actions[t]; });
+    const auto c = static_cast<std::size_t>(own - choices.begin());
+    if (!is_optimal_choice(mdp, *solution, weights, robot.states[t], c)) break;
+    ++t;
+  }
+  return t;
+}
+
+// Beside the path that somebody with the given weights expects from step `from` on.
+std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, DemoIndex demo, std::size_t from,
+                                             const Direction& weights, const IntegerVector& answer) {
+  const Atlas& atlas = behaviours.atlas();
+  const auto world = atlas.id(demo).mdp;
+  Contrast result;
+  result.demo = demo;
+  result.robot = atlas.trajectory(demo);
+  result.robot_counts = atlas.feature_counts(demo);
+  const auto here = atlas.index({world, result.robot.states[from]});
+  auto t = from;
+  if (atlas.domain().is_exact()) {
+    t = steps_together(atlas.domain().mdp(world), result.robot, from,
+                       {weights.data(), static_cast<std::size_t>(weights.size())});
+  }
+  const auto rest = behaviours.trajectory(atlas.index({world, result.robot.states[t]}), weights);
+  if (!rest) return std::nullopt;
+  result.alternative = first_steps(result.robot, t);
+  append(result.alternative, *rest);
+  result.alternative_counts = result.robot_counts - atlas.feature_counts(here) + answer;
+  const auto [robot, other] = std::mismatch(result.robot.actions.begin(), result.robot.actions.end(),
+                                            result.alternative.actions.begin(), result.alternative.actions.end());
+  // Where chance has a part the likeliest paths may be the same: then it is the state that tells.
+  const bool differ = robot != result.robot.actions.end();
+  result.decisive = differ ? static_cast<std::size_t>(robot - result.robot.actions.begin()) : from;
+  return result;
+}
+
+}  // namespace
+
+std::optional<Contrast> contrast_for(Behaviours& behaviours, DemoIndex demo, const HalfSpace& constraint,
+                                     std::span<const PolicyCellIndex> people) {
+  const Atlas& atlas = behaviours.atlas();
+  if (atlas.is_tabulated()) return contrast_for(atlas, demo, constraint);
+  std::size_t from = 0;
+  for (const DemoIndex here : atlas.path(demo)) {
+    for (const PolicyCellIndex person : people) {
+      const auto answer = behaviours.answer(here, person);
+      if (!answer) continue;
+      const auto conveyed = preference_of_robot(atlas.domain(), atlas.feature_counts(here) - *answer);
+      if (conveyed != constraint) continue;
+      if (auto contrast = contrast_with_person(behaviours, demo, from, behaviours.weights(person), *answer))
+        return contrast;
+    }
+    ++from;
+  }
+  return std::nullopt;
+}
+
 std::optional<DemoIndex> same_start(const Atlas& atlas, DemoIndex demo, MdpIndex world) {
   const auto& domain = atlas.domain();
   const auto [from, start] = atlas.id(demo);
@@ -163,7 +230,8 @@ std::string doing_instead(const std::string& action) {
 
 std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast) {
   const auto& domain = atlas.domain();
-  if (!domain.has_map()) return std::nullopt;  // then nothing says which worlds are alike
+  if (!domain.has_map() || !domain.is_exact())
+    return std::nullopt;  // without a map nothing says which worlds are alike
   const auto here = atlas.id(contrast.demo).mdp;
   const auto groups = domain.optional_groups();
   struct Candidate {

@@ -13,6 +13,8 @@
 namespace kith {
 namespace {
 
+constexpr std::size_t kMostPlannedBeliefs = 200;
+
 std::vector<HalfSpace> together(std::vector<HalfSpace> a, const std::vector<HalfSpace>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -35,7 +37,7 @@ std::vector<std::string> parts_of(const std::string& name) {
 class CurriculumMaker {
  public:
   CurriculumMaker(const Atlas& atlas, const CurriculumOptions& options)
-      : atlas_{atlas}, options_{options}, cache_{atlas.constraints()} {
+      : atlas_{atlas}, options_{options}, cache_{atlas} {
     if (options.beliefs == 0) throw std::invalid_argument{"make_curriculum: there must be at least one belief"};
   }
 
@@ -47,7 +49,7 @@ class CurriculumMaker {
     while (!session.finished()) {
       const auto& lesson = session.lesson();
       for (; next < lesson.component; ++next) skip(next);
-      const auto before = atlas_.constraints().half_spaces(session.taught_region());
+      const auto before = cache_.constraints().half_spaces(session.taught_region());
       if (curriculum_.components.empty() || curriculum_.components.back().component != lesson.component) {
         curriculum_.components.push_back(component(lesson, before));
       }
@@ -91,10 +93,13 @@ class CurriculumMaker {
     auto conveys = without(shown.half_spaces, atlas_.domain().prior());
     KITH_ASSERT(!conveys.empty());  // else it would have had no gain
     const auto main = most_telling(conveys, known);
-    auto contrast = contrast_for(atlas_, shown.demo, main);
+    auto contrast = contrast_for(cache_.behaviours(), shown.demo, main, shown.counterfactuals);
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
-    auto sentence = choice_in_words(atlas_.domain(), contrast->robot_counts, contrast->alternative_counts) + ": " +
-                    in_words(atlas_.domain(), main);
+    auto sentence = in_words(atlas_.domain(), main);
+    if (atlas_.domain().is_exact()) {
+      sentence =
+          choice_in_words(atlas_.domain(), contrast->robot_counts, contrast->alternative_counts) + ": " + sentence;
+    }
     auto flip = nearest_flip(atlas_, *contrast);
     return {shown.demo, std::move(conveys), main, *std::move(contrast), std::move(sentence), std::move(flip)};
   }
@@ -110,22 +115,35 @@ class CurriculumMaker {
   }
 
   // Policy cells of beliefs that fill what was known before evenly.
-  [[nodiscard]] std::vector<PolicyCellIndex> beliefs(const std::vector<HalfSpace>& before) const {
-    const auto region = Cone::intersection(before);
-    KITH_ASSERT(region.has_value());  // the robot's weights are inside
-    const auto points = fibonacci_cover(*region, options_.beliefs);
+  [[nodiscard]] std::vector<PolicyCellIndex> beliefs(const std::vector<HalfSpace>& before) {
+    Cone region{atlas_.domain().num_features()};
+    const bool has_interior = region.clip(before);
+    KITH_ASSERT(has_interior);  // the robot's weights are inside
+    // Where each of them has to be planned, fewer.
+    const auto n = atlas_.is_tabulated() ? options_.beliefs : std::min(options_.beliefs, kMostPlannedBeliefs);
+    const Eigen::MatrixXd points = cover(region, n);
     std::vector<PolicyCellIndex> cells;
-    for (Eigen::Index i = 0; i < points.cols(); ++i) cells.push_back(atlas_.cells().locate(points.col(i)));
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      cells.push_back(cache_.behaviours().locate(Direction{points.col(i)}));
+    }
     return cells;
   }
 
-  [[nodiscard]] CurriculumTest graded(const Test& test, const std::vector<PolicyCellIndex>& points) const {
+  // As good as the robot's, up to what expectations are known to.
+  [[nodiscard]] bool is_right(DemoIndex test, const IntegerVector& answer) const {
+    const auto& domain = atlas_.domain();
+    const auto loss = atlas_.feature_counts(test) - answer;
+    if (domain.is_exact()) return sign_of_dot(domain.weights().integer, loss) == 0;
+    constexpr double kTolerance = 1e-6;
+    return domain.weights().return_of(loss) / static_cast<double>(domain.count_scale()) < kTolerance;
+  }
+
+  [[nodiscard]] CurriculumTest graded(const Test& test, const std::vector<PolicyCellIndex>& points) {
     constexpr double kEasy = 2.0 / 3.0;
     constexpr double kHard = 1.0 / 3.0;
-    const auto& weights = atlas_.domain().weights().integer;
     const auto right = std::count_if(points.begin(), points.end(), [&](PolicyCellIndex cell) {
-      const auto answer = atlas_.answer(test.demo, cell);
-      return answer && sign_of_dot(weights, atlas_.feature_counts(test.demo) - *answer) == 0;
+      const auto answer = cache_.behaviours().answer(test.demo, cell);
+      return answer && is_right(test.demo, *answer);
     });
     const auto share = static_cast<double>(right) / static_cast<double>(points.size());
     const auto difficulty = share >= kEasy  ? Difficulty::kEasy
@@ -141,7 +159,7 @@ class CurriculumMaker {
   [[nodiscard]] std::string why_skipped(std::size_t component) const {
     const auto& skipped = atlas_.knowledge_components()[component];
     const bool has_worlds = std::find(skipped.uses_mdp.begin(), skipped.uses_mdp.end(), true) != skipped.uses_mdp.end();
-    if (!has_worlds) return "every world has " + in_general(atlas_.domain().wording(*skipped.masked));
+    if (!has_worlds) return "every world has more than it weighs";
     const auto constraints = atlas_.constraints().half_spaces(skipped.constraints);
     if (implied_by(atlas_.domain().prior(), constraints)) return "all of it is known beforehand";
     if (implied_by(known_, constraints)) return "what was taught before tells all of it";
@@ -149,6 +167,7 @@ class CurriculumMaker {
   }
 
   [[nodiscard]] static bool implied_by(const std::vector<HalfSpace>& known, const std::vector<HalfSpace>& constraints) {
+    if (known.empty()) return constraints.empty();
     const auto region = Cone::intersection(known);
     return region && std::all_of(constraints.begin(), constraints.end(),
                                  [&](const HalfSpace& constraint) { return region->implies(constraint); });
@@ -160,7 +179,8 @@ class CurriculumMaker {
     for (const auto& half_space : domain.prior()) known.push_back(in_words(domain, half_space));
     const bool all_known = implied_by(domain.prior(), atlas_.policy_bec_half_spaces());
     std::string why = "no demonstration tells people more than they know beforehand";
-    if (atlas_.coverage().max == 1) why = "in every world, all who expect the robot to finish expect the same of it";
+    if (atlas_.is_tabulated() && atlas_.coverage().max == 1)
+      why = "in every world, all who expect the robot to finish expect the same of it";
     if (all_known && known.empty()) why = "the robot does the same whatever its reward";
     if (all_known && !known.empty()) {
       why = "whoever knows beforehand that " + listed(known) + " expects all that the robot does";

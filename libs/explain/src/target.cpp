@@ -13,7 +13,7 @@ namespace kith {
 namespace {
 
 const ConstraintSet& set_for(const Atlas& atlas, DemoIndex demo, Purpose purpose) {
-  return purpose == Purpose::kTeach ? atlas.one_step(demo) : atlas.robot_cell_facets(demo);
+  return purpose == Purpose::kTeach ? atlas.one_step(demo) : atlas.tested_constraints(demo);
 }
 
 // The half-spaces of a region that are not among those of the prior.
@@ -138,6 +138,7 @@ std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace&
   Remainders regions{atlas};
   std::optional<std::tuple<int, std::size_t, DemoIndex>> best;
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    if (!atlas.is_candidate(demo)) continue;
     if (regions.facets(set_for(atlas, demo, purpose)) != target) continue;
     const int complexity = atlas.domain().has_map() ? atlas.domain().complexity(atlas.id(demo)) : 0;
     const std::tuple candidate{complexity, atlas.trajectory(demo).actions.size(), demo};
@@ -165,8 +166,9 @@ std::vector<Isolated> isolated_constraints(const Atlas& atlas) {
     return place->second.front();
   };
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    if (!atlas.is_candidate(demo)) continue;
     if (const auto taught = only_one(atlas.one_step(demo))) ++at(*taught).teaching;
-    if (const auto tested = only_one(atlas.robot_cell_facets(demo))) ++at(*tested).testing;
+    if (const auto tested = only_one(atlas.tested_constraints(demo))) ++at(*tested).testing;
   }
   std::vector<Isolated> all;
   for (const auto& [constraint, isolated] : found) all.push_back(isolated);

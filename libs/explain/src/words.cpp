@@ -1,6 +1,10 @@
 #include "kith/explain/words.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -170,11 +174,30 @@ std::string in_general(const Wording& wording) {
   return text;
 }
 
+namespace {
+
+// Normals of expectations are long: to people, one of small numbers that points almost the same way.
+IntegerVector readable(const IntegerVector& normal) {
+  constexpr double kMost = 20.0;
+  constexpr std::int64_t kLong = 1000;
+  std::int64_t longest = 0;
+  for (const auto entry : normal) longest = std::max(longest, std::abs(entry));
+  if (longest <= kLong) return normal;
+  IntegerVector rounded(normal.size());
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    rounded[k] = std::llround(kMost * static_cast<double>(normal[k]) / static_cast<double>(longest));
+  }
+  return primitive(rounded);
+}
+
+}  // namespace
+
 std::string in_words(const Domain& domain, const HalfSpace& half_space) {
   Side more, less;
   Int128 value = 0;
+  const auto normal = readable(half_space.normal());
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    const auto entry = half_space.normal()[k];
+    const auto entry = normal[k];
     if (entry == 0) continue;
     const bool is_cost = domain.weights().integer[k] < 0;
     (is_cost == (entry < 0) ? more : less).add(thing(domain.wording(k), std::abs(entry)), is_cost);
@@ -195,13 +218,30 @@ std::string described(const Domain& domain, const HalfSpace& half_space) {
   return normal_text(domain, half_space) + ": " + in_words(domain, half_space);
 }
 
+namespace {
+
+// A count in units of 1 / scale, with three decimals where it is an expectation.
+std::string count_text(std::int64_t count, std::int64_t scale) {
+  if (scale == 1) return std::to_string(count);
+  std::array<char, 32> digits{};
+  const double value = static_cast<double>(count) / static_cast<double>(scale);
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, 3).ptr;
+  return {digits.data(), end};
+}
+
+}  // namespace
+
 std::string counts_text(const Domain& domain, const IntegerVector& counts) {
   std::string text;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     if (counts[k] == 0) continue;
-    text += (text.empty() ? "" : ", ") + domain.feature_names()[k] + " " + std::to_string(counts[k]);
+    text += (text.empty() ? "" : ", ") + domain.feature_names()[k] + " " + count_text(counts[k], domain.count_scale());
   }
   return text.empty() ? "nothing" : text;
+}
+
+double return_of(const Domain& domain, const IntegerVector& counts) {
+  return domain.weights().return_of(counts) / static_cast<double>(domain.count_scale());
 }
 
 std::string counted(std::size_t n, const std::string& noun) {

@@ -180,6 +180,7 @@ Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBel
     auto next = selection.next(cells, unit.taught_region, unit.demonstrations, here.split("looks"));
     if (!next) return unit;
     if (unit.demonstrations.empty()) unit.counterfactuals = cells;
+    next->counterfactuals = cells;
     visited.insert(next->demo);
     unit.taught_region = cache.regions().minimal(unit.taught_region | next->constraints);
     belief.observe(next->half_spaces, options.likelihood, here.split("copy"));

@@ -113,6 +113,7 @@ class Atlas {
   };
   [[nodiscard]] const Coverage& coverage() const noexcept { return coverage_; }
   /// The feature counts of the coverage set of a start state, sorted.
+  /// @throws kith::Error (kInfeasible) unless is_tabulated().
   [[nodiscard]] std::vector<IntegerVector> coverage_set(DemoIndex demo) const;
   /// Feature counts of the path that a person of this cell takes, or nothing if they have no optimum there.
   [[nodiscard]] std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell) const;
@@ -122,6 +123,11 @@ class Atlas {
   /// coverage set.
   [[nodiscard]] const ConstraintSet& robot_cell_facets(DemoIndex demo) const {
     return hull_facets_[hull(demo).value()];
+  }
+  /// Constraints that a right answer shows: robot_cell_facets() where behaviours are tabulated, else one_step(), of which
+  /// they are some. @pre is_candidate(demo).
+  [[nodiscard]] const ConstraintSet& tested_constraints(DemoIndex demo) const {
+    return tabulated_ ? robot_cell_facets(demo) : one_step(demo);
   }
 
   // --- counterfactuals ------------------------------------------------------

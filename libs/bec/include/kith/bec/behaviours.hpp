@@ -41,6 +41,8 @@ class Behaviours {
   /// nothing if they have no optimum there.
   std::optional<IntegerVector> answer(DemoIndex demo, PolicyCellIndex cell);
 
+  /// The weights of a cell that locate() gave, where behaviours are not tabulated.
+  [[nodiscard]] const Direction& weights(PolicyCellIndex cell) const { return cells_[cell.value()].weights; }
   /// The path that people with these weights take from there, or the likeliest one; nothing if they have no optimum.
   /// The path may break off where it never ends. Planned anew at every call.
   [[nodiscard]] std::optional<Trajectory> trajectory(DemoIndex demo, const Direction& weights) const;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kith/bec/atlas.hpp"
+#include "kith/bec/behaviours.hpp"
 
 namespace kith {
 
@@ -30,6 +30,11 @@ struct Contrast {
 /// The contrast that conveys a constraint: at the earliest state of the robot's path where some expected path differs
 /// from the robot's by a multiple of its normal, the smallest multiple. Nothing if there is none.
 [[nodiscard]] std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint);
+
+/// The same for any domain: without tables, the path that one of the given people expects, from the earliest state
+/// where theirs conveys the constraint. Counts are in units of 1 / Domain::count_scale().
+[[nodiscard]] std::optional<Contrast> contrast_for(Behaviours& behaviours, DemoIndex demo, const HalfSpace& constraint,
+                                                   std::span<const PolicyCellIndex> people);
 
 /// Of the paths that somebody could expect from the start, the one that is best for the robot among those that `admits`
 /// accepts; the robot's own is none of them. Nothing if none is accepted.

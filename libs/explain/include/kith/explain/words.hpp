@@ -30,6 +30,8 @@ namespace kith {
 [[nodiscard]] std::string in_general(const Wording& wording);
 /// Feature counts: "rubble 1, step 7"; "nothing" if all are zero.
 [[nodiscard]] std::string counts_text(const Domain& domain, const IntegerVector& counts);
+/// The return of counts in units of 1 / Domain::count_scale(), weights at length 1.
+[[nodiscard]] double return_of(const Domain& domain, const IntegerVector& counts);
 /// "1 team", "6 teams".
 [[nodiscard]] std::string counted(std::size_t n, const std::string& noun);
 /// Actions with repetitions counted: "up, right x3".

@@ -16,6 +16,7 @@ struct Demonstration {
   std::vector<HalfSpace> half_spaces;  ///< The same, sorted.
   double gain = 1.0;                   ///< area of the taught region before / after, > 1 when chosen for it.
   std::size_t num_new = 0;             ///< New facets of the taught region.
+  std::vector<PolicyCellIndex> counterfactuals;  ///< Cells of the beliefs it was chosen for, ascending.
 };
 
 /// A start state for which people are asked what the robot would do.
