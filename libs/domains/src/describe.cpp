@@ -114,7 +114,7 @@ std::vector<std::string> Domain::draw(MdpIndex m, std::optional<StateIndex> s) c
 }
 
 std::vector<std::string> Domain::draw_bare(MdpIndex m, StateIndex s) const {
-  const World& world = data_->world;
+  const World& world = data_->grid().world;
   const GridState now = state(m, s);
   std::vector<std::string> rows(static_cast<std::size_t>(world.height));
   for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {

@@ -123,7 +123,8 @@ std::string Domain::describe_variant(MdpIndex m) const {
 }
 
 std::vector<OptionalGroup> Domain::optional_groups() const {
-  const detail::World& world = data_->world;
+  if (!has_map()) return {};
+  const detail::World& world = data_->grid().world;
   std::vector<OptionalGroup> groups;
   for (const detail::CellGroup& group : world.groups) {
     OptionalGroup& added = groups.emplace_back();
@@ -134,8 +135,9 @@ std::vector<OptionalGroup> Domain::optional_groups() const {
 }
 
 std::vector<LegendEntry> Domain::legend() const {
+  if (!has_map()) return {};
   std::vector<LegendEntry> entries;
-  for (const detail::Symbol& symbol : data_->world.symbols) {
+  for (const detail::Symbol& symbol : data_->grid().world.symbols) {
     const detail::SymbolContent& content = symbol.content;
     entries.push_back({symbol.glyph,
                        {content.wall, content.goal, content.terrain, content.destination},
@@ -149,9 +151,9 @@ std::vector<LegendEntry> Domain::legend() const {
 }
 
 std::size_t Domain::legend_index(Cell cell) const {
-  const auto index = data_->world.index_of(cell);
+  const auto index = data_->grid().world.index_of(cell);
   if (!index) throw std::invalid_argument{"Domain::legend_index: the cell is off the map"};
-  return data_->world.symbol_of[*index];
+  return data_->grid().world.symbol_of[*index];
 }
 
 bool Domain::has_feature(MdpIndex m, std::size_t k) const {

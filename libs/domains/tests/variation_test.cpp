@@ -37,7 +37,7 @@ rows = ["S]rG",  # "optional = true"
         "...."]
 [map.legend]
 "." = "floor"
-"]" = { optional = "a, b", terrain = "gate" }
+"]" = { optional = "a-b", terrain = "gate" }
 "r" = { terrain = "rubble", optional = true }
 "S" = { start = true }
 "G" = { goal = true }
