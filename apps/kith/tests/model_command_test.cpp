@@ -58,18 +58,16 @@ TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
   const std::string states = "icy_crossing_states.csv";
   const std::string rows = "icy_crossing_transitions.csv";
   const std::vector<Malformed> cases{
-      {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:18:15: error[E0233]",
+      {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:19:15: error[E0233]",
        "'states.csv' cannot be read", "it is looked for beside the domain file"},
-      {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:18:15: error[E0232]",
+      {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:19:15: error[E0232]",
        "cannot be a file of a model", "beside the domain file"},
-      {toml, "[[feature]]\nname = \"step\"", "[[feature]]\nname = \"stop\"", "icy_crossing.toml:29:11: error[E0311]",
-       "'stop' has no weight", ""},
       {states, "b1,on the ice", "a1,on the ice", "icy_crossing_states.csv:3:1: error[E0241]", "'a1' is there twice",
        "one row"},
       {states, "e2,in the water at e2,true", "e2,in the water at e2,false",
-       "icy_crossing_states.csv:12:1: error[E0255]", "'e2' is not terminal, but has no transition",
+       "icy_crossing_states.csv:12:1: error[E0255]", "'e2' of MDP 'firm ice' is not terminal, but has no transition",
        "mark it as terminal"},
-      {states, "false,true,1,1", "false,true,one,1", "icy_crossing_states.csv:2:35: error[E0506]",
+      {states, "false,true,1,1", "false,true,one,1", "icy_crossing_states.csv:2:33: error[E0506]",
        "\"one\" in column \"x\" is not of type integer", "42"},
       {rows, "a1,right,b1,1", "a1,right,b9,1", "icy_crossing_transitions.csv:3:19: error[E0240]",
        "there is no state 'b9'", ""},
@@ -113,7 +111,7 @@ TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {
   edit("icy_crossing.toml", "{ step = -1 } ]", "{ step = 1 } ]");
   const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
   EXPECT_EQ(ran.code, 4) << ran.err;
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing.toml:32:11: error[E0323]"),
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing.toml:30:11: error[E0323]"),
                              HasSubstr("in 3 of 3 MDPs, first in 'firm ice'"), HasSubstr("cost")));
 }
 
