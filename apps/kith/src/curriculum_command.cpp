@@ -113,7 +113,7 @@ class CurriculumText {
     out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
     const auto parting = contrast.robot.states[contrast.decisive];
     const auto where = domain_.has_map() ? "at " + cell_text(domain_, domain_.state(world, parting).robot)
-                                         : "in " + domain_.state_name(world, parting);
+                                         : "in state '" + domain_.state_name(world, parting) + "'";
     line("the robot: " + actions_text(domain_, contrast.robot.actions), 5);
     line("expected instead: " + actions_text(domain_, contrast.alternative.actions), 5);
     line(fmt::format("they part {} with step {}", where, contrast.decisive + 1), 5);
