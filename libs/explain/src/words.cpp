@@ -177,27 +177,28 @@ std::string in_general(const Wording& wording) {
 namespace {
 
 // Normals of expectations are long: to people, one of small numbers that points almost the same way. The smallest entry
-// becomes the first of 1 to 20 with which all entries are within half a percent, or the best of them; entries below
-// half a percent of the largest are left out.
+// becomes the first of 1 to 8 with which all entries are within two percent, or the best of them; entries below half a
+// percent of the largest are left out.
 IntegerVector readable(const IntegerVector& normal) {
   constexpr std::int64_t kLong = 1000;
-  constexpr double kClose = 0.005;
+  constexpr double kClose = 0.02;
+  constexpr double kNothing = 0.005;
   double longest = 0.0;
   for (const auto entry : normal) longest = std::max(longest, std::abs(static_cast<double>(entry)));
   if (longest <= static_cast<double>(kLong)) return normal;
   double smallest = longest;
   for (const auto entry : normal) {
     const double size = std::abs(static_cast<double>(entry));
-    if (size >= kClose * longest) smallest = std::min(smallest, size);
+    if (size >= kNothing * longest) smallest = std::min(smallest, size);
   }
   IntegerVector best(normal.size());
   double least = 2.0;
-  for (int multiple = 1; multiple <= 20 && least > kClose; ++multiple) {
+  for (int multiple = 1; multiple <= 8 && least > kClose; ++multiple) {
     IntegerVector rounded(normal.size());
     double error = 0.0;
     for (std::size_t k = 0; k < normal.size(); ++k) {
       const double scaled = static_cast<double>(multiple) * static_cast<double>(normal[k]) / smallest;
-      if (std::abs(static_cast<double>(normal[k])) < kClose * longest) continue;
+      if (std::abs(static_cast<double>(normal[k])) < kNothing * longest) continue;
       rounded[k] = std::llround(scaled);
       error = std::max(error, std::abs(static_cast<double>(rounded[k]) - scaled) / std::abs(scaled));
     }
