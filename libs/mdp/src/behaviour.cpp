@@ -191,4 +191,21 @@ std::optional<Behaviour> behave_in_favour(const Mdp& mdp, std::span<const double
   return behave_as(mdp, weights, robot_weights, options);
 }
 
+bool is_optimal(const Mdp& mdp, const Behaviour& behaviour, std::span<const double> weights, StateIndex s,
+                std::size_t c, double tolerance) {
+  constexpr const char* kName = "is_optimal";
+  detail::require_weights(mdp, weights, kName);
+  require(tolerance >= 0.0, kName, "the tolerance must not be negative");
+  require(behaviour.values.size() == mdp.num_states() + mdp.num_terminals(), kName, "there must be a value per state");
+  require(s.value() < mdp.num_states() && c < mdp.choices(s).size(), kName, "there is no such choice");
+  double worth = 0.0;
+  for (const Outcome& outcome : mdp.outcomes(mdp.choices(s)[c])) {
+    const auto phi = mdp.features(outcome);
+    double reward = 0.0;
+    for (std::size_t k = 0; k < phi.size(); ++k) reward += weights[k] * phi[k];
+    worth += outcome.probability * (reward + mdp.discount() * behaviour.values[outcome.next.value()]);
+  }
+  return is_tight(behaviour.values[s.value()], worth, tolerance);
+}
+
 }  // namespace kith

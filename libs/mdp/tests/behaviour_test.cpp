@@ -177,23 +177,42 @@ void expect_the_best_for_the_robot(const Case& example, const Behaviour& behavio
   expect_counts(oracle, *favour);
 }
 
-void expect_as_planned(const Case& example, const std::optional<Behaviour>& behaviour) {
-  const auto solution = plan(example.mdp, example.weights);
-  ASSERT_EQ(behaviour.has_value(), solution.has_value());
+// Where a count is a whole number it is that number, whatever the unit; and what plan_exactly() finds, where the
+// weights are whole numbers, too.
+void expect_exact(const Case& example, const std::optional<Behaviour>& behaviour) {
+  const Mdp& mdp = example.mdp;
+  const auto exact = behave(mdp, example.weights);
+  ASSERT_EQ(exact.has_value(), behaviour.has_value());
+  const auto expect_same = [&](const Behaviour& one, const Behaviour& in_units) {
+    EXPECT_EQ(one.choice, in_units.choice);
+    EXPECT_EQ(one.values, in_units.values);
+    for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+      EXPECT_EQ(one.counts[s], testing::roll_out(mdp, one.choice, s).features) << "state " << s;
+      for (std::size_t k = 0; k < mdp.num_features(); ++k) {
+        EXPECT_EQ(kScale * one.counts[s][k], in_units.counts[s][k]) << "state " << s;
+      }
+    }
+  };
+  if (exact) {
+    const auto robot = testing::to_real(example.robot_weights);
+    expect_same(*exact, *behaviour);
+    expect_same(behave_in_favour(mdp, example.weights, robot).value(),
+                behave_in_favour(mdp, example.weights, robot, {.scale = kScale}).value());
+  }
+  if (std::ranges::any_of(example.weights, [](double w) { return w != std::round(w); })) return;
+  IntegerVector weights(mdp.num_features());
+  for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = std::llround(example.weights[k]);
+  const auto solution = plan_exactly(mdp, weights).solution;
+  ASSERT_EQ(exact.has_value(), solution.has_value());
   if (!solution) return;
-  const auto exact = behave(example.mdp, example.weights);
   EXPECT_EQ(exact->choice, solution->canonical_choice);
   EXPECT_EQ(exact->counts, solution->feature_counts);
-  EXPECT_EQ(exact->values, solution->values);
-  const auto favour = behave_in_favour(example.mdp, example.weights, testing::to_real(example.robot_weights));
-  ASSERT_TRUE(favour);
-  EXPECT_EQ(favour->counts, best_for_robot(example.mdp, *solution, example.weights, example.robot_weights));
 }
 
 void expect_agrees_with_enumeration(const Case& example) {
   const Mdp& mdp = example.mdp;
   const auto behaviour = behave(mdp, example.weights, {.scale = kScale});
-  if (is_exact(mdp)) expect_as_planned(example, behaviour);
+  if (is_exact(mdp)) expect_exact(example, behaviour);
   PolicyOracle oracle{mdp, example.weights};
   oracle.enumerate();
   const bool has_gain = oracle.highest_gain > kGainTolerance;
@@ -201,7 +220,13 @@ void expect_agrees_with_enumeration(const Case& example) {
   ASSERT_EQ(behaviour.has_value(), !(oracle.has_dead_end || oracle.is_stranded || has_gain || rests));
   if (!behaviour) return;
   for (std::size_t s = 0; s < mdp.num_states(); ++s) EXPECT_NEAR(behaviour->values[s], oracle.best[s], 1e-7);
-  expect_canonical(mdp, optimal_choices(mdp, example.weights, behaviour->values), behaviour->choice, oracle);
+  const auto optimal = optimal_choices(mdp, example.weights, behaviour->values);
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+    for (std::size_t c = 0; c < optimal[s].size(); ++c) {
+      EXPECT_EQ(is_optimal(mdp, *behaviour, example.weights, StateIndex{s}, c), optimal[s][c]) << "state " << s;
+    }
+  }
+  expect_canonical(mdp, optimal, behaviour->choice, oracle);
   expect_counts(oracle, *behaviour);
   expect_one_step_constraints(example, *behaviour);
   expect_minimal_as_by_linear_programs(mdp, *behaviour);
@@ -253,7 +278,7 @@ TEST(Behave, FinishesWhereGoingRoundCostsNothing) {
   ASSERT_TRUE(behaviour);
   EXPECT_THAT(behaviour->choice, ElementsAre(1u, 0u));
   EXPECT_THAT(behaviour->counts, ElementsAre(IntegerVector{-1}, IntegerVector{-3}, IntegerVector{0}));
-  // Of exact processes it says, as plan() does, that never finishing is as good.
+  // Of exact processes it says, as plan_exactly() does, that never finishing is as good.
   EXPECT_FALSE(behave(with_a_way_round(1, -1, -1), std::vector{1.0}));
 }
 
@@ -296,6 +321,12 @@ TEST(Behave, RefusesNonsense) {
   EXPECT_THROW((void)behave(mdp, std::vector{1.0, 1.0}, {.scale = 0}), std::invalid_argument);
   EXPECT_THROW((void)behave(mdp, std::vector{1.0, 1.0}, {.tolerance = -1.0}), std::invalid_argument);
   EXPECT_THROW((void)behave_in_favour(mdp, std::vector{1.0, 1.0}, std::vector{1.0}), std::invalid_argument);
+  const auto behaviour = behave(mdp, std::vector{1.0, 1.0}).value();
+  EXPECT_TRUE(is_optimal(mdp, behaviour, std::vector{1.0, 1.0}, StateIndex{0}, 0));
+  EXPECT_THROW((void)is_optimal(mdp, behaviour, std::vector{1.0}, StateIndex{0}, 0), std::invalid_argument);
+  EXPECT_THROW((void)is_optimal(mdp, behaviour, std::vector{1.0, 1.0}, StateIndex{0}, 1), std::invalid_argument);
+  EXPECT_THROW((void)is_optimal(mdp, behaviour, std::vector{1.0, 1.0}, StateIndex{1}, 0), std::invalid_argument);
+  EXPECT_THROW((void)is_optimal(mdp, {}, std::vector{1.0, 1.0}, StateIndex{0}, 0), std::invalid_argument);
   const Mdp huge = make_mdp(1, 1, {{0, 0, 1, {1e12}}});
   EXPECT_THROW((void)behave(huge, std::vector{1.0}, {.scale = kScale}), std::invalid_argument);
 }

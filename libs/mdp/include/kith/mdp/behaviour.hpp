@@ -37,7 +37,7 @@ struct Behaviour {
 /// The optimal behaviour under real weights, for deterministic and stochastic,
 /// undiscounted and discounted processes with any features.
 ///
-/// An exact process (is_exact()) is answered as by plan(), to the integer:
+/// An exact process (is_exact()) is answered as by plan_exactly(), to the integer:
 /// nothing if a cycle gains or earns nothing within the tolerance, or if a state
 /// cannot reach a terminal one. It is solved component by component, by Dijkstra's
 /// algorithm where no transition within the component earns, by label correcting
@@ -53,12 +53,19 @@ struct Behaviour {
                                               const BehaveOptions& options = {});
 
 /// Benefit of the doubt: among the choices that are optimal for `weights`, those that earn most under the robot's
-/// weights, by a second dynamic programme (as best_for_robot() does for exact processes). `choice` and `counts` are
-/// theirs, `values` are under `weights`. Nothing if behave() finds nothing, or if the remaining choices gain for ever
-/// under the robot's weights.
+/// weights, by a second dynamic programme. `choice` and `counts` are theirs, `values` are under `weights`. Nothing if
+/// behave() finds nothing, or if the remaining choices gain for ever under the robot's weights.
 /// @throws std::invalid_argument as behave(), for both weights.
 [[nodiscard]] std::optional<Behaviour> behave_in_favour(const Mdp& mdp, std::span<const double> weights,
                                                         std::span<const double> robot_weights,
                                                         const BehaveOptions& options = {});
+
+/// Whether choice `c` of state `s` is as good as any: E[w . phi + discount * V(s')] >= V(s) - tolerance * max(1,
+/// |V(s)|) with the values V of a behaviour.
+/// @pre behave(mdp, weights) or behave_in_favour(mdp, weights, ...) gave the behaviour.
+/// @throws std::invalid_argument unless weights.size() == d, the weights are finite, tolerance >= 0, the behaviour has
+/// as many values as the process and there is such a choice.
+[[nodiscard]] bool is_optimal(const Mdp& mdp, const Behaviour& behaviour, std::span<const double> weights, StateIndex s,
+                              std::size_t c, double tolerance = 1e-9);
 
 }  // namespace kith
