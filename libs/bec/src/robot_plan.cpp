@@ -12,8 +12,6 @@
 namespace kith {
 namespace {
 
-constexpr double kTieTolerance = 1e-9;
-
 std::vector<double> as_reals(const IntegerVector& weights) {
   std::vector<double> result;
   for (const std::int64_t w : weights) result.push_back(static_cast<double>(w));
@@ -40,18 +38,6 @@ std::optional<RobotPlan> plan_exact(const Mdp& mdp, const IntegerVector& weights
     plan.next.push_back(static_cast<std::uint32_t>(mdp.outcomes(chosen).front().next.value()));
   }
   return plan;
-}
-
-double value_of(const Mdp& mdp, const Choice& choice, const std::vector<double>& weights,
-                const std::vector<double>& values) {
-  double value = 0.0;
-  for (const Outcome& outcome : mdp.outcomes(choice)) {
-    double reward = 0.0;
-    const auto features = mdp.features(outcome);
-    for (std::size_t k = 0; k < features.size(); ++k) reward += weights[k] * features[k];
-    value += outcome.probability * (reward + mdp.discount() * values[outcome.next.value()]);
-  }
-  return value;
 }
 
 // The likeliest way to an end under the plan: from every state the outcome from which the product of probabilities
@@ -144,15 +130,15 @@ std::optional<RobotPlan> plan_expected(const Mdp& mdp, const RewardWeights& robo
   auto behaviour = behave(mdp, weights, {.scale = scale});
   if (!behaviour) return std::nullopt;
   RobotPlan plan;
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    std::uint32_t optimal = 0;
+    for (std::size_t c = 0; c < mdp.choices(s).size(); ++c) {
+      optimal += is_optimal(mdp, *behaviour, weights, s, c) ? 1u : 0u;
+    }
+    plan.optimal_choices.push_back(optimal);
+  }
   plan.choice = std::move(behaviour->choice);
   plan.counts = std::move(behaviour->counts);
-  const auto& values = behaviour->values;
-  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
-    const double least = values[s.value()] - kTieTolerance * std::max(1.0, std::abs(values[s.value()]));
-    const auto choices = mdp.choices(s);
-    plan.optimal_choices.push_back(static_cast<std::uint32_t>(std::count_if(
-        choices.begin(), choices.end(), [&](const Choice& c) { return value_of(mdp, c, weights, values) >= least; })));
-  }
   plan.next = LikeliestPaths{mdp, plan.choice}.next();
   return plan;
 }
