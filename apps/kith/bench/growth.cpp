@@ -11,6 +11,7 @@
 #include "kith/belief/particle_belief.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/random/distributions.hpp"
 #include "kith/study/study.hpp"
 
@@ -178,7 +179,7 @@ Work plan_grid(std::size_t side, std::size_t features) {
   std::vector<double> weights(features, -1.0);
   for (std::size_t k = 0; k < features; ++k) weights[k] -= 0.3 * as_double(k);
   return [=, mdp = grid(side, features)](std::size_t rounds) {
-    for (; rounds > 0; --rounds) keep(plan(mdp, weights));
+    for (; rounds > 0; --rounds) keep(behave(mdp, weights));
   };
 }
 

@@ -7,6 +7,8 @@
 
 #include "cases.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/mdp/behaviour.hpp"
+#include "kith/mdp/planner.hpp"
 #include "kith/teaching/demonstration_selection.hpp"
 #include "naive_counterfactuals.hpp"
 
@@ -20,13 +22,13 @@ Prepared plan_one(Workbench& bench) {
   static constexpr std::array kWeights{-0.61, 0.55, -0.57};
   Prepared prepared;
   prepared.work = [&mdp](std::size_t rounds) {
-    for (; rounds > 0; --rounds) keep(plan(mdp, kWeights));
+    for (; rounds > 0; --rounds) keep(behave(mdp, kWeights));
   };
   prepared.rival = [&mdp](std::size_t rounds) {
     for (; rounds > 0; --rounds) keep(value_iteration(mdp, kWeights));
   };
   prepared.disagreement = [&mdp]() -> std::string {
-    const auto ours = plan(mdp, kWeights);
+    const auto ours = behave(mdp, kWeights);
     const auto theirs = value_iteration(mdp, kWeights);
     if (!ours || !theirs.converged) return "no finite optimum";
     for (std::size_t s = 0; s < ours->values.size(); ++s) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "item_delivery.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/coverage_set.hpp"
 #include "kith/random/distributions.hpp"
 
@@ -158,7 +159,7 @@ std::size_t expect_hull_maximum_is_planned(int num_weights) {
     const auto w = random_weights(random);
     const std::array<double, 3> x{w.x(), w.y(), w.z()};
     for (MdpIndex m{0}; m.value() < atlas.domain().num_mdps(); ++m) {
-      const auto solution = plan(atlas.domain().mdp(m), x);
+      const auto solution = behave(atlas.domain().mdp(m), x);
       EXPECT_EQ(solution.has_value(), atlas.finite_region(atlas.index({m, StateIndex{0}})).contains(w));
       if (!solution) continue;
       ++finite;
@@ -185,6 +186,8 @@ TEST(AtlasSlow, HullMaximumEqualsPlanningForAThousandWeights) {
 TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
   const auto& atlas = item_delivery();
   const auto& domain = atlas.domain();
+  const auto& robot_weights = domain.weights().integer;
+  const std::vector<double> robot(robot_weights.begin(), robot_weights.end());
   RandomStream random{4};
   for (int i = 0; i < 40; ++i) {
     auto w = random_weights(random);
@@ -192,15 +195,13 @@ TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
     const std::array<double, 3> x{w.x(), w.y(), w.z()};
     const std::array cells{atlas.cells().locate(w)};
     const MdpIndex m{uniform_index(domain.num_mdps(), random)};
-    const auto solution = plan(domain.mdp(m), x);
-    std::vector<IntegerVector> learner;
-    if (solution) learner = best_for_robot(domain.mdp(m), *solution, x, domain.weights().integer);
+    const auto learner = behave_in_favour(domain.mdp(m), x, robot);
     for (StateIndex s{0}; s.value() < domain.mdp(m).num_states(); ++s) {
       const auto demo = atlas.index({m, s});
       std::vector<HalfSpace> expected;
       const auto path = atlas.trajectory(demo).states;
-      for (std::size_t t = 0; solution && t + 1 < path.size(); ++t) {
-        const auto loss = atlas.feature_counts(atlas.index({m, path[t]})) - learner[path[t].value()];
+      for (std::size_t t = 0; learner && t + 1 < path.size(); ++t) {
+        const auto loss = atlas.feature_counts(atlas.index({m, path[t]})) - learner->counts[path[t].value()];
         if (!loss.is_zero()) expected.emplace_back(loss);
       }
       std::sort(expected.begin(), expected.end());

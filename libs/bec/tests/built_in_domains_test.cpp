@@ -7,8 +7,8 @@
 
 #include "kith/bec/atlas.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/coverage_set.hpp"
-#include "kith/mdp/planner.hpp"
 #include "kith/random/distributions.hpp"
 
 namespace kith {
@@ -93,7 +93,7 @@ void expect_hull_maximum_is_the_plan(const Atlas& atlas, int num_weights, std::u
     const std::vector<double> weights{direction[0], direction[1], direction[2]};
     bool has_optimum = false;
     for (std::size_t m = 0; m < domain.num_mdps(); ++m) {
-      const auto solution = plan(domain.mdp(MdpIndex{m}), weights);
+      const auto solution = behave(domain.mdp(MdpIndex{m}), weights);
       if (!solution) continue;
       has_optimum = true;
       for (std::size_t s = 0; s < domain.mdp(MdpIndex{m}).num_states(); ++s) {

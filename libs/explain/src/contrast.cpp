@@ -9,6 +9,7 @@
 #include "kith/core/assert.hpp"
 #include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "walk.hpp"
 
 namespace kith {
@@ -93,14 +94,14 @@ namespace {
 
 // How long the robot's path from step `from` on is as good as any to somebody with these weights.
 std::size_t steps_together(const Mdp& mdp, const Trajectory& robot, std::size_t from, std::span<const double> weights) {
-  const auto solution = plan(mdp, weights);
+  const auto behaviour = behave(mdp, weights);
   auto t = from;
-  while (solution && t + 1 < robot.actions.size()) {
+  while (behaviour && t + 1 < robot.actions.size()) {
     const auto choices = mdp.choices(robot.states[t]);
     const auto own = std::find_if(choices.begin(), choices.end(),
                                   [&](const Choice& choice) { return choice.action == robot.actions[t]; });
     const auto c = static_cast<std::size_t>(own - choices.begin());
-    if (!is_optimal_choice(mdp, *solution, weights, robot.states[t], c)) break;
+    if (!is_optimal(mdp, *behaviour, weights, robot.states[t], c)) break;
     ++t;
   }
   return t;

@@ -61,14 +61,21 @@ void BM_Behave(benchmark::State& state) {
 }
 BENCHMARK(BM_Behave)->Arg(10)->Arg(32)->Arg(70)->Arg(100)->Arg(200)->Unit(benchmark::kMicrosecond);
 
-// ... against label correcting.
-void BM_Plan(benchmark::State& state) {
+// ... against value iteration, which finds the values only ...
+void BM_ValueIteration(benchmark::State& state) {
   const Mdp mdp = floor({.side = static_cast<std::size_t>(state.range(0))});
   const auto weights = beliefs();
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(plan(mdp, weights[i++ % weights.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(value_iteration(mdp, weights[i++ % weights.size()]));
 }
-BENCHMARK(BM_Plan)->Arg(10)->Arg(32)->Arg(70)->Arg(100)->Arg(200)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_ValueIteration)->Arg(10)->Arg(32)->Arg(70)->Arg(100)->Arg(200)->Unit(benchmark::kMicrosecond);
+
+// ... and exactly, by label correcting, for whole weights.
+void BM_PlanExactly(benchmark::State& state) {
+  const Mdp mdp = floor({.side = static_cast<std::size_t>(state.range(0))});
+  for (auto _ : state) benchmark::DoNotOptimize(plan_exactly(mdp, {-3, -2, -1}));
+}
+BENCHMARK(BM_PlanExactly)->Arg(10)->Arg(32)->Arg(70)->Arg(100)->Arg(200)->Unit(benchmark::kMicrosecond);
 
 // And with the benefit of the doubt?
 void BM_BehaveInFavour(benchmark::State& state) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
 #include "kith/random/distributions.hpp"
 
@@ -72,13 +73,13 @@ void BM_ValuesByLookUp(benchmark::State& state) {
 BENCHMARK(BM_ValuesByLookUp)->Arg(4)->Arg(6)->Arg(10)->Arg(16)->Unit(benchmark::kMicrosecond);
 
 // ... by planning ...
-void BM_ValuesByPlan(benchmark::State& state) {
+void BM_ValuesByBehave(benchmark::State& state) {
   const Mdp mdp = grid(static_cast<std::size_t>(state.range(0)));
   const auto weights = weights_inside(64);
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(plan(mdp, weights[i++ % weights.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(behave(mdp, weights[i++ % weights.size()]));
 }
-BENCHMARK(BM_ValuesByPlan)->Arg(4)->Arg(6)->Arg(10)->Arg(16)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_ValuesByBehave)->Arg(4)->Arg(6)->Arg(10)->Arg(16)->Unit(benchmark::kMicrosecond);
 
 void BM_ValuesByPlanExactly(benchmark::State& state) {
   const Mdp mdp = grid(static_cast<std::size_t>(state.range(0)));

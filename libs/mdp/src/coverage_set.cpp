@@ -31,7 +31,7 @@ IntegerVector to_vector(const Counts& v) { return IntegerVector{v[0], v[1], v[2]
 
 // The sum of the features of a positive cycle under `weights`, if there is one.
 std::optional<IntegerVector> positive_cycle(const Mdp& mdp, const IntegerVector& weights) {
-  detail::LongestPaths<std::int64_t> paths{mdp, detail::row_rewards(mdp, weights, "coverage_sets")};
+  detail::LongestPaths paths{mdp, detail::row_rewards(mdp, weights, "coverage_sets")};
   if (paths.solve_to_anywhere()) return std::nullopt;
   return paths.cycle_features();
 }

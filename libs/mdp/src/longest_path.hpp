@@ -13,20 +13,19 @@
 namespace kith::detail {
 
 // Longest paths in the transition graph of a deterministic Mdp whose edges earn
-// a fixed reward per feature row: Bellman-Ford with a first-in-first-out
-// worklist that runs against the edges. `Value` is std::int64_t (exact) or double.
+// a fixed whole reward per feature row: Bellman-Ford with a first-in-first-out
+// worklist that runs against the edges.
 //
 // A positive cycle keeps improving values for ever; exactly then the graph of
 // last improvements ("where did this value come from?") gets a cycle, which is
 // looked for once per |S| steps [cherkassky1999negative].
-template <typename Value>
 class LongestPaths {
  public:
-  // Below every real value; as an integer never added to.
-  static constexpr Value kUnreached = std::numeric_limits<Value>::has_infinity ? -std::numeric_limits<Value>::infinity()
-                                                                               : std::numeric_limits<Value>::lowest();
+  // Below every value of a path; never added to.
+  static constexpr std::int64_t kUnreached = std::numeric_limits<std::int64_t>::lowest();
 
-  LongestPaths(const Mdp& mdp, std::vector<Value> row_rewards) : mdp_{mdp}, row_rewards_{std::move(row_rewards)} {}
+  LongestPaths(const Mdp& mdp, std::vector<std::int64_t> row_rewards)
+      : mdp_{mdp}, row_rewards_{std::move(row_rewards)} {}
 
   // Values of the best paths to a terminal state. False if there is a positive cycle.
   [[nodiscard]] bool solve_to_terminals() {
@@ -54,13 +53,13 @@ class LongestPaths {
     return sum;
   }
 
-  [[nodiscard]] std::vector<Value>& values() noexcept { return values_; }
-  [[nodiscard]] Value reward(std::size_t row) const { return row_rewards_[row]; }
+  [[nodiscard]] std::vector<std::int64_t>& values() noexcept { return values_; }
+  [[nodiscard]] std::int64_t reward(std::size_t row) const { return row_rewards_[row]; }
 
  private:
   static constexpr std::uint32_t kNoChoice = std::numeric_limits<std::uint32_t>::max();
 
-  void start(Value value) {
+  void start(std::int64_t value) {
     const std::size_t n = mdp_.num_states() + mdp_.num_terminals();
     values_.assign(n, value);
     origin_.assign(mdp_.num_states(), kNoChoice);
@@ -93,7 +92,7 @@ class LongestPaths {
     while (waiting_ > 0) {
       const std::size_t next = pop();
       for (const Arrival& arrival : mdp_.arrivals(StateIndex{next})) {
-        const Value candidate = row_rewards_[arrival.feature_row] + values_[next];
+        const std::int64_t candidate = row_rewards_[arrival.feature_row] + values_[next];
         const std::size_t from = arrival.from.value();
         if (!(candidate > values_[from])) continue;
         values_[from] = candidate;
@@ -133,8 +132,8 @@ class LongestPaths {
   }
 
   const Mdp& mdp_;
-  std::vector<Value> row_rewards_;
-  std::vector<Value> values_;
+  std::vector<std::int64_t> row_rewards_;
+  std::vector<std::int64_t> values_;
   std::vector<std::uint32_t> origin_;  // position of the choice that gave a state its value
   std::vector<std::uint32_t> queue_;   // a ring
   std::vector<unsigned char> queued_;

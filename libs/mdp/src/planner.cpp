@@ -1,7 +1,6 @@
 #include "kith/mdp/planner.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -15,13 +14,10 @@ namespace {
 using detail::require;
 using detail::require_exact;
 
-bool is_tight(double value, double candidate, double tolerance) {
-  return candidate >= value - tolerance * std::max(1.0, std::abs(value));
-}
-
 // Fills in the canonical choices and their feature counts, states in tight order.
-template <typename Solution, typename IsTight>
-void follow_first_tight(const Mdp& mdp, std::span<const StateIndex> order, const IsTight& tight, Solution& solution) {
+template <typename IsTight>
+void follow_first_tight(const Mdp& mdp, std::span<const StateIndex> order, const IsTight& tight,
+                        ExactSolution& solution) {
   solution.canonical_choice.assign(mdp.num_states(), 0);
   solution.feature_counts.assign(mdp.num_states() + mdp.num_terminals(), IntegerVector(mdp.num_features()));
   for (const StateIndex s : order) {
@@ -50,7 +46,7 @@ std::optional<StateIndex> stranded_state(const Mdp& mdp) {
 ExactPlan plan_exactly(const Mdp& mdp, const IntegerVector& weights) {
   require_exact(mdp, weights.size(), "plan_exactly");
   ExactPlan plan;
-  detail::LongestPaths<std::int64_t> paths{mdp, detail::row_rewards(mdp, weights, "plan_exactly")};
+  detail::LongestPaths paths{mdp, detail::row_rewards(mdp, weights, "plan_exactly")};
   if (const auto stranded = stranded_state(mdp)) {
     plan.failure = PlanFailure::kNoTerminal;
     plan.cycle = {*stranded};
@@ -74,62 +70,6 @@ ExactPlan plan_exactly(const Mdp& mdp, const IntegerVector& weights) {
   follow_first_tight(mdp, order.states, tight, plan.solution.emplace());
   plan.solution->values = std::move(paths.values());
   return plan;
-}
-
-std::optional<RealSolution> plan(const Mdp& mdp, std::span<const double> weights, double tolerance) {
-  require_exact(mdp, weights.size(), "plan");
-  detail::require_weights(mdp, weights, "plan");
-  require(tolerance >= 0.0, "plan", "the tolerance must not be negative");
-  if (stranded_state(mdp)) return std::nullopt;
-  detail::LongestPaths<double> paths{mdp, detail::row_rewards(mdp, weights)};
-  if (!paths.solve_to_terminals()) return std::nullopt;
-  const auto& values = paths.values();
-  const auto tight = [&](std::size_t from, std::size_t next, std::size_t row) {
-    return is_tight(values[from], paths.reward(row) + values[next], tolerance);
-  };
-  const auto order = detail::order_tight_edges(mdp, tight);
-  if (!order.cycle.empty()) return std::nullopt;
-  RealSolution solution;
-  follow_first_tight(mdp, order.states, tight, solution);
-  solution.values = std::move(paths.values());
-  return solution;
-}
-
-bool is_optimal_choice(const Mdp& mdp, const RealSolution& solution, std::span<const double> weights, StateIndex s,
-                       std::size_t c, double tolerance) {
-  require_exact(mdp, weights.size(), "is_optimal_choice");
-  require(s.value() < mdp.num_states() && c < mdp.choices(s).size(), "is_optimal_choice", "there is no such choice");
-  const Outcome& outcome = mdp.outcomes(mdp.choices(s)[c]).front();
-  const double reward = dot(mdp.integer_features(outcome), weights);
-  return is_tight(solution.values[s.value()], reward + solution.values[outcome.next.value()], tolerance);
-}
-
-std::vector<IntegerVector> best_for_robot(const Mdp& mdp, const RealSolution& learner,
-                                          std::span<const double> learner_weights, const IntegerVector& robot_weights,
-                                          double tolerance) {
-  require_exact(mdp, learner_weights.size(), "best_for_robot");
-  require(robot_weights.size() == mdp.num_features(), "best_for_robot", "there must be one robot weight per feature");
-  const auto rewards = detail::row_rewards(mdp, learner_weights);
-  const auto tight = [&](std::size_t from, std::size_t next, std::size_t row) {
-    return is_tight(learner.values[from], rewards[row] + learner.values[next], tolerance);
-  };
-  const auto order = detail::order_tight_edges(mdp, tight);
-  require(order.cycle.empty(), "best_for_robot", "the tolerance is wider than that of the learner's solution");
-
-  std::vector<IntegerVector> counts(mdp.num_states() + mdp.num_terminals(), IntegerVector(mdp.num_features()));
-  for (const StateIndex s : order.states) {
-    std::optional<Int128> best;
-    for (const Choice& choice : mdp.choices(s)) {
-      const Outcome& outcome = mdp.outcomes(choice).front();
-      if (!tight(s.value(), outcome.next.value(), outcome.feature_row)) continue;
-      const IntegerVector mu = mdp.integer_features(outcome) + counts[outcome.next.value()];
-      const Int128 earned = dot(robot_weights, mu);
-      if (best && earned <= *best) continue;
-      best = earned;
-      counts[s.value()] = mu;
-    }
-  }
-  return counts;
 }
 
 Trajectory canonical_trajectory(const Mdp& mdp, std::span<const std::uint32_t> canonical_choice, StateIndex start) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "kith/core/error.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
 #include "small_mdps.hpp"
 
@@ -224,7 +225,7 @@ TEST_F(CoverageSetLaws, TheHullMaximumIsTheOptimalValueInside) {
       const IntegerVector w = random_inside(sets.finite_region());
       const auto exact = plan_exactly(mdp, w).solution;
       ASSERT_TRUE(exact);
-      const auto real = plan(mdp, testing::to_real(w));
+      const auto real = behave(mdp, testing::to_real(w));
       ASSERT_TRUE(real);
       for (std::size_t s = 0; s < mdp.num_states(); ++s) {
         const auto vertices = sets.vertices(StateIndex{s});

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -13,13 +12,12 @@
 namespace kith {
 namespace {
 
+using testing::diamond;
 using ::testing::ElementsAre;
 using testing::make_mdp;
+using testing::round_trip;
 
 constexpr int kNumRandom = 3000;
-
-// 0 -> {1, 2} -> terminal 3; both ways cost the same.
-Mdp diamond() { return make_mdp(3, 1, {{0, 1, 2, {0, 1}}, {0, 2, 1, {1, 0}}, {1, 0, 3, {0, 1}}, {2, 0, 3, {1, 0}}}); }
 
 TEST(PlanExactly, AddsUpAChain) {
   const Mdp chain = make_mdp(3, 1, {{0, 0, 1, {1, 0}}, {1, 0, 2, {0, 1}}, {2, 0, 3, {1, 1}}});
@@ -38,9 +36,6 @@ TEST(PlanExactly, TakesTheFirstOfEqualActionsInActionOrder) {
   EXPECT_EQ(canonical_trajectory(diamond(), plan.solution->canonical_choice, StateIndex{0}),
             (Trajectory{{StateIndex{0}, StateIndex{2}, StateIndex{3}}, {ActionIndex{1}, ActionIndex{0}}}));
 }
-
-// 0 <-> 1 -> terminal 2; the round trip has features (1, 2).
-Mdp round_trip() { return make_mdp(2, 1, {{0, 0, 1, {1, 1}}, {1, 0, 0, {0, 1}}, {1, 1, 2, {0, 1}}}); }
 
 TEST(PlanExactly, NamesAPositiveCycle) {
   const ExactPlan plan = plan_exactly(round_trip(), {3, -1});
@@ -113,11 +108,6 @@ BruteForce enumerate_policies(const Mdp& mdp, const IntegerVector& weights) {
   return result;
 }
 
-IntegerVector random_weights(RandomStream& random) {
-  return {testing::uniform_integer(-4, 2, random), testing::uniform_integer(-4, 4, random),
-          testing::uniform_integer(-6, 1, random)};
-}
-
 std::int64_t reward_of_cycle(const Mdp& mdp, const std::vector<StateIndex>& cycle, const IntegerVector& weights) {
   // The best edge between each two neighbours; a positive or zero cycle uses no worse ones.
   std::int64_t sum = 0;
@@ -140,7 +130,7 @@ TEST(PlanExactly, EqualsBruteForceOverPolicies) {
   for (int i = 0; i < kNumRandom; ++i) {
     SCOPED_TRACE(i);
     const Mdp mdp = testing::random_mdp(5, random);
-    const IntegerVector weights = random_weights(random);
+    const IntegerVector weights = testing::random_weights(random);
     const BruteForce expected = enumerate_policies(mdp, weights);
     const ExactPlan plan = plan_exactly(mdp, weights);
     ASSERT_EQ(plan.failure, expected.failure);
@@ -171,7 +161,7 @@ TEST(PlanExactly, TakesTheFirstOptimalChoiceInEveryState) {
   for (int i = 0; i < kNumRandom; ++i) {
     SCOPED_TRACE(i);
     const Mdp mdp = testing::random_mdp(6, random);
-    const IntegerVector weights = random_weights(random);
+    const IntegerVector weights = testing::random_weights(random);
     const auto solution = plan_exactly(mdp, weights).solution;
     if (!solution) continue;
     for (std::size_t s = 0; s < mdp.num_states(); ++s) {
@@ -204,99 +194,6 @@ TEST(CanonicalTrajectory, RefusesChoicesThatDoNotFinishOrDoNotExist) {
   EXPECT_THROW((void)canonical_trajectory(mdp, std::vector<std::uint32_t>{1, 1}, StateIndex{0}), std::invalid_argument);
   EXPECT_THROW((void)canonical_trajectory(mdp, std::vector<std::uint32_t>{0}, StateIndex{0}), std::invalid_argument);
   EXPECT_THROW((void)canonical_trajectory(mdp, std::vector<std::uint32_t>{0, 1}, StateIndex{3}), std::invalid_argument);
-}
-
-TEST(Plan, EqualsPlanExactlyForIntegerWeights) {
-  RandomStream random{13};
-  int num_solved = 0;
-  for (int i = 0; i < kNumRandom; ++i) {
-    SCOPED_TRACE(i);
-    const Mdp mdp = testing::random_mdp(7, random);
-    const IntegerVector weights = random_weights(random);
-    const auto exact = plan_exactly(mdp, weights).solution;
-    const auto real = plan(mdp, testing::to_real(weights));
-    ASSERT_EQ(real.has_value(), exact.has_value());
-    if (!exact) continue;
-    ++num_solved;
-    EXPECT_EQ(real->values, std::vector<double>(exact->values.begin(), exact->values.end()));
-    EXPECT_EQ(real->canonical_choice, exact->canonical_choice);
-    EXPECT_EQ(real->feature_counts, exact->feature_counts);
-  }
-  EXPECT_GT(num_solved, 50);
-}
-
-// Thirds are not representable: ties survive rounding only through the tolerance.
-TEST(Plan, SeesTheSameTiesWhateverTheLengthOfTheWeights) {
-  RandomStream random{14};
-  for (int i = 0; i < kNumRandom; ++i) {
-    SCOPED_TRACE(i);
-    const Mdp mdp = testing::random_mdp(7, random);
-    const IntegerVector weights = random_weights(random);
-    const auto exact = plan_exactly(mdp, weights).solution;
-    auto scaled = testing::to_real(weights);
-    for (double& w : scaled) w /= 3.0;
-    const auto real = plan(mdp, scaled);
-    ASSERT_EQ(real.has_value(), exact.has_value());
-    if (!exact) continue;
-    EXPECT_EQ(real->canonical_choice, exact->canonical_choice);
-    for (std::size_t s = 0; s < mdp.num_states(); ++s) {
-      for (std::size_t c = 0; c < mdp.choices(StateIndex{s}).size(); ++c) {
-        const Outcome& step = testing::outcome(mdp, StateIndex{s}, c);
-        const auto reward = static_cast<std::int64_t>(dot(weights, mdp.integer_features(step)));
-        EXPECT_EQ(is_optimal_choice(mdp, *real, scaled, StateIndex{s}, c),
-                  reward + exact->values[step.next.value()] == exact->values[s]);
-      }
-    }
-  }
-}
-
-TEST(Plan, TreatsALossBelowTheToleranceAsNone) {
-  const Mdp mdp = round_trip();
-  EXPECT_TRUE(plan(mdp, std::vector{2.0 - 1e-6, -1.0}));
-  EXPECT_FALSE(plan(mdp, std::vector{2.0 - 1e-12, -1.0}));
-  EXPECT_TRUE(plan(mdp, std::vector{2.0 - 1e-12, -1.0}, 0.0));
-}
-
-TEST(Plan, RefusesBadWeights) {
-  EXPECT_THROW((void)plan(diamond(), std::vector{-1.0}), std::invalid_argument);
-  EXPECT_THROW((void)plan(diamond(), std::vector{-1.0, std::numeric_limits<double>::quiet_NaN()}),
-               std::invalid_argument);
-  EXPECT_THROW((void)plan(diamond(), std::vector{-1.0, -1.0}, -1e-9), std::invalid_argument);
-}
-
-TEST(BestForRobot, PicksTheWayTheRobotLikesAmongTheLearnersBest) {
-  const Mdp mdp = make_mdp(1, 1, {{0, 0, 1, {1, 0}}, {0, 1, 1, {0, 1}}, {0, 2, 1, {5, 0}}});
-  const std::vector learner{-1.0, -1.0};
-  const auto solution = plan(mdp, learner);
-  ASSERT_TRUE(solution);
-  EXPECT_EQ(best_for_robot(mdp, *solution, learner, {0, 3})[0], (IntegerVector{0, 1}));
-  EXPECT_EQ(best_for_robot(mdp, *solution, learner, {9, 3})[0], (IntegerVector{1, 0}));
-  EXPECT_EQ(best_for_robot(mdp, *solution, learner, {3, 3})[0], (IntegerVector{1, 0}));
-}
-
-TEST(BestForRobot, EqualsEnumerationOfAllOptimalTrajectories) {
-  RandomStream random{15};
-  int num_choices_open = 0;
-  for (int i = 0; i < kNumRandom; ++i) {
-    SCOPED_TRACE(i);
-    const Mdp mdp = testing::random_mdp(6, random);
-    const IntegerVector learner = random_weights(random);
-    const IntegerVector robot = testing::random_vector(-9, 9, random);
-    const auto solution = plan(mdp, testing::to_real(learner));
-    if (!solution) continue;
-    const auto found = best_for_robot(mdp, *solution, testing::to_real(learner), robot);
-    for (std::size_t s = 0; s < mdp.num_states(); ++s) {
-      auto paths = testing::all_paths(mdp, s);
-      const auto by_learner = [&](const IntegerVector& mu) { return dot(learner, mu); };
-      const Int128 best = by_learner(*std::ranges::max_element(paths, {}, by_learner));
-      std::erase_if(paths, [&](const IntegerVector& mu) { return by_learner(mu) < best; });
-      const auto by_robot = [&](const IntegerVector& mu) { return dot(robot, mu); };
-      EXPECT_TRUE(by_robot(*std::ranges::max_element(paths, {}, by_robot)) == by_robot(found[s]));
-      EXPECT_THAT(paths, ::testing::Contains(found[s]));
-      num_choices_open += by_robot(*std::ranges::min_element(paths, {}, by_robot)) < by_robot(found[s]) ? 1 : 0;
-    }
-  }
-  EXPECT_GT(num_choices_open, 50);
 }
 
 }  // namespace

@@ -34,12 +34,25 @@ inline Mdp make_mdp(std::size_t num_states, std::size_t num_terminals, const std
   return std::move(builder).build();
 }
 
+/// 0 -> {1, 2} -> terminal 3; both ways have the same features in another order.
+inline Mdp diamond() {
+  return make_mdp(3, 1, {{0, 1, 2, {0, 1}}, {0, 2, 1, {1, 0}}, {1, 0, 3, {0, 1}}, {2, 0, 3, {1, 0}}});
+}
+
+/// 0 <-> 1 -> terminal 2; the round trip has features (1, 2).
+inline Mdp round_trip() { return make_mdp(2, 1, {{0, 0, 1, {1, 1}}, {1, 0, 0, {0, 1}}, {1, 1, 2, {0, 1}}}); }
+
 inline std::int64_t uniform_integer(std::int64_t low, std::int64_t high, RandomStream& random) {
   return low + static_cast<std::int64_t>(uniform_index(static_cast<std::size_t>(high - low + 1), random));
 }
 
 inline IntegerVector random_vector(std::int64_t low, std::int64_t high, RandomStream& random) {
   return {uniform_integer(low, high, random), uniform_integer(low, high, random), uniform_integer(low, high, random)};
+}
+
+/// For random_mdp(): under some of them it pays never to finish.
+inline IntegerVector random_weights(RandomStream& random) {
+  return {uniform_integer(-4, 2, random), uniform_integer(-4, 4, random), uniform_integer(-6, 1, random)};
 }
 
 /// Deterministic, three features, at most `most_states` states and three

@@ -52,36 +52,6 @@ struct ExactPlan {
 /// or if weights are so large (about 2^60 / num_states per step) that values could overflow.
 [[nodiscard]] ExactPlan plan_exactly(const Mdp& mdp, const IntegerVector& weights);
 
-/// The optimal values and actions under real weights, as a learner may hold them. Values within
-/// `tolerance` * max(1, |V|) count as equal; a cycle counts as positive if it
-/// gains more than that. Weights need not be normalised.
-struct RealSolution {
-  std::vector<double> values;                   ///< Shape [num_states + num_terminals].
-  std::vector<std::uint32_t> canonical_choice;  ///< Shape [num_states]; first optimal choice within the tolerance.
-  std::vector<IntegerVector> feature_counts;    ///< Of the canonical path, shape [num_states + num_terminals].
-};
-
-/// plan_exactly() for real weights; nothing if there is no optimal policy with
-/// a finite value, or if a cycle earns nothing within the tolerance.
-/// @throws std::invalid_argument unless the Mdp is deterministic, integral, has discount 1, weights.size() == d, the
-/// weights are finite and tolerance >= 0.
-[[nodiscard]] std::optional<RealSolution> plan(const Mdp& mdp, std::span<const double> weights,
-                                               double tolerance = 1e-9);
-
-/// Whether choice `c` of state `s` is optimal within the tolerance of plan().
-[[nodiscard]] bool is_optimal_choice(const Mdp& mdp, const RealSolution& solution, std::span<const double> weights,
-                                     StateIndex s, std::size_t c, double tolerance = 1e-9);
-
-/// For every state the feature counts of that trajectory which, among the
-/// trajectories optimal for the learner's weights, earns most under the robot's
-/// weights: the benefit of the doubt, by a second dynamic programme over the
-/// learner's optimal actions. Shape [num_states + num_terminals].
-/// @pre `learner` solves `mdp` for `learner_weights` with at least this tolerance.
-/// @throws std::invalid_argument if lengths do not fit, or the optimal actions form a cycle under this tolerance.
-[[nodiscard]] std::vector<IntegerVector> best_for_robot(const Mdp& mdp, const RealSolution& learner,
-                                                        std::span<const double> learner_weights,
-                                                        const IntegerVector& robot_weights, double tolerance = 1e-9);
-
 /// The canonical path of a solution from `start` to its terminal state.
 /// @throws std::invalid_argument unless the Mdp is deterministic and the choices exist and lead to a terminal state.
 [[nodiscard]] Trajectory canonical_trajectory(const Mdp& mdp, std::span<const std::uint32_t> canonical_choice,
