@@ -9,7 +9,7 @@
 namespace kith {
 namespace {
 
-constexpr std::size_t kMostLevels = 200;
+constexpr std::size_t kMostLevelsOfAFactor = 200;
 
 Formula formula_of(const std::string& text) {
   auto reading = parse_formula(text);
@@ -28,10 +28,10 @@ void check_factor(const Dataset& data, const Factor& factor) {
                                      factor.levels.front());
     diagnostic.hint = "leave it out of the model";
     diagnostic.infeasible = true;
-  } else if (factor.levels.size() > kMostLevels) {
+  } else if (factor.levels.size() > kMostLevelsOfAFactor) {
     diagnostic.id = "E0907";
     diagnostic.message = fmt::format("column '{}' has {} different values; a factor has at most {}", factor.name,
-                                     factor.levels.size(), kMostLevels);
+                                     factor.levels.size(), kMostLevelsOfAFactor);
     diagnostic.hint = "explain the response by columns with a few levels each";
   } else {
     return;

@@ -7,8 +7,8 @@
 namespace kith {
 namespace {
 
-constexpr std::size_t kMostCells = 60;   // more make no table that people read
-constexpr std::size_t kMostLevels = 12;  // for all pairs
+constexpr std::size_t kMostCells = 60;          // more make no table that people read
+constexpr std::size_t kMostLevelsInPairs = 12;  // every one is compared with every other
 
 using Kind = ResultKind;
 
@@ -86,7 +86,8 @@ ResultTable type_three_table(const ModelData& data) {
 
 void add_tukey(const ModelData& data, const ModelResult& result, double confidence, std::vector<ResultTable>& tables) {
   for (const auto& factor : data.factors) {
-    if (factor.levels.size() < 2 || factor.levels.size() > kMostLevels || result.table.residual_df == 0) continue;
+    if (factor.levels.size() < 2 || factor.levels.size() > kMostLevelsInPairs || result.table.residual_df == 0)
+      continue;
     std::vector<double> means;
     std::vector<std::size_t> counts;
     for (const auto& group : split_by(data.values, factor)) {

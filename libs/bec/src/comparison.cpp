@@ -11,8 +11,8 @@ constexpr double kLeastDifference = 1e-4;  // counts
 
 // The length of normals up to which cones in d dimensions are surely exact (see Cone), less a bit for d = 4.
 double longest_normal(std::size_t dimension) {
-  constexpr std::array<int, 9> kBits{0, 0, 20, 20, 19, 15, 12, 10, 8};
-  return std::ldexp(1.0, kBits[dimension]);
+  constexpr std::array<int, 9> kExactBits{0, 0, 20, 20, 19, 15, 12, 10, 8};
+  return std::ldexp(1.0, kExactBits[dimension]);
 }
 
 double length_of(const IntegerVector& v) {

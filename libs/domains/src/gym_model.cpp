@@ -15,7 +15,7 @@ using Kind = JsonTree::Kind;
 using Value = JsonTree::Value;
 
 // One entry of a list P[s][a].
-struct Outcome {
+struct GymOutcome {
   std::uint32_t state = 0;
   std::uint32_t action = 0;  // in the numbers of the file
   std::uint32_t next = 0;
@@ -138,7 +138,7 @@ class GymReader {
       return malformed(value.place(), "an outcome must be [probability, next state, reward, terminated]",
                        "for instance [0.8, 3, -1.0, false]; the reward may be a list, a number per feature");
     }
-    Outcome outcome;
+    GymOutcome outcome;
     outcome.state = s;
     outcome.action = a;
     outcome.place = value.place();
@@ -221,7 +221,7 @@ class GymReader {
     std::vector<bool> ended(num_states_, false);
     std::vector<bool> entered(num_states_, false);
     std::vector<bool> leaves(num_states_, false);
-    for (const Outcome& one : outcomes_) {
+    for (const GymOutcome& one : outcomes_) {
       if (one.terminated) ended[one.next] = true;
       if (one.next != one.state) leaves[one.state] = true;
       if (!one.terminated && one.next != one.state) entered[one.next] = true;
@@ -284,7 +284,7 @@ class GymReader {
   }
 
   void make_transitions(const Value& root) {
-    for (const Outcome& one : outcomes_) {
+    for (const GymOutcome& one : outcomes_) {
       const std::uint32_t from = alive_[one.state];
       if (from == kNone) continue;  // after the end nothing happens
       const auto action = number_of_action(one);
@@ -313,7 +313,7 @@ class GymReader {
     mark(root, "starts");
   }
 
-  std::optional<std::uint32_t> number_of_action(const Outcome& one) {
+  std::optional<std::uint32_t> number_of_action(const GymOutcome& one) {
     if (one.action < action_names_.size()) {
       return action_number(model_, action_names_[one.action], action_places_[one.action], report_);
     }
@@ -379,7 +379,7 @@ class GymReader {
   RawMdp mdp_;
   std::optional<GymRewards> rewards_;
   std::uint32_t num_states_ = 0;
-  std::vector<Outcome> outcomes_;
+  std::vector<GymOutcome> outcomes_;
   std::vector<std::uint32_t> alive_;  // per state of the file: its number as a state in which something can be done
   std::vector<std::uint32_t> end_;    // and as the end of an episode
   std::vector<std::string> action_names_;

@@ -16,7 +16,7 @@ struct Surplus {
 };
 
 // One path's surplus by what it is to the robot.
-struct Side {
+struct Difference {
   std::vector<Surplus> costs, gains;
   [[nodiscard]] bool empty() const { return costs.empty() && gains.empty(); }
 };
@@ -30,7 +30,7 @@ class Comparison {
       const auto n = robot[k] - alternative[k];
       if (n == 0) continue;
       const Surplus surplus{k, n > 0 ? n : -n, robot[k] != 0 && alternative[k] != 0};
-      Side& side = n > 0 ? taken_ : spared_;
+      Difference& side = n > 0 ? taken_ : spared_;
       (weights[k] < 0 ? side.costs : side.gains).push_back(surplus);
       has_verbs_ = has_verbs_ && !domain.wording(k).do_one.empty();
     }
@@ -73,17 +73,17 @@ class Comparison {
   }
 
   // For either form, behind "may as well": "take 2 more steps", "do without eating a crumb", "accept 2 more steps".
-  [[nodiscard]] std::string infinitive(const Side& side) const {
+  [[nodiscard]] std::string infinitive(const Difference& side) const {
     if (side.empty()) return "not";
     if (has_verbs_) return joined_verbs(side, " to ");
     return "accept " + joined_nouns(side, " for ");
   }
 
-  [[nodiscard]] std::string joined_verbs(const Side& side, const std::string& between) const {
+  [[nodiscard]] std::string joined_verbs(const Difference& side, const std::string& between) const {
     if (side.costs.empty() || side.gains.empty()) return verbs(side.costs.empty() ? side.gains : side.costs);
     return verbs(side.costs) + between + verbs(side.gains);
   }
-  [[nodiscard]] std::string joined_nouns(const Side& side, const std::string& between) const {
+  [[nodiscard]] std::string joined_nouns(const Difference& side, const std::string& between) const {
     if (side.costs.empty() || side.gains.empty()) return nouns(side.costs.empty() ? side.gains : side.costs);
     return nouns(side.costs) + between + nouns(side.gains);
   }
@@ -102,7 +102,7 @@ class Comparison {
   }
 
   const Domain& domain_;
-  Side taken_, spared_;
+  Difference taken_, spared_;
   bool has_verbs_ = true;
   bool is_tie_ = false;
 };

@@ -17,7 +17,7 @@ constexpr double kDifficultySd = 3.0;
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 // Sparse answers: per person the (item, correct) pairs.
-struct Answer {
+struct ItemAnswer {
   std::size_t item;
   bool correct;
 };
@@ -145,7 +145,7 @@ class RaschFit {
     return fit_.ability_sd * nodes_.back();
   }
 
-  std::vector<std::vector<Answer>> answers_;
+  std::vector<std::vector<ItemAnswer>> answers_;
   std::vector<double> nodes_;  // in standard deviations
   std::vector<std::vector<double>> masses_;
   AccuracyFit fit_;

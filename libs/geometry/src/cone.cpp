@@ -20,18 +20,13 @@ constexpr std::size_t kUsualFacets = 8;  // more than nearly every cone has, so 
 
 using detail::cross_of_normals;
 using detail::cross_unchecked;
+using detail::first_nonzero;
 using detail::side;
 
 IntegerVector axis(std::size_t k) {
   IntegerVector e(3);
   e[k] = 1;
   return e;
-}
-
-std::size_t first_nonzero(const IntegerVector& v) {
-  std::size_t k = 0;
-  while (v[k] == 0) ++k;
-  return k;
 }
 
 // A lune's edge is the line along +-edge. rays[i] lies inside facet i alone, so

@@ -14,7 +14,6 @@
 namespace kith {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kEstimates = 16;
 constexpr std::uint64_t kShiftSeed = 4;  // any will do
 
@@ -45,12 +44,12 @@ double factorial(std::size_t n) { return std::tgamma(static_cast<double>(n) + 1.
 double sphere_area(std::size_t dimension) {
   if (dimension == 0) throw std::invalid_argument{"sphere_area: there is no sphere in zero dimensions"};
   const double half = 0.5 * static_cast<double>(dimension);
-  return 2.0 * std::pow(kPi, half) / std::tgamma(half);
+  return 2.0 * std::pow(std::numbers::pi, half) / std::tgamma(half);
 }
 
 SolidAngle Cone::measure() const {
   if (dimension_ == 2) {
-    if (facets_.size() < 2) return {facets_.empty() ? 2.0 * kPi : kPi, 0.0};
+    if (facets_.size() < 2) return {facets_.empty() ? 2.0 * std::numbers::pi : std::numbers::pi, 0.0};
     return {angle_between(facets_[0], facets_[1]), 0.0};
   }
   if (dimension_ == 3) return {solid_angle(), 0.0};
@@ -61,13 +60,13 @@ SolidAngle Cone::measure() const {
 double ConeSampler::closed_form_share() const {
   if (rank_ == 0) return 1.0;
   if (rank_ == 1) return 0.5;
-  if (rank_ == 2) return angle_between(cone_.facets()[0], cone_.facets()[1]) / (2.0 * kPi);
+  if (rank_ == 2) return angle_between(cone_.facets()[0], cone_.facets()[1]) / (2.0 * std::numbers::pi);
   double area = 0.0;
   for (const Part& part : parts_) {
     const auto chosen = detail::chosen_columns(rays_, part.rays, 3);
     area += triangle_area(chosen.col(0), chosen.col(1), chosen.col(2), part.content);
   }
-  return area / (4.0 * kPi);
+  return area / (4.0 * std::numbers::pi);
 }
 
 // Parts are chosen half in proportion to their likely areas, half to bounds of them, so that no weight is large.

@@ -13,17 +13,16 @@
 namespace kith {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLongCosine = -0.5;  // of 120 degrees
 
-Eigen::Vector3d real(const IntegerVector& v) {
+Eigen::Vector3d in_space(const IntegerVector& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
 // The angle between the two boundary arcs. Numerator and denominator of the
 // tangent are exact integers before they are rounded, so thin lunes keep their digits.
 double lune_angle(const HalfSpace& first, const HalfSpace& second) {
-  const Eigen::Vector3d edge = real(detail::cross_of_normals(first, second));
+  const Eigen::Vector3d edge = in_space(detail::cross_of_normals(first, second));
   return std::atan2(edge.norm(), -static_cast<double>(dot(first.normal(), second.normal())));
 }
 
@@ -40,7 +39,7 @@ struct FanTriangle {
 // depend on the corners, but is absolute: only for areas that are not tiny.
 double area_by_angles(std::span<const HalfSpace> facets) {
   const std::size_t n = facets.size();
-  double excess = (2.0 - static_cast<double>(n)) * kPi;
+  double excess = (2.0 - static_cast<double>(n)) * std::numbers::pi;
   for (std::size_t i = 0; i < n; ++i) excess += lune_angle(facets[i], facets[(i + 1) % n]);
   return excess;
 }
@@ -53,9 +52,9 @@ double triple_product(std::span<const HalfSpace> facets, std::span<const Integer
 }
 
 FanTriangle fan_triangle(std::span<const HalfSpace> facets, std::span<const IntegerVector> rays, std::size_t i) {
-  const Eigen::Vector3d a = real(rays[0]);
-  const Eigen::Vector3d b = real(rays[i]);
-  const Eigen::Vector3d c = real(rays[i + 1]);
+  const Eigen::Vector3d a = in_space(rays[0]);
+  const Eigen::Vector3d b = in_space(rays[i]);
+  const Eigen::Vector3d c = in_space(rays[i + 1]);
   const double lengths = a.norm() * b.norm() * c.norm();
   FanTriangle triangle{a.normalized(), b.normalized(), c.normalized(), 0.0};
   const double numerator = triple_product(facets, rays, i) / lengths;
@@ -105,8 +104,8 @@ Eigen::Vector3d along(const Eigen::Vector3d& apex, const Eigen::Vector3d& end, d
 
 double Cone::solid_angle() const {
   if (dimension_ != 3) return measure().value;
-  if (facets_.empty()) return 4.0 * kPi;
-  if (facets_.size() == 1) return 2.0 * kPi;
+  if (facets_.empty()) return 4.0 * std::numbers::pi;
+  if (facets_.size() == 1) return 2.0 * std::numbers::pi;
   if (facets_.size() == 2) return 2.0 * lune_angle(facets_[0], facets_[1]);
   double area = 0.0;
   for (std::size_t i = 1; i + 1 < rays_.size(); ++i) {
@@ -121,15 +120,15 @@ Eigen::Vector3d Cone::equal_area_point(double u, double v) const {
   if (dimension_ != 3) throw std::invalid_argument{"Cone::equal_area_point: the cone must have three dimensions"};
   if (facets_.empty()) {
     return turned(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), 1.0 - 2.0 * v,
-                  2.0 * kPi * u);
+                  2.0 * std::numbers::pi * u);
   }
   if (facets_.size() == 1) {
     const Eigen::Vector3d& normal = facets_.front().unit_normal();
     const Eigen::Vector3d zero = normal.unitOrthogonal();
-    return turned(normal, zero, normal.cross(zero), 1.0 - v, 2.0 * kPi * u);
+    return turned(normal, zero, normal.cross(zero), 1.0 - v, 2.0 * std::numbers::pi * u);
   }
   if (facets_.size() == 2) {
-    const Eigen::Vector3d edge = real(detail::cross_of_normals(facets_[0], facets_[1])).normalized();
+    const Eigen::Vector3d edge = in_space(detail::cross_of_normals(facets_[0], facets_[1])).normalized();
     const Eigen::Vector3d& inward = facets_[0].unit_normal();
     return turned(edge, edge.cross(inward), inward, 1.0 - 2.0 * v, u * lune_angle(facets_[0], facets_[1]));
   }

@@ -13,23 +13,19 @@
 #include <utility>
 
 #include "combination.hpp"
+#include "exact.hpp"
 #include "kith/geometry/cone.hpp"
 
 namespace kith {
 namespace {
 
 using detail::combination;
+using detail::first_nonzero;
 using Word = std::uint64_t;
 
 constexpr std::size_t kBits = 64;
 
 std::size_t words_for(std::size_t facets) { return (facets + kBits - 1) / kBits; }
-
-std::size_t first_nonzero(const IntegerVector& v) {
-  std::size_t k = 0;
-  while (v[k] == 0) ++k;
-  return k;
-}
 
 // Sets of facets, one for each ray, of `words` words each.
 class FacetSets {

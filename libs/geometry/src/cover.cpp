@@ -12,7 +12,6 @@
 namespace kith {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kInverseGoldenRatio = 1.0 / std::numbers::phi;
 
 // Weiszfeld's iteration stops here, or once the centre moves by less than this (radian).
@@ -101,7 +100,7 @@ Eigen::Matrix3Xd fibonacci_cover(std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const auto t = static_cast<double>(i);
     const double z = 1.0 - (2.0 * t + 1.0) / static_cast<double>(n);
-    points.col(static_cast<Eigen::Index>(i)) = on_sphere(z, 2.0 * kPi * fraction(t * kInverseGoldenRatio));
+    points.col(static_cast<Eigen::Index>(i)) = on_sphere(z, 2.0 * std::numbers::pi * fraction(t * kInverseGoldenRatio));
   }
   return points;
 }
@@ -119,14 +118,16 @@ Eigen::Matrix3Xd fibonacci_cover(const Cone& region, std::size_t n) {
 
 Eigen::Matrix3Xd deserno_cover(std::size_t n) {
   if (n == 0) throw std::invalid_argument{"deserno_cover: a cover needs at least one point"};
-  const double cell = 4.0 * kPi / static_cast<double>(n);
-  const auto num_rings = static_cast<int>(std::max(1.0, std::round(kPi / std::sqrt(cell))));
-  const double spacing = cell / (kPi / num_rings);
+  const double cell = 4.0 * std::numbers::pi / static_cast<double>(n);
+  const auto num_rings = static_cast<int>(std::max(1.0, std::round(std::numbers::pi / std::sqrt(cell))));
+  const double spacing = cell / (std::numbers::pi / num_rings);
   std::vector<Eigen::Vector3d> points;
   for (int ring = 0; ring < num_rings; ++ring) {
-    const double polar = kPi * (ring + 0.5) / num_rings;
-    const auto in_ring = static_cast<int>(std::round(2.0 * kPi * std::sin(polar) / spacing));
-    for (int k = 0; k < in_ring; ++k) points.push_back(on_sphere(std::cos(polar), 2.0 * kPi * k / in_ring));
+    const double polar = std::numbers::pi * (ring + 0.5) / num_rings;
+    const auto in_ring = static_cast<int>(std::round(2.0 * std::numbers::pi * std::sin(polar) / spacing));
+    for (int k = 0; k < in_ring; ++k) {
+      points.push_back(on_sphere(std::cos(polar), 2.0 * std::numbers::pi * k / in_ring));
+    }
   }
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = points[i];

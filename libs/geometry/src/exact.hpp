@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "kith/geometry/half_space.hpp"
 
 namespace kith::detail {
@@ -21,6 +23,13 @@ inline IntegerVector cross_of_normals(const HalfSpace& a, const HalfSpace& b) {
 inline Int128 product(const HalfSpace& half_space, const IntegerVector& ray) {
   const IntegerVector& n = half_space.normal();
   return Int128{n[0]} * ray[0] + Int128{n[1]} * ray[1] + Int128{n[2]} * ray[2];
+}
+
+// @pre v is not zero.
+inline std::size_t first_nonzero(const IntegerVector& v) {
+  std::size_t k = 0;
+  while (v[k] == 0) ++k;
+  return k;
 }
 
 inline int side(const HalfSpace& half_space, const IntegerVector& ray) { return sign(product(half_space, ray)); }

@@ -19,7 +19,6 @@ namespace {
 using detail::CountData;
 using detail::CountDesign;
 using detail::CountFit;
-using Result = Estimable<CountModel>;
 
 // Why these data define no model whatever the coefficients are; empty if nothing is wrong.
 std::string fault_of(std::span<const double> counts, std::span<const Factor> factors) {
@@ -149,6 +148,7 @@ Estimable<TestResult> likelihood_ratio(const CountFit& full, const std::optional
 
 Estimable<CountModel> fit_count_model(std::span<const double> counts, std::span<const Factor> factors,
                                       double confidence) {
+  using Result = Estimable<CountModel>;
   require_confidence(confidence, "fit_count_model");
   std::vector<Factor> used;
   for (const auto& factor : factors) {

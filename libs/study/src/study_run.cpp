@@ -16,20 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The whole machine's ranks where there is only one.
-class Alone final : public Ranks {
- public:
-  std::uint64_t take(std::uint64_t n) override { return next_.fetch_add(n); }
-  [[nodiscard]] std::size_t rank() const override { return 0; }
-  [[nodiscard]] std::size_t size() const override { return 1; }
-  [[nodiscard]] std::string broadcast(std::string bytes) override { return bytes; }
-  [[nodiscard]] bool any(bool mine) override { return mine; }
-  void wait_for_all() override {}
-
- private:
-  std::atomic<std::uint64_t> next_{0};
-};
-
 constexpr std::uint64_t kNoMoreWork = std::uint64_t{1} << 40;  // taken by whoever stops, so that nobody gets more
 
 fs::path rank_journal(const fs::path& folder, std::size_t rank) {
@@ -82,6 +68,20 @@ std::string message_of(const std::exception_ptr& failure) {
 }  // namespace
 
 struct StudyRun::State {
+  // The whole machine's ranks where there is only one.
+  class Alone final : public Ranks {
+   public:
+    std::uint64_t take(std::uint64_t n) override { return next_.fetch_add(n); }
+    [[nodiscard]] std::size_t rank() const override { return 0; }
+    [[nodiscard]] std::size_t size() const override { return 1; }
+    [[nodiscard]] std::string broadcast(std::string bytes) override { return bytes; }
+    [[nodiscard]] bool any(bool mine) override { return mine; }
+    void wait_for_all() override {}
+
+   private:
+    std::atomic<std::uint64_t> next_{0};
+  };
+
   State(fs::path where, StudyReading what, StudyRunOptions how)
       : path{std::move(where)}, reading{std::move(what)}, options{std::move(how)} {
     ranks = options.ranks == nullptr ? &alone : options.ranks;

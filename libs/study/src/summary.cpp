@@ -4,10 +4,10 @@
 #include <vector>
 
 namespace kith {
-namespace {
+namespace detail {
 
 // The values of the teams of one cell, gathered before anything is computed.
-struct Gathered {
+struct GatheredTeams {
   CellSummary cell;
   std::vector<double> periods, knowledge, area_sr;
 
@@ -24,10 +24,15 @@ struct Gathered {
   }
 };
 
-using Cells = std::vector<const Gathered*>;
+}  // namespace detail
+
+namespace {
+
+using detail::GatheredTeams;
+using Cells = std::vector<const GatheredTeams*>;
 
 // Two passes: no cancellation. The values are those of the cells, one cell after the other.
-MeanSd mean_sd(const Cells& cells, std::size_t n, std::vector<double> Gathered::*values) {
+MeanSd mean_sd(const Cells& cells, std::size_t n, std::vector<double> GatheredTeams::*values) {
   double sum = 0.0;
   for (const auto* cell : cells) {
     for (const double value : cell->*values) sum += value;
@@ -50,16 +55,16 @@ std::optional<CellSummary> pooled(const Cells& cells) {
     summary.completed += cell->cell.completed;
   }
   if (summary.teams == 0) return std::nullopt;
-  summary.periods = mean_sd(cells, summary.teams, &Gathered::periods);
-  summary.knowledge = mean_sd(cells, summary.teams, &Gathered::knowledge);
-  summary.area_sr = mean_sd(cells, summary.teams, &Gathered::area_sr);
+  summary.periods = mean_sd(cells, summary.teams, &GatheredTeams::periods);
+  summary.knowledge = mean_sd(cells, summary.teams, &GatheredTeams::knowledge);
+  summary.area_sr = mean_sd(cells, summary.teams, &GatheredTeams::area_sr);
   return summary;
 }
 
 }  // namespace
 
 struct StudySummarizer::State {
-  std::vector<Gathered> cells;
+  std::vector<GatheredTeams> cells;
 };
 
 StudySummarizer::StudySummarizer() : state_{std::make_unique<State>()} {}

@@ -9,7 +9,7 @@
 namespace kith {
 namespace {
 
-std::string in_quotes(std::string_view text) {
+std::string as_string(std::string_view text) {
   static constexpr char kHex[] = "0123456789ABCDEF";
   std::string out = "\"";
   for (const char c : text) {
@@ -36,7 +36,7 @@ std::string written_key(const std::string& key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
-  return bare ? key : in_quotes(key);
+  return bare ? key : as_string(key);
 }
 
 std::string written_real(double value) {
@@ -57,7 +57,7 @@ struct InlineWriter {
   void operator()(bool value) const { out += value ? "true" : "false"; }
   void operator()(std::int64_t value) const { out += std::to_string(value); }
   void operator()(double value) const { out += written_real(value); }
-  void operator()(const std::string& value) const { out += in_quotes(value); }
+  void operator()(const std::string& value) const { out += as_string(value); }
   void operator()(const TomlDateTime& value) const { out += value.text; }
   void operator()(const TomlArray& array) const {
     out += '[';
