@@ -147,7 +147,7 @@ TEST(AnalyzeTable, RefusesWhatItCannotAnalyse) {
 
 // A run folder written by hand: two group strategies and the baseline, two compositions, four replicates. The
 // strategy "joint" saves exactly one period for every group of people; knowledge does not depend on it.
-class RunTest : public testing::Test {
+class RunTest : public ::testing::Test {
  protected:
   RunTest() {
     fs::remove_all(folder_);
@@ -181,8 +181,8 @@ class RunTest : public testing::Test {
   }
   [[nodiscard]] Analysis analyse() const { return analyze_run(folder_, quick()); }
 
-  fs::path folder_ = fs::path{testing::TempDir()} /
-                     ("kith analysis " + std::string{testing::UnitTest::GetInstance()->current_test_info()->name()});
+  fs::path folder_ = fs::path{::testing::TempDir()} /
+                     ("kith analysis " + std::string{::testing::UnitTest::GetInstance()->current_test_info()->name()});
 };
 
 TEST_F(RunTest, AnswersTheQuestionsOfTheStudy) {

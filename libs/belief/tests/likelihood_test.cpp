@@ -15,8 +15,6 @@
 namespace kith {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(HalfSpaceLikelihood, HasThePublishedConcentrations) {
   const std::vector<std::tuple<double, double>> table{{0.7, 0.847298},   {0.703, 0.861625}, {0.8, 1.386294},
                                                       {0.809, 1.443525}, {0.9, 2.197225},   {0.95, 2.944439}};
@@ -65,7 +63,7 @@ class LikelihoodLaws : public ::testing::TestWithParam<std::tuple<double, Likeli
     const double step = (to - from) / n;
     double sum = likelihood_.density(from) + likelihood_.density(to);
     for (int i = 1; i < n; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * likelihood_.density(from + i * step);
-    return 2.0 * kPi * sum * step / 3.0;
+    return 2.0 * std::numbers::pi * sum * step / 3.0;
   }
 };
 
@@ -95,7 +93,9 @@ INSTANTIATE_TEST_SUITE_P(Abilities, LikelihoodLaws,
 TEST(HalfSpaceLikelihood, IsConstantAtAbilityOneHalf) {
   for (const auto form : {LikelihoodForm::kDiscontinuous, LikelihoodForm::kContinuous}) {
     const HalfSpaceLikelihood likelihood{0.5, form};
-    for (const double t : {-1.0, -0.1, 0.0, 1.0}) EXPECT_DOUBLE_EQ(likelihood.density(t), 1.0 / (4.0 * kPi));
+    for (const double t : {-1.0, -0.1, 0.0, 1.0}) {
+      EXPECT_DOUBLE_EQ(likelihood.density(t), 1.0 / (4.0 * std::numbers::pi));
+    }
     EXPECT_EQ(likelihood.log_relative(-1.0), 0.0);
   }
 }
@@ -106,7 +106,7 @@ TEST(HalfSpaceLikelihood, IsAHardCutAtAbilityOne) {
     EXPECT_TRUE(likelihood.is_hard());
     EXPECT_EQ(likelihood.density(-1e-9), 0.0);
     EXPECT_EQ(likelihood.log_relative(-0.5), -std::numeric_limits<double>::infinity());
-    EXPECT_DOUBLE_EQ(likelihood.density(0.0), 1.0 / (2.0 * kPi));
+    EXPECT_DOUBLE_EQ(likelihood.density(0.0), 1.0 / (2.0 * std::numbers::pi));
     EXPECT_EQ(likelihood.log_relative(0.0), 0.0);
   }
 }

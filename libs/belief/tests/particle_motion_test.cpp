@@ -13,13 +13,11 @@
 namespace kith {
 namespace {
 
+using kith::testing::kWeighOnly;
 using kith::testing::lower_hemisphere;
 using kith::testing::random_half_space;
 using kith::testing::random_list;
-
-constexpr FilterOptions kWeighOnly{.particles = 1000, .process_noise = 0.0, .resample_below = 0.0};
-
-double total(std::span<const double> weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
+using kith::testing::total;
 
 TEST(ParticleMotion, ResamplesExactlyBelowTheThreshold) {
   RandomStream random{16};

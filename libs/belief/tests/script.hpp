@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <vector>
 
+#include "kith/belief/particle_belief.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/random/distributions.hpp"
 
@@ -27,5 +30,10 @@ inline std::vector<HalfSpace> random_list(std::size_t n, RandomStream& random, s
 
 /// The prior of the studies: the step weight is negative.
 inline Cone lower_hemisphere() { return Cone{}.clipped(HalfSpace{{0, 0, -1}}).value(); }
+
+/// Beliefs that never resample.
+inline constexpr FilterOptions kWeighOnly{.particles = 1000, .process_noise = 0.0, .resample_below = 0.0};
+
+inline double total(std::span<const double> weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
 
 }  // namespace kith::testing

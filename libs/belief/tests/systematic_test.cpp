@@ -10,11 +10,12 @@
 
 #include "kith/belief/particle_belief.hpp"
 #include "kith/random/distributions.hpp"
+#include "script.hpp"
 
 namespace kith {
 namespace {
 
-double total(std::span<const double> weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
+using kith::testing::total;
 
 TEST(SystematicCounts, AreWithinOneOfTheExpectation) {
   RandomStream random{1};

@@ -48,7 +48,7 @@ struct Case {
 
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
-std::string edited(const Case& c) {
+std::string edited_text(const Case& c) {
   std::string text = kSound;
   for (const auto& [from, to] : c.edits) {
     const auto at = text.find(from);
@@ -248,7 +248,7 @@ class DomainError : public ::testing::TestWithParam<Case> {};
 
 TEST_P(DomainError, IsReportedAtItsPlaceWithAHint) {
   const Case& c = GetParam();
-  const DomainReading reading = parse_domain(edited(c), "tiny.toml");
+  const DomainReading reading = parse_domain(edited_text(c), "tiny.toml");
   std::string all;
   for (const Diagnostic& d : reading.diagnostics) all += to_text(d);
   EXPECT_EQ(places_of(reading.diagnostics), c.expected) << all;
@@ -314,7 +314,7 @@ TEST(DomainErrors, SayWhatIsWrongInWords) {
   for (const Case& c : cases()) {
     const auto expected = kMessages.find(c.name);
     if (expected == kMessages.end()) continue;
-    EXPECT_EQ(parse_domain(edited(c), "tiny.toml").diagnostics.at(0).message, expected->second) << c.name;
+    EXPECT_EQ(parse_domain(edited_text(c), "tiny.toml").diagnostics.at(0).message, expected->second) << c.name;
     ++num_seen;
   }
   EXPECT_EQ(num_seen, kMessages.size());
@@ -354,13 +354,13 @@ TEST(DomainErrors, WarnThatASingleFeatureTeachesNothing) {
 }
 
 TEST(DomainErrors, NameTheClashOfPriorAndWeights) {
-  const std::string text = edited({"", {{"[reward]", "[prior]\nhalfspaces = [ { step = 1 } ]\n[reward]"}}, ""});
+  const std::string text = edited_text({"", {{"[reward]", "[prior]\nhalfspaces = [ { step = 1 } ]\n[reward]"}}, ""});
   EXPECT_EQ(parse_domain(text, "t").diagnostics.at(0).message,
             "the prior { step = 1 } contradicts the weights: (0,1) . (-2,-1) is negative");
 }
 
 TEST(DomainErrors, NameACycleInWords) {
-  const std::string text = edited({"", {{"step = -1", "step = 1"}}, ""});
+  const std::string text = edited_text({"", {{"step = -1", "step = 1"}}, ""});
   const std::string message = parse_domain(text, "tiny.toml").diagnostics.at(0).message;
   EXPECT_TRUE(message.find("(1,1) right (2,1) left (1,1)") != std::string::npos ||
               message.find("(2,1) left (1,1) right (2,1)") != std::string::npos ||
@@ -394,7 +394,7 @@ TEST(DomainErrors, RefuseAPriorWithoutRoom) {
 std::string too_many_states() {
   std::string rows = "\"Sk" + std::string(497, '.') + "G\"";
   for (int i = 1; i < 400; ++i) rows += ",\n\"" + std::string(500, '.') + '"';
-  return edited({"", {{"\"S.rG\"", rows}, {"\"#\" = \"wall\"", "\"k\" = { item = \"key\" }"}}, ""});
+  return edited_text({"", {{"\"S.rG\"", rows}, {"\"#\" = \"wall\"", "\"k\" = { item = \"key\" }"}}, ""});
 }
 
 TEST(DomainErrors, RefuseMoreStatesThanCanBeBuilt) {
@@ -403,12 +403,12 @@ TEST(DomainErrors, RefuseMoreStatesThanCanBeBuilt) {
 }
 
 TEST(DomainErrors, AreAllReportedAtOnce) {
-  const std::string text = edited({"",
-                                   {{"S.rG", "S.?G"},
-                                    {"discount = 1.0", "discount = 2.0"},
-                                    {"step = -1 }", "stop = -1 }"},
-                                    {"\"action\"", "\"actoin\""}},
-                                   ""});
+  const std::string text = edited_text({"",
+                                        {{"S.rG", "S.?G"},
+                                         {"discount = 1.0", "discount = 2.0"},
+                                         {"step = -1 }", "stop = -1 }"},
+                                         {"\"action\"", "\"actoin\""}},
+                                        ""});
   EXPECT_EQ(places_of(parse_domain(text, "t").diagnostics),
             "E0110 4:12, E0203 6:12, W0201 10:1, E0216 18:9, E0311 20:11, E0312 20:26");
 }
@@ -436,7 +436,7 @@ TEST(LoadDomain, ReadsAFileAndThrowsItsErrors) {
       folder / ("kith_domain_test_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + ".toml");
   std::ofstream{path} << kSound;
   EXPECT_EQ(load_domain(path.string()).id(), "tiny");
-  std::ofstream{path} << edited({"", {{"S.rG", "S#rG"}}, ""});
+  std::ofstream{path} << edited_text({"", {{"S.rG", "S#rG"}}, ""});
   try {
     (void)load_domain(path.string());
     FAIL() << "the goal is behind a wall";
@@ -454,7 +454,7 @@ TEST(DomainErrorIds, AreAllTriggeredHere) {
   const auto trigger = [&](const std::string& text) {
     for (const Diagnostic& d : parse_domain(text, "t").diagnostics) triggered.insert(d.id);
   };
-  for (const Case& c : cases()) trigger(edited(c));
+  for (const Case& c : cases()) trigger(edited_text(c));
   for (const std::string& text : {std::string{kSkateboard}, flat_prior(), std::string{kSingle}}) trigger(text);
   triggered.insert("E0116");  // load_domain, above
   for (const std::string& id : kith::testing::error_ids_in("domains")) {

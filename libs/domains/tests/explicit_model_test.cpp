@@ -19,8 +19,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr MdpIndex kFirst{0};
-
 // Everything that planning sees, as text, actions and features by name.
 std::string content_of(const Domain& domain, MdpIndex m = kFirst) {
   const Mdp& mdp = domain.mdp(m);

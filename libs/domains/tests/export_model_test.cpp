@@ -22,8 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-constexpr MdpIndex kFirst{0};
-
 class Exports : public ::testing::Test {
  protected:
   Exports() { fs::create_directories(folder_); }

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Case {
+struct ModelCase {
   std::string name;
   const ModelTexts* base;
   std::string file;
@@ -28,7 +28,7 @@ const std::string kNine =
     "[[feature]]\nname = \"a\"\n[[feature]]\nname = \"b\"\n[[feature]]\nname = \"c\"\n[[feature]]\nname = \"d\"\n"
     "[[feature]]\nname = \"e\"\n[[feature]]\nname = \"f\"\n[[feature]]\nname = \"g\"\n[reward]";
 
-std::vector<Case> cases() {
+std::vector<ModelCase> model_cases() {
   const auto* csv = &kIceCsv;
   const auto* json = &kIceJson;
   const auto* prism = &kIcePrism;
@@ -166,10 +166,10 @@ std::string place_of(const Diagnostic& d) {
   return d.id + " " + d.file + " " + std::to_string(d.line) + ":" + std::to_string(d.column);
 }
 
-class ModelError : public ::testing::TestWithParam<Case> {};
+class ModelError : public ::testing::TestWithParam<ModelCase> {};
 
 TEST_P(ModelError, IsReportedAtItsPlaceWithAHint) {
-  const Case& c = GetParam();
+  const ModelCase& c = GetParam();
   const DomainReading reading = read_model_texts(edited(*c.base, c.file, c.from, c.to));
   std::string all;
   for (const Diagnostic& d : reading.diagnostics) all += to_text(d);
@@ -183,7 +183,8 @@ TEST_P(ModelError, IsReportedAtItsPlaceWithAHint) {
   EXPECT_TRUE(first.id < "E0232" || first.id[0] != 'E' || first.id >= "E0300" || !first.hint.empty()) << all;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ModelError, ::testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, ModelError, ::testing::ValuesIn(model_cases()),
+                         [](const auto& c) { return c.param.name; });
 
 TEST(ModelErrors, AreNoneInSoundModels) {
   for (const auto* texts : {&kIceCsv, &kIceJson, &kIcePrism, &kIceGym}) {
@@ -244,7 +245,7 @@ bool is_of_models(const std::string& id) {
 TEST(ModelErrorIds, AreAllTriggeredHere) {
   std::set<std::string> triggered{"E0239", "E0242", "E0257",
                                   "E0259", "E0260", "W0204"};  // above, and explicit_model_test
-  for (const Case& c : cases()) {
+  for (const ModelCase& c : model_cases()) {
     for (const Diagnostic& d : read_model_texts(edited(*c.base, c.file, c.from, c.to)).diagnostics)
       triggered.insert(d.id);
   }

@@ -9,6 +9,8 @@
 
 namespace kith {
 
+inline constexpr MdpIndex kFirst{0};
+
 /// Files by name; "domain.toml" is the domain file, the others are those that it names.
 using ModelTexts = std::map<std::string, std::string>;
 

@@ -10,24 +10,20 @@
 namespace kith {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using testing::half_spaces_with;
+using testing::worst_margin;
 
-std::vector<HalfSpace> half_spaces(std::initializer_list<IntegerVector> normals) {
-  std::vector<HalfSpace> result;
-  for (const IntegerVector& normal : normals) result.emplace_back(normal);
-  return result;
-}
-
-double area_of(std::initializer_list<IntegerVector> normals) { return solid_angle(half_spaces(normals)); }
+double area_of(std::initializer_list<IntegerVector> normals) { return solid_angle(half_spaces_with(normals)); }
 
 TEST(SolidAngle, IsKnownForSphereHemisphereLuneAndOctant) {
-  EXPECT_DOUBLE_EQ(area_of({}), 4.0 * kPi);
-  EXPECT_DOUBLE_EQ(area_of({{3, -1, 2}}), 2.0 * kPi);
-  EXPECT_DOUBLE_EQ(area_of({{1, 0, 0}, {0, 1, 0}}), kPi);
-  EXPECT_DOUBLE_EQ(area_of({{1, 0, 0}, {-1, 1, 0}}), kPi / 2.0);
-  EXPECT_DOUBLE_EQ(area_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), kPi / 2.0);
-  EXPECT_DOUBLE_EQ(area_of({{1, -1, 0}, {0, 1, -1}, {0, 0, 1}}), kPi / 12.0);                  // x >= y >= z >= 0
-  EXPECT_DOUBLE_EQ(area_of({{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}}), 2.0 * kPi / 3.0);  // a face of a cube
+  EXPECT_DOUBLE_EQ(area_of({}), 4.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(area_of({{3, -1, 2}}), 2.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(area_of({{1, 0, 0}, {0, 1, 0}}), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(area_of({{1, 0, 0}, {-1, 1, 0}}), std::numbers::pi / 2.0);
+  EXPECT_DOUBLE_EQ(area_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), std::numbers::pi / 2.0);
+  EXPECT_DOUBLE_EQ(area_of({{1, -1, 0}, {0, 1, -1}, {0, 0, 1}}), std::numbers::pi / 12.0);  // x >= y >= z >= 0
+  EXPECT_DOUBLE_EQ(area_of({{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}}),
+                   2.0 * std::numbers::pi / 3.0);  // a face of a cube
   EXPECT_EQ(area_of({{1, 0, 0}, {-1, 0, 0}}), 0.0);
 }
 
@@ -76,19 +72,12 @@ TEST(SolidAngle, StaysWithinTheSphereAndFallsWhenClipping) {
   RandomStream random{2};
   for (const Cone& cone : testing::random_cones(2000, 6, random)) {
     ASSERT_GT(cone.solid_angle(), 0.0);
-    ASSERT_LE(cone.solid_angle(), 4.0 * kPi);
+    ASSERT_LE(cone.solid_angle(), 4.0 * std::numbers::pi);
     const auto clipped = cone.clipped(HalfSpace{testing::random_vector(6, random)});
     if (clipped) {
       ASSERT_LE(clipped->solid_angle(), cone.solid_angle());
     }
   }
-}
-
-// How far the worst violated half-space is from containing w.
-double worst_margin(const Cone& cone, const Eigen::Vector3d& w) {
-  double worst = 1.0;
-  for (const HalfSpace& facet : cone.facets()) worst = std::min(worst, facet.margin(w));
-  return worst;
 }
 
 // Counts draws of `cone` on either side of random cuts; the share of each side
@@ -137,18 +126,18 @@ TEST(ConeSample, IsUniformOnTinyAndThinCones) {
   RandomStream random{4};
   const std::int64_t m = 30000;
   for (const auto& system :
-       {half_spaces({{-9, 1, 1}, {5, 2, -2}, {6, -4, 1}, {8, 1, -2}}),
-        half_spaces({{1, 0, 0}, {0, 1, 0}, {-m, -m, 1}}),                // 1 / m wide and long
-        half_spaces({{1, 0, 0}, {-m, 1, 0}, {0, 1, 5}, {0, 1, -5}}),     // 1 / m wide, not short
-        half_spaces({{1, 0, 0}, {-m, 1, 0}}),                            // a thin lune
-        half_spaces({{1, m, 0}, {-1, m, 0}, {0, 1, 1}, {0, 1, -1}})}) {  // nearly a hemisphere wide
+       {half_spaces_with({{-9, 1, 1}, {5, 2, -2}, {6, -4, 1}, {8, 1, -2}}),
+        half_spaces_with({{1, 0, 0}, {0, 1, 0}, {-m, -m, 1}}),                // 1 / m wide and long
+        half_spaces_with({{1, 0, 0}, {-m, 1, 0}, {0, 1, 5}, {0, 1, -5}}),     // 1 / m wide, not short
+        half_spaces_with({{1, 0, 0}, {-m, 1, 0}}),                            // a thin lune
+        half_spaces_with({{1, m, 0}, {-1, m, 0}, {0, 1, 1}, {0, 1, -1}})}) {  // nearly a hemisphere wide
     const Cone cone = Cone::intersection(system).value();
     expect_uniform(cone, cuts_through(cone, 6, random), 7);
   }
 }
 
 TEST(ConeSample, DependsOnTheStreamAlone) {
-  const Cone cone = Cone::intersection(half_spaces({{-1, 0, 2}, {0, -1, -4}, {1, 1, 0}})).value();
+  const Cone cone = Cone::intersection(half_spaces_with({{-1, 0, 2}, {0, -1, -4}, {1, 1, 0}})).value();
   RandomStream a{5}, b{5};
   for (int i = 0; i < 10; ++i) ASSERT_EQ(cone.sample(a), cone.sample(b));
   for (int i = 0; i < 4; ++i) b();

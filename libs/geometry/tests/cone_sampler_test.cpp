@@ -18,7 +18,7 @@
 namespace kith {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using testing::worst_margin;
 
 IntegerVector axis(std::size_t d, std::size_t k) {
   IntegerVector v(d);
@@ -57,15 +57,15 @@ void expect_area(const SolidAngle& found, double expected, const std::string& wh
 }
 
 TEST(SphereArea, IsKnown) {
-  EXPECT_DOUBLE_EQ(sphere_area(2), 2.0 * kPi);
-  EXPECT_DOUBLE_EQ(sphere_area(3), 4.0 * kPi);
-  EXPECT_DOUBLE_EQ(sphere_area(4), 2.0 * kPi * kPi);
-  EXPECT_DOUBLE_EQ(sphere_area(8), std::pow(kPi, 4.0) / 3.0);
+  EXPECT_DOUBLE_EQ(sphere_area(2), 2.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(sphere_area(3), 4.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(sphere_area(4), 2.0 * std::numbers::pi * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(sphere_area(8), std::pow(std::numbers::pi, 4.0) / 3.0);
   EXPECT_THROW((void)sphere_area(0), std::invalid_argument);
 }
 
 TEST(SolidAngleInDimensions, IsTheAngleOfAnArcInTwo) {
-  EXPECT_DOUBLE_EQ(Cone{2}.solid_angle(), 2.0 * kPi);
+  EXPECT_DOUBLE_EQ(Cone{2}.solid_angle(), 2.0 * std::numbers::pi);
   EXPECT_DOUBLE_EQ(share_of(2, std::vector{HalfSpace{{3, -1}}}), 0.5);
   EXPECT_DOUBLE_EQ(share_of(2, std::vector{HalfSpace{{1, 0}}, HalfSpace{{-1, 1}}}), 1.0 / 8.0);
   EXPECT_DOUBLE_EQ(share_of(2, std::vector{HalfSpace{{1, 0}}, HalfSpace{{1, 1}}}), 3.0 / 8.0);
@@ -236,12 +236,6 @@ TEST(SolidAngleInDimensions, HasTheSameBitsForEqualCones) {
       ASSERT_EQ(ConeSampler{cone}.cover(50), ConeSampler{other}.cover(50));
     }
   }
-}
-
-double worst_margin(const Cone& cone, const Direction& w) {
-  double worst = 1.0;
-  for (const HalfSpace& facet : cone.facets()) worst = std::min(worst, facet.margin(w));
-  return worst;
 }
 
 // Half-spaces through the interior, with the share of the area that they leave.

@@ -11,16 +11,11 @@ namespace kith {
 namespace {
 
 using ::testing::ElementsAre;
+using testing::half_spaces_with;
 using ::testing::IsEmpty;
 
-std::vector<HalfSpace> half_spaces(std::initializer_list<IntegerVector> normals) {
-  std::vector<HalfSpace> result;
-  for (const IntegerVector& normal : normals) result.emplace_back(normal);
-  return result;
-}
-
 std::optional<Cone> cone_of(std::initializer_list<IntegerVector> normals) {
-  return Cone::intersection(half_spaces(normals));
+  return Cone::intersection(half_spaces_with(normals));
 }
 
 std::size_t num_facets(std::initializer_list<IntegerVector> normals) {
@@ -56,12 +51,12 @@ TEST(Cone, HasNoInteriorWhereOnlyARayOrAPlaneIsLeft) {
 }
 
 TEST(Cone, ReducesARedundantThirdHalfSpaceToALune) {
-  EXPECT_EQ(cone_of({{-1, 0, 0}, {0, 1, 0}, {-1, 1, 0}})->minimal_set(), half_spaces({{-1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(cone_of({{-1, 0, 0}, {0, 1, 0}, {-1, 1, 0}})->minimal_set(), half_spaces_with({{-1, 0, 0}, {0, 1, 0}}));
 }
 
 TEST(Cone, ReplacesASideOfALuneByACoplanarHalfSpace) {
-  EXPECT_EQ(cone_of({{1, 0, 0}, {0, 1, 0}, {-1, 1, 0}})->minimal_set(), half_spaces({{-1, 1, 0}, {1, 0, 0}}));
-  EXPECT_EQ(cone_of({{1, 0, 0}, {0, 1, 0}, {1, -1, 0}})->minimal_set(), half_spaces({{0, 1, 0}, {1, -1, 0}}));
+  EXPECT_EQ(cone_of({{1, 0, 0}, {0, 1, 0}, {-1, 1, 0}})->minimal_set(), half_spaces_with({{-1, 1, 0}, {1, 0, 0}}));
+  EXPECT_EQ(cone_of({{1, 0, 0}, {0, 1, 0}, {1, -1, 0}})->minimal_set(), half_spaces_with({{0, 1, 0}, {1, -1, 0}}));
 }
 
 TEST(Cone, DropsAHalfSpaceThatTouchesARayOnly) {
@@ -71,7 +66,7 @@ TEST(Cone, DropsAHalfSpaceThatTouchesARayOnly) {
 
 TEST(Cone, CutsThroughARayIntoTheFacetsLeft) {
   EXPECT_EQ(cone_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}})->minimal_set(),
-            half_spaces({{0, 0, 1}, {0, 1, 0}, {1, -1, 0}}));
+            half_spaces_with({{0, 0, 1}, {0, 1, 0}, {1, -1, 0}}));
   EXPECT_EQ(num_facets({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, -1}}), 4u);
 }
 
@@ -118,12 +113,12 @@ TEST(Cone, GeneratesTheOctantByItsAxes) {
 
 TEST(IrreducibleConflict, IsEmptyWhereThereIsInterior) {
   EXPECT_THAT(irreducible_conflict({}), IsEmpty());
-  EXPECT_THAT(irreducible_conflict(half_spaces({{1, 0, 0}, {0, 1, 0}})), IsEmpty());
+  EXPECT_THAT(irreducible_conflict(half_spaces_with({{1, 0, 0}, {0, 1, 0}})), IsEmpty());
 }
 
 TEST(IrreducibleConflict, NamesTheOppositePairAmongOthersInTheGivenOrder) {
-  const auto all = half_spaces({{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {-3, 0, 0}, {1, 1, 1}});
-  EXPECT_EQ(irreducible_conflict(all), half_spaces({{1, 0, 0}, {-1, 0, 0}}));
+  const auto all = half_spaces_with({{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {-3, 0, 0}, {1, 1, 1}});
+  EXPECT_EQ(irreducible_conflict(all), half_spaces_with({{1, 0, 0}, {-1, 0, 0}}));
 }
 
 TEST(IrreducibleConflict, NeedsEveryOneOfItsMembersAndAtMostFour) {

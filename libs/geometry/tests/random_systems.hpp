@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "kith/geometry/cone.hpp"
 #include "kith/random/distributions.hpp"
 
 namespace kith::testing {
+
+inline std::vector<HalfSpace> half_spaces_with(std::initializer_list<IntegerVector> normals) {
+  std::vector<HalfSpace> result;
+  for (const IntegerVector& normal : normals) result.emplace_back(normal);
+  return result;
+}
 
 /// An integer in [-largest, largest].
 inline std::int64_t random_integer(std::int64_t largest, RandomStream& random) {
@@ -57,6 +64,13 @@ inline std::vector<Cone> random_cones(std::size_t count, std::int64_t largest, R
     if (cone) cones.push_back(*cone);
   }
   return cones;
+}
+
+/// How far the worst violated half-space is from containing w.
+inline double worst_margin(const Cone& cone, const Direction& w) {
+  double worst = 1.0;
+  for (const HalfSpace& facet : cone.facets()) worst = std::min(worst, facet.margin(w));
+  return worst;
 }
 
 }  // namespace kith::testing

@@ -14,10 +14,9 @@
 namespace kith {
 namespace {
 
+using testing::kNumRandom;
 using testing::make_mdp;
 using testing::random_weights;
-
-constexpr int kNumRandom = 3000;
 
 TEST(BehaveExactly, EqualsPlanExactlyForIntegerWeights) {
   RandomStream random{13};

@@ -14,10 +14,9 @@ namespace {
 
 using testing::diamond;
 using ::testing::ElementsAre;
+using testing::kNumRandom;
 using testing::make_mdp;
 using testing::round_trip;
-
-constexpr int kNumRandom = 3000;
 
 TEST(PlanExactly, AddsUpAChain) {
   const Mdp chain = make_mdp(3, 1, {{0, 0, 1, {1, 0}}, {1, 0, 2, {0, 1}}, {2, 0, 3, {1, 1}}});

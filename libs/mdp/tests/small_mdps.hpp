@@ -50,6 +50,9 @@ inline IntegerVector random_vector(std::int64_t low, std::int64_t high, RandomSt
   return {uniform_integer(low, high, random), uniform_integer(low, high, random), uniform_integer(low, high, random)};
 }
 
+/// How many of random_mdp() a law is tried on.
+inline constexpr int kNumRandom = 3000;
+
 /// For random_mdp(): under some of them it pays never to finish.
 inline IntegerVector random_weights(RandomStream& random) {
   return {uniform_integer(-4, 2, random), uniform_integer(-4, 4, random), uniform_integer(-6, 1, random)};

@@ -12,10 +12,9 @@
 namespace kith {
 namespace {
 
+using testing::kRounding;
 using testing::read_factors;
 using testing::relative_error;
-
-constexpr double kTolerance = 1e-10;
 
 double largest_size(const std::vector<double>& values) {
   double largest = 0.0;
@@ -37,10 +36,10 @@ TEST(AlignedRanks, AgreeWithTheDefinitionInR) {
       const auto& expected = one.at("terms")[t];
       EXPECT_EQ(term.name, expected.at("name"));
       EXPECT_EQ(term.df, expected.at("df"));
-      EXPECT_LE(relative_error(term.sum_of_squares, expected.at("sum_of_squares")), kTolerance);
+      EXPECT_LE(relative_error(term.sum_of_squares, expected.at("sum_of_squares")), kRounding);
       ASSERT_TRUE(term.test) << term.test.reason();
-      EXPECT_LE(relative_error(term.test->statistic, expected.at("f")), kTolerance);
-      EXPECT_LE(relative_error(term.test->p, expected.at("p")), kTolerance);
+      EXPECT_LE(relative_error(term.test->statistic, expected.at("f")), kRounding);
+      EXPECT_LE(relative_error(term.test->p, expected.at("p")), kRounding);
     }
   }
 }

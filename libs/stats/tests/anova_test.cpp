@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "common.hpp"
 #include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {
 
+using testing::kCrossed;
 using Terms = std::vector<std::vector<std::size_t>>;
-const Terms kCrossed{{0}, {1}, {0, 1}};
 
 Factor factor_with(std::string name, std::size_t num_levels, std::vector<std::size_t> codes) {
   Factor factor{std::move(name), {}, std::move(codes)};
@@ -205,7 +206,7 @@ TEST(Anova, SaysWhyNothingCanBeEstimated) {
 
   const auto single = make_design(
       3, 4, [](auto, auto) { return 1u; }, 10);
-  EXPECT_THAT(reason_of_first(single), testing::HasSubstr("no residual degrees of freedom"));
+  EXPECT_THAT(reason_of_first(single), ::testing::HasSubstr("no residual degrees of freedom"));
   EXPECT_EQ(reason_of_first(single, {{0}, {1}}), "");
 
   const auto one_level = make_design(
@@ -214,7 +215,7 @@ TEST(Anova, SaysWhyNothingCanBeEstimated) {
 
   const auto nested = make_design(
       2, 2, [](auto i, auto j) { return i == j ? 3u : 0u; }, 12);
-  EXPECT_THAT(reason_of_first(nested), testing::HasSubstr("combinations of levels without observations"));
+  EXPECT_THAT(reason_of_first(nested), ::testing::HasSubstr("combinations of levels without observations"));
   EXPECT_EQ(reason_of_first({nested.factors, nested.response}, {{0}}), "");
 
   EXPECT_EQ(reason_of_first({{factor_with("a", 2, {})}, {}}, {{0}}), "no observations");
@@ -233,7 +234,7 @@ TEST(Anova, RefusesTooManyLevelsInWords) {
   std::vector<std::size_t> codes(5000);
   for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = i / 2;
   const Design design{{factor_with("a", 2500, codes)}, std::vector<double>(5000, 1.0)};
-  EXPECT_THAT(reason_of_first(design, {{0}}), testing::HasSubstr("too many"));
+  EXPECT_THAT(reason_of_first(design, {{0}}), ::testing::HasSubstr("too many"));
 }
 
 TEST(Anova, RefusesBrokenPreconditions) {
@@ -289,7 +290,7 @@ TEST(BlockedAnova, SaysWhatIsWrongWithTheBlocks) {
             "only one level of 'w' has observations");
   const auto groups =
       blocked_anova(response, within, factor_with("g", 2, {0, 0, 1, 1}), factor_with("b", 2, {0, 0, 1, 1}));
-  EXPECT_THAT(groups->terms[0].test.reason(), testing::HasSubstr("no residual degrees of freedom"));
+  EXPECT_THAT(groups->terms[0].test.reason(), ::testing::HasSubstr("no residual degrees of freedom"));
 }
 
 TEST(Normality, HandComputedMoments) {

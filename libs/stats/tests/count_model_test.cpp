@@ -18,9 +18,9 @@ using nlohmann::json;
 using testing::read_factors;
 using testing::relative_error;
 
-constexpr double kTolerance = 1e-6;
+constexpr double kSearchError = 1e-6;  // of two searches for a maximum
 
-const json& cases() {
+const json& count_cases() {
   static const json reference = testing::read_reference("models.json").at("counts");
   return reference;
 }
@@ -28,29 +28,29 @@ const json& cases() {
 void expect_equal_ratio(const RateRatio& ratio, const json& one, std::size_t coefficient) {
   const double log_ratio = one.at("coefficients")[coefficient];
   const double margin = one.at("standard_errors")[coefficient].get<double>() * normal_quantile(0.975);
-  EXPECT_LE(relative_error(ratio.ratio.estimate, std::exp(log_ratio)), kTolerance);
-  EXPECT_LE(relative_error(ratio.ratio.low, std::exp(log_ratio - margin)), kTolerance);
-  EXPECT_LE(relative_error(ratio.ratio.high, std::exp(log_ratio + margin)), kTolerance);
+  EXPECT_LE(relative_error(ratio.ratio.estimate, std::exp(log_ratio)), kSearchError);
+  EXPECT_LE(relative_error(ratio.ratio.low, std::exp(log_ratio - margin)), kSearchError);
+  EXPECT_LE(relative_error(ratio.ratio.high, std::exp(log_ratio + margin)), kSearchError);
   EXPECT_EQ(ratio.test.statistic_name, "z");
-  EXPECT_LE(relative_error(ratio.test.statistic, one.at("z")[coefficient]), kTolerance);
-  EXPECT_LE(relative_error(ratio.test.p, one.at("p")[coefficient]), kTolerance);
+  EXPECT_LE(relative_error(ratio.test.statistic, one.at("z")[coefficient]), kSearchError);
+  EXPECT_LE(relative_error(ratio.test.p, one.at("p")[coefficient]), kSearchError);
 }
 
 TEST(CountModel, AgreesWithRsGlmNbAndGlm) {
-  for (const auto& one : cases()) {
+  for (const auto& one : count_cases()) {
     SCOPED_TRACE(one.at("name").get<std::string>());
     const auto model = fit_count_model(one.at("counts").get<std::vector<double>>(), read_factors(one.at("factors")));
     ASSERT_TRUE(model) << model.reason();
     ASSERT_EQ(model->theta.has_value(), !one.at("theta").is_null());
     if (model->theta) {
-      EXPECT_LE(relative_error(*model->theta, one.at("theta")), kTolerance);
+      EXPECT_LE(relative_error(*model->theta, one.at("theta")), kSearchError);
     }
-    EXPECT_LE(relative_error(model->log_likelihood, one.at("log_likelihood")), kTolerance);
-    EXPECT_LE(relative_error(model->dispersion, one.at("dispersion")), kTolerance);
+    EXPECT_LE(relative_error(model->log_likelihood, one.at("log_likelihood")), kSearchError);
+    EXPECT_LE(relative_error(model->dispersion, one.at("dispersion")), kSearchError);
     ASSERT_EQ(model->coefficients.size(), one.at("coefficients").size());
     ASSERT_EQ(model->ratios.size() + 1, model->coefficients.size());
     for (std::size_t c = 0; c < model->coefficients.size(); ++c) {
-      EXPECT_LE(relative_error(model->coefficients[c], one.at("coefficients")[c]), kTolerance);
+      EXPECT_LE(relative_error(model->coefficients[c], one.at("coefficients")[c]), kSearchError);
       if (c > 0) expect_equal_ratio(model->ratios[c - 1], one, c);
     }
     ASSERT_EQ(model->factor_tests.size(), one.at("tests").size());
@@ -58,16 +58,16 @@ TEST(CountModel, AgreesWithRsGlmNbAndGlm) {
       const auto& expected = one.at("tests")[f];
       ASSERT_TRUE(model->factor_tests[f]);
       EXPECT_EQ(model->factor_tests[f]->df, std::vector<double>{expected.at("df").get<double>()});
-      EXPECT_LE(relative_error(model->factor_tests[f]->statistic, expected.at("statistic")), kTolerance);
-      EXPECT_LE(relative_error(model->factor_tests[f]->p, expected.at("p")), kTolerance);
+      EXPECT_LE(relative_error(model->factor_tests[f]->statistic, expected.at("statistic")), kSearchError);
+      EXPECT_LE(relative_error(model->factor_tests[f]->p, expected.at("p")), kSearchError);
     }
   }
 }
 
-const Factor kTwo{"strategy", {"low", "joint"}, {0, 0, 0, 0, 1, 1, 1, 1}};
+const Factor kTwoStrategies{"strategy", {"low", "joint"}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
 TEST(CountModel, OfOneFactorHasTheRatiosOfTheMeans) {
-  const auto model = fit_count_model(std::vector<double>{1, 9, 2, 8, 20, 4, 1, 35}, std::vector{kTwo});
+  const auto model = fit_count_model(std::vector<double>{1, 9, 2, 8, 20, 4, 1, 35}, std::vector{kTwoStrategies});
   ASSERT_TRUE(model) << model.reason();
   EXPECT_EQ(model->ratios.front().name, "strategy joint / low");
   EXPECT_NEAR(model->ratios.front().ratio.estimate, 15.0 / 5.0, 1e-9);
@@ -75,7 +75,7 @@ TEST(CountModel, OfOneFactorHasTheRatiosOfTheMeans) {
 }
 
 TEST(CountModel, IsPoissonsWhereCountsVaryLess) {
-  const auto model = fit_count_model(std::vector<double>{7, 8, 8, 7, 9, 8, 8, 9}, std::vector{kTwo});
+  const auto model = fit_count_model(std::vector<double>{7, 8, 8, 7, 9, 8, 8, 9}, std::vector{kTwoStrategies});
   ASSERT_TRUE(model) << model.reason();
   EXPECT_FALSE(model->theta.has_value());
   EXPECT_LT(model->dispersion, 0.1);
@@ -102,7 +102,7 @@ TEST(CountModel, HasTheThetaOfTheLargestLikelihood) {
     // Small counts, and such beyond the terms that are summed one by one.
     const double scale = round % 2 == 0 ? 10.0 : 3000.0;
     for (int i = 0; i < 8; ++i) counts.push_back(std::floor(-scale * std::log1p(-uniform01(random))));
-    const auto model = fit_count_model(counts, std::vector{kTwo});
+    const auto model = fit_count_model(counts, std::vector{kTwoStrategies});
     if (!model || !model->theta) continue;
     ++overdispersed;
     const double best = profile_likelihood(counts, *model->theta);
@@ -114,7 +114,7 @@ TEST(CountModel, HasTheThetaOfTheLargestLikelihood) {
 }
 
 TEST(CountModel, DoesNotDependOnTheOrderOfObservations) {
-  for (const auto& one : cases()) {
+  for (const auto& one : count_cases()) {
     auto counts = one.at("counts").get<std::vector<double>>();
     auto factors = read_factors(one.at("factors"));
     const auto model = fit_count_model(counts, factors);
@@ -138,7 +138,8 @@ TEST(CountModel, LeavesOutLevelsThatNoObservationHas) {
 }
 
 TEST(CountModel, FitsCountsOfAnySize) {
-  const auto model = fit_count_model(std::vector<double>{1e9, 3e9, 2e9, 1e9, 5e9, 1e10, 2e9, 7e9}, std::vector{kTwo});
+  const auto model =
+      fit_count_model(std::vector<double>{1e9, 3e9, 2e9, 1e9, 5e9, 1e10, 2e9, 7e9}, std::vector{kTwoStrategies});
   ASSERT_TRUE(model) << model.reason();
   EXPECT_NEAR(model->ratios.front().ratio.estimate, 24.0 / 7.0, 1e-6);
   ASSERT_TRUE(model->theta.has_value());
@@ -155,15 +156,18 @@ std::string reason_of(const std::vector<double>& counts, const std::vector<Facto
 TEST(CountModel, SaysWhyThereIsNone) {
   const std::vector<double> good{1, 2, 3, 4, 5, 6, 7, 9};
   EXPECT_EQ(reason_of({}, {}), "there are no observations");
-  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, 8.5}, {kTwo}), "counts must be whole numbers that are not negative");
-  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, -1}, {kTwo}), "counts must be whole numbers that are not negative");
-  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, std::nan("")}, {kTwo}),
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, 8.5}, {kTwoStrategies}),
             "counts must be whole numbers that are not negative");
-  EXPECT_EQ(reason_of(std::vector<double>(8, 0.0), {kTwo}), "all counts are zero");
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, -1}, {kTwoStrategies}),
+            "counts must be whole numbers that are not negative");
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, std::nan("")}, {kTwoStrategies}),
+            "counts must be whole numbers that are not negative");
+  EXPECT_EQ(reason_of(std::vector<double>(8, 0.0), {kTwoStrategies}), "all counts are zero");
   EXPECT_EQ(reason_of(good, {Factor{"f", {"a", "b"}, std::vector<std::size_t>(8, 1)}}), "f has only one level");
-  EXPECT_EQ(reason_of({1, 2, 3, 4, 0, 0, 0, 0}, {kTwo}),
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 0, 0, 0, 0}, {kTwoStrategies}),
             "all counts of strategy joint are zero, so its ratio has no lower bound");
-  EXPECT_EQ(reason_of(good, {kTwo, kTwo}), "the factors cannot be told apart: some levels only occur together");
+  EXPECT_EQ(reason_of(good, {kTwoStrategies, kTwoStrategies}),
+            "the factors cannot be told apart: some levels only occur together");
   EXPECT_EQ(reason_of({1, 2}, {Factor{"f", {"a", "b"}, {0, 1}}}), "there are no more observations than coefficients");
 }
 
@@ -210,7 +214,7 @@ TEST(CountModel, FitsWhereOnlyZerosTellTwoFactorsApart) {
 
 TEST(CountModel, NamesWhatItCannotTake) {
   const std::vector<double> counts{1, 2, 3};
-  EXPECT_THROW((void)fit_count_model(counts, std::vector{kTwo}), std::invalid_argument);
+  EXPECT_THROW((void)fit_count_model(counts, std::vector{kTwoStrategies}), std::invalid_argument);
   EXPECT_THROW((void)fit_count_model(counts, std::vector{Factor{"f", {"a"}, {0, 0, 1}}}), std::invalid_argument);
   EXPECT_THROW((void)fit_count_model(counts, {}, 0.0), std::invalid_argument);
 }

@@ -8,10 +8,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "common.hpp"
+
 namespace kith {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 void expect_close(double actual, double expected, double relative) {
   EXPECT_NEAR(actual, expected, relative * std::abs(expected));

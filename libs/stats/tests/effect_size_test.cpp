@@ -7,10 +7,13 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common.hpp"
 #include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {
+
+using testing::kCrossed;
 
 std::vector<double> normals(std::size_t n, double mean, std::uint64_t seed) {
   RandomStream random{seed};
@@ -20,12 +23,12 @@ std::vector<double> normals(std::size_t n, double mean, std::uint64_t seed) {
 }
 
 // Two factors of two levels, `per_cell` normal values in each cell, `effect` of the first factor.
-struct Design {
+struct TwoByTwo {
   std::vector<Factor> factors{{"a", {"0", "1"}, {}}, {"b", {"0", "1"}, {}}};
   std::vector<double> response;
 };
-Design make_design(std::size_t per_cell, double effect, std::uint64_t seed) {
-  Design design;
+TwoByTwo two_by_two(std::size_t per_cell, double effect, std::uint64_t seed) {
+  TwoByTwo design;
   design.response = normals(4 * per_cell, 0.0, seed);
   for (std::size_t i = 0; i < design.response.size(); ++i) {
     const auto a = i % 2;
@@ -35,7 +38,6 @@ Design make_design(std::size_t per_cell, double effect, std::uint64_t seed) {
   }
   return design;
 }
-const std::vector<std::vector<std::size_t>> kCrossed{{0}, {1}, {0, 1}};
 
 // Means 2 and 5, pooled variance (2 + 8) / 4 = 2.5.
 TEST(EffectSize, AHandComputedD) {
@@ -72,16 +74,16 @@ TEST(EffectSize, SaysWhyThereIsNone) {
   EXPECT_EQ(cohens_d(constant, std::vector<double>{1, 1}).reason(), "no spread within the groups");
   EXPECT_EQ(cohens_d({}, constant).reason(), "a group without values");
   EXPECT_THAT(cohens_d(std::vector<double>{1}, std::vector<double>{2}).reason(),
-              testing::HasSubstr("no residual degrees of freedom"));
+              ::testing::HasSubstr("no residual degrees of freedom"));
   EXPECT_EQ(hedges_g(std::vector<double>{1}, std::vector<double>{2, 3}).reason(),
             "fewer than two residual degrees of freedom");
   // One resample in four has no spread.
   EXPECT_THAT(bootstrap_hedges_g(std::vector<double>{1, 2}, std::vector<double>{5, 6}, {}, RandomStream{1}).reason(),
-              testing::HasSubstr("too few different values"));
+              ::testing::HasSubstr("too few different values"));
 }
 
 TEST(Bootstrap, IsAFunctionOfItsStream) {
-  const auto design = make_design(6, 1.0, 5);
+  const auto design = two_by_two(6, 1.0, 5);
   const auto run = [&](std::uint64_t seed) {
     return bootstrap_partial_eta_squared(design.response, design.factors, kCrossed, SumsOfSquares::kTypeII, {200, 0.9},
                                          RandomStream{seed})
@@ -130,7 +132,7 @@ TEST(Bootstrap, IntervalOfHedgesGCoversAtItsRate) {
 TEST(Bootstrap, IntervalOfPartialEtaSquaredCoversAtItsRate) {
   int covered = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const auto design = make_design(40, 1.0, 7000 + seed);
+    const auto design = two_by_two(40, 1.0, 7000 + seed);
     const auto intervals = bootstrap_partial_eta_squared(design.response, design.factors, kCrossed,
                                                          SumsOfSquares::kTypeII, {200, 0.9}, RandomStream{seed});
     covered += intervals.at(0)->low <= 0.2 && 0.2 <= intervals.at(0)->high ? 1 : 0;
@@ -141,7 +143,7 @@ TEST(Bootstrap, IntervalOfPartialEtaSquaredCoversAtItsRate) {
 // The other factor and the interaction have none.
 TEST(Bootstrap, IntervalsOfSmallEffectsHoldTheEstimate) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const auto design = make_design(10, 0.0, 9000 + seed);
+    const auto design = two_by_two(10, 0.0, 9000 + seed);
     for (const auto& interval : bootstrap_partial_eta_squared(
              design.response, design.factors, kCrossed, SumsOfSquares::kTypeII, {200, 0.95}, RandomStream{seed})) {
       EXPECT_LE(interval->low, interval->estimate);
@@ -151,7 +153,7 @@ TEST(Bootstrap, IntervalsOfSmallEffectsHoldTheEstimate) {
 }
 
 TEST(Bootstrap, EstimatesAreThoseOfTheTableAndLieWithinTheResamples) {
-  const auto design = make_design(10, 2.0, 8);
+  const auto design = two_by_two(10, 2.0, 8);
   for (const auto type : {SumsOfSquares::kTypeII, SumsOfSquares::kTypeIII}) {
     const auto table = anova(design.response, design.factors, kCrossed, type);
     const auto intervals =
@@ -167,7 +169,7 @@ TEST(Bootstrap, EstimatesAreThoseOfTheTableAndLieWithinTheResamples) {
 }
 
 TEST(Bootstrap, TermsThatCannotBeEstimatedSayWhy) {
-  auto design = make_design(3, 1.0, 9);
+  auto design = two_by_two(3, 1.0, 9);
   design.response.assign(design.response.size(), 4.0);
   const auto intervals = bootstrap_partial_eta_squared(design.response, design.factors, kCrossed,
                                                        SumsOfSquares::kTypeII, {}, RandomStream{1});

@@ -17,9 +17,9 @@ std::string canonical(const std::string& text) {
 TEST(Formula, ReadsResponseFactorsAndTerms) {
   const auto formula = parse_formula("knowledge ~ strategy*composition").formula;
   EXPECT_EQ(formula.response, "knowledge");
-  EXPECT_THAT(formula.factors, testing::ElementsAre("strategy", "composition"));
-  EXPECT_THAT(formula.terms,
-              testing::ElementsAre(testing::ElementsAre(0), testing::ElementsAre(1), testing::ElementsAre(0, 1)));
+  EXPECT_THAT(formula.factors, ::testing::ElementsAre("strategy", "composition"));
+  EXPECT_THAT(formula.terms, ::testing::ElementsAre(::testing::ElementsAre(0), ::testing::ElementsAre(1),
+                                                    ::testing::ElementsAre(0, 1)));
 }
 
 TEST(Formula, OperatorsMeanWhatWilkinsonAndRogersSay) {
@@ -43,7 +43,7 @@ TEST(Formula, TermsAppearOnceAndMainEffectsFirst) {
 TEST(Formula, NamesMayBeQuoted) {
   const auto formula = parse_formula("`time to learn` ~ `1` + team.size_2 + 2nd").formula;
   EXPECT_EQ(formula.response, "time to learn");
-  EXPECT_THAT(formula.factors, testing::ElementsAre("1", "team.size_2", "2nd"));
+  EXPECT_THAT(formula.factors, ::testing::ElementsAre("1", "team.size_2", "2nd"));
   EXPECT_EQ(to_string(formula), "`time to learn` ~ `1` + team.size_2 + 2nd");
 }
 
@@ -58,7 +58,7 @@ void expect_error(const std::string& text, std::size_t column, const std::string
   const auto reading = parse_formula(text);
   ASSERT_EQ(reading.errors.size(), 1u) << text;
   EXPECT_EQ(reading.errors[0].column, column) << text << ": " << reading.errors[0].message;
-  EXPECT_THAT(reading.errors[0].message, testing::HasSubstr(part)) << text;
+  EXPECT_THAT(reading.errors[0].message, ::testing::HasSubstr(part)) << text;
   EXPECT_TRUE(reading.formula.terms.empty());
 }
 
@@ -91,8 +91,8 @@ TEST(Formula, ColumnsCountCharactersNotBytes) {
 }
 
 TEST(Formula, ErrorsHaveHints) {
-  EXPECT_THAT(parse_formula("y ~ a - b").errors.at(0).hint, testing::HasSubstr("parentheses"));
-  EXPECT_THAT(parse_formula("y ~ 0").errors.at(0).hint, testing::HasSubstr("mean"));
+  EXPECT_THAT(parse_formula("y ~ a - b").errors.at(0).hint, ::testing::HasSubstr("parentheses"));
+  EXPECT_THAT(parse_formula("y ~ 0").errors.at(0).hint, ::testing::HasSubstr("mean"));
 }
 
 TEST(Formula, SizeIsLimited) {

@@ -4,16 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
+#include "common.hpp"
 #include "kith/stats/distributions.hpp"
 
 namespace kith {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 TEST(Adjust, HolmIsNeverAboveBonferroniNorBelowTheRawValue) {
   const std::vector<double> p{0.01, 0.04, 0.03, 0.005, 0.9, 0.01};
@@ -29,7 +29,7 @@ TEST(Adjust, HolmIsNeverAboveBonferroniNorBelowTheRawValue) {
 
 TEST(Adjust, AHandComputedHolm) {
   EXPECT_THAT(adjust(std::vector<double>{0.01, 0.04, 0.03}, Correction::kHolm),
-              testing::Pointwise(testing::DoubleEq(), {0.03, 0.06, 0.06}));
+              ::testing::Pointwise(::testing::DoubleEq(), {0.03, 0.06, 0.06}));
   EXPECT_TRUE(adjust({}, Correction::kHolm).empty());
   EXPECT_THROW((void)adjust(std::vector<double>{1.1}, Correction::kHolm), std::invalid_argument);
   EXPECT_THROW((void)adjust(std::vector<double>{std::nan("")}, Correction::kNone), std::invalid_argument);

@@ -30,6 +30,9 @@ inline std::vector<Factor> read_factors(const nlohmann::json& factors) {
   return result;
 }
 
+// Where both evaluate the same formulas.
+inline constexpr double kRounding = 1e-10;
+
 // |a - b| as a part of |b|; of 1 where b is 0.
 inline double relative_error(double a, double b) { return std::abs(a - b) / (b == 0.0 ? 1.0 : std::abs(b)); }
 

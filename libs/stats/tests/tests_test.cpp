@@ -14,7 +14,7 @@ namespace {
 const Factor kThree{"g", {"x", "y", "z"}, {0, 0, 1, 1, 2, 2}};
 
 TEST(MidRanks, TiesGetTheirMeanRank) {
-  EXPECT_THAT(mid_ranks(std::vector<double>{3, 1, 3, 2, 3}), testing::ElementsAre(4, 1, 4, 2, 4));
+  EXPECT_THAT(mid_ranks(std::vector<double>{3, 1, 3, 2, 3}), ::testing::ElementsAre(4, 1, 4, 2, 4));
   EXPECT_TRUE(mid_ranks({}).empty());
 }
 
@@ -23,7 +23,7 @@ TEST(OneWay, AHandComputedF) {
   const auto test = one_way_anova(std::vector<double>{0, 2, 1, 3, 5, 7}, kThree);
   ASSERT_TRUE(test);
   EXPECT_NEAR(test->statistic, 7.0, 1e-13);
-  EXPECT_THAT(test->df, testing::ElementsAre(2, 3));
+  EXPECT_THAT(test->df, ::testing::ElementsAre(2, 3));
 }
 
 TEST(OneWay, SaysWhyNothingCanBeTested) {

@@ -131,7 +131,7 @@ TEST(StudyTables, HaveVariedKeysRightBehindTheComposition) {
 TEST(StudyTables, HaveTheirHeadersWithoutATeam) { EXPECT_EQ(tables_of({{StudySpec{}}}, {}).size(), 6u); }
 
 // A folder of its own for every test.
-class RunFolderTest : public testing::Test {
+class RunFolderTest : public ::testing::Test {
  protected:
   RunFolderTest() {
     fs::remove_all(root_);
@@ -166,8 +166,8 @@ class RunFolderTest : public testing::Test {
     return ErrorKind::kPartial;  // never thrown here
   }
 
-  fs::path root_ = fs::path{testing::TempDir()} /
-                   ("kith run folder " + std::string{testing::UnitTest::GetInstance()->current_test_info()->name()});
+  fs::path root_ = fs::path{::testing::TempDir()} /
+                   ("kith run folder " + std::string{::testing::UnitTest::GetInstance()->current_test_info()->name()});
 };
 
 TEST_F(RunFolderTest, HoldsWhatTheDocumentationLists) {

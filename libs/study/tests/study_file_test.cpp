@@ -95,7 +95,7 @@ struct Mistake {
   std::size_t line;
 };
 
-class StudyFileMistakes : public testing::TestWithParam<Mistake> {};
+class StudyFileMistakes : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(StudyFileMistakes, AreReportedWithTheirPlace) {
   const auto& mistake = GetParam();
@@ -110,7 +110,7 @@ TEST_P(StudyFileMistakes, AreReportedWithTheirPlace) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, StudyFileMistakes,
-    testing::Values(
+    ::testing::Values(
         Mistake{"E0101", "seed = 7", "seed = ", 4}, Mistake{"E0106", "kith.study/1", "kith.study/9", 1},
         Mistake{"E0115", "\"tiny\"", "\"Tiny Study\"", 2}, Mistake{"E0116", "\"item-delivery\"", "\"item-delivry\"", 3},
         Mistake{"E0107", "replicates", "replicats", 5}, Mistake{"E0108", "seed = 7", "seed = 7.5", 4},
@@ -249,7 +249,7 @@ TEST(StudyFile, WritesWhatReadsBackTheSame) {
 }
 
 TEST(StudyFile, FindsADomainFileBesideTheStudy) {
-  const auto folder = std::filesystem::path{testing::TempDir()} / "kith study file test";
+  const auto folder = std::filesystem::path{::testing::TempDir()} / "kith study file test";
   std::filesystem::create_directories(folder);
   const auto built_in = load_study("quick");
   std::ofstream{folder / "world.toml"} << built_in.domain_text;

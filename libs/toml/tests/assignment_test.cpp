@@ -13,7 +13,7 @@ TomlAssignment assignment(const std::string& text) {
   return parsing.assignment ? *std::move(parsing.assignment) : TomlAssignment{{"?"}, {}, {}, {}};
 }
 
-std::string refusal(const std::string& text) {
+std::string refused_id(const std::string& text) {
   const TomlAssignmentParsing parsing = parse_assignment(text, "--set");
   if (parsing.assignment || parsing.diagnostics.size() != 1) return "accepted";
   EXPECT_NE(parsing.diagnostics[0].hint, "") << "a refused assignment must show the form";
@@ -46,14 +46,14 @@ TEST(ParseAssignment, KeepsDotsInsideQuotedKeys) {
 }
 
 TEST(ParseAssignment, RefusesWhatIsNoAssignment) {
-  EXPECT_EQ(refusal(""), "E0113");
-  EXPECT_EQ(refusal("seed"), "E0113");
-  EXPECT_EQ(refusal("[seed]"), "E0113");
-  EXPECT_EQ(refusal("a=1\nb=2"), "E0113");
-  EXPECT_EQ(refusal("'a=b'"), "E0113");
-  EXPECT_EQ(refusal("# a=1"), "E0113");
-  EXPECT_EQ(refusal("strategy=joint"), "E0101");
-  EXPECT_EQ(refusal("a="), "E0101");
+  EXPECT_EQ(refused_id(""), "E0113");
+  EXPECT_EQ(refused_id("seed"), "E0113");
+  EXPECT_EQ(refused_id("[seed]"), "E0113");
+  EXPECT_EQ(refused_id("a=1\nb=2"), "E0113");
+  EXPECT_EQ(refused_id("'a=b'"), "E0113");
+  EXPECT_EQ(refused_id("# a=1"), "E0113");
+  EXPECT_EQ(refused_id("strategy=joint"), "E0101");
+  EXPECT_EQ(refused_id("a="), "E0101");
 }
 
 TEST(ParseAssignment, SaysThatTextNeedsQuotes) {

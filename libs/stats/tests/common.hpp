@@ -1,0 +1,15 @@
+// What the tests of several files use.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace kith::testing {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The terms of two factors with their interaction.
+inline const std::vector<std::vector<std::size_t>> kCrossed{{0}, {1}, {0, 1}};
+
+}  // namespace kith::testing
