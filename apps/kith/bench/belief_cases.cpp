@@ -13,7 +13,6 @@ namespace kith::bench {
 namespace {
 
 constexpr std::size_t kConstraints = 3;
-constexpr std::uint64_t kSession = 32;  // steps before a belief begins anew, about those of a session
 using Normal = NormalPairs::Block::value_type;
 
 std::string out_of_line(const std::string& what, double kith, double rival) {

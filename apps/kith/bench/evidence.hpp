@@ -9,6 +9,9 @@
 
 namespace kith::bench {
 
+/// Steps before a belief begins anew, about those of a session.
+inline constexpr std::uint64_t kSession = 32;
+
 /// Half-spaces with small integer normals that a common direction satisfies strictly.
 [[nodiscard]] std::vector<HalfSpace> feasible_half_spaces(std::size_t n, std::int64_t largest, RandomStream random);
 

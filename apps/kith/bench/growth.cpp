@@ -22,7 +22,6 @@ double as_double(std::size_t n) { return static_cast<double>(n); }
 
 // Updates of a belief that begins anew now and then, as in sessions.
 Work update(std::size_t constraints, const FilterOptions& options) {
-  constexpr std::uint64_t kSession = 32;
   const Evidence evidence{constraints};
   const ParticleBelief start{prior_cone(), options};
   return [=, belief = start, turn = std::uint64_t{0}](std::size_t rounds) mutable {

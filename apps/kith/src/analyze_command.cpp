@@ -13,8 +13,6 @@
 namespace kith::cli {
 namespace {
 
-constexpr std::size_t kWidth = 100;
-
 AnalysisOptions analysis_options(const AnalyzeOptions& options) {
   AnalysisOptions result;
   result.alpha = options.alpha;
@@ -74,8 +72,8 @@ std::string text_of(const ResultTable& table, const Console& console) {
 std::string text_of(const Finding& finding, bool brief, const Console& console) {
   std::string text = console.bold(finding.title) + "\n";
   text += console.dim(finding.model) + "\n";
-  text += wrapped(finding.sentence, kWidth) + "\n";
-  for (const auto& warning : finding.warnings) text += wrapped("Note: " + warning + ".", kWidth, "      ") + "\n";
+  text += wrapped(finding.sentence, kTextWidth) + "\n";
+  for (const auto& warning : finding.warnings) text += wrapped("Note: " + warning + ".", kTextWidth, "      ") + "\n";
   if (brief) return text;
   for (const auto& table : finding.tables) text += text_of(table, console);
   return text;
@@ -93,7 +91,7 @@ Json cell_json(const TableCell& cell) {
       cell);
 }
 
-Json to_json(const ResultTable& table) {
+Json table_json(const ResultTable& table) {
   Json columns = Json::array();
   for (const auto& column : table.columns) columns.push_back(column.name);
   Json rows = Json::array();
@@ -105,11 +103,11 @@ Json to_json(const ResultTable& table) {
   return {{"caption", table.caption}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
 }
 
-Json to_json(const Analysis& analysis, const AnalyzeOptions& options) {
+Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
   Json findings = Json::array();
   for (const auto& finding : analysis.findings) {
     Json tables = Json::array();
-    for (const auto& table : finding.tables) tables.push_back(to_json(table));
+    for (const auto& table : finding.tables) tables.push_back(table_json(table));
     findings.push_back({{"id", finding.id},
                         {"title", finding.title},
                         {"question", finding.question},
@@ -134,11 +132,11 @@ Json to_json(const Analysis& analysis, const AnalyzeOptions& options) {
 int run_analyze(const AnalyzeOptions& options, Console& console) {
   const auto analysis = analysis_of(options);
   if (console.json()) {
-    console.print_json(to_json(analysis, options));
+    console.print_json(analysis_json(analysis, options));
     return 0;
   }
   std::string text;
-  for (const auto& note : analysis.notes) text += wrapped("Note: " + note + ".", kWidth, "      ") + "\n";
+  for (const auto& note : analysis.notes) text += wrapped("Note: " + note + ".", kTextWidth, "      ") + "\n";
   for (const auto& finding : analysis.findings)
     text += (text.empty() ? "" : "\n") + text_of(finding, options.brief, console);
   console.print(text);

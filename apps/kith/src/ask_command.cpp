@@ -33,12 +33,11 @@ Json reply_json(const Atlas& atlas, const Reply& reply) {
 }
 
 std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& console) {
-  constexpr std::size_t kWidth = 100;
   const auto& domain = atlas.domain();
-  std::string text = console.dim(reply.question) + "\n" + wrapped(reply.text, kWidth) + "\n";
+  std::string text = console.dim(reply.question) + "\n" + wrapped(reply.text, kTextWidth) + "\n";
   for (const auto& example : reply.examples) {
-    text +=
-        "\n" + wrapped(example.text, kWidth) + "\n" + start_and_path(domain, atlas.id(example.demo), example.path, 2);
+    text += "\n" + wrapped(example.text, kTextWidth) + "\n" +
+            start_and_path(domain, atlas.id(example.demo), example.path, 2);
     if (example.alternative) {
       text += "  the robot: " + actions_text(domain, example.path.actions) + "\n";
       text += "  otherwise: " + actions_text(domain, example.alternative->actions) + "\n";

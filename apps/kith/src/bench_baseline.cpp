@@ -6,8 +6,6 @@
 namespace kith::cli {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr const char* kMend = "write a new one with kith bench --save FILE";
 
 class BaselineReader {
@@ -16,15 +14,15 @@ class BaselineReader {
 
   BaselineReading read() {
     try {
-      read_document(Json::parse(text_));
-    } catch (const Json::parse_error& error) {
+      read_document(nlohmann::json::parse(text_));
+    } catch (const nlohmann::json::parse_error& error) {
       complain("E1001", "this is not JSON: it ends or breaks here", error.byte > 0 ? error.byte - 1 : 0);
     }
     return std::move(reading_);
   }
 
  private:
-  void read_document(const Json& document) {
+  void read_document(const nlohmann::json& document) {
     const auto schema = document.is_object() ? document.find("schema") : document.end();
     if (schema == document.end() || *schema != kBenchSchema) {
       const std::string found = schema == document.end() ? "no schema" : "the schema " + schema->dump();
@@ -45,7 +43,7 @@ class BaselineReader {
     for (const auto& entry : *cases) read_case(entry);
   }
 
-  void read_text(const Json& document, const char* key, std::string& text) {
+  void read_text(const nlohmann::json& document, const char* key, std::string& text) {
     const auto found = document.find(key);
     if (found == document.end() || !found->is_string()) {
       complain("E1003", std::string{"'"} + key + "' must be a text", place_of(key, 0));
@@ -54,7 +52,7 @@ class BaselineReader {
     text = found->get<std::string>();
   }
 
-  void read_case(const Json& entry) {
+  void read_case(const nlohmann::json& entry) {
     const auto name = entry.is_object() ? entry.find("name") : entry.end();
     if (name == entry.end() || !name->is_string()) {
       complain("E1003", "every entry of 'cases' must have a 'name', a text", place_of("cases", 0));

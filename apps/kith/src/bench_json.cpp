@@ -10,7 +10,7 @@ namespace {
 
 const char* name_of(bench::Clock clock) { return clock == bench::Clock::kCpu ? "cpu" : "wall"; }
 
-Json to_json(const bench::Figure& figure) {
+Json figure_json(const bench::Figure& figure) {
   return {{"median", figure.median}, {"low", figure.low}, {"high", figure.high}, {"samples", figure.samples}};
 }
 
@@ -18,7 +18,7 @@ Json rival_json(const bench::CaseResult& one) {
   const auto rival = one.rival();
   if (!rival) return nullptr;
   Json document{{"what", one.which->rival}};
-  document.update(to_json(*rival));
+  document.update(figure_json(*rival));
   document["ratio"] = *one.ratio();
   document["agrees"] = one.disagreement ? Json(one.disagreement->empty()) : Json{};
   return document;
@@ -35,7 +35,7 @@ Json baseline_json(const BenchOutcome& outcome, const bench::CaseResult& one) {
 Json case_json(const BenchOutcome& outcome, const bench::CaseResult& one) {
   Json document{
       {"name", one.which->name}, {"what", one.which->what}, {"unit", "s"}, {"clock", name_of(one.which->clock)}};
-  document.update(to_json(one.figure()));
+  document.update(figure_json(one.figure()));
   document["rounds"] = one.timings.work.rounds;
   document["cpu"] = one.timings.work.cpu.median;
   document["wall"] = one.timings.work.wall.median;
@@ -48,7 +48,7 @@ Json growth_json(const bench::GrowthResult& growth) {
   Json points = Json::array();
   for (std::size_t i = 0; i < growth.figures.size(); ++i) {
     Json point{{"size", growth.which->points[i].size}};
-    point.update(to_json(growth.figures[i]));
+    point.update(figure_json(growth.figures[i]));
     points.push_back(std::move(point));
   }
   return {{"name", growth.which->name},  {"what", growth.which->what}, {"size", growth.which->size}, {"unit", "s"},

@@ -151,7 +151,7 @@ std::string report(const TargetSet& set, const Calibration& result, const Consol
 
 // --- JSON ---------------------------------------------------------------------------
 
-Json to_json(const TargetSet& set, const CalibrationPoint& point) {
+Json calibration_json(const TargetSet& set, const CalibrationPoint& point) {
   Json values = Json::object();
   for (std::size_t k = 0; k < set.parameters.size(); ++k) values[set.parameters[k].name] = point.values[k];
   Json targets = Json::array();
@@ -165,7 +165,7 @@ Json to_json(const TargetSet& set, const CalibrationPoint& point) {
           {"targets", targets}};
 }
 
-Json to_json(const Target& target) {
+Json target_json(const Target& target) {
   return {{"quantity", name_of(target.quantity)},
           {"statistic", target.statistic == Statistic::kMean ? "mean" : "sd"},
           {"teams", to_string(target.teams)},
@@ -197,7 +197,7 @@ Json parameters_json(const TargetSet& set, const Calibration& result) {
 Json document_of(const std::string& study, std::uint64_t seed, const TargetSet& set, const Calibration& result) {
   Json targets = Json::array();
   for (std::size_t t = 0; t < set.targets.size(); ++t) {
-    auto target = to_json(set.targets[t]);
+    auto target = target_json(set.targets[t]);
     target["surface_error"] = result.surface_error[t];
     target["surface_explained"] = result.explained[t];
     Json sensitivities = Json::object();
@@ -211,13 +211,13 @@ Json document_of(const std::string& study, std::uint64_t seed, const TargetSet& 
     targets.push_back(target);
   }
   Json candidates = Json::array();
-  for (const auto& candidate : result.candidates) candidates.push_back(to_json(set, candidate));
+  for (const auto& candidate : result.candidates) candidates.push_back(calibration_json(set, candidate));
   Json conflicts = Json::array();
   for (const auto& conflict : result.conflicts)
     conflicts.push_back({{"first", conflict.first}, {"second", conflict.second}, {"closest", conflict.closest}});
   Json frontier = Json::array();
   for (const auto& one : result.frontier) {
-    auto point = to_json(set, one.point);
+    auto point = calibration_json(set, one.point);
     point["errors"] = {{std::string{name_of(*result.first_quantity)}, one.first_error},
                        {std::string{name_of(*result.second_quantity)}, one.second_error}};
     frontier.push_back(point);
@@ -228,7 +228,7 @@ Json document_of(const std::string& study, std::uint64_t seed, const TargetSet& 
           {"teams", result.teams_simulated},
           {"parameters", parameters_json(set, result)},
           {"targets", targets},
-          {"best", to_json(set, result.best)},
+          {"best", calibration_json(set, result.best)},
           {"candidates", candidates},
           {"conflicts", conflicts},
           {"frontier", frontier}};

@@ -19,8 +19,6 @@
 namespace kith::cli {
 namespace {
 
-constexpr std::size_t kWidth = 100;
-
 Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown) {
   const auto& domain = atlas.domain();
   const auto world = atlas.id(shown.demo).mdp;
@@ -94,7 +92,7 @@ class CurriculumText {
  private:
   void line(const std::string& text, std::size_t indent) {
     const std::string blank(indent, ' ');
-    out_ += blank + wrapped(text, kWidth - indent, blank) + "\n";
+    out_ += blank + wrapped(text, kTextWidth - indent, blank) + "\n";
   }
 
   void component(std::size_t i) {

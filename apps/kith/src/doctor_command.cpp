@@ -22,20 +22,20 @@ namespace {
 
 enum class Health { kGood, kWarning, kBad };
 
-struct Finding {
+struct Checkup {
   std::string name;
   Health health = Health::kGood;
   std::string text;
 };
 
-Finding check_build() {
+Checkup check_build() {
   std::string libraries;
   for (const auto& library : library_versions()) libraries += ", " + library.name + " " + library.version;
   return {"version", Health::kGood,
           fmt::format("{} ({}), {}{}", build_info::kVersion, build_info::kGitId, build_info::kCompiler, libraries)};
 }
 
-Finding check_processor() {
+Checkup check_processor() {
   std::string features;
 #if defined(__x86_64__)
   __builtin_cpu_init();
@@ -69,7 +69,7 @@ class ScratchFile {
   int descriptor_;
 };
 
-Finding check_file_system() {
+Checkup check_file_system() {
   const ScratchFile file;
   if (file.descriptor() < 0) return {"file system", Health::kWarning, "the working directory cannot be written to"};
   const bool synchronises = write(file.descriptor(), "kith", 4) == 4 && fsync(file.descriptor()) == 0;
@@ -79,7 +79,7 @@ Finding check_file_system() {
                       locks ? "works" : "fails")};
 }
 
-Finding check_space() {
+Checkup check_space() {
   struct statvfs facts = {};
   if (statvfs(".", &facts) != 0) return {"free space", Health::kWarning, "unknown"};
   const double megabytes = static_cast<double>(facts.f_bavail) * static_cast<double>(facts.f_frsize) / 1e6;
@@ -97,7 +97,7 @@ std::string tables_of(const Atlas& atlas, const Study& study, std::size_t thread
 }
 
 // The same small study, on one thread and on two: the bytes must not differ.
-Finding check_self() {
+Checkup check_self() {
   const auto reading = load_study("quick");
   if (!reading.study) throw Error{reading.diagnostics};
   const Atlas atlas{*reading.domain};
@@ -113,15 +113,15 @@ const char* word_of(Health health) {
 }  // namespace
 
 int run_doctor(Console& console) {
-  const std::vector<Finding> findings{check_build(), check_processor(), check_file_system(), check_space(),
+  const std::vector<Checkup> checkups{check_build(), check_processor(), check_file_system(), check_space(),
                                       check_self()};
   bool good = true;
   Json checks = Json::array();
   TextTable table{"lll"};
-  for (const auto& finding : findings) {
-    good = good && finding.health != Health::kBad;
-    checks.push_back({{"name", finding.name}, {"status", word_of(finding.health)}, {"text", finding.text}});
-    table.add({word_of(finding.health), finding.name, finding.text});
+  for (const auto& checkup : checkups) {
+    good = good && checkup.health != Health::kBad;
+    checks.push_back({{"name", checkup.name}, {"status", word_of(checkup.health)}, {"text", checkup.text}});
+    table.add({word_of(checkup.health), checkup.name, checkup.text});
   }
   if (console.json()) {
     if (!good) throw Error{ErrorKind::kMismatch, "this machine does not run kith as it should; see kith doctor"};

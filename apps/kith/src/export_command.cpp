@@ -6,26 +6,24 @@
 
 #include "commands.hpp"
 #include "json.hpp"
-#include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
 #include "kith/table/atomic_file.hpp"
+#include "option_values.hpp"
 
 namespace kith::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void usage(const std::string& message) { throw Error{ErrorKind::kUsage, message}; }
-
 MdpIndex mdp_of(const Domain& domain, const ExportOptions& options) {
   if (!options.mdp && domain.num_mdps() > 1) {
-    usage(fmt::format("the domain has {} MDPs; say which one with --mdp N, 0 to {}", domain.num_mdps(),
-                      domain.num_mdps() - 1));
+    refuse(fmt::format("the domain has {} MDPs; say which one with --mdp N, 0 to {}", domain.num_mdps(),
+                       domain.num_mdps() - 1));
   }
   const MdpIndex m{options.mdp.value_or(0)};
   if (m.value() < domain.num_mdps()) return m;
-  usage(fmt::format("there is no MDP {}: they are numbered 0 to {}", m.value(), domain.num_mdps() - 1));
+  refuse(fmt::format("there is no MDP {}: they are numbered 0 to {}", m.value(), domain.num_mdps() - 1));
 }
 
 }  // namespace
@@ -37,10 +35,10 @@ int run_export(const ExportOptions& options, Console& console) {
   const auto format = static_cast<ModelFormat>(std::find(names.begin(), names.end(), options.format) - names.begin());
   const bool to_stdout = options.out.empty() || options.out == "-";
   if (to_stdout && format == ModelFormat::kPrism)
-    usage("PRISM's format is several files; say what their names begin with: -o PREFIX");
-  if (to_stdout && console.json()) usage("with --json the model needs a file: -o FILE");
+    refuse("PRISM's format is several files; say what their names begin with: -o PREFIX");
+  if (to_stdout && console.json()) refuse("with --json the model needs a file: -o FILE");
   const fs::path out{to_stdout ? domain.id() + ".json" : options.out};
-  if (out.filename().empty()) usage("-o names a folder; add the name of the file");
+  if (out.filename().empty()) refuse("-o names a folder; add the name of the file");
   const auto files = export_mdp(domain, m, format, out.filename().string());
   if (to_stdout) {
     console.print(files.front().text);
@@ -50,7 +48,7 @@ int run_export(const ExportOptions& options, Console& console) {
   for (const auto& file : files) {
     const auto path = out.parent_path() / file.name;
     if (!options.yes && fs::is_regular_file(path, ignored)) {
-      usage(path.string() + " exists; choose another name, or add --yes to replace it");
+      refuse(path.string() + " exists; choose another name, or add --yes to replace it");
     }
   }
   Json written = Json::array();

@@ -21,8 +21,6 @@
 namespace kith::cli {
 namespace {
 
-constexpr std::size_t kWidth = 100;
-
 // The text of a built-in domain or of a file.
 std::string text_of(const std::string& name_or_path) {
   for (const auto& built_in : built_in_domains()) {
@@ -58,7 +56,7 @@ void list_constraints(const Atlas& atlas, Console& console) {
 }
 
 // A start that teaches or tests the constraint alone, in the family or in a world that was made.
-struct Finding {
+struct FoundDemo {
   const Atlas& atlas;
   DemoIndex demo;
   const MadeWorld* made;  // nothing: it is in the family
@@ -70,7 +68,7 @@ std::string reason_of(const Atlas& atlas, DemoIndex demo, const HalfSpace& const
                   : in_words(atlas.domain(), constraint);
 }
 
-void print_finding(const Domain& family, const Finding& found, const HalfSpace& constraint, Purpose purpose,
+void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace& constraint, Purpose purpose,
                    Console& console) {
   const auto& domain = found.atlas.domain();
   const auto id = found.atlas.id(found.demo);
@@ -85,15 +83,16 @@ void print_finding(const Domain& family, const Finding& found, const HalfSpace& 
     for (const auto& change : found.made->changes) changes.push_back(change_in_words(family, change));
     text = wrapped(fmt::format("No world of {} {} exactly this: {}. One was made from world {}: {}.", family.id(), verb,
                                described(domain, constraint), found.made->base.value(), listed(changes)),
-                   kWidth) +
+                   kTextWidth) +
            "\n";
   }
-  text += wrapped(reason_of(found.atlas, found.demo, constraint), kWidth) + "\n" + start_and_path(domain, id, path, 2) +
-          "  the robot: " + actions_text(domain, path.actions) + "\n\n" + legend(domain, 0);
+  text += wrapped(reason_of(found.atlas, found.demo, constraint), kTextWidth) + "\n" +
+          start_and_path(domain, id, path, 2) + "  the robot: " + actions_text(domain, path.actions) + "\n\n" +
+          legend(domain, 0);
   console.print(text);
 }
 
-void print_finding_json(const Finding& found, const HalfSpace& constraint, Purpose purpose, Console& console) {
+void print_finding_json(const FoundDemo& found, const HalfSpace& constraint, Purpose purpose, Console& console) {
   const auto& domain = found.atlas.domain();
   const auto id = found.atlas.id(found.demo);
   auto json = board_json(domain, id);
@@ -118,7 +117,7 @@ void print_finding_json(const Finding& found, const HalfSpace& constraint, Purpo
 }
 
 // The world as a domain file of its own.
-void write_world(const std::string& out, const std::string& family_text, const Finding& found, Console& console) {
+void write_world(const std::string& out, const std::string& family_text, const FoundDemo& found, Console& console) {
   std::optional<std::string> text;
   if (found.made != nullptr) {
     text = found.made->text;
@@ -162,7 +161,7 @@ int run_find(const FindOptions& options, Console& console) {
   const auto text = !demo || !options.out.empty() ? text_of(options.domain) : std::string{};
   if (!demo && !options.no_make) made = make_world(atlas, text, constraint, purpose);
   if (!demo && !made) throw not_found(atlas, constraint, purpose, !options.no_make);
-  const Finding found = demo ? Finding{atlas, *demo, nullptr} : Finding{made->atlas, made->demo, &*made};
+  const FoundDemo found = demo ? FoundDemo{atlas, *demo, nullptr} : FoundDemo{made->atlas, made->demo, &*made};
   if (!options.out.empty()) write_world(options.out, text, found, console);
   if (console.json()) {
     print_finding_json(found, constraint, purpose, console);

@@ -26,7 +26,7 @@ void check_out(const FitCommandOptions& options) {
   throw Error{ErrorKind::kUsage, options.out + " exists; choose another name, or add --yes to replace it"};
 }
 
-int interrupted(Console& console) {
+int wrote_nothing(Console& console) {
   const std::string message = "interrupted; nothing was written";
   console.warning(message);
   if (console.json()) {
@@ -83,7 +83,7 @@ int run_fit(const FitCommandOptions& options, Console& console) {
     const auto groups =
         search_grid(imported.logs, {.replicates = options.replicates, .seed = options.seed, .parallel = parallel});
     progress.finish();
-    if (!groups) return interrupted(console);
+    if (!groups) return wrote_nothing(console);
     return finish(options, to_json(*groups), text_of(*groups, console), console);
   }
   FitOptions fit_options;
@@ -94,7 +94,7 @@ int run_fit(const FitCommandOptions& options, Console& console) {
   fit_options.parallel = parallel;
   const auto report = fit_learners(imported.logs, fit_options);
   progress.finish();
-  if (!report.complete) return interrupted(console);
+  if (!report.complete) return wrote_nothing(console);
   return finish(options, to_json(report, imported.logs.notes), text_of(report, console), console);
 }
 

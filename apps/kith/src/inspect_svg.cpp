@@ -88,7 +88,7 @@ std::string title_of(const Domain& domain) {
 }
 
 template <typename Visit>
-void for_each_cell(const Domain& domain, const Visit& visit) {
+void for_each_cell_from_bottom(const Domain& domain, const Visit& visit) {
   for (int y = 1; y <= domain.height(); ++y) {
     for (int x = 1; x <= domain.width(); ++x) visit(Cell{x, y});
   }
@@ -108,7 +108,7 @@ std::optional<SvgFile> policy_picture(const Domain& domain, const BoardSvg& boar
   Sheet sheet{boards, fmt::format("What the robot does in MDP {} of {}", m.value(), domain.id())};
   for (const auto& configuration : configurations_on(domain, m, path)) {
     auto board = boards.board(m, configuration, true);
-    for_each_cell(domain, [&](const Cell& cell) {
+    for_each_cell_from_bottom(domain, [&](const Cell& cell) {
       const auto state = domain.find_state(m, with_robot_at(configuration, cell));
       if (!state || mdp.is_terminal(*state)) return;
       const auto& choice = mdp.choices(*state)[solution.canonical_choice[state->value()]];
@@ -137,7 +137,7 @@ SvgFile coverage_picture(const Atlas& atlas, const BoardSvg& boards, MdpIndex m)
   const auto largest = std::max<std::size_t>(2, atlas.coverage().max);
   for (const auto& configuration : configurations_on(domain, m, path)) {
     auto board = boards.board(m, configuration, true);
-    for_each_cell(domain, [&](const Cell& cell) {
+    for_each_cell_from_bottom(domain, [&](const Cell& cell) {
       const auto state = domain.find_state(m, with_robot_at(configuration, cell));
       if (!state || domain.mdp(m).is_terminal(*state)) return;
       const auto n = atlas.coverage_set(atlas.index({m, *state})).size();

@@ -7,7 +7,7 @@
 namespace kith::cli {
 namespace {
 
-Json to_json(const Cell& cell) { return Json::array({cell.x, cell.y}); }
+Json position_json(const Cell& cell) { return Json::array({cell.x, cell.y}); }
 
 }  // namespace
 
@@ -71,9 +71,9 @@ Json start_to_json(const Domain& domain, DemoId id) {
   const auto& state = domain.state(id.mdp, id.start);
   Json items = Json::array();
   Json stations = Json::array();
-  for (const auto& item : state.items) items.push_back(to_json(item));
-  for (const auto& station : state.stations) stations.push_back(to_json(station));
-  return {{"robot", to_json(state.robot)}, {"items", items}, {"stations", stations}, {"mdp", id.mdp.value()}};
+  for (const auto& item : state.items) items.push_back(position_json(item));
+  for (const auto& station : state.stations) stations.push_back(position_json(station));
+  return {{"robot", position_json(state.robot)}, {"items", items}, {"stations", stations}, {"mdp", id.mdp.value()}};
 }
 
 }  // namespace kith::cli

@@ -34,7 +34,7 @@ char glyph_at(const Picture& picture, const Cell& cell) {
 }
 
 template <typename Visit>
-void for_each_cell(const Domain& domain, const Visit& visit) {
+void for_each_cell_from_top(const Domain& domain, const Visit& visit) {
   for (int y = domain.height(); y >= 1; --y) {
     for (int x = 1; x <= domain.width(); ++x) visit(Cell{x, y});
   }
@@ -64,7 +64,7 @@ std::string legend(const Domain& domain, std::size_t indent) {
     const MdpIndex m{number};
     const auto picture = domain.draw(m, std::nullopt);
     const auto state = domain.state(m, domain.initial_state(m));
-    for_each_cell(domain, [&](const Cell& cell) {
+    for_each_cell_from_top(domain, [&](const Cell& cell) {
       const auto what = shown(domain, m, state, cell);
       const auto name = what.is_floor() && cell == state.robot
                             ? "first start"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "kith/core/error.hpp"
 
 namespace kith::cli {
 
@@ -22,6 +23,9 @@ namespace kith::cli {
 
 /// Why the text is none of the words; behind a line break the nearest of them. Or nothing.
 [[nodiscard]] std::string wrong_word(const std::string& text, const std::vector<std::string>& words);
+
+/// For options that do not go together, or that name what does not exist. @throws kith::Error (kUsage).
+[[noreturn]] inline void refuse(const std::string& message) { throw Error{ErrorKind::kUsage, message}; }
 
 /// The parser's complaint about the value of an option, or about options that do or do not go together, in plain
 /// words. Names the environment variable if the value came from one.

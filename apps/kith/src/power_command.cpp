@@ -94,16 +94,16 @@ std::string needed_text(const PowerCurve& curve, const PowerOptions& options) {
 
 // One line per size; the bar is the power, ':' the power wanted.
 std::string curve_text(const PowerCurve& curve, const PowerOptions& options, const Console& console) {
-  constexpr std::size_t kWidth = 40;
+  constexpr std::size_t kBarWidth = 40;
   TextTable table{"rrlrl"};
-  table.add({"teams", "power", "95 % interval", "by F", "0" + std::string(kWidth - 2, ' ') + "1"});
+  table.add({"teams", "power", "95 % interval", "by F", "0" + std::string(kBarWidth - 2, ' ') + "1"});
   for (const auto& point : curve.points) {
-    std::string bar(kWidth, ' ');
-    const auto full = static_cast<std::size_t>(std::lround(point.power * static_cast<double>(kWidth)));
+    std::string bar(kBarWidth, ' ');
+    const auto full = static_cast<std::size_t>(std::lround(point.power * static_cast<double>(kBarWidth)));
     std::fill_n(bar.begin(), full, '#');
-    const auto wanted = static_cast<std::size_t>(options.target * static_cast<double>(kWidth));
-    if (wanted >= full) bar[std::min(wanted, kWidth - 1)] = ':';
-    bar.resize(std::max(full, std::min(wanted, kWidth - 1) + 1));
+    const auto wanted = static_cast<std::size_t>(options.target * static_cast<double>(kBarWidth));
+    if (wanted >= full) bar[std::min(wanted, kBarWidth - 1)] = ':';
+    bar.resize(std::max(full, std::min(wanted, kBarWidth - 1) + 1));
     table.add({fmt::format("{}", point.teams), fmt::format("{:.3f}", point.power),
                fmt::format("{:.2f} .. {:.2f}", point.low, point.high),
                point.analytic_power ? fmt::format("{:.3f}", *point.analytic_power) : "", bar});
@@ -146,14 +146,14 @@ Json known(const std::optional<T>& value) {
   return value ? Json(*value) : Json{};
 }
 
-Json to_json(const PowerPoint& point) {
+Json power_json(const PowerPoint& point) {
   return {{"teams", point.teams}, {"power", point.power},           {"low", point.low},
           {"high", point.high},   {"pool_error", point.pool_error}, {"analytic_power", known(point.analytic_power)}};
 }
 
-Json to_json(const PowerCurve& curve) {
+Json curve_json(const PowerCurve& curve) {
   Json points = Json::array();
-  for (const auto& point : curve.points) points.push_back(to_json(point));
+  for (const auto& point : curve.points) points.push_back(power_json(point));
   return {{"effect", to_string(curve.effect)},
           {"imposed", curve.effect.imposed.has_value()},
           {"size", curve.size},
@@ -179,7 +179,7 @@ Json replication_json(const std::vector<Finding>& findings, const Replication& r
                     {"high", outcome.high},
                     {"published_eta_squared", known(outcome.published_eta_squared)},
                     {"analytic_power", known(outcome.analytic_power)},
-                    {"imposed_power", outcome.imposed_power ? to_json(*outcome.imposed_power) : Json{}}});
+                    {"imposed_power", outcome.imposed_power ? power_json(*outcome.imposed_power) : Json{}}});
   }
   return {{"studies", result.studies},
           {"findings", list},
@@ -187,7 +187,7 @@ Json replication_json(const std::vector<Finding>& findings, const Replication& r
           {"mean_agreement", result.mean_agreement}};
 }
 
-int interrupted(Console& console) {
+int computed_nothing(Console& console) {
   console.warning("interrupted; nothing was computed");
   return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
 }
@@ -219,12 +219,12 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
                                 return stop_signal() == 0;
                               }});
   progress.finish();
-  if (run.teams.size() < addresses.size()) return interrupted(console);
+  if (run.teams.size() < addresses.size()) return computed_nothing(console);
   const TeamPool pool{pool_spec, run.teams};
   const auto curves = power_curves(pool, effects, power);
   if (console.json()) {
     Json list = Json::array();
-    for (const auto& curve : curves) list.push_back(to_json(curve));
+    for (const auto& curve : curves) list.push_back(curve_json(curve));
     console.print_json(Json{{"schema", "kith.power/1"},
                             {"study", options.study},
                             {"seed", power.seed},
@@ -270,7 +270,7 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
   };
   const auto result = replicate_findings(atlas, spec, set.findings, replication);
   progress.finish();
-  if (!result) return interrupted(console);
+  if (!result) return computed_nothing(console);
   if (console.json()) {
     auto document = Json{{"schema", "kith.power/1"},
                          {"study", options.study},

@@ -13,7 +13,6 @@
 namespace kith::cli {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr const char* kPale = "#dfe8f2";
 constexpr const char* kDark = "#5b8db8";
 constexpr const char* kRobot = "#d55e00";
@@ -69,7 +68,7 @@ class Sphere {
     const Eigen::Vector3d b = inside.cross(a);
     std::vector<double> angles;
     constexpr int kSteps = 720;
-    for (int i = 0; i < kSteps; ++i) angles.push_back(2.0 * kPi * i / kSteps - kPi);
+    for (int i = 0; i < kSteps; ++i) angles.push_back(2.0 * std::numbers::pi * i / kSteps - std::numbers::pi);
     for (const auto& ray : visible.generators()) {
       const auto corner = in_space(ray);
       angles.push_back(std::atan2(b.dot(corner), a.dot(corner)));
@@ -78,7 +77,7 @@ class Sphere {
     std::string path;
     for (const double angle : angles) {
       const Eigen::Vector3d toward = std::cos(angle) * a + std::sin(angle) * b;
-      double reach = kPi;
+      double reach = std::numbers::pi;
       for (const auto& facet : visible.facets()) {
         const auto& n = facet.unit_normal();
         reach = std::min(reach, std::atan2(n.dot(inside), -n.dot(toward)));
@@ -99,7 +98,7 @@ class Sphere {
     std::string path;
     constexpr int kSteps = 90;
     for (int i = 0; i <= kSteps; ++i) {
-      const double angle = kPi * i / kSteps;
+      const double angle = std::numbers::pi * i / kSteps;
       const auto point = seen(std::cos(angle) * start + side * std::sin(angle) * middle);
       path += fmt::format("{}{} {}", path.empty() ? "M" : "L", svg_number(point.x), svg_number(point.y));
     }
@@ -135,10 +134,10 @@ class Sphere {
 
 SizedSvg on_sphere(const RegionPicture& picture) {
   constexpr double kRadius = 190.0;
-  constexpr double kMargin = 70.0;
+  constexpr double kSpace = 70.0;
   constexpr double kText = 420.0;
   SizedSvg result;
-  const double middle = kMargin + kRadius;
+  const double middle = kSpace + kRadius;
   result.svg.add(middle, middle, Sphere{picture, kRadius}.drawn());
   const double left = 2.0 * middle + 10.0;
   double y = 60.0;

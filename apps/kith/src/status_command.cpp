@@ -63,7 +63,7 @@ Status status_of(const std::filesystem::path& folder) {
   return status;
 }
 
-Json to_json(const Status& status, std::optional<double> seconds_left) {
+Json status_json(const Status& status, std::optional<double> seconds_left) {
   Json failures = Json::array();
   for (const auto& [team, message] : status.failures) failures.push_back({{"team", team}, {"message", message}});
   return {{"schema", "kith.status/1"},
@@ -86,7 +86,7 @@ int run_status(const StatusOptions& options, Console& console) {
   std::optional<double> seconds_left;
   if (status.state == "running" && status.rate > 0.0) seconds_left = static_cast<double>(status.left) / status.rate;
   if (console.json()) {
-    console.print_json(to_json(status, seconds_left));
+    console.print_json(status_json(status, seconds_left));
     return 0;
   }
   std::string text = fmt::format("{}: {} of {} done", status.state, status.done, counted(status.total, "team"));

@@ -7,9 +7,9 @@
 namespace kith::cli {
 namespace {
 
-Json to_json(const MeanSd& value) { return {{"mean", value.mean}, {"sd", value.sd ? Json(*value.sd) : Json{}}}; }
+Json mean_sd_json(const MeanSd& value) { return {{"mean", value.mean}, {"sd", value.sd ? Json(*value.sd) : Json{}}}; }
 
-Json to_json(const CellSummary& cell, const Study& study) {
+Json group_json(const CellSummary& cell, const Study& study) {
   Json json = Json::object();
   if (cell.strategy) {
     json["strategy"] = name_of(*cell.strategy);
@@ -18,9 +18,9 @@ Json to_json(const CellSummary& cell, const Study& study) {
   }
   json["teams"] = cell.teams;
   json["completed"] = cell.completed;
-  json["periods"] = to_json(cell.periods);
-  json["knowledge"] = to_json(cell.knowledge);
-  json["area_sr"] = to_json(cell.area_sr);
+  json["periods"] = mean_sd_json(cell.periods);
+  json["knowledge"] = mean_sd_json(cell.knowledge);
+  json["area_sr"] = mean_sd_json(cell.area_sr);
   return json;
 }
 
@@ -29,10 +29,10 @@ Json to_json(const CellSummary& cell, const Study& study) {
 void print_summary(const Study& study, const StudySummary& summary, std::size_t teams,
                    const std::vector<std::string>& failed, double seconds, Console& console) {
   Json cells = Json::array();
-  for (const auto& cell : summary.cells) cells.push_back(to_json(cell, study));
+  for (const auto& cell : summary.cells) cells.push_back(group_json(cell, study));
   Json groups = Json::object();
-  if (summary.group) groups["group"] = to_json(*summary.group, study);
-  if (summary.baseline) groups["baseline"] = to_json(*summary.baseline, study);
+  if (summary.group) groups["group"] = group_json(*summary.group, study);
+  if (summary.baseline) groups["baseline"] = group_json(*summary.baseline, study);
   console.print_json(Json{{"schema", "kith.study/1"},
                           {"cells", cells},
                           {"groups", groups},

@@ -19,21 +19,19 @@ struct Assignment {
   TeamAddress address;
 };
 
-[[noreturn]] void usage(const std::string& message) { throw Error{ErrorKind::kUsage, message}; }
-
 Assignment from_run_folder(const TeachOptions& options) {
   auto reading = read_run_folder(options.from);
   if (!reading.study) throw Error{reading.diagnostics};
   const auto addresses = team_addresses(*reading.study);
   const auto wrong = wrong_integer(options.team, 1, static_cast<std::int64_t>(addresses.size()));
-  if (!wrong.empty()) usage("--team " + wrong);
+  if (!wrong.empty()) refuse("--team " + wrong);
   const auto& address = addresses[std::stoul(options.team) - 1];
   return {*std::move(reading.domain), reading.study->variants[address.variant], address};
 }
 
 Assignment from_options(const TeachOptions& options) {
-  if (options.domain.empty()) usage("kith teach needs a DOMAIN, or --from DIR --team N");
-  if (options.group.empty()) usage("kith teach needs --group, the members' learner types, such as NNP");
+  if (options.domain.empty()) refuse("kith teach needs a DOMAIN, or --from DIR --team N");
+  if (options.group.empty()) refuse("kith teach needs --group, the members' learner types, such as NNP");
   auto reading = study_of(options.study, options.set);
   auto spec = reading.study->variants.front();
   for (const char letter : options.group) {
@@ -43,10 +41,10 @@ Assignment from_options(const TeachOptions& options) {
       known = known || type.letter == letter;
       letters += (letters.empty() ? "" : ", ") + std::string{type.letter};
     }
-    if (!known) usage(fmt::format("study '{}' has no learner type '{}', only {}", options.study, letter, letters));
+    if (!known) refuse(fmt::format("study '{}' has no learner type '{}', only {}", options.study, letter, letters));
   }
   constexpr std::size_t kMaxTeamSize = 30;
-  if (options.group.size() > kMaxTeamSize) usage("a group has at most 30 members");
+  if (options.group.size() > kMaxTeamSize) refuse("a group has at most 30 members");
   const auto strategy = find_strategy(options.strategy).value();
   spec.domain = options.domain;
   spec.seed = options.seed;

@@ -5,11 +5,10 @@
 #include "kith/explain/words.hpp"
 #include "picture.hpp"
 #include "transcript.hpp"
+#include "wrapped.hpp"
 
 namespace kith::cli {
 namespace {
-
-constexpr std::size_t kWidth = 100;
 
 // Writes a transcript from top to bottom.
 class TranscriptWriter {
@@ -31,7 +30,7 @@ class TranscriptWriter {
     members_ = session.members;
     if (transcript_.sessions.size() > 1) {
       line();
-      line(std::string(kWidth, '#'));
+      line(std::string(kTextWidth, '#'));
       line(fmt::format("Session of member {} alone", session.members.front()));
     }
     skipped_until(session, 0,
@@ -72,7 +71,7 @@ class TranscriptWriter {
     const auto& lesson = period.lesson;
     const auto& component = atlas_.knowledge_components()[lesson.component];
     line();
-    line(std::string(kWidth, '='));
+    line(std::string(kTextWidth, '='));
     line(fmt::format("Period {}: knowledge component {}, {}", lesson.period, lesson.component + 1, component.name));
     line("  weighs " + weighed(component) +
          (component.masked.empty() ? "" : ", where there is no " + masked_names(domain_, component)));
@@ -238,7 +237,7 @@ class TranscriptWriter {
   void ending() {
     const auto& record = transcript_.record;
     line();
-    line(std::string(kWidth, '='));
+    line(std::string(kTextWidth, '='));
     const auto shown = counted(record.demonstrations, "demonstration") + " and " + counted(record.tests, "test");
     if (transcript_.sessions.size() == 1) {
       line(summary(transcript_.sessions.front()) + ", with " + shown);

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,6 +33,18 @@ struct RunWith {
 [[nodiscard]] inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream file{path, std::ios::binary};
   return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+using Tables = std::map<std::string, std::string>;
+
+/// The tables of a run by their names; none where there is no such run.
+[[nodiscard]] inline Tables tables_in(const std::filesystem::path& run) {
+  Tables tables;
+  if (!std::filesystem::exists(run / "tables")) return tables;
+  for (const auto& entry : std::filesystem::directory_iterator{run / "tables"}) {
+    tables[entry.path().filename().string()] = text_of(entry.path());
+  }
+  return tables;
 }
 
 /// A folder of its own, removed at the end.

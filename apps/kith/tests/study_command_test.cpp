@@ -13,14 +13,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-std::map<std::string, std::string> tables_in(const std::filesystem::path& run) {
-  std::map<std::string, std::string> tables;
-  for (const auto& entry : std::filesystem::directory_iterator{run / "tables"}) {
-    tables[entry.path().filename().string()] = text_of(entry.path());
-  }
-  return tables;
-}
-
 TEST(StudyCommand, PrintsATableAndSaysWhereTheTablesAre) {
   const Scratch scratch;
   const auto ran = run_kith({"study", "quick", "-o", scratch / "run"});

@@ -20,18 +20,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using Json = nlohmann::json;
-using Tables = std::map<std::string, std::string>;
 
 namespace fs = std::filesystem;
-
-Tables tables_in(const fs::path& run) {
-  Tables tables;
-  if (!fs::exists(run / "tables")) return tables;
-  for (const auto& entry : fs::directory_iterator{run / "tables"}) {
-    tables[entry.path().filename().string()] = text_of(entry.path());
-  }
-  return tables;
-}
 
 // 16 teams, which take a fraction of a second.
 std::vector<std::string> small_study(const std::string& folder) {
