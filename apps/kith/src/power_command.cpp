@@ -112,7 +112,7 @@ std::string curve_text(const PowerCurve& curve, const PowerOptions& options, con
          needed_text(curve, options) + "\n" + table.text(console) + "\n";
 }
 
-std::string replication_text(const std::vector<Finding>& findings, const Replication& result, const StudySpec& spec,
+std::string replication_text(const std::vector<PublishedFinding>& findings, const Replication& result, const StudySpec& spec,
                              const Console& console) {
   TextTable table{"llrlrrr"};
   table.add({"finding", "published", "significant", "95 % interval", "eta2", "power by F", "power imposed"});
@@ -166,7 +166,7 @@ Json curve_json(const PowerCurve& curve) {
             {"analytic", known(curve.needed.analytic)}}}};
 }
 
-Json replication_json(const std::vector<Finding>& findings, const Replication& result) {
+Json replication_json(const std::vector<PublishedFinding>& findings, const Replication& result) {
   Json list = Json::array();
   for (std::size_t i = 0; i < findings.size(); ++i) {
     const auto& outcome = result.findings[i];

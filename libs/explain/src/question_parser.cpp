@@ -6,7 +6,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
-#include "vocabulary.hpp"
+#include "lexicon.hpp"
 
 namespace kith::detail {
 namespace {
@@ -71,7 +71,7 @@ std::vector<Token> tokens_of(const std::string& text) {
 class Parser {
  public:
   Parser(const Domain& domain, const std::string& text)
-      : domain_{domain}, text_{text}, vocabulary_{domain}, tokens_{tokens_of(text)} {}
+      : domain_{domain}, text_{text}, lexicon_{domain}, tokens_{tokens_of(text)} {}
 
   Question parse() {
     read_kind();
@@ -128,7 +128,7 @@ class Parser {
     const bool negation = word == "not" || word == "no" || word == "without" || word == "instead" || word == "rather" ||
                           (word.size() > 3 && word.substr(word.size() - 3) == "n't");
     const bool separator = negation || word == "and" || word == "with";
-    if (!separator && !vocabulary_.knows(word) && is_filler(word)) return;
+    if (!separator && !lexicon_.knows(word) && is_filler(word)) return;
     if (separator) {
       close_phrase();
       negated_ = negation;
@@ -157,14 +157,14 @@ class Parser {
               "ask about it in a question of its own");
     }
     check_words(place);
-    const auto found = vocabulary_.happenings(words_of_phrase());
+    const auto found = lexicon_.happenings(words_of_phrase());
     if (found.empty()) {
       fail_at(place, "E1003", "'" + phrase_text() + "' is no action and no feature of this robot",
-              "it knows " + listed(vocabulary_.happening_names()));
+              "it knows " + listed(lexicon_.happening_names()));
     }
     if (found.size() > 1) {
       std::vector<std::string> names;
-      for (const auto& one : found) names.push_back(vocabulary_.name_of(one));
+      for (const auto& one : found) names.push_back(lexicon_.name_of(one));
       fail_at(place, "E1003", "'" + phrase_text() + "' could mean several things: " + listed(names),
               "say more, or its name");
     }
@@ -175,19 +175,19 @@ class Parser {
   // Every word must be one that somebody could use here; the first that is not is named.
   void check_words(const Place&) const {
     for (const auto& word : phrase_) {
-      if (vocabulary_.knows(word.text)) continue;
-      const auto nearest = nearest_word(word.text, vocabulary_.all_words());
+      if (lexicon_.knows(word.text)) continue;
+      const auto nearest = nearest_word(word.text, lexicon_.all_words());
       fail_at(word.place, "E1003", "nobody knows '" + word.text + "' here",
-              nearest.empty() ? "the robot knows " + listed(vocabulary_.happening_names())
+              nearest.empty() ? "the robot knows " + listed(lexicon_.happening_names())
                               : "did you mean '" + nearest + "'?");
     }
   }
 
   std::string thing_of_phrase(const Place& place) const {
     for (const auto& word : phrase_) {
-      if (const auto thing = vocabulary_.optional_thing(word.text)) return *thing;
+      if (const auto thing = lexicon_.optional_thing(word.text)) return *thing;
     }
-    const auto things = vocabulary_.optional_things();
+    const auto things = lexicon_.optional_things();
     const auto nearest = nearest_word(phrase_.front().text, things);
     const auto hint = !nearest.empty() ? "did you mean '" + nearest + "'?"
                       : things.empty() ? "all its worlds are the same"
@@ -279,7 +279,7 @@ class Parser {
   };
   const Domain& domain_;
   const std::string& text_;
-  Vocabulary vocabulary_;
+  Lexicon lexicon_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   bool negated_ = false;

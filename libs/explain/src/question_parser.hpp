@@ -22,7 +22,7 @@ struct Happening {
 };
 
 // A thing that the map may have or lack.
-struct Condition {
+struct WorldCondition {
   bool present = true;
   std::string thing;
   std::optional<Cell> cell;
@@ -33,7 +33,7 @@ struct Question {
   enum class Kind { kWhen, kWhere, kWhy, kWhatIf, kWhat };
   Kind kind = Kind::kWhen;
   std::optional<Happening> happening, instead;
-  std::vector<Condition> conditions;
+  std::vector<WorldCondition> conditions;
   std::optional<Cell> cell;
   Place cell_place;
   std::optional<std::size_t> carried;  // index into Domain::item_names()

@@ -236,7 +236,7 @@ Draw whole(const TeamPool& pool) {
 }
 
 // The power that a study of this size has for effects of the published sizes.
-void add_published_power(Replication& result, std::span<const Finding> findings, const TeamPool& pool,
+void add_published_power(Replication& result, std::span<const PublishedFinding> findings, const TeamPool& pool,
                          std::size_t teams, std::uint64_t seed) {
   for (std::size_t i = 0; i < findings.size(); ++i) {
     const auto& finding = findings[i];
@@ -259,7 +259,7 @@ void add_published_power(Replication& result, std::span<const Finding> findings,
 }  // namespace
 
 std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpec& spec,
-                                              std::span<const Finding> findings, const ReplicationOptions& options) {
+                                              std::span<const PublishedFinding> findings, const ReplicationOptions& options) {
   if (options.studies < 1) throw std::invalid_argument{"replicate_findings: no study to run"};
   Study study;
   const auto seeds = RandomStream{options.seed}.split("replication");

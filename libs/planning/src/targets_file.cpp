@@ -197,7 +197,7 @@ class TargetsParser {
   // --- findings ----------------------------------------------------------------
 
   void read_finding(TomlReader& table) {
-    Finding finding;
+    PublishedFinding finding;
     if (const auto text = table.string("effect", Presence::kRequired)) {
       auto reading = parse_effect(*text, spec());
       if (!reading.effect) {

@@ -136,10 +136,10 @@ TEST(Power, RefusesNonsense) {
 TEST(ReplicateFindings, FindsThatTeachingEverybodyAloneTakesLonger) {
   const auto spec = testing::small_study({"replicates=4"}).study->variants.front();
   const auto effect = *parse_effect("periods: group - baseline", spec).effect;
-  Finding finding;
+  PublishedFinding finding;
   finding.effect = effect;
   finding.significant = true;
-  const std::vector<Finding> findings{finding};
+  const std::vector<PublishedFinding> findings{finding};
   ReplicationOptions options;
   options.studies = 5;
   options.threads = 1;

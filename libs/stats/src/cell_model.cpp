@@ -286,7 +286,7 @@ bool CellModel::balanced() const noexcept {
          std::all_of(counts_.begin(), counts_.end(), [this](std::size_t count) { return count == counts_.front(); });
 }
 
-CellSummary CellModel::summarize(std::span<const double> values) const {
+CellMoments CellModel::summarize(std::span<const double> values) const {
   // Differences from a cell's first value: a cell whose values are all equal has exactly no spread.
   std::vector<double> first(num_cells(), std::numeric_limits<double>::quiet_NaN());
   std::vector<double> mean(num_cells(), 0.0);
@@ -295,7 +295,7 @@ CellSummary CellModel::summarize(std::span<const double> values) const {
     if (std::isnan(first[cell])) first[cell] = values[i];
     mean[cell] += values[i] - first[cell];
   }
-  CellSummary summary;
+  CellMoments summary;
   summary.weighted_means.resize(index_of(num_cells()));
   for (std::size_t c = 0; c < num_cells(); ++c) {
     mean[c] = first[c] + mean[c] / static_cast<double>(counts_[c]);

@@ -23,7 +23,7 @@ struct StandardizedResponse {
 [[nodiscard]] StandardizedResponse standardize(std::span<const double> response);
 
 // Means and spread of the cells, all that a model of factors asks of a response.
-struct CellSummary {
+struct CellMoments {
   Eigen::VectorXd weighted_means;  // z: mean * sqrt(count) per cell, which is sum / sqrt(count)
   double within = 0.0;             // Sum of squares of the differences from the cells' means.
 };
@@ -62,7 +62,7 @@ class CellModel {
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
 
   // Two passes that keep all digits of a standardised response.
-  [[nodiscard]] CellSummary summarize(std::span<const double> values) const;
+  [[nodiscard]] CellMoments summarize(std::span<const double> values) const;
   // z from the sums of the cells.
   [[nodiscard]] Eigen::VectorXd weighted_means(std::span<const double> sums) const;
 

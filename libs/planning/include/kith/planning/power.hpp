@@ -113,7 +113,7 @@ struct ReplicationOptions {
 /// as published. Teams per cell are those of the study.
 /// @return nothing if on_progress stopped it.
 [[nodiscard]] std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpec& spec,
-                                                            std::span<const Finding> findings,
+                                                            std::span<const PublishedFinding> findings,
                                                             const ReplicationOptions& options);
 
 }  // namespace kith

@@ -45,7 +45,7 @@ struct FreeParameter {
 };
 
 /// A published test.
-struct Finding {
+struct PublishedFinding {
   Effect effect;
   bool significant = false;
   double alpha = 0.05;
@@ -58,7 +58,7 @@ struct TargetSet {
   std::string title;
   std::vector<Target> targets;
   std::vector<FreeParameter> parameters;
-  std::vector<Finding> findings;
+  std::vector<PublishedFinding> findings;
 };
 
 /// Reads the study with these overrides ("KEY=VALUE") applied last.

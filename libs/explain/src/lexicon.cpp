@@ -1,4 +1,4 @@
-#include "vocabulary.hpp"
+#include "lexicon.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -54,7 +54,7 @@ const std::set<std::string>& filler_words() {
   return kWords;
 }
 
-Vocabulary::Vocabulary(const Domain& domain) : domain_{domain} {
+Lexicon::Lexicon(const Domain& domain) : domain_{domain} {
   const auto d = domain.num_features();
   for (std::size_t a = 0; a < domain.action_names().size(); ++a) {
     const auto& name = domain.action_names()[a];
@@ -71,7 +71,7 @@ Vocabulary::Vocabulary(const Domain& domain) : domain_{domain} {
   }
 }
 
-void Vocabulary::add_words(const std::string& text, std::size_t feature) {
+void Lexicon::add_words(const std::string& text, std::size_t feature) {
   for (const auto& word : plain_words(text)) {
     if (filler_words().count(word) != 0) continue;
     // An action's name stays the action's, also where the words about a feature use it.
@@ -83,19 +83,19 @@ void Vocabulary::add_words(const std::string& text, std::size_t feature) {
   }
 }
 
-bool Vocabulary::is_item(const std::string& stem_of_word) const {
+bool Lexicon::is_item(const std::string& stem_of_word) const {
   const auto& items = domain_.item_names();
   return std::any_of(items.begin(), items.end(), [&](const auto& item) { return stem(item) == stem_of_word; });
 }
 
-bool Vocabulary::knows(const std::string& word) const {
+bool Lexicon::knows(const std::string& word) const {
   // "pick up", "puts down" and "drop off" are two words for one action.
   const auto known = stem(word);
   if (is_item(known)) return true;
   return meanings_.count(known) != 0 || known == "pick" || known == "drop" || known == "off" || known == "put";
 }
 
-std::vector<Happening> Vocabulary::happenings(const std::vector<std::string>& words) const {
+std::vector<Happening> Lexicon::happenings(const std::vector<std::string>& words) const {
   std::vector<std::string> stems;
   // "pick up the parcel": what is picked up is clear without saying.
   for (const auto& word : words) {
@@ -133,25 +133,25 @@ std::vector<Happening> Vocabulary::happenings(const std::vector<std::string>& wo
   return result;
 }
 
-std::string Vocabulary::name_of(const Happening& happening) const {
+std::string Lexicon::name_of(const Happening& happening) const {
   return happening.action ? domain_.action_names()[happening.action->value()]
                           : domain_.feature_names()[happening.feature];
 }
 
-std::vector<std::string> Vocabulary::happening_names() const {
+std::vector<std::string> Lexicon::happening_names() const {
   auto names = domain_.action_names();
   names.insert(names.end(), domain_.feature_names().begin(), domain_.feature_names().end());
   return names;
 }
 
-std::optional<std::string> Vocabulary::optional_thing(const std::string& word) const {
+std::optional<std::string> Lexicon::optional_thing(const std::string& word) const {
   for (const auto& thing : optional_things()) {
     if (stem(thing) == stem(word)) return thing;
   }
   return std::nullopt;
 }
 
-std::vector<std::string> Vocabulary::optional_things() const {
+std::vector<std::string> Lexicon::optional_things() const {
   std::vector<std::string> things;
   for (const auto& group : domain_.optional_groups()) {
     if (std::find(things.begin(), things.end(), group.name) == things.end()) things.push_back(group.name);

@@ -17,9 +17,9 @@ namespace kith::detail {
 [[nodiscard]] const std::set<std::string>& filler_words();
 
 // What people can name in one domain, in any form of the word.
-class Vocabulary {
+class Lexicon {
  public:
-  explicit Vocabulary(const Domain& domain);
+  explicit Lexicon(const Domain& domain);
 
   [[nodiscard]] bool knows(const std::string& word) const;
   // What words together name: what every one of them can mean. A whole name wins over words about it.
