@@ -18,13 +18,15 @@ import { collectNotices, noticesHtml } from './notices.mjs';
 const DATA_PLACEHOLDER = '/*KITH_REPORT_JSON*/';
 const TITLE_PLACEHOLDER = '/*KITH_REPORT_TITLE*/';
 const MAX_BYTES = 2_000_000;
+// Per page what it draws, as people without scripts are told.
+const PICTURES = { report: 'figures', lesson: 'boards' };
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
   options: { out: { type: 'string' }, modules: { type: 'string' }, page: { type: 'string', default: 'report' } },
 });
 const source = join('src', values.page);
-if (!values.out || !existsSync(join(here, source, 'template.html'))) {
+if (!values.out || !Object.hasOwn(PICTURES, values.page)) {
   console.error('usage: node build.mjs --out FILE [--page report|lesson] [--modules DIR]');
   process.exit(2);
 }
@@ -87,7 +89,8 @@ const policy = [
   "form-action 'none'",
 ].join('; ');
 
-let page = readFileSync(join(here, source, 'template.html'), 'utf8');
+let page = readFileSync(join(here, 'src/shared/template.html'), 'utf8');
+page = page.replaceAll('__PAGE__', values.page).replaceAll('__PICTURES__', PICTURES[values.page]);
 page = fill(page, '__POLICY__', policy);
 page = fill(page, '__STYLE__', style.text.trim());
 page = fill(page, '__NOTICES__', noticesHtml(collectNotices(script.metafile, modulesRoot)));

@@ -29,7 +29,7 @@ Scratch* ReportCommand::scratch_ = nullptr;
 
 // The document inside a page.
 Json document_in(const std::string& page) {
-  const std::string begin{"<script type=\"application/json\" id=\"kith-report\">"};
+  const std::string begin{"<script type=\"application/json\" id=\"kith-document\">"};
   const auto at = page.find(begin) + begin.size();
   return Json::parse(page.substr(at, page.find("</script>", at) - at), nullptr, false);
 }

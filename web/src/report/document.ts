@@ -95,7 +95,7 @@ export const kSchema = 'kith.report/1';
 
 // The document inside the page; throws where there is none or of another schema.
 export function readReport(): Report {
-  const text = document.getElementById('kith-report')?.textContent ?? '';
+  const text = document.getElementById('kith-document')?.textContent ?? '';
   const report = JSON.parse(text) as Report;
   if (report.schema !== kSchema) {
     throw new Error(`this page draws documents of schema ${kSchema}, not ${String(report.schema)}`);
