@@ -45,16 +45,19 @@ void AtlasBuilder::choose_source(BehaviourSource source) {
   }
   std::size_t states = 0;
   std::size_t most = 0;
+  bool small_counts = true;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    small_counts = small_counts && has_small_counts(domain.mdp(m));
     most = std::max(most, domain.mdp(m).num_states());
     states += domain.mdp(m).num_states();
   }
-  const bool possible = domain.is_exact() && domain.num_features() == 3 && domain.num_starts() == states;
+  const bool possible =
+      domain.is_exact() && small_counts && domain.num_features() == 3 && domain.num_starts() == states;
   if (source == BehaviourSource::kTabulated && !possible) {
     throw Error{ErrorKind::kInfeasible,
                 "behaviours in domain '" + domain.id() +
-                    "' cannot be tabulated: that takes three features, exact counts and all states "
-                    "as starts"};
+                    "' cannot be tabulated: that takes three features, exact counts below 2^31 and "
+                    "all states as starts"};
   }
   const bool cheap = most <= kMostStatesOfTables && states <= kMostStatesOfTablesInAll;
   atlas_.tabulated_ =

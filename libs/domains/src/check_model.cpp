@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "domain_data.hpp"
@@ -18,27 +19,32 @@ class ModelChecker {
 
   void run() {
     for (const ExplicitMember& member : family_.members) {
-      for (std::size_t k = 0; k < occurs_.size(); ++k) occurs_[k] = occurs_[k] || member.mdp.has_feature(k);
       if (member.mdp.discount() == 1.0) check(member);  // every discounted optimum is finite
     }
     if (num_failures_ > 0) report_failure();
-    for (std::size_t k = 0; k < occurs_.size(); ++k) {
-      if (occurs_[k] || num_failures_ > 0) continue;
-      report_.warning("W0301", dynamics_.features[k].place,
-                      "feature '" + dynamics_.features[k].name + "' occurs in no MDP");
-    }
   }
 
  private:
   void check(const ExplicitMember& member) {
-    if (!member.mdp.is_deterministic() || !member.mdp.is_integral()) {
+    if (!is_exact(member.mdp)) {
       if (!behave(member.mdp, data_.weights.raw)) note_failure(member, "E0323", "");
+      return;
+    }
+    if (!has_small_values(member.mdp)) {
+      note_failure(member, "E0324", "");
       return;
     }
     const ExactPlan plan = plan_exactly(member.mdp, data_.weights.integer);
     if (plan.solution) return;
     note_failure(member, plan.failure == PlanFailure::kPositiveCycle ? "E0321" : "E0322",
                  cycle_text(member, plan.cycle));
+  }
+
+  // Whether no path can earn more than planning in integers takes (2^60).
+  [[nodiscard]] bool has_small_values(const Mdp& mdp) const {
+    double weight = 0.0;
+    for (const std::int64_t entry : data_.weights.integer) weight += std::abs(static_cast<double>(entry));
+    return weight * mdp.largest_feature() * static_cast<double>(mdp.num_states() + 1) < 0x1p60;
   }
 
   void note_failure(const ExplicitMember& member, const std::string& id, std::string cycle) {
@@ -69,6 +75,9 @@ class ModelChecker {
     } else if (failure_ == "E0322") {
       report_.infeasible("E0322", weights_place_, "the robot can go round in circles for nothing: " + cycle_ + where,
                          hint);
+    } else if (failure_ == "E0324") {
+      report_.error("E0324", weights_place_, "the features are too large to count exactly with these weights" + where,
+                    "count in larger units, or give the weights with fewer digits");
     } else {
       report_.infeasible("E0323", weights_place_,
                          "there is no best way to finish: the robot can collect reward for ever" + where,
@@ -81,7 +90,6 @@ class ModelChecker {
   const Dynamics& dynamics_;
   TomlPlace weights_place_;
   TomlReport& report_;
-  std::vector<bool> occurs_ = std::vector<bool>(dynamics_.features.size(), false);
   std::size_t num_failures_ = 0;
   std::string failure_;
   std::string cycle_;

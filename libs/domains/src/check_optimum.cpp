@@ -17,7 +17,6 @@ class OptimumChecker {
 
   void check(std::size_t number, const DomainMember& member) {
     const ExactPlan plan = plan_exactly(member.mdp, reward_.weights.integer);
-    for (std::size_t k = 0; k < occurs_.size(); ++k) occurs_[k] = occurs_[k] || member.mdp.has_feature(k);
     if (plan.solution) {
       check_ties(member, *plan.solution);
       check_lengths(number, member, *plan.solution);
@@ -43,16 +42,6 @@ class OptimumChecker {
                       "the longest optimal path has " + std::to_string(longest_) + " steps, but max_steps is " +
                           std::to_string(dynamics_.max_steps),
                       world_.groups.empty() ? "" : "the first: variant " + variant_text(world_, longest_variant_));
-    }
-    if (dynamics_.features.size() < 2) {
-      report_.warning("W0304", dynamics_.features.back().place,
-                      "a single feature: planning and inspection work, teaching does not",
-                      "a policy shows how features are weighed against each other: count something else too");
-    }
-    for (std::size_t k = 0; k < occurs_.size(); ++k) {
-      if (occurs_[k] || num_failures_ > 0) continue;
-      report_.warning("W0301", dynamics_.features[k].place,
-                      "feature '" + dynamics_.features[k].name + "' occurs in no variant");
     }
   }
 
@@ -143,7 +132,6 @@ class OptimumChecker {
   const Reward& reward_;
   TomlReport& report_;
   StateLayout layout_;
-  std::vector<bool> occurs_ = std::vector<bool>(dynamics_.features.size(), false);
   std::size_t num_failures_ = 0;
   bool positive_ = false;
   std::string cycle_text_;

@@ -8,11 +8,18 @@
 #include <utility>
 
 #include "domain_data.hpp"
+#include "kith/mdp/behaviour.hpp"
 
 namespace kith {
 namespace {
 
-constexpr std::int64_t kExpectationScale = std::int64_t{1} << 24;
+// Units of expected counts: 2^-24, or as much larger as leaves room for episodes of 2^21 steps below the 2^53 units up
+// to which doubles count.
+std::int64_t expectation_scale(double largest_feature) {
+  std::int64_t scale = std::int64_t{1} << 24;
+  while (scale > 1 && largest_feature * static_cast<double>(scale) > 0x1p32) scale /= 2;
+  return scale;
+}
 
 // visit(member) of either kind.
 template <typename Visit>
@@ -86,7 +93,7 @@ std::size_t Domain::num_mdps() const noexcept {
 }
 std::size_t Domain::num_starts() const noexcept { return data_->num_starts; }
 bool Domain::is_exact() const noexcept { return data_->exact; }
-std::int64_t Domain::count_scale() const noexcept { return data_->exact ? 1 : kExpectationScale; }
+std::int64_t Domain::count_scale() const noexcept { return data_->count_scale; }
 bool Domain::has_map() const noexcept { return data_->has_map(); }
 const Mdp& Domain::mdp(MdpIndex m) const { return mdp_of(*data_, m, "Domain::mdp"); }
 int Domain::width() const { return data_->grid().world.width; }
@@ -249,8 +256,7 @@ int dissimilarity_of(const GridFamily& grid, DemoId a, DemoId b) {
   int moved = 0;
   for (std::size_t i = 0; i < common; ++i) moved += std::abs(digits_a[i] - digits_b[i]);
   const detail::World& world = grid.world;
-  const std::uint64_t toggled =
-      (world.variant(a.mdp.value()) ^ world.variant(b.mdp.value())) & grid.non_station_groups;
+  const std::uint64_t toggled = (world.variant(a.mdp.value()) ^ world.variant(b.mdp.value())) & grid.non_station_groups;
   const int stations = grid.num_stations[row_a] - grid.num_stations[row_b];
   return 2 * moved + std::popcount(toggled) + std::abs(stations);
 }
@@ -280,14 +286,17 @@ int Domain::dissimilarity(DemoId a, DemoId b) const {
 }
 
 void Domain::Data::sum_up() {
+  double largest = 0.0;
   std::visit(
       [&](const auto& family_of_either_kind) {
         for (const auto& member : family_of_either_kind.members) {
           num_starts += member.starts.size();
-          exact = exact && member.mdp.is_deterministic() && member.mdp.is_integral() && member.mdp.discount() == 1.0;
+          exact = exact && kith::is_exact(member.mdp);
+          largest = std::max(largest, member.mdp.largest_feature());
         }
       },
       family);
+  count_scale = exact ? 1 : expectation_scale(largest);
 }
 
 }  // namespace kith

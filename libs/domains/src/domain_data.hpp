@@ -57,6 +57,7 @@ struct Domain::Data {
   std::variant<GridFamily, ExplicitFamily> family;
   std::size_t num_starts = 0;  // of all MDPs
   bool exact = true;           // see Domain::is_exact()
+  std::int64_t count_scale = 1;
 
   [[nodiscard]] bool has_map() const noexcept { return std::holds_alternative<GridFamily>(family); }
   // The gridworlds. @throws std::logic_error if the MDPs are none.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 #include "domain_data.hpp"
@@ -46,6 +47,22 @@ void check_has_goal(const detail::World& world, const detail::Dynamics& dynamics
                "declare a symbol with goal = true or destination = \"ITEM\", or the action \"exit\"");
 }
 
+// Warns of features that cannot be taught.
+template <typename Member>
+void check_features(const detail::Dynamics& dynamics, const std::vector<Member>& members, TomlReport& report) {
+  if (dynamics.features.size() < 2) {
+    report.warning("W0304", dynamics.features.back().place,
+                   "a single feature: planning and inspection work, teaching does not",
+                   "a policy shows how features are weighed against each other: count something else too");
+  }
+  for (std::size_t k = 0; k < dynamics.features.size(); ++k) {
+    if (std::ranges::any_of(members, [k](const Member& member) { return member.mdp.has_feature(k); })) continue;
+    report.warning("W0301", dynamics.features[k].place,
+                   "feature '" + dynamics.features[k].name + "' occurs in no " +
+                       (std::is_same_v<Member, ExplicitMember> ? "MDP" : "variant"));
+  }
+}
+
 // What both kinds of domains have.
 Domain::Data data_from(const detail::Dynamics& dynamics, detail::Reward reward) {
   Domain::Data data;
@@ -80,6 +97,7 @@ std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limi
   if (report.has_errors()) return std::nullopt;
   detail::check_optimum(world, dynamics, reward, members, report);
   if (report.has_errors()) return std::nullopt;
+  check_features(dynamics, members, report);
   Domain::Data data = data_from(dynamics, std::move(reward));
   for (const detail::Action action : dynamics.actions) {
     data.action_names.push_back(detail::all_action_names()[static_cast<std::size_t>(action)]);
@@ -111,6 +129,7 @@ std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& 
   if (failed()) return std::nullopt;
   detail::check_model(family, data, model.dynamics, reward.weights_place, report);
   if (failed()) return std::nullopt;
+  check_features(model.dynamics, family.members, report);
   data.family = std::move(family);
   return data;
 }

@@ -215,7 +215,7 @@ class MemberBuilder {
       ++count;
     }
     if (count == 0) return;
-    report_.warning("W0203", first->place,
+    report_.warning("W0205", first->place,
                     "left out " + std::to_string(count) + " states" + in_mdp() +
                         " from which no end can surely be reached, with all actions that may lead there",
                     "the first is '" + first->key + "'; if the robot stays there for ever, mark it as terminal");

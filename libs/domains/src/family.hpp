@@ -20,8 +20,7 @@ namespace kith::detail {
 void check_optimum(const World& world, const Dynamics& dynamics, const Reward& reward,
                    const std::vector<DomainMember>& members, TomlReport& report);
 
-// Reports explicit models in which the robot has no finite optimum, and features that occur nowhere. `data` has the
-// weights.
+// Reports explicit models in which the robot has no finite optimum. `data` has the weights.
 void check_model(const ExplicitFamily& family, const Domain::Data& data, const Dynamics& dynamics,
                  const TomlPlace& weights_place, TomlReport& report);
 

@@ -38,6 +38,7 @@ class ModelReader {
     if (format == std::size_t{1}) read_json(*table);
     if (format == std::size_t{2}) read_prism(*table);
     if (format == std::size_t{3}) read_gym(*table);
+    if (format && is_sound() && !reading_.weights) refuse_rewards();
     if (format) table->finish();
     return std::move(reading_);
   }
@@ -98,6 +99,17 @@ class ModelReader {
                     "the first one is at line " + std::to_string(other.place.line));
     }
     reading_.dynamics.features.push_back(std::move(feature));
+  }
+
+  // Where the model has vectors, weights say what features are worth.
+  void refuse_rewards() {
+    for (std::size_t k = 0; k < rewards_.size(); ++k) {
+      if (!rewards_[k]) continue;
+      report_.error(
+          "E0264", reading_.dynamics.features[k].place,
+          "feature '" + reading_.dynamics.features[k].name + "' has a reward, but the model has vectors of features",
+          "write it as a weight under [reward]");
+    }
   }
 
   // Formats that have names or vectors for features need them declared.

@@ -204,7 +204,7 @@ ModelTexts with_hole(const std::string& terminal) {
 TEST(ExplicitModel, LeavesOutStatesWithoutAnEndAndWhatMayLeadThere) {
   const DomainReading reading = read_model_texts(with_hole("false"));
   ASSERT_TRUE(reading.domain);
-  EXPECT_THAT(reading.diagnostics, ::testing::Contains(::testing::Field(&Diagnostic::id, "W0203")));
+  EXPECT_THAT(reading.diagnostics, ::testing::Contains(::testing::Field(&Diagnostic::id, "W0205")));
   EXPECT_EQ(reading.domain->mdp(kFirst).choices(StateIndex{1}).size(), 1u);  // creeping
   EXPECT_EQ(sound_model(with_hole("true")).mdp(kFirst).choices(StateIndex{1}).size(), 2u);
 }

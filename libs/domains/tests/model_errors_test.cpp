@@ -5,6 +5,7 @@
 #include <set>
 
 #include "error_ids.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "models_under_test.hpp"
 
 namespace kith {
@@ -23,6 +24,14 @@ struct ModelCase {
   std::string hint = "";
   bool infeasible = false;
 };
+
+// A walk over ice that holds, which may be slippery.
+std::string sure_rows(const std::string& slip) {
+  return "bank,go,ice,1,0,1\nice,go,shore,1," + slip + ",1\nice,creep,bank,1,0,1\n";
+}
+const std::string kRows =
+    "bank,go,ice,1,0,1\nice,go,shore,0.75,0,1\nice,go,bank,0.25,1,1\nice,creep,shore,0.5,0,1\n"
+    "ice,creep,ice,0.5,0,1\nbank,creep,bank,1,0,1\n";
 
 const std::string kNine =
     "[[feature]]\nname = \"a\"\n[[feature]]\nname = \"b\"\n[[feature]]\nname = \"c\"\n[[feature]]\nname = \"d\"\n"
@@ -55,6 +64,8 @@ std::vector<ModelCase> model_cases() {
        "E0301 domain.toml 1:1"},
       {"nine_features", csv, toml, "[reward]", kNine, "E0301 domain.toml 25:1", "not 9"},
       {"weight_missing", csv, toml, "slip = -2, ", "", "E0311 domain.toml 14:11"},
+      {"reward_beside_vectors", csv, toml, "name = \"slip\"", "name = \"slip\"\nreward = -2", "E0264 domain.toml 10:8",
+       "feature 'slip' has a reward", "[reward]"},
       {"action_twice", csv, toml, "discount = 1.0", "actions = [\"go\", \"creep\", \"go\"]", "E0222 domain.toml 4:27"},
       // tables
       {"state_column_missing", csv, states, "state,name", "stat,name", "E0502 states.csv 1:1", "\"state\" is missing"},
@@ -84,7 +95,7 @@ std::vector<ModelCase> model_cases() {
       {"terminal_start", csv, states, "true,false,2", "true,true,2", "E0258 states.csv 4:1", "cannot be a start"},
       {"undeclared_action", csv, toml, "discount = 1.0", "actions = [\"go\", \"crawl\"]", "E0243 transitions.csv 5:5",
        "'creep'", "known: go, crawl"},
-      {"unreachable_end", csv, rows, "bank,go,ice,1,0,1\n", "bank,go,bank,1,0,1\n", "W0203 states.csv 2:1", "left out"},
+      {"unreachable_end", csv, rows, "bank,go,ice,1,0,1\n", "bank,go,bank,1,0,1\n", "W0205 states.csv 2:1", "left out"},
       {"variable_too_large", csv, states, "true,1", "true,3000000000", "E0249 states.csv 3:27", "too large"},
       {"mdp_without_states", csv, states,
        "state,name,terminal,start,x\nbank,on the bank,false,true,0\nice,on the "
@@ -193,6 +204,33 @@ TEST(ModelErrors, AreNoneInSoundModels) {
   }
 }
 
+TEST(ModelErrors, SayThatCountsAreTooLargeForTheWeights) {
+  auto texts = edited(kIceCsv, "transitions.csv", kRows, sure_rows("2000000000"));
+  EXPECT_TRUE(read_model_texts(texts).domain.has_value());
+  texts = edited(texts, "domain.toml", "slip = -2,", "slip = -0.333333333,");
+  const auto diagnostics = read_model_texts(texts).diagnostics;
+  ASSERT_EQ(diagnostics.size(), 1u);
+  EXPECT_EQ(place_of(diagnostics[0]), "E0324 domain.toml 14:11");
+  EXPECT_THAT(diagnostics[0].hint, HasSubstr("larger units"));
+}
+
+TEST(ModelErrors, WarnOfASingleFeature) {
+  auto texts = edited(kIceCsv, "domain.toml", "[[feature]]\nname = \"slip\"\n", "");
+  texts = edited(texts, "domain.toml", "slip = -2, ", "");
+  texts["transitions.csv"] = "state,action,next,step\nbank,go,ice,1\nice,go,shore,1\n";
+  const auto reading = read_model_texts(texts);
+  ASSERT_TRUE(reading.domain.has_value());
+  EXPECT_EQ(place_of(reading.diagnostics.at(0)), "W0304 domain.toml 10:8");
+}
+
+TEST(ModelErrors, AreNoneWhereExpectedCountsAreLarge) {
+  const auto texts = edited(kIceCsv, "transitions.csv", "ice,go,bank,0.25,1,1", "ice,go,bank,0.25,2000000000,1");
+  const auto reading = read_model_texts(texts);
+  ASSERT_TRUE(reading.domain.has_value());
+  EXPECT_EQ(reading.domain->count_scale(), 2);
+  EXPECT_TRUE(behave(reading.domain->mdp(MdpIndex{0}), reading.domain->weights().raw, {.scale = 2}).has_value());
+}
+
 TEST(ModelErrors, SayThatAStartCannotEnd) {
   auto texts = edited(kIceCsv, "transitions.csv", "bank,go,ice,1,0,1\n", "bank,go,bank,1,0,1\n");
   const auto reading = read_model_texts(texts);
@@ -239,12 +277,12 @@ TEST(ModelErrors, StopAtTwentyOfTheFiles) {
 
 // Those of this page of the documentation; the others are those of grids.
 bool is_of_models(const std::string& id) {
-  return (id >= "E0230" && id < "E0300") || id == "E0323" || id == "W0203" || id == "W0204";
+  return (id >= "E0230" && id < "E0300") || id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205";
 }
 
 TEST(ModelErrorIds, AreAllTriggeredHere) {
-  std::set<std::string> triggered{"E0239", "E0242", "E0257",
-                                  "E0259", "E0260", "W0204"};  // above, and explicit_model_test
+  std::set<std::string> triggered{"E0239", "E0242", "E0257", "E0259",
+                                  "E0260", "E0324", "W0204"};  // above, and explicit_model_test
   for (const ModelCase& c : model_cases()) {
     for (const Diagnostic& d : read_model_texts(edited(*c.base, c.file, c.from, c.to)).diagnostics)
       triggered.insert(d.id);

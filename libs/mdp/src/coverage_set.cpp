@@ -86,12 +86,7 @@ class CoverageSolver {
  private:
   void require_solvable() const {
     detail::require_exact(mdp_, kDimension, "coverage_sets");
-    double largest = 0.0;
-    for (std::size_t row = 0; row < mdp_.num_feature_rows(); ++row) {
-      for (const double x : mdp_.feature_row(row)) largest = std::max(largest, std::abs(x));
-    }
-    detail::require(largest * static_cast<double>(mdp_.num_states() + 1) < 0x1p31, "coverage_sets",
-                    "feature counts must stay below 2^31");
+    detail::require(has_small_counts(mdp_), "coverage_sets", "feature counts must stay below 2^31");
     if (mdp_.by_distance().size() < mdp_.num_states()) infeasible("from some state no terminal state can be reached");
   }
 
@@ -134,6 +129,10 @@ class CoverageSolver {
   const Mdp& mdp_;
   std::vector<std::vector<Counts>> sets_;  // shape [num_states + num_terminals]
 };
+
+bool has_small_counts(const Mdp& mdp) noexcept {
+  return mdp.largest_feature() * static_cast<double>(mdp.num_states() + 1) < 0x1p31;
+}
 
 CoverageSets coverage_sets(const Mdp& mdp) { return CoverageSolver{mdp}.solve(); }
 

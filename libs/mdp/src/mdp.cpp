@@ -22,6 +22,12 @@ std::uint32_t count32(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
 }  // namespace
 
+double Mdp::largest_feature() const noexcept {
+  double largest = 0.0;
+  for (const double entry : feature_table_) largest = std::max(largest, std::abs(entry));
+  return largest;
+}
+
 void Mdp::reject(const char* rule) { throw std::invalid_argument{rule}; }
 
 void Mdp::index_arrivals() {

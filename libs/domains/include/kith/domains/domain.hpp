@@ -125,7 +125,7 @@ class Domain {
   /// Whether all MDPs are deterministic and undiscounted with integer features: then feature counts are exact.
   [[nodiscard]] bool is_exact() const noexcept;
   /// Feature counts, and expectations of them, are kept as integers in units of 1 / count_scale(): 1 if
-  /// is_exact(), else 2^24.
+  /// is_exact(), else 2^24 where features stay below 2^8, and a smaller power of two where they are larger.
   [[nodiscard]] std::int64_t count_scale() const noexcept;
   /// The states of MDP m in which demonstrations and tests may start, ascending, the initial one among them: all that
   /// are not terminal, unless the file asks for fewer.

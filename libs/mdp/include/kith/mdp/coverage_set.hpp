@@ -33,13 +33,17 @@ class CoverageSets {
   std::vector<IntegerVector> vertices_;
 };
 
+/// Whether no path can count 2^31 of anything, which coverage_sets() asks for:
+/// largest_feature() * (num_states() + 1) < 2^31.
+[[nodiscard]] bool has_small_counts(const Mdp& mdp) noexcept;
+
 /// Hull value iteration. The finite region is found first, exactly, by cutting
 /// planes: Bellman-Ford on the generators of the current cone yields cycles that
 /// still gain, and each cuts the cone. Then sets of feature counts are swept from
 /// the terminal states, candidates phi + V(s') pruned to those optimal somewhere
 /// inside the finite region, until nothing changes.
 /// @throws std::invalid_argument unless the Mdp is deterministic, integral, undiscounted with three features,
-/// or if feature counts or values could leave their exact range (2^31, 2^60).
+/// or unless has_small_counts() and values stay in their exact range (2^60).
 /// @throws kith::Error (kInfeasible) if the weights with a finite optimum have no interior, if the features of a cycle
 /// sum to zero (it costs nothing under any weights), or if some state cannot reach a terminal one.
 [[nodiscard]] CoverageSets coverage_sets(const Mdp& mdp);

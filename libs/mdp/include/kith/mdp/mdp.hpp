@@ -97,6 +97,8 @@ class Mdp {
     }
     return integer_table_[row];
   }
+  /// The largest size |phi_k| of any feature of any outcome.
+  [[nodiscard]] double largest_feature() const noexcept;
 
   /// All ways into a state, terminal or not, ordered by the state they come from.
   [[nodiscard]] std::span<const Arrival> arrivals(StateIndex s) const {
