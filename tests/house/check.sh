@@ -83,6 +83,27 @@ check_citations() {  # every [key2024] cited in sources and documents is in docs
     done | none
 }
 
+check_errors() {  # every id stands for one thing
+  files 'docs/errors*.md' | search -oE '^\| [EW][0-9]{4} ' | awk -F'\\| ' '
+    $2 in first { print $2 "is explained by " first[$2] " and by " $1 }
+    { first[$2] = $1 }' | none
+}
+
+# A type has one definition: of two in one namespace the linker keeps the functions of either.
+check_types() {
+  files '*.cpp' '*.hpp' | grep -E '^(libs/[a-z_]+/(include|src)|apps/[a-z_]+/src)/' | while IFS= read -r file; do
+    awk -v file="$file" '
+      /^namespace/ { space[++depth] = $2 == "{" ? "" : $2; next }
+      /^} *\/\/ namespace/ { delete space[depth--]; next }
+      /^(struct|class|enum class|enum) [A-Za-z0-9_]+( final)?( *:[^:][^;]*)? *\{/ {
+        name = ""
+        for (i = 1; i <= depth; ++i) { if (space[i] == "") next; name = name space[i] "::" }
+        sub(/^(enum class|struct|class|enum) /, ""); sub(/[ :{].*/, "")
+        print name $0, file
+      }' "$file"
+  done | sort | awk '$1 == last { print $1 " is defined by " where " and by " $2 } { last = $1; where = $2 }' | none
+}
+
 check_format() {  # C++ is as clang-format 14 writes it
   if ! command -v clang-format >/dev/null; then
     echo "clang-format is not installed"

@@ -37,7 +37,7 @@ breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is ap
 }
 
 tidy_tree
-for rule in ascii places pragma layers newline links citations; do expect 0 "$rule" 'a tidy tree'; done
+for rule in ascii places pragma layers newline links citations errors types; do expect 0 "$rule" 'a tidy tree'; done
 expect 2 nonsense 'an unknown rule'
 breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
 breaks places README.md 'see /home''/somebody/kith\n'
@@ -48,6 +48,8 @@ breaks newline README.md 'no end'
 breaks newline libs/low/include/x.hpp 'int y();  \n'
 breaks links README.md '[gone](docs/gone.md)\n'
 breaks citations libs/low/include/x.hpp '// [unknown1999]\n'
+breaks errors docs/errors.md '| E0101 | x | y |\n| E0101 | z | y |\n'
+breaks types libs/low/include/x.hpp 'namespace kith {\nstruct A {};\n}  // namespace kith\nnamespace kith {\nclass A final : B {\n'
 tidy_tree
 mkdir libs/stray
 expect 1 layers 'a folder that is not in the list'

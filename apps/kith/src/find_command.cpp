@@ -134,7 +134,7 @@ void write_world(const std::string& out, const std::string& family_text, const F
 
 Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose, bool tried_making) {
   Diagnostic diagnostic;
-  diagnostic.id = "E1011";
+  diagnostic.id = "E1111";
   diagnostic.message =
       fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
                   purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));

@@ -86,7 +86,7 @@ TEST(CurriculumCommand, FailsWithFourWhereNothingCanBeTaught) {
   EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
   const auto json = run_kith({"curriculum", scratch / "road.toml", "--json"});
   EXPECT_EQ(json.code, 4);
-  EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1001");
+  EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1101");
 }
 
 TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {
@@ -140,7 +140,7 @@ TEST(FindCommand, MakesAWorldWhereThereIsNoneAndWritesItAsADomain) {
   EXPECT_EQ(none.code, 4);
   EXPECT_THAT(none.err, HasSubstr("no start state of 'item-delivery' teaches exactly (1,1,0)"));
   EXPECT_EQ(Json::parse(run_kith({"find", "item-delivery", "(1,1,0)", "--no-make", "--json"}).out)["errors"][0]["id"],
-            "E1011");
+            "E1111");
   // World 2 has one heap of rubble; without it, another must be put somewhere.
   ASSERT_EQ(run_kith({"find", "item-delivery", "(-1,0,2)", "-o", scratch / "one.toml"}).code, 0);
   auto text = text_of(scratch / "one.toml");
@@ -187,7 +187,7 @@ TEST(AskCommand, AnswersInTextAndJson) {
 TEST(AskCommand, PointsAtWhatItDoesNotUnderstand) {
   const auto ran = run_kith({"ask", "item-delivery", "when does it rechrge?"});
   EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("question:1:14: error[E1003]: nobody knows 'rechrge' here"),
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("question:1:14: error[E1103]: nobody knows 'rechrge' here"),
                              HasSubstr("did you mean 'recharge'?")));
 }
 

@@ -186,7 +186,7 @@ class CurriculumMaker {
       why = "whoever knows beforehand that " + listed(known) + " expects all that the robot does";
     }
     Diagnostic diagnostic;
-    diagnostic.id = "E1001";
+    diagnostic.id = "E1101";
     diagnostic.message = "nothing about '" + domain.id() + "' can be taught: " + why;
     diagnostic.hint = "give the robot a choice: worlds in which other weights would make it do something else";
     diagnostic.infeasible = true;

@@ -335,12 +335,12 @@ class Answerer {
       }
       const auto where = condition.cell ? " at " + cell_text(domain_, *condition.cell) : std::string{};
       if (!found) {
-        detail::fail(text_, condition.place, "E1008", "no world has " + condition.thing + where,
+        detail::fail(text_, condition.place, "E1108", "no world has " + condition.thing + where,
                      "kith inspect shows the map with everything on it");
       }
       if (!changes) {
         detail::fail(
-            text_, condition.place, "E1008",
+            text_, condition.place, "E1108",
             "world " + number(base) + " has " + (condition.present ? "" : "no ") + condition.thing + where + " anyway",
             "name another world: 'in world N'");
       }
@@ -348,7 +348,7 @@ class Answerer {
     for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) {
       if (domain_.variant(m) == variant) return m;
     }
-    detail::fail(text_, question_.conditions.front().place, "E1008", "no world is like that");
+    detail::fail(text_, question_.conditions.front().place, "E1108", "no world is like that");
   }
 
   const Atlas& atlas_;

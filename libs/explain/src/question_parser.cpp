@@ -91,7 +91,7 @@ class Parser {
 
   void read_kind() {
     if (tokens_.empty()) {
-      fail_at({1, std::max<std::size_t>(text_.size(), 1)}, "E1002", "this asks nothing", kForms);
+      fail_at({1, std::max<std::size_t>(text_.size(), 1)}, "E1102", "this asks nothing", kForms);
     }
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       const auto& word = tokens_[i].text;
@@ -111,7 +111,7 @@ class Parser {
       if (!is_filler(word)) break;
     }
     const auto nearest = nearest_word(tokens_.front().text, {"when", "where", "why", "what"});
-    fail_at(tokens_.front().place, "E1002", "a question begins with when, where, why or what",
+    fail_at(tokens_.front().place, "E1102", "a question begins with when, where, why or what",
             nearest.empty() ? kForms : "did you mean '" + nearest + "'?");
   }
 
@@ -121,7 +121,7 @@ class Parser {
     if (token.kind == Token::Kind::kCell) return take_cell(token);
     if (word == "world" || word == "mdp") return take_world(token);
     if (token.kind == Token::Kind::kNumber) {
-      fail_at(token.place, "E1003", "it is not clear what " + word + " numbers",
+      fail_at(token.place, "E1103", "it is not clear what " + word + " numbers",
               "write 'world " + word + "', or a cell as (COLUMN,ROW)");
     }
     if (word == "carrying") return take_item(token);
@@ -153,19 +153,19 @@ class Parser {
   void take_happening(const Place& place) {
     auto& slot = negated_ ? question_.instead : question_.happening;
     if (slot) {
-      fail_at(place, "E1006", "one thing at a time: '" + phrase_text() + "' is one too many",
+      fail_at(place, "E1106", "one thing at a time: '" + phrase_text() + "' is one too many",
               "ask about it in a question of its own");
     }
     check_words(place);
     const auto found = lexicon_.happenings(words_of_phrase());
     if (found.empty()) {
-      fail_at(place, "E1003", "'" + phrase_text() + "' is no action and no feature of this robot",
+      fail_at(place, "E1103", "'" + phrase_text() + "' is no action and no feature of this robot",
               "it knows " + listed(lexicon_.happening_names()));
     }
     if (found.size() > 1) {
       std::vector<std::string> names;
       for (const auto& one : found) names.push_back(lexicon_.name_of(one));
-      fail_at(place, "E1003", "'" + phrase_text() + "' could mean several things: " + listed(names),
+      fail_at(place, "E1103", "'" + phrase_text() + "' could mean several things: " + listed(names),
               "say more, or its name");
     }
     slot = found.front();
@@ -177,7 +177,7 @@ class Parser {
     for (const auto& word : phrase_) {
       if (lexicon_.knows(word.text)) continue;
       const auto nearest = nearest_word(word.text, lexicon_.all_words());
-      fail_at(word.place, "E1003", "nobody knows '" + word.text + "' here",
+      fail_at(word.place, "E1103", "nobody knows '" + word.text + "' here",
               nearest.empty() ? "the robot knows " + listed(lexicon_.happening_names())
                               : "did you mean '" + nearest + "'?");
     }
@@ -192,7 +192,7 @@ class Parser {
     const auto hint = !nearest.empty() ? "did you mean '" + nearest + "'?"
                       : things.empty() ? "all its worlds are the same"
                                        : "these may be there or not: " + listed(things);
-    fail_at(place, "E1008", "'" + phrase_text() + "' is nothing that worlds may have or lack", hint);
+    fail_at(place, "E1108", "'" + phrase_text() + "' is nothing that worlds may have or lack", hint);
   }
 
   void take_cell(const Token& token) {
@@ -200,7 +200,7 @@ class Parser {
     const Cell cell{static_cast<int>(token.number), domain_.height() + 1 - static_cast<int>(token.row)};
     if (token.number < 1 || token.number > static_cast<std::size_t>(domain_.width()) || token.row < 1 ||
         token.row > static_cast<std::size_t>(domain_.height())) {
-      fail_at(token.place, "E1004",
+      fail_at(token.place, "E1104",
               "the map has no cell (" + std::to_string(token.number) + "," + std::to_string(token.row) + ")",
               "it has " + std::to_string(domain_.width()) + " columns and " + std::to_string(domain_.height()) +
                   " rows, counted from the top left, from 1");
@@ -216,11 +216,11 @@ class Parser {
   void take_world(const Token& token) {
     close_phrase();
     if (at_ >= tokens_.size() || tokens_[at_].kind != Token::Kind::kNumber) {
-      fail_at(token.place, "E1005", "which world?", "write its number, 0 to " + std::to_string(domain_.num_mdps() - 1));
+      fail_at(token.place, "E1105", "which world?", "write its number, 0 to " + std::to_string(domain_.num_mdps() - 1));
     }
     const Token number = tokens_[at_++];
     if (number.number >= domain_.num_mdps()) {
-      fail_at(number.place, "E1005", "there is no world " + number.text,
+      fail_at(number.place, "E1105", "there is no world " + number.text,
               "they are numbered 0 to " + std::to_string(domain_.num_mdps() - 1));
     }
     question_.world = MdpIndex{number.number};
@@ -239,7 +239,7 @@ class Parser {
         return;
       }
     }
-    fail_at(at_ < tokens_.size() ? tokens_[at_].place : token.place, "E1003", "carrying what?",
+    fail_at(at_ < tokens_.size() ? tokens_[at_].place : token.place, "E1103", "carrying what?",
             names.empty() ? "there is nothing to carry here" : "it can carry " + listed(names));
   }
 
@@ -248,7 +248,7 @@ class Parser {
     const bool asks_worlds = question_.kind == Kind::kWhen || question_.kind == Kind::kWhere;
     if (asks_worlds && !question_.happening) std::swap(question_.happening, question_.instead);
     const Place whole{1, std::max<std::size_t>(text_.size(), 1)};
-    const auto missing = [&](const std::string& what) { fail_at(whole, "E1006", what, kForms); };
+    const auto missing = [&](const std::string& what) { fail_at(whole, "E1106", what, kForms); };
     if (question_.kind == Kind::kWhen && !question_.happening) missing("when does what happen?");
     if (question_.kind == Kind::kWhere && !question_.happening) missing("where does what happen?");
     if (question_.kind == Kind::kWhy && !question_.happening && !question_.instead && !question_.cell) {

@@ -44,7 +44,7 @@ struct Question {
 [[noreturn]] void fail(const std::string& question, const Place& place, const std::string& id,
                        const std::string& message, const std::string& hint = {});
 
-// Understands a question. @throws kith::Error (E1002 to E1006).
+// Understands a question. @throws kith::Error (E1102 to E1106).
 [[nodiscard]] Question parse_question(const Domain& domain, const std::string& text);
 
 }  // namespace kith::detail

@@ -52,7 +52,7 @@ std::optional<DemoIndex> Scene::start_in(MdpIndex world) const {
 DemoIndex Scene::needed_start(MdpIndex world) const {
   const auto start = start_in(world);
   if (start) return *start;
-  fail(text_, question_.cell_place, "E1004",
+  fail(text_, question_.cell_place, "E1104",
        "the robot is never " +
            (question_.carried ? "carrying " + domain_.item_names()[*question_.carried] + " " : std::string{}) + "at " +
            cell_text(domain_, *question_.cell) + " in world " + std::to_string(world.value()),
@@ -126,7 +126,7 @@ void Scene::check_possible(DemoIndex demo, const Happening& happening) const {
   for (const auto& choice : domain_.mdp(world).choices(start)) {
     if (is_at(world, start, choice.action, happening)) return;
   }
-  fail(text_, happening.place, "E1007", name_of(happening) + " is not possible " + place_text(demo),
+  fail(text_, happening.place, "E1107", name_of(happening) + " is not possible " + place_text(demo),
        "it would change nothing, or is forbidden");
 }
 

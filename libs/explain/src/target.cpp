@@ -106,7 +106,7 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
   if (const auto numbers = numbers_in(text)) {
     const bool is_zero = std::all_of(numbers->begin(), numbers->end(), [](auto n) { return n == 0; });
     if (numbers->size() != d || is_zero) {
-      fail("E1009", "a constraint of this domain has " + std::to_string(d) + " numbers, not all of them 0",
+      fail("E1109", "a constraint of this domain has " + std::to_string(d) + " numbers, not all of them 0",
            "one per feature: " + listed(atlas.domain().feature_names()), false);
     }
     IntegerVector normal(d);
@@ -119,7 +119,7 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
   std::vector<std::string> all;
   for (const auto& [sentence, half_space] : known) all.push_back(sentence);
   const auto nearest = nearest_word(plain(text), all);
-  fail("E1009", "'" + text + "' is no constraint on this robot's reward",
+  fail("E1109", "'" + text + "' is no constraint on this robot's reward",
        nearest.empty() ? "write its normal, such as (-1,0,2), or a sentence that kith find without one lists"
                        : "did you mean '" + nearest + "'?",
        false);
@@ -179,11 +179,11 @@ HalfSpace parse_constraint(const Atlas& atlas, const std::string& text) {
   const auto constraint = understood(atlas, text);
   const auto& domain = atlas.domain();
   if (sign_of_dot(constraint.normal(), domain.weights().integer) < 0) {
-    fail("E1010", "this robot's reward contradicts " + normal_text(domain, constraint),
+    fail("E1110", "this robot's reward contradicts " + normal_text(domain, constraint),
          "it holds the other way round: " + described(domain, constraint.opposite()), true);
   }
   if (atlas.prior_cone().implies(constraint)) {
-    fail("E1010", described(domain, constraint) + " is known to everybody beforehand", "see [prior] of the domain file",
+    fail("E1110", described(domain, constraint) + " is known to everybody beforehand", "see [prior] of the domain file",
          true);
   }
   return constraint;

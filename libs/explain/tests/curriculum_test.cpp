@@ -129,7 +129,7 @@ std::string why_nothing(const std::string& text) {
     static_cast<void>(make_curriculum(atlas));
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
-    EXPECT_EQ(error.diagnostics().at(0).id, "E1001");
+    EXPECT_EQ(error.diagnostics().at(0).id, "E1101");
     return error.diagnostics().at(0).message;
   }
   return "something can be taught";

@@ -142,34 +142,34 @@ TEST(AskWhat, TellsTheNextStep) {
 }
 
 TEST(AskErrors, PointIntoTheQuestion) {
-  EXPECT_EQ(complaint("").substr(0, 8), "E1002 1:");
-  EXPECT_THAT(complaint("wen recharge"), HasSubstr("E1002 1: a question begins with when, where, why or what | did you "
+  EXPECT_EQ(complaint("").substr(0, 8), "E1102 1:");
+  EXPECT_THAT(complaint("wen recharge"), HasSubstr("E1102 1: a question begins with when, where, why or what | did you "
                                                    "mean 'when'?"));
-  EXPECT_THAT(complaint("when does it rechrge?"), HasSubstr("E1003 14: nobody knows 'rechrge' here | did you mean "
+  EXPECT_THAT(complaint("when does it rechrge?"), HasSubstr("E1103 14: nobody knows 'rechrge' here | did you mean "
                                                             "'recharge'?"));
-  EXPECT_THAT(complaint("when up 3"), HasSubstr("E1003 9: "));
+  EXPECT_THAT(complaint("when up 3"), HasSubstr("E1103 9: "));
   EXPECT_THAT(complaint("why up at (9,9)"),
-              HasSubstr("E1004 12: the map has no cell (9,9) | it has 4 columns and 3 rows"));
-  EXPECT_THAT(complaint("why up at (1,1)"), HasSubstr("E1004 12: the robot is never at (1,1) in world 63"));
+              HasSubstr("E1104 12: the map has no cell (9,9) | it has 4 columns and 3 rows"));
+  EXPECT_THAT(complaint("why up at (1,1)"), HasSubstr("E1104 12: the robot is never at (1,1) in world 63"));
   EXPECT_THAT(complaint("when up in world 99"),
-              HasSubstr("E1005 18: there is no world 99 | they are numbered 0 to 63"));
-  EXPECT_THAT(complaint("when up in world"), HasSubstr("E1005 12: which world?"));
-  EXPECT_THAT(complaint("when"), HasSubstr("E1006 1: when does what happen?"));
-  EXPECT_THAT(complaint("why"), HasSubstr("E1006 1: why what?"));
-  EXPECT_THAT(complaint("what if"), HasSubstr("E1006 1: what if what?"));
-  EXPECT_THAT(complaint("what does it do"), HasSubstr("E1006 1: what does it do where?"));
-  EXPECT_THAT(complaint("when up and down"), HasSubstr("E1006 13: one thing at a time"));
-  EXPECT_THAT(complaint("why down at (4,3)"), HasSubstr("E1007 5: 'down' is not possible at (4,3) in world 63"));
-  EXPECT_THAT(complaint("what if no parcel"), HasSubstr("E1008 12: 'parcel' is nothing that worlds may have or lack | "
+              HasSubstr("E1105 18: there is no world 99 | they are numbered 0 to 63"));
+  EXPECT_THAT(complaint("when up in world"), HasSubstr("E1105 12: which world?"));
+  EXPECT_THAT(complaint("when"), HasSubstr("E1106 1: when does what happen?"));
+  EXPECT_THAT(complaint("why"), HasSubstr("E1106 1: why what?"));
+  EXPECT_THAT(complaint("what if"), HasSubstr("E1106 1: what if what?"));
+  EXPECT_THAT(complaint("what does it do"), HasSubstr("E1106 1: what does it do where?"));
+  EXPECT_THAT(complaint("when up and down"), HasSubstr("E1106 13: one thing at a time"));
+  EXPECT_THAT(complaint("why down at (4,3)"), HasSubstr("E1107 5: 'down' is not possible at (4,3) in world 63"));
+  EXPECT_THAT(complaint("what if no parcel"), HasSubstr("E1108 12: 'parcel' is nothing that worlds may have or lack | "
                                                         "these may be there or not: rubble and charger"));
-  EXPECT_THAT(complaint("what if charger in world 63"), HasSubstr("E1008 9: world 63 has charger anyway"));
-  EXPECT_THAT(complaint("what if charger at (1,2)"), HasSubstr("E1008 9: no world has charger at (1,2)"));
-  EXPECT_THAT(complaint("what at (2,3) carrying a goat"), HasSubstr("E1003 26: carrying what? | it can carry parcel"));
+  EXPECT_THAT(complaint("what if charger in world 63"), HasSubstr("E1108 9: world 63 has charger anyway"));
+  EXPECT_THAT(complaint("what if charger at (1,2)"), HasSubstr("E1108 9: no world has charger at (1,2)"));
+  EXPECT_THAT(complaint("what at (2,3) carrying a goat"), HasSubstr("E1103 26: carrying what? | it can carry parcel"));
 }
 
 TEST(AskErrors, NameWhatWordsCouldMean) {
   EXPECT_THAT(complaint("when goal", "two-goals"),
-              HasSubstr("E1003 6: 'goal' could mean several things: near and far"));
+              HasSubstr("E1103 6: 'goal' could mean several things: near and far"));
 }
 
 TEST(AskErrors, NeverEscapeOtherwise) {

@@ -63,7 +63,7 @@ struct CurriculumOptions {
 
 /// Teaches one person all components by the baseline strategy and keeps what was shown. A pure function.
 /// @param atlas  of any domain; without tables share_right is measured with at most 200 beliefs.
-/// @throws kith::Error (kInfeasible, E1001) if nothing can be taught, with the reason.
+/// @throws kith::Error (kInfeasible, E1101) if nothing can be taught, with the reason.
 /// @throws std::invalid_argument if an option is out of range.
 [[nodiscard]] Curriculum make_curriculum(const Atlas& atlas, const CurriculumOptions& options = {});
 

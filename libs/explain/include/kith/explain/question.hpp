@@ -36,7 +36,7 @@ struct Reply {
 /// A CELL is "(2,1)" or "2,1": column and row from the top left. Words such as "does it" may be left out or put in.
 /// Without a cell questions are about the path from the map's start; without a world about all of them, or the one with
 /// everything (`why`, `what`).
-/// @throws kith::Error (kInvalidInput) with diagnostics E1002 to E1008 that point into the question.
+/// @throws kith::Error (kInvalidInput) with diagnostics E1102 to E1108 that point into the question.
 [[nodiscard]] Reply answer_question(const Atlas& atlas, const std::string& question);
 
 }  // namespace kith

@@ -39,7 +39,7 @@ struct Isolated {
 
 /// The constraint that people mean: its normal ("(-1,0,2)", "-1 0 2") or its sentence as in_words() has it, in any case
 /// and with or without the full stop.
-/// @throws kith::Error (kInvalidInput, E1009) if it is neither, (kInfeasible, E1010) if the robot's weights contradict
+/// @throws kith::Error (kInvalidInput, E1109) if it is neither, (kInfeasible, E1110) if the robot's weights contradict
 /// it or everybody knows it beforehand.
 [[nodiscard]] HalfSpace parse_constraint(const Atlas& atlas, const std::string& text);
 
