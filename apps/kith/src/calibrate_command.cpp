@@ -11,6 +11,7 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/planning/calibration.hpp"
 #include "kith/table/atomic_file.hpp"
@@ -320,6 +321,7 @@ int run_calibrate(const CalibrateOptions& options, Console& console) {
 
   watch_signals();
   const Atlas atlas{*reading.domain};
+  require_something_to_teach(atlas);
   Progress progress{options.progress, console};
   auto search = search_options(options);
   search.on_progress = [&](std::size_t done, std::size_t total) {

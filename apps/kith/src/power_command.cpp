@@ -10,6 +10,7 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/planning/power.hpp"
 #include "planning_input.hpp"
@@ -295,6 +296,7 @@ int run_power(const PowerCommandOptions& options, Console& console) {
   check_single_variant(options.study, *reading.study);
   watch_signals();
   const Atlas atlas{*reading.domain};
+  require_something_to_teach(atlas);
   Progress progress{options.progress, console};
   if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);
   return run_curves(options, *reading.study, atlas, progress, console);

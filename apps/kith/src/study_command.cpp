@@ -14,6 +14,7 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/study/study_run.hpp"
 #include "mpi_ranks.hpp"
@@ -147,7 +148,10 @@ int run_study(const StudyOptions& options, Console& console) {
     done = finished;
     progress.update(finished, total, failed);
   };
-  const Domain domain = *reading.domain;
+  const auto plan_begin = Clock::now();
+  const Atlas atlas{*reading.domain};
+  require_something_to_teach(atlas);
+  const double plan_seconds = seconds_since(plan_begin);
   StudyRun run{options.out, std::move(reading), std::move(how)};
   done = run.num_resumed();
   const auto& study = run.study();
@@ -164,11 +168,8 @@ int run_study(const StudyOptions& options, Console& console) {
     facts.log.push_back(utc_now() + " " + text);
     console.info(text);
   }
-  facts.timings.emplace_back("read", seconds_since(begin));
-
-  const auto plan_begin = Clock::now();
-  const Atlas atlas{domain};
-  facts.timings.emplace_back("plan", seconds_since(plan_begin));
+  facts.timings.emplace_back("read", seconds_since(begin) - plan_seconds);
+  facts.timings.emplace_back("plan", plan_seconds);
   note(fmt::format("planned {} demonstrations", atlas.num_demos()));
 
   const auto teach_begin = Clock::now();

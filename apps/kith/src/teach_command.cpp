@@ -4,6 +4,7 @@
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/curriculum.hpp"
 #include "kith/study/run_folder.hpp"
 #include "option_values.hpp"
 #include "transcript.hpp"
@@ -60,6 +61,7 @@ Assignment from_options(const TeachOptions& options) {
 int run_teach(const TeachOptions& options, Console& console) {
   auto assignment = options.from.empty() ? from_options(options) : from_run_folder(options);
   const Atlas atlas{std::move(assignment.domain)};
+  require_something_to_teach(atlas);
   const auto transcript = transcribe(atlas, assignment.spec, assignment.address);
   if (console.json()) {
     print_transcript(atlas, transcript, console);

@@ -74,19 +74,42 @@ TEST(CurriculumCommand, PrintsTheSameWithTheSameSeed) {
   EXPECT_EQ(run_kith({"curriculum", "item-delivery", "--seed", "5"}).out, first.out);
 }
 
-TEST(CurriculumCommand, FailsWithFourWhereNothingCanBeTaught) {
-  const Scratch scratch;
-  std::ofstream{scratch / "road.toml"}
+// A robot that has one way to go.
+std::string write_road(const Scratch& scratch) {
+  const std::string file = scratch / "road.toml";
+  std::ofstream{file}
       << "schema = \"kith.domain/1\"\nid = \"road\"\n[map]\nrows = [\"S..G\"]\n[map.legend]\n\".\" = \"floor\"\n"
          "\"S\" = { start = true }\n\"G\" = { goal = true }\n[[feature]]\nname = \"arrival\"\nwhen = \"goal\"\n"
          "[[feature]]\nname = \"move\"\nwhen = \"action:up\"\n[[feature]]\nname = \"step\"\nwhen = \"action\"\n"
          "[reward]\nweights = { arrival = 1, move = -1, step = -1 }\n[prior]\nhalfspaces = [ { step = -1 } ]\n";
+  return file;
+}
+
+TEST(CurriculumCommand, FailsWithFourWhereNothingCanBeTaught) {
+  const Scratch scratch;
+  write_road(scratch);
   const auto ran = run_kith({"curriculum", scratch / "road.toml"});
   EXPECT_EQ(ran.code, 4);
   EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
   const auto json = run_kith({"curriculum", scratch / "road.toml", "--json"});
   EXPECT_EQ(json.code, 4);
   EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1101");
+}
+
+TEST(TeachCommand, FailsWithFourWhereNothingCanBeTaught) {
+  const Scratch scratch;
+  const auto ran = run_kith({"teach", write_road(scratch), "--group", "NP"});
+  EXPECT_EQ(ran.code, 4);
+  EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
+}
+
+TEST(StudyCommand, FailsWithFourAndLeavesNothingWhereNothingCanBeTaught) {
+  const Scratch scratch;
+  const auto ran =
+      run_kith({"study", "paper", "--set", "domain=\"" + write_road(scratch) + "\"", "-o", scratch / "run"});
+  EXPECT_EQ(ran.code, 4) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
 TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {

@@ -13,6 +13,22 @@
 namespace kith {
 namespace {
 
+bool implied_by(const std::vector<HalfSpace>& known, const std::vector<HalfSpace>& constraints) {
+  if (known.empty()) return constraints.empty();
+  const auto region = Cone::intersection(known);
+  return region && std::all_of(constraints.begin(), constraints.end(),
+                               [&](const HalfSpace& constraint) { return region->implies(constraint); });
+}
+
+Error nothing_to_teach(const Atlas& atlas, const std::string& why) {
+  Diagnostic diagnostic;
+  diagnostic.id = "E1101";
+  diagnostic.message = "nothing about '" + atlas.domain().id() + "' can be taught: " + why;
+  diagnostic.hint = "give the robot a choice: worlds in which other weights would make it do something else";
+  diagnostic.infeasible = true;
+  return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
+}
+
 constexpr std::size_t kMostPlannedBeliefs = 200;
 
 std::vector<HalfSpace> together(std::vector<HalfSpace> a, const std::vector<HalfSpace>& b) {
@@ -58,7 +74,8 @@ class CurriculumMaker {
       answer_right(session, lesson.tests);
     }
     for (; next < atlas_.knowledge_components().size(); ++next) skip(next);
-    if (curriculum_.components.empty()) throw nothing_to_teach();
+    if (curriculum_.components.empty())
+      throw nothing_to_teach(atlas_, "no demonstration tells people more than they know beforehand");
     return std::move(curriculum_);
   }
 
@@ -166,33 +183,6 @@ class CurriculumMaker {
     return "no demonstration tells more about it than those before";
   }
 
-  [[nodiscard]] static bool implied_by(const std::vector<HalfSpace>& known, const std::vector<HalfSpace>& constraints) {
-    if (known.empty()) return constraints.empty();
-    const auto region = Cone::intersection(known);
-    return region && std::all_of(constraints.begin(), constraints.end(),
-                                 [&](const HalfSpace& constraint) { return region->implies(constraint); });
-  }
-
-  [[nodiscard]] Error nothing_to_teach() const {
-    const auto& domain = atlas_.domain();
-    std::vector<std::string> known;
-    for (const auto& half_space : domain.prior()) known.push_back(in_words(domain, half_space));
-    const bool all_known = implied_by(domain.prior(), atlas_.policy_bec_half_spaces());
-    std::string why = "no demonstration tells people more than they know beforehand";
-    if (atlas_.is_tabulated() && atlas_.coverage().max == 1)
-      why = "in every world, all who expect the robot to finish expect the same of it";
-    if (all_known && known.empty()) why = "the robot does the same whatever its reward";
-    if (all_known && !known.empty()) {
-      why = "whoever knows beforehand that " + listed(known) + " expects all that the robot does";
-    }
-    Diagnostic diagnostic;
-    diagnostic.id = "E1101";
-    diagnostic.message = "nothing about '" + domain.id() + "' can be taught: " + why;
-    diagnostic.hint = "give the robot a choice: worlds in which other weights would make it do something else";
-    diagnostic.infeasible = true;
-    return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
-  }
-
   const Atlas& atlas_;
   const CurriculumOptions& options_;
   TeachingCache cache_;
@@ -201,6 +191,20 @@ class CurriculumMaker {
 };
 
 }  // namespace
+
+void require_something_to_teach(const Atlas& atlas) {
+  const auto& domain = atlas.domain();
+  if (implied_by(domain.prior(), atlas.policy_bec_half_spaces())) {
+    std::vector<std::string> known;
+    for (const auto& half_space : domain.prior()) known.push_back(in_words(domain, half_space));
+    throw nothing_to_teach(
+        atlas, known.empty() ? "the robot does the same whatever its reward"
+                             : "whoever knows beforehand that " + listed(known) + " expects all that the robot does");
+  }
+  if (atlas.is_tabulated() && atlas.coverage().max == 1) {
+    throw nothing_to_teach(atlas, "in every world, all who expect the robot to finish expect the same of it");
+  }
+}
 
 const char* name_of(Difficulty difficulty) noexcept {
   switch (difficulty) {

@@ -61,6 +61,11 @@ struct CurriculumOptions {
   std::size_t beliefs = 4000;  ///< Points of the regular cover by which share_right is measured, >= 1.
 };
 
+/// Refuses domains of which the atlas alone says that nobody can be taught anything.
+/// @throws kith::Error (kInfeasible, E1101) with the reason: the prior implies the whole policy, or everybody who expects
+/// an end expects the same.
+void require_something_to_teach(const Atlas& atlas);
+
 /// Teaches one person all components by the baseline strategy and keeps what was shown. A pure function.
 /// @param atlas  of any domain; without tables share_right is measured with at most 200 beliefs.
 /// @throws kith::Error (kInfeasible, E1101) if nothing can be taught, with the reason.
