@@ -74,8 +74,10 @@ class CurriculumMaker {
       answer_right(session, lesson.tests);
     }
     for (; next < atlas_.knowledge_components().size(); ++next) skip(next);
-    if (curriculum_.components.empty())
+    if (curriculum_.components.empty()) {
+      require_something_to_teach(atlas_);
       throw nothing_to_teach(atlas_, "no demonstration tells people more than they know beforehand");
+    }
     return std::move(curriculum_);
   }
 

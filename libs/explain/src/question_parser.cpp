@@ -12,9 +12,9 @@ namespace kith::detail {
 namespace {
 
 struct Token {
-  enum class Kind { kWord, kNumber, kCell };
+  enum class Kind { kWord, kNumber, kCell, kName };
   Kind kind = Kind::kWord;
-  std::string text;  // lower case
+  std::string text;  // lower case, except for names
   std::size_t number = 0, row = 0;
   Place place;
 };
@@ -27,7 +27,14 @@ std::size_t number_of(const std::string& digits) {
   return digits.size() > kMaxDigits ? 1'000'000'000 : static_cast<std::size_t>(std::stoul(digits));
 }
 
-// Words, numbers and cells; whatever else is there separates them.
+// The end of a name in quotes that begin at `i`, or nothing: "'" also stands within words.
+std::optional<std::size_t> end_of_name(const std::string& text, std::size_t i) {
+  if (text[i] != '"' && text[i] != '\'') return std::nullopt;
+  const auto end = text.find(text[i], i + 1);
+  return end == std::string::npos || end == i + 1 ? std::nullopt : std::optional{end};
+}
+
+// Words, numbers, cells and names in quotes; whatever else is there separates them.
 std::vector<Token> tokens_of(const std::string& text) {
   const auto is = [&](std::size_t i, auto predicate) {
     return i < text.size() && predicate(static_cast<unsigned char>(text[i])) != 0;
@@ -39,6 +46,12 @@ std::vector<Token> tokens_of(const std::string& text) {
     const auto belongs = [digit](unsigned char c) {
       return digit ? std::isdigit(c) != 0 : std::isalnum(c) != 0 || c == '_' || c == '-' || c == '\'';
     };
+    if (const auto end = end_of_name(text, i)) {
+      tokens.push_back({Token::Kind::kName, text.substr(i + 1, *end - i - 1), 0, 0, {i + 2, *end - i - 1}});
+      i = *end + 1;
+      comma = false;
+      continue;
+    }
     if (!is(i, [](unsigned char c) { return std::isalnum(c); })) {
       comma = comma || text[i] == ',';
       ++i;
@@ -119,6 +132,7 @@ class Parser {
     const Token token = tokens_[at_++];
     const auto& word = token.text;
     if (token.kind == Token::Kind::kCell) return take_cell(token);
+    if (token.kind == Token::Kind::kName) return take_state(token);
     if (word == "world" || word == "mdp") return take_world(token);
     if (token.kind == Token::Kind::kNumber) {
       fail_at(token.place, "E1103", "it is not clear what " + word + " numbers",
@@ -189,14 +203,56 @@ class Parser {
     }
     const auto things = lexicon_.optional_things();
     const auto nearest = nearest_word(phrase_.front().text, things);
-    const auto hint = !nearest.empty() ? "did you mean '" + nearest + "'?"
-                      : things.empty() ? "all its worlds are the same"
-                                       : "these may be there or not: " + listed(things);
+    const auto hint = !nearest.empty()     ? "did you mean '" + nearest + "'?"
+                      : !domain_.has_map() ? "without a map worlds differ as a whole: ask 'in world N'"
+                      : things.empty()     ? "all its worlds are the same"
+                                           : "these may be there or not: " + listed(things);
     fail_at(place, "E1108", "'" + phrase_text() + "' is nothing that worlds may have or lack", hint);
+  }
+
+  // The name of a state, in models without a map.
+  void take_state(const Token& token) {
+    close_phrase();
+    if (domain_.has_map()) {
+      fail_at(token.place, "E1104", "this robot has a map, on which states have no names",
+              "name a cell: (COLUMN,ROW), or an action or a feature without quotes");
+    }
+    std::set<std::string> names;
+    for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) {
+      for (StateIndex s{0}; s.value() < domain_.mdp(m).num_states(); ++s) names.insert(domain_.state_name(m, s));
+    }
+    question_.spot = token.place;
+    question_.state = token.text;
+    if (names.count(token.text) > 0) return;
+    // Part of a name will do, if it is part of no other.
+    std::vector<std::string> found;
+    for (const auto& name : names) {
+      if (name.find(token.text) != std::string::npos) found.push_back(name);
+    }
+    if (found.size() == 1) {
+      question_.state = found.front();
+      return;
+    }
+    fail_at(token.place, "E1104",
+            found.empty() ? "there is no state '" + token.text + "' in which the robot has a choice"
+                          : "'" + token.text + "' could be " + std::to_string(found.size()) + " states",
+            hint_of_states(token.text, found.empty() ? std::vector<std::string>{names.begin(), names.end()} : found));
+  }
+
+  static std::string hint_of_states(const std::string& name, const std::vector<std::string>& names) {
+    constexpr std::size_t kListed = 8;
+    constexpr std::size_t kMostCompared = 5'000;  // comparing with more takes too long
+    const auto nearest = names.size() > kMostCompared ? "" : nearest_word(name, names);
+    if (!nearest.empty()) return "did you mean '" + nearest + "'?";
+    return names.size() > kListed ? "kith inspect names the states of an MDP" : "its states are " + listed(names);
   }
 
   void take_cell(const Token& token) {
     close_phrase();
+    if (!domain_.has_map()) {
+      fail_at(token.place, "E1104", "this robot has no map, so there are no cells",
+              "name a state in quotes, as kith inspect shows it");
+    }
     const Cell cell{static_cast<int>(token.number), domain_.height() + 1 - static_cast<int>(token.row)};
     if (token.number < 1 || token.number > static_cast<std::size_t>(domain_.width()) || token.row < 1 ||
         token.row > static_cast<std::size_t>(domain_.height())) {
@@ -210,7 +266,7 @@ class Parser {
       return;
     }
     question_.cell = cell;
-    question_.cell_place = token.place;
+    question_.spot = token.place;
   }
 
   void take_world(const Token& token) {
@@ -251,12 +307,13 @@ class Parser {
     const auto missing = [&](const std::string& what) { fail_at(whole, "E1106", what, kForms); };
     if (question_.kind == Kind::kWhen && !question_.happening) missing("when does what happen?");
     if (question_.kind == Kind::kWhere && !question_.happening) missing("where does what happen?");
-    if (question_.kind == Kind::kWhy && !question_.happening && !question_.instead && !question_.cell) {
+    const bool says_where = question_.is_about_a_step();
+    if (question_.kind == Kind::kWhy && !question_.happening && !question_.instead && !says_where) {
       missing("why what?");
     }
     if (question_.kind == Kind::kWhatIf && question_.conditions.empty()) missing("what if what?");
-    if (question_.kind == Kind::kWhat && !question_.cell) missing("what does it do where?");
-    if (question_.carried && !question_.cell) missing("carrying it where? Name a cell");
+    if (question_.kind == Kind::kWhat && !says_where) missing("what does it do where?");
+    if (question_.carried && !says_where) missing("carrying it where? Name a cell");
   }
 
   [[nodiscard]] std::vector<std::string> words_of_phrase() const {

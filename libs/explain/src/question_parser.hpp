@@ -34,10 +34,13 @@ struct Question {
   Kind kind = Kind::kWhen;
   std::optional<Happening> happening, instead;
   std::vector<WorldCondition> conditions;
-  std::optional<Cell> cell;
-  Place cell_place;
+  std::optional<Cell> cell;            // where the robot is, in domains with a map
+  std::optional<std::string> state;    // what the robot's state is called, in domains without one
+  Place spot;                          // of either in the text
   std::optional<std::size_t> carried;  // index into Domain::item_names()
   std::optional<MdpIndex> world;
+
+  [[nodiscard]] bool is_about_a_step() const { return cell || state; }
 };
 
 // @throws kith::Error: the question with a caret under the place.

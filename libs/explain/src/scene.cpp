@@ -1,7 +1,10 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "deviation.hpp"
+#include "kith/bec/behaviours.hpp"
 #include "kith/explain/words.hpp"
 #include "walk.hpp"
 
@@ -11,9 +14,13 @@ std::string Scene::name_of(const Happening& happening) const {
   return happening.action ? "'" + action(*happening.action) + "'" : domain_.wording(happening.feature).one;
 }
 
+std::string Scene::spot() const {
+  if (question_.state) return " in state '" + *question_.state + "'";
+  return question_.cell ? " at " + cell_text(domain_, *question_.cell) : "";
+}
+
 std::string Scene::context() const {
-  std::string text;
-  if (question_.cell) text += " at " + cell_text(domain_, *question_.cell);
+  std::string text = spot();
   if (question_.carried) text += " carrying " + domain_.item_names()[*question_.carried];
   if (question_.world) text += " in world " + std::to_string(question_.world->value());
   return text;
@@ -21,6 +28,7 @@ std::string Scene::context() const {
 
 std::optional<DemoIndex> Scene::start_in(MdpIndex world) const {
   const auto initial = domain_.initial_state(world);
+  if (question_.state) return state_called(world, *question_.state);
   if (!question_.cell) return atlas_.index({world, initial});
   auto state = domain_.state(world, initial);
   state.robot = *question_.cell;
@@ -49,10 +57,21 @@ std::optional<DemoIndex> Scene::start_in(MdpIndex world) const {
   return std::nullopt;
 }
 
+std::optional<DemoIndex> Scene::state_called(MdpIndex world, const std::string& name) const {
+  for (StateIndex s{0}; s.value() < domain_.mdp(world).num_states(); ++s) {
+    if (domain_.state_name(world, s) == name) return atlas_.index({world, s});
+  }
+  return std::nullopt;
+}
+
 DemoIndex Scene::needed_start(MdpIndex world) const {
   const auto start = start_in(world);
   if (start) return *start;
-  fail(text_, question_.cell_place, "E1104",
+  if (question_.state) {
+    fail(text_, question_.spot, "E1104", "the robot is never in state '" + *question_.state + "' in " + name_of(world),
+         "name another MDP: 'in world N'");
+  }
+  fail(text_, question_.spot, "E1104",
        "the robot is never " +
            (question_.carried ? "carrying " + domain_.item_names()[*question_.carried] + " " : std::string{}) + "at " +
            cell_text(domain_, *question_.cell) + " in world " + std::to_string(world.value()),
@@ -62,63 +81,94 @@ DemoIndex Scene::needed_start(MdpIndex world) const {
 bool Scene::is_at(MdpIndex world, StateIndex s, ActionIndex a, const Happening& happening) const {
   if (happening.action) return *happening.action == a;
   const auto& mdp = domain_.mdp(world);
-  const auto step = step_by(mdp, s, a);
-  return step && mdp.integer_features(*step)[happening.feature] != 0;
+  const auto choices = mdp.choices(s);
+  const auto choice = std::ranges::find(choices, a, &Choice::action);
+  return choice != choices.end() && std::ranges::any_of(mdp.outcomes(*choice), [&](const Outcome& outcome) {
+           return mdp.features(outcome)[happening.feature] != 0.0;
+         });
 }
 
 std::optional<std::size_t> Scene::step_of(MdpIndex world, const Trajectory& path, const Happening& happening) const {
-  const auto steps = question_.cell ? std::min<std::size_t>(1, path.actions.size()) : path.actions.size();
+  const auto steps = question_.is_about_a_step() ? std::min<std::size_t>(1, path.actions.size()) : path.actions.size();
   for (std::size_t t = 0; t < steps; ++t) {
     if (is_at(world, path.states[t], path.actions[t], happening)) return t;
   }
   return std::nullopt;
 }
 
-std::optional<Contrast> Scene::deviation(DemoIndex demo, ActionIndex a) const {
-  const auto [world, start] = atlas_.id(demo);
-  const auto& mdp = domain_.mdp(world);
-  const auto step = step_by(mdp, start, a);
-  if (!step) return std::nullopt;
-  Contrast contrast;
-  contrast.demo = demo;
-  contrast.robot = atlas_.trajectory(demo);
-  contrast.robot_counts = atlas_.feature_counts(demo);
-  contrast.alternative = {{start}, {a}};
-  contrast.alternative_counts = mdp.integer_features(*step);
-  if (mdp.is_terminal(step->next)) {
-    contrast.alternative.states.push_back(step->next);
-    return contrast;
-  }
-  const auto next = atlas_.index({world, step->next});
-  const auto rest = atlas_.trajectory(next);
-  contrast.alternative_counts += atlas_.feature_counts(next);
-  contrast.alternative.states.insert(contrast.alternative.states.end(), rest.states.begin(), rest.states.end());
-  contrast.alternative.actions.insert(contrast.alternative.actions.end(), rest.actions.begin(), rest.actions.end());
-  return contrast;
-}
-
 std::optional<Contrast> Scene::contrast_to(DemoIndex demo, const Happening& happening, bool happens) const {
   const auto [world, start] = atlas_.id(demo);
-  if (!question_.cell) {
-    return best_contrast(atlas_, demo, [&](const Contrast& contrast) {
-      return step_of(world, contrast.alternative, happening).has_value() == happens;
+  if (question_.is_about_a_step()) {
+    return best_deviation(atlas_, demo, 0, 1, [&](const Contrast& other) {
+      return is_at(world, start, other.alternative.actions.front(), happening) == happens;
     });
   }
-  std::optional<Contrast> best;
-  const auto& weights = domain_.weights().integer;
-  const auto own = atlas_.trajectory(demo).actions.front();
-  for (const auto& choice : domain_.mdp(world).choices(start)) {
-    if (choice.action == own || is_at(world, start, choice.action, happening) != happens) continue;
-    auto other = deviation(demo, choice.action);
-    const bool better = !best || dot(weights, other->alternative_counts) > dot(weights, best->alternative_counts);
-    if (better) best = std::move(other);
+  const auto admits = [&](const Contrast& other) {
+    return step_of(world, other.alternative, happening).has_value() == happens;
+  };
+  if (auto best = best_way(demo, admits)) return best;
+  return happening.action ? std::nullopt : way_of_others(demo, happening, happens);
+}
+
+namespace {
+
+// What a feature may be worth to others, ever farther from what it is worth to the robot: a cost that falls to
+// nothing or a gain that grows, or the other way round, until it outweighs everything.
+std::vector<double> other_weights(double own, bool more) {
+  constexpr int kSteps = 10;
+  std::vector<double> weights;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double change = (more ? 0.125 : -0.125) * std::exp2(i);
+    weights.push_back(more && own < 0.0 ? own * (1.0 - static_cast<double>(i) / kSteps) : own + change);
   }
-  return best;
+  return weights;
+}
+
+}  // namespace
+
+std::optional<Contrast> Scene::way_of_others(DemoIndex demo, const Happening& happening, bool happens) const {
+  if (atlas_.is_tabulated() || !domain_.is_exact()) return std::nullopt;
+  const Behaviours behaviours{atlas_};
+  const auto world = atlas_.id(demo).mdp;
+  const auto& mdp = domain_.mdp(world);
+  const auto k = happening.feature;
+  for (const double weight : other_weights(domain_.weights().unit[static_cast<Eigen::Index>(k)], happens)) {
+    Direction weights = domain_.weights().unit;
+    weights[static_cast<Eigen::Index>(k)] = weight;
+    auto path = behaviours.trajectory(demo, weights.normalized());
+    if (!path || !mdp.is_terminal(path->states.back())) return std::nullopt;  // beyond here they would never end
+    Contrast result;
+    result.demo = demo;
+    result.robot = atlas_.trajectory(demo);
+    result.robot_counts = atlas_.feature_counts(demo);
+    result.alternative_counts = IntegerVector(domain_.num_features());
+    for (std::size_t t = 0; t < path->actions.size(); ++t) {
+      result.alternative_counts += mdp.integer_features(*step_by(mdp, path->states[t], path->actions[t]));
+    }
+    const auto more = result.alternative_counts[k] - result.robot_counts[k];
+    if (happens ? more <= 0 : more >= 0) continue;
+    const auto parting = std::ranges::mismatch(result.robot.actions, path->actions).in1;
+    result.decisive = static_cast<std::size_t>(parting - result.robot.actions.begin());
+    result.alternative = *std::move(path);
+    return result;
+  }
+  return std::nullopt;
+}
+
+std::string Scene::name_of(MdpIndex world) const {
+  const auto name = domain_.has_map() ? std::string{} : domain_.describe_variant(world);
+  return name.empty() ? "world " + std::to_string(world.value())
+                      : "world " + std::to_string(world.value()) + " (" + name + ")";
+}
+
+std::string Scene::spot_text(MdpIndex world, StateIndex s) const {
+  return domain_.has_map() ? "at " + cell_text(domain_, domain_.state(world, s).robot)
+                           : "in state '" + domain_.state_name(world, s) + "'";
 }
 
 std::string Scene::place_text(DemoIndex demo) const {
-  return "at " + cell_text(domain_, domain_.state(atlas_.id(demo).mdp, atlas_.id(demo).start).robot) + " in world " +
-         std::to_string(atlas_.id(demo).mdp.value());
+  const auto [world, start] = atlas_.id(demo);
+  return spot_text(world, start) + " in " + name_of(world);
 }
 
 void Scene::check_possible(DemoIndex demo, const Happening& happening) const {
@@ -130,19 +180,8 @@ void Scene::check_possible(DemoIndex demo, const Happening& happening) const {
        "it would change nothing, or is forbidden");
 }
 
-std::optional<Contrast> Scene::best_deviation(DemoIndex demo) const {
-  const auto [world, start] = atlas_.id(demo);
-  const auto own = atlas_.trajectory(demo).actions.front();
-  std::optional<Contrast> best;
-  const auto& weights = domain_.weights().integer;
-  for (const auto& choice : domain_.mdp(world).choices(start)) {
-    if (choice.action == own) continue;
-    auto other = deviation(demo, choice.action);
-    if (!best || dot(weights, other->alternative_counts) > dot(weights, best->alternative_counts)) {
-      best = std::move(other);
-    }
-  }
-  return best;
+std::optional<Contrast> Scene::best_step(DemoIndex demo) const {
+  return best_deviation(atlas_, demo, 0, 1, [](const Contrast&) { return true; });
 }
 
 }  // namespace kith::detail

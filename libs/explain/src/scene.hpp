@@ -1,8 +1,10 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
+#include "deviation.hpp"
 #include "kith/explain/contrast.hpp"
 #include "question_parser.hpp"
 
@@ -17,6 +19,8 @@ class Scene {
   [[nodiscard]] std::string name_of(const Happening& happening) const;
   [[nodiscard]] const std::string& action(ActionIndex a) const { return domain_.action_names()[a.value()]; }
   [[nodiscard]] std::string context() const;
+  // " at (2,1)", " in state 'on the ice'", or nothing.
+  [[nodiscard]] std::string spot() const;
   // Where the question is about, in one world: the map's start, or the robot at the cell and all things as at first;
   // failing that as they are when its path from the start comes by, or in the first state with the robot there.
   [[nodiscard]] std::optional<DemoIndex> start_in(MdpIndex world) const;
@@ -25,15 +29,31 @@ class Scene {
   // The step of a path at which it happens. With a cell only the first step counts.
   [[nodiscard]] std::optional<std::size_t> step_of(MdpIndex world, const Trajectory& path,
                                                    const Happening& happening) const;
-  // The path that begins with another action and goes on as the robot would.
-  [[nodiscard]] std::optional<Contrast> deviation(DemoIndex demo, ActionIndex a) const;
   // The best path on which it happens, or does not, in contrast to the robot's.
   [[nodiscard]] std::optional<Contrast> contrast_to(DemoIndex demo, const Happening& happening, bool happens) const;
+  // "world 3", in models with the MDP's name.
+  [[nodiscard]] std::string name_of(MdpIndex world) const;
+  // "at (2,1)", "in state 'on the ice'".
+  [[nodiscard]] std::string spot_text(MdpIndex world, StateIndex s) const;
   [[nodiscard]] std::string place_text(DemoIndex demo) const;
   void check_possible(DemoIndex demo, const Happening& happening) const;
-  [[nodiscard]] std::optional<Contrast> best_deviation(DemoIndex demo) const;
+  // The best other step, followed by what the robot would do.
+  [[nodiscard]] std::optional<Contrast> best_step(DemoIndex demo) const;
+  // The best other way among those that `admits` accepts: what somebody could expect, or without tables one other step
+  // anywhere on the robot's path.
+  template <typename Predicate>
+  [[nodiscard]] std::optional<Contrast> best_way(DemoIndex demo, const Predicate& admits) const {
+    constexpr auto kAnywhere = std::numeric_limits<std::size_t>::max();
+    return atlas_.is_tabulated() ? best_contrast(atlas_, demo, admits)
+                                 : best_deviation(atlas_, demo, 0, kAnywhere, admits);
+  }
 
  private:
+  // Without tables: the way of people who are like the robot, except that the feature means just so much more (or less)
+  // to them that it happens more often (or less).
+  [[nodiscard]] std::optional<Contrast> way_of_others(DemoIndex demo, const Happening& happening, bool happens) const;
+  [[nodiscard]] std::optional<DemoIndex> state_called(MdpIndex world, const std::string& name) const;
+
   const Atlas& atlas_;
   const Domain& domain_;
   const std::string& text_;
