@@ -187,7 +187,7 @@ std::string name_of(const Domain& domain, char symbol) {
 
 std::optional<MadeWorld> make_world(const Atlas& atlas, std::string_view text, const HalfSpace& constraint,
                                     Purpose purpose, const MakeWorldOptions& options) {
-  if (!atlas.domain().has_map()) return std::nullopt;
+  if (!atlas.domain().has_map() || !atlas.domain().is_exact()) return std::nullopt;
   return WorldMaker{atlas, text, constraint, purpose, options}.make();
 }
 

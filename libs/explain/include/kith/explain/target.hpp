@@ -67,7 +67,7 @@ struct MakeWorldOptions {
 /// Makes a world out of one of the family by changing as few cells as possible: floor, walls, terrain and stations
 /// become one another. Worlds with a demonstration that conveys the constraint among the fewest others come first.
 /// @param text  the domain file of the atlas's domain.
-/// @return nothing if no world within the options isolates the constraint, or the domain has no map.
+/// @return nothing if no world within the options isolates the constraint, or the domain has no map, or is not exact.
 /// @throws std::invalid_argument if an option is out of range.
 [[nodiscard]] std::optional<MadeWorld> make_world(const Atlas& atlas, std::string_view text,
                                                   const HalfSpace& constraint, Purpose purpose,
