@@ -113,8 +113,8 @@ std::string curve_text(const PowerCurve& curve, const PowerOptions& options, con
          needed_text(curve, options) + "\n" + table.text(console) + "\n";
 }
 
-std::string replication_text(const std::vector<PublishedFinding>& findings, const Replication& result, const StudySpec& spec,
-                             const Console& console) {
+std::string replication_text(const std::vector<PublishedFinding>& findings, const Replication& result,
+                             const StudySpec& spec, const Console& console) {
   TextTable table{"llrlrrr"};
   table.add({"finding", "published", "significant", "95 % interval", "eta2", "power by F", "power imposed"});
   for (std::size_t i = 0; i < findings.size(); ++i) {
