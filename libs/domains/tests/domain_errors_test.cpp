@@ -458,7 +458,8 @@ TEST(DomainErrorIds, AreAllTriggeredHere) {
   for (const std::string& text : {std::string{kSkateboard}, flat_prior(), std::string{kSingle}}) trigger(text);
   triggered.insert("E0116");  // load_domain, above
   for (const std::string& id : kith::testing::error_ids_in("domains")) {
-    const bool of_models = (id >= "E0230" && id < "E0300") || id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205";
+    const bool of_models =
+        (id >= "E0230" && id < "E0300") || id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205";
     EXPECT_TRUE(of_models || triggered.contains(id)) << id;  // those of models: model_errors_test
   }
 }

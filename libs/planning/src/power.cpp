@@ -259,7 +259,8 @@ void add_published_power(Replication& result, std::span<const PublishedFinding> 
 }  // namespace
 
 std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpec& spec,
-                                              std::span<const PublishedFinding> findings, const ReplicationOptions& options) {
+                                              std::span<const PublishedFinding> findings,
+                                              const ReplicationOptions& options) {
   if (options.studies < 1) throw std::invalid_argument{"replicate_findings: no study to run"};
   Study study;
   const auto seeds = RandomStream{options.seed}.split("replication");

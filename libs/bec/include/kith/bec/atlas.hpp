@@ -124,8 +124,8 @@ class Atlas {
   [[nodiscard]] const ConstraintSet& robot_cell_facets(DemoIndex demo) const {
     return hull_facets_[hull(demo).value()];
   }
-  /// Constraints that a right answer shows: robot_cell_facets() where behaviours are tabulated, else one_step(), of which
-  /// they are some. @pre is_candidate(demo).
+  /// Constraints that a right answer shows: robot_cell_facets() where behaviours are tabulated, else one_step(), of
+  /// which they are some. @pre is_candidate(demo).
   [[nodiscard]] const ConstraintSet& tested_constraints(DemoIndex demo) const {
     return tabulated_ ? robot_cell_facets(demo) : one_step(demo);
   }

@@ -62,8 +62,8 @@ struct CurriculumOptions {
 };
 
 /// Refuses domains of which the atlas alone says that nobody can be taught anything.
-/// @throws kith::Error (kInfeasible, E1101) with the reason: the prior implies the whole policy, or everybody who expects
-/// an end expects the same.
+/// @throws kith::Error (kInfeasible, E1101) with the reason: the prior implies the whole policy, or everybody who
+/// expects an end expects the same.
 void require_something_to_teach(const Atlas& atlas);
 
 /// Teaches one person all components by the baseline strategy and keeps what was shown. A pure function.

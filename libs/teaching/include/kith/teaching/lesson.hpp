@@ -12,10 +12,10 @@ namespace kith {
 /// A trajectory of the robot that is shown, and what it conveys.
 struct Demonstration {
   DemoIndex demo;
-  ConstraintSet constraints;           ///< D: minimal set of what it conveys to the sampled counterfactuals.
-  std::vector<HalfSpace> half_spaces;  ///< The same, sorted.
-  double gain = 1.0;                   ///< area of the taught region before / after, > 1 when chosen for it.
-  std::size_t num_new = 0;             ///< New facets of the taught region.
+  ConstraintSet constraints;                     ///< D: minimal set of what it conveys to the sampled counterfactuals.
+  std::vector<HalfSpace> half_spaces;            ///< The same, sorted.
+  double gain = 1.0;                             ///< area of the taught region before / after, > 1 when chosen for it.
+  std::size_t num_new = 0;                       ///< New facets of the taught region.
   std::vector<PolicyCellIndex> counterfactuals;  ///< Cells of the beliefs it was chosen for, ascending.
 };
 
