@@ -5,9 +5,6 @@ target_include_directories(kith_testing INTERFACE ${PROJECT_SOURCE_DIR}/tests/su
 # Tests need not be fast, but have to be compiled: a fifth of the time.
 target_compile_options(kith_testing INTERFACE $<$<CONFIG:Release>:-O1>)
 target_compile_definitions(kith_testing INTERFACE KITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-kith_precompiled_headers(kith_test_headers EXECUTABLE
-  DEPENDS kith_testing Eigen3::Eigen nlohmann_json::nlohmann_json
-  HEADERS ${standard_headers} <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry> <nlohmann/json.hpp>)
 
 # kith_test_program(<name> SOURCES a_test.cpp ... [DEPENDS lib ...])
 #
@@ -21,7 +18,6 @@ function(kith_test_program name)
   set(program kith_${name}_tests)
   add_executable(${program} ${arg_SOURCES})
   target_link_libraries(${program} PRIVATE kith_build kith_testing ${arg_DEPENDS})
-  kith_use_precompiled_headers(${program} kith_test_headers)
   set(slow_suites "*Slow*.*")
   if(KITH_SANITIZE)
     # Seconds otherwise, minutes here; what they call is also called by quick tests.
