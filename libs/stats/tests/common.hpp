@@ -1,5 +1,6 @@
-// What the tests of several files use.
 #pragma once
+
+// What the tests of several files use.
 
 #include <cstddef>
 #include <limits>
