@@ -1,9 +1,11 @@
 #include "kith/bec/atlas.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "atlas_builder.hpp"
 #include "kith/core/error.hpp"
+#include "robot_plan.hpp"
 
 namespace kith {
 
@@ -28,6 +30,17 @@ std::vector<DemoIndex> Atlas::path(DemoIndex demo) const {
   std::vector<DemoIndex> path;
   for (auto at = static_cast<std::uint32_t>(demo.value()); at != kTerminal; at = demos_[at].next) path.emplace_back(at);
   return path;
+}
+
+IntegerVector Atlas::deviation_counts(DemoIndex demo, std::size_t choice) const {
+  const auto [m, start] = id(demo);
+  const Mdp& mdp = domain_.mdp(m);
+  const auto choices = mdp.choices(start);
+  if (choice >= choices.size()) throw std::invalid_argument{"Atlas::deviation_counts: there is no such choice"};
+  const IntegerVector nothing(domain_.num_features());
+  return counts_of(mdp, choices[choice], domain_.count_scale(), [&, m = m](StateIndex next) -> const IntegerVector& {
+    return mdp.is_terminal(next) ? nothing : feature_counts(index({m, next}));
+  });
 }
 
 std::vector<IntegerVector> Atlas::coverage_set(DemoIndex demo) const {

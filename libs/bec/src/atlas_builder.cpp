@@ -135,9 +135,10 @@ std::vector<bool> AtlasBuilder::on_candidates_paths(MdpIndex m, const RobotPlan&
 
 std::vector<ConstraintIndex> AtlasBuilder::deviations(const Mdp& mdp, const RobotPlan& robot, StateIndex s) {
   const auto& domain = atlas_.domain_;
+  const auto robots = [&](StateIndex next) -> const IntegerVector& { return robot.counts[next.value()]; };
   std::vector<ConstraintIndex> result;
   for (const auto& choice : mdp.choices(s)) {
-    const auto loss = robot.counts[s.value()] - counts_of(mdp, choice, robot.counts, domain.count_scale());
+    const auto loss = robot.counts[s.value()] - counts_of(mdp, choice, domain.count_scale(), robots);
     if (const auto half_space = preference_of_robot(domain, loss)) result.push_back(raw_.add(*half_space));
   }
   return result;

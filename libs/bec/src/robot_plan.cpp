@@ -1,8 +1,6 @@
 #include "robot_plan.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <queue>
 #include <utility>
 
@@ -153,24 +151,6 @@ std::optional<RobotPlan> plan_robot(const Domain& domain, MdpIndex m) {
 
 std::vector<std::uint32_t> likeliest_next(const Mdp& mdp, const std::vector<std::uint32_t>& choice) {
   return LikeliestPaths{mdp, choice}.next();
-}
-
-IntegerVector counts_of(const Mdp& mdp, const Choice& choice, const std::vector<IntegerVector>& counts,
-                        std::int64_t scale) {
-  const auto outcomes = mdp.outcomes(choice);
-  if (scale == 1) return mdp.integer_features(outcomes.front()) + counts[outcomes.front().next.value()];
-  std::array<double, IntegerVector::kMaxDimension> sum{};
-  for (const Outcome& outcome : outcomes) {
-    const auto features = mdp.features(outcome);
-    const auto& rest = counts[outcome.next.value()];
-    for (std::size_t k = 0; k < features.size(); ++k) {
-      sum[k] += outcome.probability *
-                (features[k] * static_cast<double>(scale) + mdp.discount() * static_cast<double>(rest[k]));
-    }
-  }
-  IntegerVector result(mdp.num_features());
-  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::llround(sum[k]);
-  return result;
 }
 
 std::vector<StateIndex> successors_first(const Mdp& mdp, const RobotPlan& plan) {

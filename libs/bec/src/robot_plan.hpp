@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,9 +28,24 @@ struct RobotPlan {
 // Where a plan most likely leads from each state, as in RobotPlan::next.
 [[nodiscard]] std::vector<std::uint32_t> likeliest_next(const Mdp& mdp, const std::vector<std::uint32_t>& choice);
 
-// Expected counts of a choice followed by the plan.
-[[nodiscard]] IntegerVector counts_of(const Mdp& mdp, const Choice& choice, const std::vector<IntegerVector>& counts,
-                                      std::int64_t scale);
+// Expected counts of a choice and of what follows it: `rest(state)`, whether terminal or not.
+template <typename Rest>
+[[nodiscard]] IntegerVector counts_of(const Mdp& mdp, const Choice& choice, std::int64_t scale, const Rest& rest) {
+  const auto outcomes = mdp.outcomes(choice);
+  if (scale == 1) return mdp.integer_features(outcomes.front()) + rest(outcomes.front().next);
+  std::array<double, IntegerVector::kMaxDimension> sum{};
+  for (const Outcome& outcome : outcomes) {
+    const auto features = mdp.features(outcome);
+    const IntegerVector& follows = rest(outcome.next);
+    for (std::size_t k = 0; k < features.size(); ++k) {
+      sum[k] += outcome.probability *
+                (features[k] * static_cast<double>(scale) + mdp.discount() * static_cast<double>(follows[k]));
+    }
+  }
+  IntegerVector result(mdp.num_features());
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::llround(sum[k]);
+  return result;
+}
 
 // All non-terminal states, each after the one that follows it on the shown path.
 [[nodiscard]] std::vector<StateIndex> successors_first(const Mdp& mdp, const RobotPlan& plan);

@@ -211,6 +211,22 @@ TEST(Atlas, ConveyedConstraintsEqualPlanningForEachBelief) {
   }
 }
 
+TEST(Atlas, DeviationCountsAreWhatOneStepComparesThePathWith) {
+  const auto& atlas = item_delivery();
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); demo = DemoIndex{demo.value() + 101}) {
+    std::vector<HalfSpace> comparisons;
+    for (const auto here : atlas.path(demo)) {
+      const auto& mdp = atlas.domain().mdp(atlas.id(here).mdp);
+      for (std::size_t c = 0; c < mdp.choices(atlas.id(here).start).size(); ++c) {
+        const auto loss = atlas.feature_counts(here) - atlas.deviation_counts(here, c);
+        if (!loss.is_zero()) comparisons.emplace_back(loss);
+      }
+    }
+    ASSERT_EQ(atlas.constraints().half_spaces(atlas.one_step(demo)), minimal_set(comparisons));
+  }
+  EXPECT_THROW(static_cast<void>(atlas.deviation_counts(DemoIndex{0}, 99)), std::invalid_argument);
+}
+
 TEST(Atlas, ClassRowsEqualTheDemonstrationsOwn) {
   const auto& atlas = item_delivery();
   RandomStream random{5};

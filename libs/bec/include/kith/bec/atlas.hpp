@@ -73,6 +73,10 @@ class Atlas {
   [[nodiscard]] std::vector<DemoIndex> path(DemoIndex demo) const;
   /// mu of the robot's path, or its expectation, shape [d].
   [[nodiscard]] const IntegerVector& feature_counts(DemoIndex demo) const { return demos_[demo.value()].counts; }
+  /// mu(s, b): what one action at the start counts when the robot goes on from there, or its expectation, shape [d].
+  /// @param choice  position in Mdp::choices() of the start.
+  /// @throws std::invalid_argument if there is no such choice.
+  [[nodiscard]] IntegerVector deviation_counts(DemoIndex demo, std::size_t choice) const;
   /// Whether the robot's optimal path is unique (ties in features or not).
   [[nodiscard]] bool is_unique(DemoIndex demo) const { return demos_[demo.value()].unique; }
   /// Whether some optimal action besides the canonical one exists in the start state itself.
