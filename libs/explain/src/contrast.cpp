@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "deviation.hpp"
 #include "kith/bec/comparison.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/explain/reason.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "walk.hpp"
 
@@ -27,64 +30,86 @@ IntegerVector weights_that_choose(const Atlas& atlas, DemoIndex demo, const Inte
   return cone.interior_direction();
 }
 
-// Appends the rest of a path.
-void append(Trajectory& path, const Trajectory& rest) {
-  path.states.insert(path.states.end(), rest.states.begin() + 1, rest.states.end());
-  path.actions.insert(path.actions.end(), rest.actions.begin(), rest.actions.end());
-}
-
-Trajectory first_steps(const Trajectory& path, std::size_t n) {
-  const auto steps = static_cast<std::ptrdiff_t>(n);
-  return {{path.states.begin(), path.states.begin() + steps + 1}, {path.actions.begin(), path.actions.begin() + steps}};
-}
+Int128 squared_length(const IntegerVector& v) { return dot(v, v); }
 
 }  // namespace
 
 Contrast contrast_with(const Atlas& atlas, DemoIndex demo, std::size_t from, const IntegerVector& vertex) {
-  Contrast result;
-  result.demo = demo;
-  result.robot = atlas.trajectory(demo);
-  result.robot_counts = atlas.feature_counts(demo);
-  if (from >= result.robot.actions.size()) throw std::invalid_argument{"contrast_with: the path is shorter"};
+  const auto robot = atlas.trajectory(demo);
+  if (from >= robot.actions.size()) throw std::invalid_argument{"contrast_with: the path is shorter"};
   const auto world = atlas.id(demo).mdp;
   const auto& mdp = atlas.domain().mdp(world);
-  const auto here = atlas.index({world, result.robot.states[from]});
+  const auto here = atlas.index({world, robot.states[from]});
   const auto weights = weights_that_choose(atlas, here, vertex);
   const auto solution = plan_exactly(mdp, weights).solution.value();
 
   // As long as the robot's actions are as good as any to such a person, they expect them.
   auto t = from;
   while (true) {
-    KITH_ASSERT(t < result.robot.actions.size());  // else the robot's path would have the vertex's counts
-    const auto s = result.robot.states[t];
-    const auto step = detail::step_by(mdp, s, result.robot.actions[t]);
+    KITH_ASSERT(t < robot.actions.size());  // else the robot's path would have the vertex's counts
+    const auto s = robot.states[t];
+    const auto step = detail::step_by(mdp, s, robot.actions[t]);
     KITH_ASSERT(step.has_value());
     const auto reward = dot(weights, mdp.integer_features(*step));
     if (reward + solution.values[step->next.value()] != solution.values[s.value()]) break;
     ++t;
   }
-  result.decisive = t;
-  result.alternative = first_steps(result.robot, t);
-  append(result.alternative, canonical_trajectory(mdp, solution.canonical_choice, result.robot.states[t]));
-  result.alternative_counts = result.robot_counts - atlas.feature_counts(here) + vertex;
-  return result;
+  auto rest = canonical_trajectory(mdp, solution.canonical_choice, robot.states[t]);
+  return detail::beside(atlas, demo, {from, vertex, t, std::move(rest)});
 }
 
-std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
-  const auto path = atlas.trajectory(demo);
-  const auto world = atlas.id(demo).mdp;
-  for (std::size_t t = 0; t < path.actions.size(); ++t) {
-    const auto here = atlas.index({world, path.states[t]});
-    const auto& robot = atlas.feature_counts(here);
+std::optional<HalfSpace> conveyed_by(const Domain& domain, const Contrast& contrast) {
+  return preference_of_robot(domain, contrast.robot_counts - contrast.alternative_counts);
+}
+
+std::string reason(const Domain& domain, const Contrast& contrast) {
+  if (domain.is_exact()) return reason(domain, contrast.robot_counts, contrast.alternative_counts);
+  const auto conveyed = conveyed_by(domain, contrast);
+  if (!conveyed) throw std::invalid_argument{"reason: both paths are worth the same"};
+  return in_words(domain, *conveyed);
+}
+
+namespace {
+
+// With the path of somebody, as the coverage sets know them.
+std::optional<Contrast> vertex_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+  const auto path = atlas.path(demo);
+  for (std::size_t t = 0; t < path.size(); ++t) {
+    const auto& robot = atlas.feature_counts(path[t]);
     std::optional<IntegerVector> nearest;
-    const auto size = [&](const IntegerVector& v) { return dot(robot - v, robot - v); };
-    for (const auto& vertex : atlas.coverage_set(here)) {
+    for (const auto& vertex : atlas.coverage_set(path[t])) {
       if (vertex == robot || constraint_of(robot, vertex) != constraint) continue;
-      if (!nearest || size(vertex) < size(*nearest)) nearest = vertex;
+      if (!nearest || squared_length(robot - vertex) < squared_length(robot - *nearest)) nearest = vertex;
     }
     if (nearest) return contrast_with(atlas, demo, t, *nearest);
   }
   return std::nullopt;
+}
+
+// With one other action.
+std::optional<Contrast> deviation_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+  const auto path = atlas.path(demo);
+  for (std::size_t t = 0; t < path.size(); ++t) {
+    const auto [world, s] = atlas.id(path[t]);
+    const auto choices = atlas.domain().mdp(world).choices(s);
+    std::optional<std::size_t> nearest;
+    IntegerVector least;
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+      const auto loss = atlas.feature_counts(path[t]) - atlas.deviation_counts(path[t], c);
+      if (preference_of_robot(atlas.domain(), loss) != constraint) continue;
+      if (nearest && squared_length(loss) >= squared_length(least)) continue;
+      nearest = c;
+      least = loss;
+    }
+    if (nearest) return detail::deviation(atlas, demo, t, choices[*nearest].action);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+  return atlas.is_tabulated() ? vertex_for(atlas, demo, constraint) : deviation_for(atlas, demo, constraint);
 }
 
 namespace {
@@ -109,21 +134,15 @@ std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, DemoI
                                              const Direction& weights, const IntegerVector& answer) {
   const Atlas& atlas = behaviours.atlas();
   const auto world = atlas.id(demo).mdp;
-  Contrast result;
-  result.demo = demo;
-  result.robot = atlas.trajectory(demo);
-  result.robot_counts = atlas.feature_counts(demo);
-  const auto here = atlas.index({world, result.robot.states[from]});
+  const auto path = atlas.trajectory(demo);
   auto t = from;
   if (atlas.domain().is_exact()) {
-    t = steps_together(atlas.domain().mdp(world), result.robot, from,
+    t = steps_together(atlas.domain().mdp(world), path, from,
                        {weights.data(), static_cast<std::size_t>(weights.size())});
   }
-  const auto rest = behaviours.trajectory(atlas.index({world, result.robot.states[t]}), weights);
+  auto rest = behaviours.trajectory(atlas.index({world, path.states[t]}), weights);
   if (!rest) return std::nullopt;
-  result.alternative = first_steps(result.robot, t);
-  append(result.alternative, *rest);
-  result.alternative_counts = result.robot_counts - atlas.feature_counts(here) + answer;
+  auto result = detail::beside(atlas, demo, {from, answer, t, *std::move(rest)});
   const auto [robot, other] = std::mismatch(result.robot.actions.begin(), result.robot.actions.end(),
                                             result.alternative.actions.begin(), result.alternative.actions.end());
   // Where chance has a part the likeliest paths may be the same: then it is the state that tells.
@@ -150,7 +169,7 @@ std::optional<Contrast> contrast_for(Behaviours& behaviours, DemoIndex demo, con
     }
     ++from;
   }
-  return std::nullopt;
+  return deviation_for(atlas, demo, constraint);
 }
 
 }  // namespace kith

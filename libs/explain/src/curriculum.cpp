@@ -6,7 +6,6 @@
 
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
-#include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/geometry/cover.hpp"
 
@@ -114,11 +113,7 @@ class CurriculumMaker {
     const auto main = most_telling(conveys, known);
     auto contrast = contrast_for(cache_.behaviours(), shown.demo, main, shown.counterfactuals);
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
-    auto sentence = in_words(atlas_.domain(), main);
-    if (atlas_.domain().is_exact()) {
-      sentence =
-          choice_in_words(atlas_.domain(), contrast->robot_counts, contrast->alternative_counts) + ": " + sentence;
-    }
+    auto sentence = reason(atlas_.domain(), *contrast);
     auto flip = nearest_flip(atlas_, *contrast);
     return {shown.demo, std::move(conveys), main, *std::move(contrast), std::move(sentence), std::move(flip)};
   }

@@ -7,6 +7,17 @@
 
 namespace kith::detail {
 
+// How another path leaves the robot's.
+struct Departure {
+  std::size_t expected_from = 0;  // step of the robot's path at whose state the other one was expected
+  IntegerVector counts;           // what it counts from that state on
+  std::size_t step = 0;           // at which it leaves, not before that
+  Trajectory rest;                // from there on
+};
+
+// The robot's path and the other one.
+[[nodiscard]] Contrast beside(const Atlas& atlas, DemoIndex demo, const Departure& other);
+
 // What follows if the robot took another action at one state of its path and then did its best again.
 //
 // The counts differ by what is expected from that state on; where chance has a part the paths are the likeliest ones.

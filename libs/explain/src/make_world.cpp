@@ -185,9 +185,11 @@ std::string name_of(const Domain& domain, char symbol) {
 
 }  // namespace
 
+bool can_make_worlds(const Domain& domain) { return domain.has_map() && domain.is_exact(); }
+
 std::optional<MadeWorld> make_world(const Atlas& atlas, std::string_view text, const HalfSpace& constraint,
                                     Purpose purpose, const MakeWorldOptions& options) {
-  if (!atlas.domain().has_map() || !atlas.domain().is_exact()) return std::nullopt;
+  if (!can_make_worlds(atlas.domain())) return std::nullopt;
   return WorldMaker{atlas, text, constraint, purpose, options}.make();
 }
 

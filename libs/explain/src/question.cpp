@@ -4,9 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "kith/bec/comparison.hpp"
 #include "kith/explain/contrast.hpp"
-#include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
 #include "question_parser.hpp"
 #include "scene.hpp"
@@ -85,9 +83,7 @@ class Answerer {
   [[nodiscard]] std::string because(const std::optional<Contrast>& contrast, const std::string& nothing) const {
     if (!contrast) return nothing;
     if (contrast->robot_counts == contrast->alternative_counts) return "both ways count the same";
-    if (domain_.is_exact()) return reason(domain_, contrast->robot_counts, contrast->alternative_counts);
-    const auto preferred = preference_of_robot(domain_, contrast->robot_counts - contrast->alternative_counts);
-    return preferred ? in_words(domain_, *preferred) : "both ways are worth the same";
+    return conveyed_by(domain_, *contrast) ? reason(domain_, *contrast) : "both ways are worth the same";
   }
 
   void show(DemoIndex demo, std::string text, const std::optional<Contrast>& contrast = std::nullopt,

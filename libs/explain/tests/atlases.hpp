@@ -18,6 +18,12 @@ namespace kith::testing {
   return *atlas;
 }
 
+/// Domains without tables: with seven features, with chance and discount, and an imported model.
+[[nodiscard]] inline std::vector<std::string> domains_without_tables() {
+  const std::string source = KITH_SOURCE_DIR;
+  return {"navigation", source + "/domains/icy_crossing.toml", source + "/docs/examples/cliff.toml"};
+}
+
 /// The built-in domains that can be taught; colored-tiles, the largest, last.
 inline const std::vector<std::string> kSmallDomains{"item-delivery", "skateboard", "two-goals", "cookie-crumb"};
 

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "atlases.hpp"
+#include "kith/bec/comparison.hpp"
 #include "kith/explain/reason.hpp"
+#include "kith/explain/words.hpp"
 
 namespace kith {
 namespace {
@@ -71,6 +75,116 @@ TEST(ContrastFor, ConveysTheConstraint) {
     }
   }
   EXPECT_GT(found, 20u);
+}
+
+// One other action at the decisive step, and the robot's own way before and after it.
+void expect_one_other_action(const Atlas& atlas, const Contrast& contrast) {
+  const auto world = atlas.id(contrast.demo).mdp;
+  const auto& mdp = atlas.domain().mdp(world);
+  const auto& [states, actions] = contrast.alternative;
+  const auto t = contrast.decisive;
+  EXPECT_EQ(contrast.robot, atlas.trajectory(contrast.demo));
+  ASSERT_LT(t, contrast.robot.actions.size());
+  ASSERT_LT(t, actions.size());
+  const auto parting = static_cast<std::ptrdiff_t>(t);
+  EXPECT_TRUE(std::equal(actions.begin(), actions.begin() + parting, contrast.robot.actions.begin()));
+  EXPECT_TRUE(std::equal(states.begin(), states.begin() + parting + 1, contrast.robot.states.begin()));
+  EXPECT_NE(actions[t], contrast.robot.actions[t]);
+  if (mdp.is_terminal(states[t + 1])) {
+    EXPECT_EQ(states.size(), t + 2);
+    return;
+  }
+  const auto rest = atlas.trajectory(atlas.index({world, states[t + 1]}));
+  EXPECT_EQ((std::vector<StateIndex>{states.begin() + parting + 1, states.end()}), rest.states);
+  EXPECT_EQ((std::vector<ActionIndex>{actions.begin() + parting + 1, actions.end()}), rest.actions);
+}
+
+// The first step of the robot's path at which one other action conveys the constraint, if any.
+std::optional<std::size_t> first_step_that_conveys(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+  const auto path = atlas.path(demo);
+  for (std::size_t t = 0; t < path.size(); ++t) {
+    const auto [world, s] = atlas.id(path[t]);
+    for (std::size_t c = 0; c < atlas.domain().mdp(world).choices(s).size(); ++c) {
+      const auto loss = atlas.feature_counts(path[t]) - atlas.deviation_counts(path[t], c);
+      if (preference_of_robot(atlas.domain(), loss) == constraint) return t;
+    }
+  }
+  return std::nullopt;
+}
+
+void expect_contrast_without_tables(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
+  const auto& domain = atlas.domain();
+  const auto contrast = contrast_for(atlas, demo, constraint);
+  ASSERT_TRUE(contrast.has_value());
+  EXPECT_EQ(contrast->demo, demo);
+  EXPECT_EQ(conveyed_by(domain, *contrast), constraint);
+  EXPECT_EQ(contrast->decisive, first_step_that_conveys(atlas, demo, constraint));
+  expect_one_other_action(atlas, *contrast);
+  const auto why = in_words(domain, constraint);
+  const auto said = reason(domain, *contrast);
+  if (domain.is_exact()) {
+    EXPECT_GT(said.size(), why.size());
+    EXPECT_EQ(said.substr(said.size() - why.size()), why);
+    EXPECT_EQ(counts_of(domain, atlas.id(demo).mdp, contrast->alternative), contrast->alternative_counts);
+  } else {
+    EXPECT_EQ(said, why);
+  }
+}
+
+// Every constraint of a demonstration, which is a comparison with one other action. Returns how many there were.
+std::size_t expect_contrasts_without_tables(const Atlas& atlas, std::size_t stride) {
+  EXPECT_FALSE(atlas.is_tabulated());
+  std::size_t tried = 0;
+  for (std::size_t d = 0; d < atlas.num_demos(); d += stride) {
+    if (!atlas.is_candidate(DemoIndex{d})) continue;
+    for (const auto& constraint : atlas.constraints().half_spaces(atlas.one_step(DemoIndex{d}))) {
+      expect_contrast_without_tables(atlas, DemoIndex{d}, constraint);
+      ++tried;
+    }
+  }
+  return tried;
+}
+
+TEST(ContrastFor, ComparesWithOneOtherActionWhereThereAreNoTables) {
+  const Atlas atlas{load_domain("item-delivery"), BehaviourSource::kOnDemand};
+  EXPECT_GT(expect_contrasts_without_tables(atlas, 97), 100u);
+}
+
+TEST(ContrastFor, WorksWithSevenFeaturesWithChanceAndWithoutAMap) {
+  for (const auto& name : testing::domains_without_tables()) {
+    SCOPED_TRACE(name);
+    EXPECT_GT(expect_contrasts_without_tables(atlas_of(name), name == "navigation" ? 211 : 1), 20u);
+  }
+}
+
+TEST(ContrastFor, IsNothingWhereNoOtherActionConveysTheConstraint) {
+  const Atlas atlas{load_domain("item-delivery"), BehaviourSource::kOnDemand};
+  for (std::size_t d = 0; d < atlas.num_demos(); d += 997) {
+    EXPECT_FALSE(contrast_for(atlas, DemoIndex{d}, HalfSpace{IntegerVector{-100, 0, 299}}).has_value());
+  }
+}
+
+TEST(ContrastFor, ComparesWithOneOtherActionWhereNobodyExpectsSuch) {
+  const Atlas atlas{load_domain("item-delivery"), BehaviourSource::kOnDemand};
+  Behaviours behaviours{atlas};
+  const DemoIndex demo{5000};
+  for (const auto& constraint : atlas.constraints().half_spaces(atlas.one_step(demo))) {
+    const auto alone = contrast_for(atlas, demo, constraint);
+    const auto contrast = contrast_for(behaviours, demo, constraint, {});
+    ASSERT_TRUE(alone && contrast);
+    EXPECT_EQ(contrast->alternative, alone->alternative);
+  }
+}
+
+TEST(Reason, RefusesContrastsThatTellNothing) {
+  const auto& icy = atlas_of(testing::domains_without_tables()[1]);
+  Contrast same;
+  same.robot_counts = icy.feature_counts(DemoIndex{0});
+  same.alternative_counts = same.robot_counts;
+  EXPECT_FALSE(conveyed_by(icy.domain(), same).has_value());
+  EXPECT_THROW(static_cast<void>(reason(icy.domain(), same)), std::invalid_argument);
+  same.robot_counts = same.alternative_counts = {1, 0, 2};
+  EXPECT_THROW(static_cast<void>(reason(atlas_of("item-delivery").domain(), same)), std::invalid_argument);
 }
 
 // The robot of one world, planned anew.

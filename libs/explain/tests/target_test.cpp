@@ -134,6 +134,20 @@ TEST(MakeWorld, ChangesFewCellsUntilOneConstraintIsLeft) {
   EXPECT_EQ(reading.domain->draw(MdpIndex{0}, std::nullopt), rows);
 }
 
+TEST(MakeWorld, IsNothingWithoutAMapAndWhereCountsAreExpectations) {
+  const auto& icy = atlas_of(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
+  EXPECT_FALSE(can_make_worlds(icy.domain()));
+  EXPECT_FALSE(make_world(icy, "", HalfSpace{IntegerVector{-1, 0, 2}}, Purpose::kTeach).has_value());
+  auto text = empty_room();
+  const auto line = text.find("discount");
+  ASSERT_NE(line, std::string::npos);
+  text.replace(line, text.find('\n', line) - line, "discount = 0.95");
+  const Atlas atlas{parse_domain(text, "discounted").domain.value()};
+  EXPECT_FALSE(can_make_worlds(atlas.domain()));
+  EXPECT_FALSE(make_world(atlas, text, HalfSpace{IntegerVector{-1, 0, 2}}, Purpose::kTeach).has_value());
+  EXPECT_TRUE(can_make_worlds(atlas_of("item-delivery").domain()));
+}
+
 TEST(MakeWorld, IsNothingWhereNoWorldWithinTheOptionsWillDo) {
   const auto text = empty_room();
   const Atlas atlas{parse_domain(text, "empty-room").domain.value()};

@@ -9,12 +9,13 @@
 
 namespace kith {
 
-/// The robot's path beside one that somebody could expect in its place.
+/// The robot's path beside one that somebody could expect in its place. Where chance has a part both are the likeliest.
 struct Contrast {
   DemoIndex demo;
   Trajectory robot;
   Trajectory alternative;      ///< From the same start; as long together with the robot's path as it can be.
-  IntegerVector robot_counts;  ///< Of the whole path, shape [d].
+  IntegerVector robot_counts;  ///< Of the whole path, or expected; shape [d], in units of 1 / Domain::count_scale().
+  /// The robot's, and what the other path counts more or less from the state on at which it was expected.
   IntegerVector alternative_counts;
   /// Both take the same actions before this one, and different ones here.
   std::size_t decisive = 0;
@@ -27,12 +28,23 @@ struct Contrast {
 /// robot's own.
 [[nodiscard]] Contrast contrast_with(const Atlas& atlas, DemoIndex demo, std::size_t from, const IntegerVector& vertex);
 
-/// The contrast that conveys a constraint: at the earliest state of the robot's path where some expected path differs
-/// from the robot's by a multiple of its normal, the smallest multiple. Nothing if there is none.
+/// The constraint that a contrast conveys: preference_of_robot() of what the robot's path counts beyond the other one.
+/// Nothing if both are worth the same.
+[[nodiscard]] std::optional<HalfSpace> conveyed_by(const Domain& domain, const Contrast& contrast);
+
+/// What the robot does, rather than what, because of what: reason() of both counts. Where counts are expectations only
+/// why, in_words() of what is conveyed: nobody takes three tenths of a step.
+/// @throws std::invalid_argument if both paths count the same, or the alternative is worth more to the robot.
+[[nodiscard]] std::string reason(const Domain& domain, const Contrast& contrast);
+
+/// The contrast that conveys a constraint, at the earliest state of the robot's path where there is one: with a path
+/// that somebody expects and that differs from the robot's by a multiple of the constraint's normal; where nobody
+/// knows what people expect (Atlas::is_tabulated()), with the path that such a single other action begins, after which
+/// the robot goes on as ever. Of several the smallest multiple. Nothing if there is none.
 [[nodiscard]] std::optional<Contrast> contrast_for(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint);
 
-/// The same for any domain: without tables, the path that one of the given people expects, from the earliest state
-/// where theirs conveys the constraint. Counts are in units of 1 / Domain::count_scale().
+/// The same for people: without tables, with the path that one of them expects, from the earliest state where theirs
+/// conveys the constraint; failing that, with a single other action.
 [[nodiscard]] std::optional<Contrast> contrast_for(Behaviours& behaviours, DemoIndex demo, const HalfSpace& constraint,
                                                    std::span<const PolicyCellIndex> people);
 

@@ -64,10 +64,13 @@ struct MakeWorldOptions {
   std::size_t max_states = 400000;  ///< Of all worlds that are tried together; bounds the time.
 };
 
+/// Whether make_world() can try: the domain has a map, and is exact.
+[[nodiscard]] bool can_make_worlds(const Domain& domain);
+
 /// Makes a world out of one of the family by changing as few cells as possible: floor, walls, terrain and stations
 /// become one another. Worlds with a demonstration that conveys the constraint among the fewest others come first.
 /// @param text  the domain file of the atlas's domain.
-/// @return nothing if no world within the options isolates the constraint, or the domain has no map, or is not exact.
+/// @return nothing if no world within the options isolates the constraint, or unless can_make_worlds().
 /// @throws std::invalid_argument if an option is out of range.
 [[nodiscard]] std::optional<MadeWorld> make_world(const Atlas& atlas, std::string_view text,
                                                   const HalfSpace& constraint, Purpose purpose,
