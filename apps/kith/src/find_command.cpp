@@ -64,8 +64,7 @@ struct FoundDemo {
 
 std::string reason_of(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
   const auto contrast = contrast_for(atlas, demo, constraint);
-  return contrast ? reason(atlas.domain(), contrast->robot_counts, contrast->alternative_counts)
-                  : in_words(atlas.domain(), constraint);
+  return contrast ? reason(atlas.domain(), *contrast) : in_words(atlas.domain(), constraint);
 }
 
 void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace& constraint, Purpose purpose,
@@ -116,6 +115,20 @@ void print_finding_json(const FoundDemo& found, const HalfSpace& constraint, Pur
                       {"made", std::move(made)}});
 }
 
+Error not_a_file_of_its_own(const Domain& domain, MdpIndex world) {
+  Diagnostic diagnostic;
+  diagnostic.id = "E1112";
+  diagnostic.message =
+      fmt::format("world {} of '{}' cannot be written as a domain file of its own", world.value(), domain.id());
+  diagnostic.hint = domain.has_map() ? "its [map] has to be written by hand: one map, nothing optional"
+                                     : fmt::format(
+                                           "it has no map; kith export --mdp {} writes it, with a domain file "
+                                           "beside it",
+                                           world.value());
+  diagnostic.infeasible = true;
+  return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
+}
+
 // The world as a domain file of its own.
 void write_world(const std::string& out, const std::string& family_text, const FoundDemo& found, Console& console) {
   std::optional<std::string> text;
@@ -124,9 +137,11 @@ void write_world(const std::string& out, const std::string& family_text, const F
   } else {
     const auto& domain = found.atlas.domain();
     const auto world = found.atlas.id(found.demo).mdp;
-    text =
-        with_one_map(family_text, fmt::format("{}-{}", domain.id(), world.value()), domain.draw(world, std::nullopt));
-    if (!text) throw Error{ErrorKind::kInfeasible, "this world cannot be written as a domain file of its own"};
+    if (domain.has_map()) {
+      text =
+          with_one_map(family_text, fmt::format("{}-{}", domain.id(), world.value()), domain.draw(world, std::nullopt));
+    }
+    if (!text) throw not_a_file_of_its_own(domain, world);
   }
   write_file_atomically(out, *text);
   console.info(fmt::format("world in {}; kith curriculum {} shows it", out, out));
@@ -138,8 +153,10 @@ Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose
   diagnostic.message =
       fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
                   purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));
-  if (tried_making) diagnostic.message += ", and no world that differs in few cells does";
-  diagnostic.hint = tried_making ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made";
+  const bool can_make = can_make_worlds(atlas.domain());
+  if (tried_making && can_make) diagnostic.message += ", and no world that differs in few cells does";
+  diagnostic.hint =
+      tried_making || !can_make ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made";
   diagnostic.infeasible = true;
   return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
 }

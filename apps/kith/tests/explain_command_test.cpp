@@ -179,6 +179,54 @@ TEST(FindCommand, MakesAWorldWhereThereIsNoneAndWritesItAsADomain) {
   EXPECT_EQ(run_kith({"validate", scratch / "world.toml"}).code, 0);
 }
 
+TEST(FindCommand, WorksWhereNobodyKnowsWhatPeopleExpect) {
+  const auto rescue = run_kith({"find", "rescue-floor", "(0,0,-1,0,-1)"});
+  EXPECT_EQ(rescue.code, 0) << rescue.err;
+  EXPECT_THAT(rescue.out, AllOf(HasSubstr("teaches exactly this: (0,0,-1,0,-1): a stair and a step cost something\n"),
+                                HasSubstr(": a stair and a step cost something\n  #")));
+  const auto test = run_kith({"find", "navigation", "(0,-1,0,0,0,0,-2)", "--test", "--json"});
+  ASSERT_EQ(test.code, 0) << test.err;
+  const auto document = Json::parse(test.out);
+  EXPECT_THAT(document.at("found").at("reason").get<std::string>(), HasSubstr(": crossing grass and 2 steps cost "));
+  expect_board(document, document["found"], document["found"].at("frames"));
+}
+
+TEST(FindCommand, TellsOnlyWhyWhereCountsAreExpectations) {
+  const auto cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
+  const auto ran = run_kith({"find", cliff, "(0,-1)"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("teaches exactly this: (0,-1): a step costs something\na step costs something\n"));
+  const auto json = run_kith({"find", cliff, "(0,-1)", "--json"});
+  ASSERT_EQ(json.code, 0) << json.err;
+  const auto found = Json::parse(json.out).at("found");
+  EXPECT_EQ(found.at("reason"), "a step costs something");
+  EXPECT_FALSE(found.at("frames").at(0).at("state").get<std::string>().empty());
+}
+
+TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
+  const auto icy = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
+  const auto listed = run_kith({"find", icy, "--json"});
+  ASSERT_EQ(listed.code, 0) << listed.err;
+  const auto constraints = Json::parse(listed.out).at("constraints");
+  ASSERT_FALSE(constraints.empty());
+  std::string normal;
+  for (const auto& entry : constraints[0].at("normal")) normal += entry.dump() + " ";
+  for (const auto& arguments : {std::vector<std::string>{"find", icy, normal}, {"find", icy, normal, "--no-make"}}) {
+    const auto none = run_kith(arguments);
+    EXPECT_EQ(none.code, 4);
+    EXPECT_THAT(none.err, AllOf(HasSubstr("error[E1111]: no start state of 'icy-crossing' teaches exactly "),
+                                HasSubstr("`kith find DOMAIN` lists what can be isolated"),
+                                ::testing::Not(HasSubstr("few cells"))));
+  }
+  const Scratch scratch;
+  const auto cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
+  const auto written = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml"});
+  EXPECT_EQ(written.code, 4);
+  EXPECT_THAT(written.err, AllOf(HasSubstr("error[E1112]: world 0 of 'cliff' cannot be written"),
+                                 HasSubstr("help: it has no map; kith export --mdp 0 writes it")));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "one.toml"));
+}
+
 TEST(Inspect, WritesPictures) {
   const Scratch scratch;
   const auto folder = scratch / "pictures";
