@@ -45,5 +45,6 @@ function(kith_module name)
     add_executable(kith_${name}_bench ${benches})
     target_link_libraries(kith_${name}_bench PRIVATE
       kith::${name} kith_build benchmark::benchmark_main ${arg_TEST_DEPENDS})
+    target_include_directories(kith_${name}_bench PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/include)
   endif()
 endfunction()

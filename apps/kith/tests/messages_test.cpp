@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "domain_texts.hpp"
 #include "run_kith.hpp"
 
 namespace kith::testing {
@@ -107,21 +108,7 @@ TEST(Words, AgreeInNumberOrAvoidTheQuestion) {
 
 TEST(Inspect, ShowsADomainThatCannotBeTaught) {
   const Scratch scratch;
-  std::ofstream{scratch / "d.toml"} << R"(schema = "kith.domain/1"
-id = "single"
-[mdp]
-[map]
-rows = ["S..G"]
-[map.legend]
-"." = "floor"
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { step = -1 }
-)";
+  std::ofstream{scratch / "d.toml"} << steps_domain("\"S..G\"");
   const auto ran = run_kith({"inspect", scratch / "d.toml"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, AllOf(HasSubstr("Map of MDP 0"), HasSubstr("Reward"), HasSubstr("The robot's policy in MDP 0"),

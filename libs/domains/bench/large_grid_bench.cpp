@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "domain_texts.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
@@ -13,33 +14,7 @@ namespace {
 // side x side cells, two in five of them rubble or mud, from one corner to the other.
 std::string grid(std::size_t side) {
   RandomStream random{side};
-  std::string rows;
-  for (std::size_t y = 0; y < side; ++y) {
-    std::string row;
-    for (std::size_t x = 0; x < side; ++x) row += "..r.m"[uniform_index(5, random)];
-    if (y == 0) row.back() = 'G';
-    if (y + 1 == side) row.front() = 'S';
-    rows += (y == 0 ? "\"" : ",\n\"") + row + '"';
-  }
-  return "schema = \"kith.domain/1\"\nid = \"grid\"\n[mdp]\nmax_steps = 10000\n[map]\nrows = [" + rows + R"(]
-[map.legend]
-"." = "floor"
-"r" = { terrain = "rubble" }
-"m" = { terrain = "mud" }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "mud"
-when = "leave:mud"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -2.7, mud = -1.3, step = -1 }
-)";
+  return testing::terrain_grid(side, [&](std::size_t, std::size_t) { return "..r.m"[uniform_index(5, random)]; });
 }
 
 // How long does `kith validate` take for one large map? Exploring, planning exactly, and looking for ties.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "domain_texts.hpp"
 #include "domains_under_test.hpp"
 
 namespace kith {
@@ -197,19 +198,7 @@ TEST(OptionalGroups, OfOneNameToggleTogetherAcrossSymbols) {
 }
 
 TEST(Maps, OfOneRowAndOfOneStepAreFine) {
-  const std::string text = R"(schema = "kith.domain/1"
-id = "row"
-[map]
-rows = ["SG"]
-[map.legend]
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { step = -1 }
-)";
+  const std::string text = testing::steps_domain("\"SG\"");
   const Domain domain = sound_domain(text);
   EXPECT_EQ(domain.num_starts(), 1u);
   EXPECT_EQ(domain.mdp(MdpIndex{0}).choices(StateIndex{0}).size(), 1u);

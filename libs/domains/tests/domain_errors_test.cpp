@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "domain_texts.hpp"
 #include "domains_under_test.hpp"
 #include "error_ids.hpp"
 #include "kith/core/error.hpp"
@@ -331,25 +332,9 @@ TEST(DomainErrors, RefuseMoreStatesThanTheCallerWants) {
   EXPECT_EQ(refused.diagnostics.front().id, "E0219");
 }
 
-constexpr const char* kSingle = R"(schema = "kith.domain/1"
-id = "single"
-[mdp]
-[map]
-rows = ["S.G"]
-[map.legend]
-"." = "floor"
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { step = -1 }
-)";
-
 TEST(DomainErrors, WarnThatASingleFeatureTeachesNothing) {
-  const auto diagnostics = parse_domain(kSingle, "t").diagnostics;
-  EXPECT_EQ(places_of(diagnostics), "W0304 11:8");
+  const auto diagnostics = parse_domain(testing::steps_domain("\"S.G\""), "t").diagnostics;
+  EXPECT_EQ(places_of(diagnostics), "W0304 10:8");
   EXPECT_FALSE(has_errors(diagnostics));
 }
 
@@ -455,7 +440,8 @@ TEST(DomainErrorIds, AreAllTriggeredHere) {
     for (const Diagnostic& d : parse_domain(text, "t").diagnostics) triggered.insert(d.id);
   };
   for (const Case& c : cases()) trigger(edited_text(c));
-  for (const std::string& text : {std::string{kSkateboard}, flat_prior(), std::string{kSingle}}) trigger(text);
+  for (const std::string& text : {std::string{kSkateboard}, flat_prior(), testing::steps_domain("\"S.G\"")})
+    trigger(text);
   triggered.insert("E0116");  // load_domain, above
   for (const std::string& id : kith::testing::error_ids_in("domains")) {
     const bool of_models =

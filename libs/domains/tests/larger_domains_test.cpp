@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "domain_texts.hpp"
 #include "domains_under_test.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
@@ -151,33 +152,8 @@ TEST(RescueFloor, PutsThingsDownOnlyWhereTheyBelong) {
 
 // side x side cells of rubble, mud and floor in stripes, from the lower left to the upper right corner.
 std::string striped_grid(std::size_t side) {
-  std::string rows;
-  for (std::size_t y = 0; y < side; ++y) {
-    std::string row;
-    for (std::size_t x = 0; x < side; ++x) row += "..r.m.."[(3 * x + 5 * y + x * y) % 7];
-    if (y == 0) row.back() = 'G';
-    if (y + 1 == side) row.front() = 'S';
-    rows += (y == 0 ? "\"" : ",\n\"") + row + '"';
-  }
-  return "schema = \"kith.domain/1\"\nid = \"stripes\"\n[map]\nrows = [" + rows + R"(]
-[map.legend]
-"." = "floor"
-"r" = { terrain = "rubble" }
-"m" = { terrain = "mud" }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "mud"
-when = "leave:mud"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -2.7, mud = -1.3, step = -1 }
-)";
+  return testing::terrain_grid(side,
+                               [](std::size_t x, std::size_t y) { return "..r.m.."[(3 * x + 5 * y + x * y) % 7]; });
 }
 
 // Validation plans in integers, behave() by label setting: neither knows of the other.

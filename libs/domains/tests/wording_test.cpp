@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "domain_texts.hpp"
 #include "domains_under_test.hpp"
 #include "kith/domains/domain_file.hpp"
 
@@ -8,25 +9,7 @@ namespace {
 
 // A domain with two features whose [words] are these lines.
 Domain domain_with_words(const std::string& lines) {
-  return sound_domain(R"(schema = "kith.domain/1"
-id = "tiny"
-[map]
-rows = ["S.rG"]
-[map.legend]
-"." = "floor"
-"r" = { terrain = "rubble", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -2, step = -1 }
-[words]
-)" + lines);
+  return sound_domain(testing::rubble_domain("\"S.rG\"", "[words]\n" + lines));
 }
 
 std::string many_of(const std::string& once) { return domain_with_words("step = \"" + once + "\"\n").wording(1).many; }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <set>
 
+#include "domain_texts.hpp"
 #include "kith/core/error.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/import_logs.hpp"
@@ -162,27 +163,8 @@ TEST(RunImport, RefusesRecordsOfTeamsOnlyAndCounterfactualsOfPeoplesOwn) {
 TEST(RunImport, RefusesDomainsWithoutTables) {
   const testing::TemporaryFolder folder;
   const auto domain = folder.path() / "two.toml";
-  write_file_atomically(domain, R"(schema = "kith.domain/1"
-id = "two"
-[mdp]
-[map]
-rows = ["S.rG", "...."]
-[map.legend]
-"." = "floor"
-"r" = { terrain = "rubble", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -3, step = -1 }
-[prior]
-halfspaces = [ { step = -1 } ]
-)");
+  write_file_atomically(domain,
+                        testing::rubble_domain("\"S.rG\", \"....\"", "[prior]\nhalfspaces = [ { step = -1 } ]\n"));
   testing::run_into(folder.path() / "run",
                     "schema = \"kith.study/1\"\nid = \"two\"\ndomain = \"" + domain.string() +
                         "\"\nseed = 3\nreplicates = 2\n[design]\nstrategies = [\"common\"]\ncompositions = [\"NN\"]\n" +

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "domain_texts.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/study/study.hpp"
@@ -46,32 +47,8 @@ weights = { rubble = -3, smoke = -1.5, recharge = 2.5, step = -1 }
 halfspaces = [ { step = -1 } ]
 )";
 
-constexpr const char* kTwoFeatures = R"(
-schema = "kith.domain/1"
-id = "two"
-[mdp]
-discount = 1.0
-[map]
-rows = ["..rG",
-        ".#r.",
-        "S..."]
-[map.legend]
-"#" = "wall"
-"." = "floor"
-"r" = { terrain = "rubble", optional = true }
-"S" = { start = true }
-"G" = { goal = true }
-[[feature]]
-name = "rubble"
-when = "leave:rubble"
-[[feature]]
-name = "step"
-when = "action"
-[reward]
-weights = { rubble = -3, step = -1 }
-[prior]
-halfspaces = [ { step = -1 } ]
-)";
+const std::string kTwoFeatures =
+    testing::rubble_domain("\"..rG\", \".#r.\", \"S...\"", "[prior]\nhalfspaces = [ { step = -1 } ]\n");
 
 Domain domain_from(const std::string& text) {
   auto reading = parse_domain(text, "test.toml");

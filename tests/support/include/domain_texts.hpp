@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace kith::testing {
+
+/// A domain file: floor ".", wall "#", rubble "r" that may be absent, start "S" and goal "G"; rubble and steps count.
+/// @param rows  as in the file: `"S.rG"`, commas between them.
+/// @param more  what follows the reward.
+[[nodiscard]] inline std::string rubble_domain(const std::string& rows, const std::string& more = "") {
+  return "schema = \"kith.domain/1\"\nid = \"rubble\"\n[map]\nrows = [" + rows + R"(]
+[map.legend]
+"." = "floor"
+"#" = "wall"
+"r" = { terrain = "rubble", optional = true }
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "rubble"
+when = "leave:rubble"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { rubble = -3, step = -1 }
+)" + more;
+}
+
+/// A domain file in which nothing but steps counts.
+[[nodiscard]] inline std::string steps_domain(const std::string& rows) {
+  return "schema = \"kith.domain/1\"\nid = \"steps\"\n[map]\nrows = [" + rows + R"(]
+[map.legend]
+"." = "floor"
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { step = -1 }
+)";
+}
+
+/// A domain file: side x side cells, from the lower left corner to the upper right one.
+/// @param symbol_at  (x, y) -> ".", floor, "r", rubble, or "m", mud.
+template <typename SymbolAt>
+[[nodiscard]] std::string terrain_grid(std::size_t side, const SymbolAt& symbol_at) {
+  std::string rows;
+  for (std::size_t y = 0; y < side; ++y) {
+    std::string row;
+    for (std::size_t x = 0; x < side; ++x) row += symbol_at(x, y);
+    if (y == 0) row.back() = 'G';
+    if (y + 1 == side) row.front() = 'S';
+    rows += (y == 0 ? "\"" : ",\n\"") + row + '"';
+  }
+  return "schema = \"kith.domain/1\"\nid = \"terrain\"\n[mdp]\nmax_steps = 10000\n[map]\nrows = [" + rows + R"(]
+[map.legend]
+"." = "floor"
+"r" = { terrain = "rubble" }
+"m" = { terrain = "mud" }
+"S" = { start = true }
+"G" = { goal = true }
+[[feature]]
+name = "rubble"
+when = "leave:rubble"
+[[feature]]
+name = "mud"
+when = "leave:mud"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { rubble = -2.7, mud = -1.3, step = -1 }
+)";
+}
+
+}  // namespace kith::testing
