@@ -45,7 +45,7 @@ bool updated(ParticleBelief& belief, const Update& update) {
 
 void observe(ParticleBelief& belief, fuzzing::Bytes& bytes, const HalfSpaceLikelihood& likelihood,
              const RandomStream& random) {
-  const auto shown = fuzzing::half_spaces(bytes, 4, 3);
+  const auto shown = fuzzing::half_spaces(bytes, 4, 3, belief.dimension());
   auto other = belief;
   const std::vector<HalfSpace> backwards{shown.rbegin(), shown.rend()};
   const auto mass = belief.mass_in(shown);
@@ -59,18 +59,20 @@ void observe(ParticleBelief& belief, fuzzing::Bytes& bytes, const HalfSpaceLikel
 void observe_any(ParticleBelief& belief, fuzzing::Bytes& bytes, const HalfSpaceLikelihood& likelihood,
                  const RandomStream& random) {
   std::vector<std::vector<HalfSpace>> alternatives(bytes.below(4));
-  for (auto& list : alternatives) list = fuzzing::half_spaces(bytes, 3, 3);
+  for (auto& list : alternatives) list = fuzzing::half_spaces(bytes, 3, 3, belief.dimension());
   updated(belief, [&](auto& b) { b.observe_any(alternatives, likelihood, random); });
 }
 
 }  // namespace
 
+// The first byte chooses how many dimensions there are.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzzing::Bytes bytes{data, size};
+  const auto d = 2 + bytes.below(7);
   const auto particles = 1 + bytes.below(48);
   const auto noise = 2.0 * bytes.fraction();
   const FilterOptions options{.particles = particles, .process_noise = noise, .resample_below = bytes.fraction()};
-  const auto prior = Cone::intersection(fuzzing::half_spaces(bytes, 3, 3));
+  const auto prior = fuzzing::intersection(fuzzing::half_spaces(bytes, 3, 3, d), d);
   if (!prior) return 0;
   const PriorCover cover{*prior, options.particles};
   ParticleBelief belief{cover, options};
@@ -78,8 +80,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const RandomStream root{1};
   for (std::uint64_t step = 0; step < 24 && !bytes.empty(); ++step) {
     const auto action = bytes.below(8);
-    const HalfSpaceLikelihood likelihood{
-        0.5 + 0.5 * bytes.fraction(), (action & 1) != 0 ? LikelihoodForm::kContinuous : LikelihoodForm::kDiscontinuous};
+    const auto form = (action & 1) != 0 ? LikelihoodForm::kContinuous : LikelihoodForm::kDiscontinuous;
+    const HalfSpaceLikelihood likelihood{0.5 + 0.5 * bytes.fraction(), form, d};
     if (action < 3) observe(belief, bytes, likelihood, root.split(step));
     if (action >= 3 && action < 5) observe_any(belief, bytes, likelihood, root.split(step));
     if (action == 5 || action == 6) belief.diffuse(4.0 * bytes.fraction(), root.split(step));
