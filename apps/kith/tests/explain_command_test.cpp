@@ -214,7 +214,7 @@ TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
   for (const auto& arguments : {std::vector<std::string>{"find", icy, normal}, {"find", icy, normal, "--no-make"}}) {
     const auto none = run_kith(arguments);
     EXPECT_EQ(none.code, 4);
-    EXPECT_THAT(none.err, AllOf(HasSubstr("error[E1111]: no start state of 'icy-crossing' teaches exactly "),
+    EXPECT_THAT(none.err, AllOf(HasSubstr("error: no start state of 'icy-crossing' teaches exactly "),
                                 HasSubstr("`kith find DOMAIN` lists what can be isolated"),
                                 ::testing::Not(HasSubstr("few cells"))));
   }
@@ -222,8 +222,10 @@ TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
   const auto cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
   const auto written = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml"});
   EXPECT_EQ(written.code, 4);
-  EXPECT_THAT(written.err, AllOf(HasSubstr("error[E1112]: world 0 of 'cliff' cannot be written"),
+  EXPECT_THAT(written.err, AllOf(HasSubstr("error: world 0 of 'cliff' cannot be written"),
                                  HasSubstr("help: it has no map; kith export --mdp 0 writes it")));
+  const auto json = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml", "--json"});
+  EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1112");
   EXPECT_FALSE(std::filesystem::exists(scratch / "one.toml"));
 }
 
