@@ -21,14 +21,6 @@
 namespace kith::cli {
 namespace {
 
-// The text of a built-in domain or of a file.
-std::string text_of(const std::string& name_or_path) {
-  for (const auto& built_in : built_in_domains()) {
-    if (built_in.name == name_or_path) return std::string{built_in.text};
-  }
-  return read_input(name_or_path).text;
-}
-
 const char* name_of(Purpose purpose) { return purpose == Purpose::kTeach ? "teach" : "test"; }
 
 void list_constraints(const Atlas& atlas, Console& console) {
@@ -175,7 +167,7 @@ int run_find(const FindOptions& options, Console& console) {
   const auto purpose = options.test ? Purpose::kTest : Purpose::kTeach;
   const auto demo = simplest_isolating(atlas, constraint, purpose);
   std::optional<MadeWorld> made;
-  const auto text = !demo || !options.out.empty() ? text_of(options.domain) : std::string{};
+  const auto text = !demo || !options.out.empty() ? read_named(options.domain).text : std::string{};
   if (!demo && !options.no_make) made = make_world(atlas, text, constraint, purpose);
   if (!demo && !made) throw not_found(atlas, constraint, purpose, !options.no_make);
   const FoundDemo found = demo ? FoundDemo{atlas, *demo, nullptr} : FoundDemo{made->atlas, made->demo, &*made};

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/toml/document.hpp"
 
 namespace kith::cli {
@@ -36,6 +37,16 @@ InputText read_input(const std::string& file) {
   std::ifstream stream{file, std::ios::binary};
   if (!stream) throw Error{ErrorKind::kIo, "cannot read " + file + ": " + std::strerror(errno)};
   return {file, text_of(stream, file), std::filesystem::path{file}.parent_path()};
+}
+
+InputText read_named(const std::string& name_or_file) {
+  for (const auto& domain : built_in_domains()) {
+    if (domain.name == name_or_file) return {name_or_file, std::string{domain.text}, {}};
+  }
+  for (const auto& study : built_in_studies()) {
+    if (study.name == name_or_file) return {name_or_file, std::string{study.text}, {}};
+  }
+  return read_input(name_or_file);
 }
 
 StudyReading study_of(const std::string& name, const std::vector<std::string>& overrides) {

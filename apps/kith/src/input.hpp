@@ -19,6 +19,9 @@ struct InputText {
 /// a domain or study file may have is read. @throws kith::Error (kIo).
 [[nodiscard]] InputText read_input(const std::string& file);
 
+/// The same, or the text of the domain or study of this name that comes with kith.
+[[nodiscard]] InputText read_named(const std::string& name_or_file);
+
 /// All of standard input.
 [[nodiscard]] InputText read_standard_input();
 

@@ -65,7 +65,9 @@ void add_common(CLI::App& command, CommonOptions& common) {
 
 void add_validate(CLI::App& app, Options& options) {
   auto& command = *app.add_subcommand("validate", "Check domain and study files");
-  command.add_option("files", options.validate.files, "Files to check; '-' is standard input")
+  command
+      .add_option("files", options.validate.files,
+                  "Files to check, or names of what comes with kith; '-' is standard input")
       ->required()
       ->type_name("FILE");
   command.add_flag("--strict", options.validate.strict, "Let warnings count as errors");

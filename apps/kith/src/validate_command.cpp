@@ -43,7 +43,7 @@ Verdict check_study(const InputText& input) {
 }
 
 Verdict check(const std::string& file) {
-  const auto input = read_input(file);
+  const auto input = read_named(file);
   const auto parsing = parse_toml(input.text, input.name);
   if (!parsing.document) return {"", "", "", parsing.diagnostics};
   const auto* schema = parsing.document->root.find("schema");

@@ -188,6 +188,14 @@ TEST(Validate, AcceptsStudiesAndDomains) {
   EXPECT_THAT(ran.out, AllOf(HasSubstr("study 'paper' is valid (300 teams"), HasSubstr("64 MDPs, 9312 start states")));
 }
 
+TEST(Validate, KnowsWhatComesWithKith) {
+  const auto ran = run_kith({"validate", "rescue-floor", "paper"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("rescue-floor: domain 'rescue-floor' is valid (16 MDPs"),
+                             HasSubstr("paper: study 'paper' is valid (300 teams")));
+  EXPECT_EQ(run_kith({"validate", "rescue-flor"}).code, 5);
+}
+
 TEST(Validate, ReadsStandardInput) {
   const auto ran = run_kith({"validate", "-"}, {{}, "schema = \"kith.unknown/1\"\n", ""});
   EXPECT_EQ(ran.code, 3);
