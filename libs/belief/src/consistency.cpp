@@ -197,12 +197,14 @@ std::optional<Cone> region_of(std::span<const HalfSpace> list, std::optional<Con
 std::vector<HalfSpace> reduced(const std::vector<HalfSpace>& list, const Cone& prior) {
   if (region_of(list, prior)) return list;
   std::vector<std::vector<HalfSpace>> single;
+  single.reserve(list.size());
   for (const HalfSpace& h : list) single.push_back({h});
   const std::set<Subset> largest = largest_agreeing(prior, single);
   const auto newest = std::max_element(largest.begin(), largest.end(), [](const Subset& a, const Subset& b) {
     return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
   });
   std::vector<HalfSpace> kept;
+  kept.reserve(newest->size());
   for (const std::size_t i : *newest) kept.push_back(list[i]);
   return kept;
 }

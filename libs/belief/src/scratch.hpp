@@ -16,6 +16,7 @@ class Scratch {
   explicit Scratch(std::size_t n) : size_{n} {
     if (n > Usual) heap_.resize(n);
   }
+  ~Scratch() = default;
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 

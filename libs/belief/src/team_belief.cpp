@@ -37,11 +37,11 @@ std::vector<std::size_t> complement(std::span<const std::size_t> subset, std::si
 
 }  // namespace
 
-TeamBelief::TeamBelief(const Cone& prior, const Options& options, std::vector<RandomStream> persons,
+TeamBelief::TeamBelief(const Cone& prior, const Options& options, const std::vector<RandomStream>& persons,
                        RandomStream shared)
-    : TeamBelief{PriorCover{prior, options.filter.particles}, options, std::move(persons), shared} {}
+    : TeamBelief{PriorCover{prior, options.filter.particles}, options, persons, shared} {}
 
-TeamBelief::TeamBelief(const PriorCover& cover, const Options& options, std::vector<RandomStream> persons,
+TeamBelief::TeamBelief(const PriorCover& cover, const Options& options, const std::vector<RandomStream>& persons,
                        RandomStream shared)
     : prior_{cover.prior()}, options_{options} {
   if (persons.empty()) throw std::invalid_argument("TeamBelief: a team has at least one member");
@@ -154,6 +154,7 @@ std::vector<std::size_t> TeamBelief::observe_common(std::span<const std::vector<
       evidence = common_->belief.log_evidence(product, options_.likelihood) -
                  static_cast<double>(product.size()) * options_.likelihood.log_density(0.0);
       std::vector<std::uint64_t> addresses;
+      addresses.reserve(subset.size());
       for (const std::size_t i : subset) addresses.push_back(addresses_[i]);
       hash = hash_of(std::move(addresses));
     }

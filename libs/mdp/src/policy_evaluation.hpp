@@ -32,7 +32,7 @@ class PolicyChain {
   // Gauss-Seidel sweeps outwards from the terminal states, starting with the given values, shape [num_states +
   // num_terminals, kinds]. Exact after one where the policy is deterministic and finishes. False if the values have
   // not come to rest after the last.
-  bool sweep(int most_sweeps, std::span<double> values) const;
+  [[nodiscard]] bool sweep(int most_sweeps, std::span<double> values) const;
   // As many sweeps as bring the values to rest; if they are too many, a sparse LU factorisation.
   // @pre the policy finishes, or the process is discounted.
   void solve(std::span<double> values) const;

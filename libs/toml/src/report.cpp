@@ -7,7 +7,8 @@
 namespace kith {
 
 // Beyond the cap errors are only counted: finding the line of each takes as long as the text is.
-void TomlReport::add(Diagnostic kind, const TomlPlace& place, std::string id, std::string message, std::string hint) {
+void TomlReport::add(const Diagnostic& kind, const TomlPlace& place, std::string id, std::string message,
+                     std::string hint) {
   if (kind.severity == Severity::kError && ++num_errors_ > kMaxErrors) return;
   Diagnostic d =
       diagnostic_at(document_.sources.at(place.source), place, std::move(id), std::move(message), std::move(hint));

@@ -39,9 +39,10 @@ class TeamBelief {
   /// @param persons one stream per member, the root of all that is drawn for that member's belief; its address
   ///        also breaks ties, so seats never matter. @param shared stream of the common and joint beliefs.
   /// @throws std::invalid_argument if there is no member or an option is out of range.
-  TeamBelief(const Cone& prior, const Options& options, std::vector<RandomStream> persons, RandomStream shared);
+  TeamBelief(const Cone& prior, const Options& options, const std::vector<RandomStream>& persons, RandomStream shared);
   /// The same over a cover made before, which saves most of the time.
-  TeamBelief(const PriorCover& cover, const Options& options, std::vector<RandomStream> persons, RandomStream shared);
+  TeamBelief(const PriorCover& cover, const Options& options, const std::vector<RandomStream>& persons,
+             RandomStream shared);
 
   [[nodiscard]] std::size_t num_members() const noexcept { return addresses_.size(); }
   [[nodiscard]] const Options& options() const noexcept { return options_; }

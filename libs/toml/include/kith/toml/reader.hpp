@@ -36,7 +36,7 @@ class TomlReport {
   [[nodiscard]] std::vector<Diagnostic> diagnostics() const;
 
  private:
-  void add(Diagnostic kind, const TomlPlace& place, std::string id, std::string message, std::string hint);
+  void add(const Diagnostic& kind, const TomlPlace& place, std::string id, std::string message, std::string hint);
 
   struct Entry {
     TomlPlace place;
