@@ -23,8 +23,10 @@ std::vector<std::string> item_names(const World& world) {
 //   any = all { "|" all } ; all = one { "&" one } ; one = "!" one | "(" any ")" | word [ ":" word ]
 class Parser {
  public:
-  Parser(const TomlValue& value, const Vocabulary& vocabulary, std::vector<Atom>& atoms, TomlReport& report)
-      : value_{value}, text_{*value.string()}, vocabulary_{vocabulary}, atoms_{atoms}, report_{report} {}
+  // @pre `text` is the string that is the value.
+  Parser(const TomlValue& value, const std::string& text, const Vocabulary& vocabulary, std::vector<Atom>& atoms,
+         TomlReport& report)
+      : value_{value}, text_{text}, vocabulary_{vocabulary}, atoms_{atoms}, report_{report} {}
 
   std::optional<Condition> run() {
     any();
@@ -226,8 +228,9 @@ bool Condition::holds(AtomMask mask) const {
 }
 
 std::optional<Condition> ConditionReader::read(const TomlValue& value) {
-  if (!read_string(value, "'when'", report_)) return std::nullopt;
-  return Parser{value, vocabulary_, atoms_, report_}.run();
+  const auto text = read_string(value, "'when'", report_);
+  if (!text) return std::nullopt;
+  return Parser{value, *text, vocabulary_, atoms_, report_}.run();
 }
 
 }  // namespace kith::detail
