@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "input.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
-#include "kith/domains/domain_file.hpp"
 #include "kith/table/atomic_file.hpp"
 #include "templates.hpp"
 
@@ -18,16 +17,11 @@ struct NewFile {
   std::string name, content;
 };
 
-std::string built_in_domain(std::string_view name) {
-  const auto& all = built_in_domains();
-  return std::string{std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; })->text};
-}
-
 std::vector<NewFile> files_of(const std::string& name) {
   const bool human = name == "human-study";
   std::vector<NewFile> files;
   files.push_back(
-      {"domain.toml", name == "blank" ? std::string{detail::kBlankDomain} : built_in_domain("item-delivery")});
+      {"domain.toml", name == "blank" ? std::string{detail::kBlankDomain} : read_named("item-delivery").text});
   files.push_back({"study.toml", std::string{human ? detail::kHumanStudyTemplate : detail::kStudyTemplate}});
   files.push_back(
       {"README.md", std::string{detail::kReadmeTemplate} + std::string{human ? detail::kHumanStudyReadme : ""}});
