@@ -107,18 +107,17 @@ void print_finding_json(const FoundDemo& found, const HalfSpace& constraint, Pur
                       {"made", std::move(made)}});
 }
 
+Error infeasible(const std::string& id, const std::string& message, const std::string& hint) {
+  return Error{ErrorKind::kInfeasible, message, {{.id = id, .message = message, .hint = hint, .infeasible = true}}};
+}
+
 Error not_a_file_of_its_own(const Domain& domain, MdpIndex world) {
-  Diagnostic diagnostic;
-  diagnostic.id = "E1112";
-  diagnostic.message =
-      fmt::format("world {} of '{}' cannot be written as a domain file of its own", world.value(), domain.id());
-  diagnostic.hint = domain.has_map() ? "its [map] has to be written by hand: one map, nothing optional"
-                                     : fmt::format(
-                                           "it has no map; kith export --mdp {} writes it, with a domain file "
-                                           "beside it",
-                                           world.value());
-  diagnostic.infeasible = true;
-  return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
+  const auto by_export =
+      fmt::format("it has no map; kith export --mdp {} writes it, with a domain file beside it", world.value());
+  return infeasible(
+      "E1112",
+      fmt::format("world {} of '{}' cannot be written as a domain file of its own", world.value(), domain.id()),
+      domain.has_map() ? "its [map] has to be written by hand: one map, nothing optional" : by_export);
 }
 
 // The world as a domain file of its own.
@@ -140,17 +139,13 @@ void write_world(const std::string& out, const std::string& family_text, const F
 }
 
 Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose, bool tried_making) {
-  Diagnostic diagnostic;
-  diagnostic.id = "E1111";
-  diagnostic.message =
-      fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
-                  purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));
+  auto message = fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
+                             purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));
   const bool can_make = can_make_worlds(atlas.domain());
-  if (tried_making && can_make) diagnostic.message += ", and no world that differs in few cells does";
-  diagnostic.hint =
-      tried_making || !can_make ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made";
-  diagnostic.infeasible = true;
-  return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
+  if (tried_making && can_make) message += ", and no world that differs in few cells does";
+  return infeasible(
+      "E1111", message,
+      tried_making || !can_make ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made");
 }
 
 }  // namespace
