@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/table/csv_reader.hpp"
 
 namespace kith {

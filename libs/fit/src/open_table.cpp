@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith::detail {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/study/run_folder.hpp"
-#include "kith/study/sha256.hpp"
-#include "kith/table/atomic_file.hpp"
 
 namespace kith::detail {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "kith/core/error.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/report/report.hpp"
-#include "kith/study/sha256.hpp"
 #include "runs.hpp"
 
 namespace kith {

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "kith/core/error.hpp"
-#include "kith/study/sha256.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/study/team_codec.hpp"
 #include "sqlite.hpp"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "kith/study/sha256.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/table/csv_writer.hpp"
 
 namespace kith {

@@ -13,10 +13,10 @@
 #include <system_error>
 
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/study/journal.hpp"
-#include "kith/study/sha256.hpp"
 #include "kith/study/tables.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "manifest.hpp"
 
 namespace kith {

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "bytes.hpp"
-#include "kith/study/sha256.hpp"
+#include "kith/files/sha256.hpp"
 
 namespace kith {
 namespace {

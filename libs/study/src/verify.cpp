@@ -9,12 +9,12 @@
 #include <tuple>
 
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/random/stream.hpp"
 #include "kith/study/journal.hpp"
-#include "kith/study/sha256.hpp"
 #include "kith/study/study_run.hpp"
 #include "kith/study/team_codec.hpp"
-#include "kith/table/atomic_file.hpp"
 
 namespace kith {
 namespace {

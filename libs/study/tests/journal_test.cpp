@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/study/team_codec.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "run_support.hpp"
 
 namespace kith {

@@ -8,9 +8,9 @@
 
 #include "../fuzzing.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/study/journal.hpp"
 #include "kith/study/team_codec.hpp"
-#include "kith/table/atomic_file.hpp"
 
 using namespace kith;
 using fuzzing::require;

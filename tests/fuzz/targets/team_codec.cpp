@@ -4,7 +4,7 @@
 #include <array>
 
 #include "../fuzzing.hpp"
-#include "kith/study/sha256.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/study/team_codec.hpp"
 
 using namespace kith;
