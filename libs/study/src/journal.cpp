@@ -150,7 +150,7 @@ std::optional<Journal> Journal::open(const fs::path& path, const JournalIdentity
   }
   auto state = whose ? sound_state() : nullptr;
   if (!state) {
-    if (!salvage_journal(path, identity)) return std::nullopt;
+    if (!salvage_journal(path, identity, whose.has_value())) return std::nullopt;
     state = sound_state();
     if (!state) throw Error{ErrorKind::kIo, "cannot write " + path.string() + ": what was written reads otherwise"};
     state->recovered = true;

@@ -114,7 +114,7 @@ fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.
 
 // Makes it under another name first. The file is complete before it has its own, so whoever finds it finds a journal;
 // therefore one synchronisation at the end will do, instead of one for each of SQLite's steps.
-void fill(const fs::path& path, const JournalIdentity& identity, const std::function<void(Database&)>& rows) {
+void fill_file(const fs::path& path, const JournalIdentity& identity, const std::function<void(Database&)>& rows) {
   for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) remove_file(beside(path, suffix));
   {
     Database database{path, Database::Mode::kMake};
@@ -133,7 +133,34 @@ void fill(const fs::path& path, const JournalIdentity& identity, const std::func
   if (!written || *written != identity) throw Error{ErrorKind::kIo, "cannot write " + path.string()};
 }
 
+// The same; nothing remains of it if it fails, on a full disk for instance.
+void fill(const fs::path& path, const JournalIdentity& identity, const std::function<void(Database&)>& rows) try {
+  fill_file(path, identity, rows);
+} catch (...) {
+  for (const auto* suffix : {"", "-wal", "-shm", "-journal"}) {
+    std::error_code ignored;
+    fs::remove(beside(path, suffix), ignored);
+  }
+  throw;
+}
+
+constexpr const char* kNew = ".new";
+constexpr const char* kSalvaging = ".salvaging";
+
 }  // namespace
+
+void remove_unfinished_journals(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
+    const auto name = entry->path().filename().string();
+    for (const auto* suffix : {kNew, kSalvaging}) {
+      if (name.rfind("study.", 0) == 0 && name.find(std::string{".sqlite"} + suffix) != std::string::npos)
+        left.push_back(entry->path());
+    }
+  }
+  for (const auto& file : left) remove_file(file);
+}
 
 bool is_there(const fs::path& path) {
   std::error_code error;
@@ -144,7 +171,7 @@ bool is_there(const fs::path& path) {
 }
 
 void make_journal_file(const fs::path& path, const JournalIdentity& identity) {
-  const auto fresh = beside(path, ".new");
+  const auto fresh = beside(path, kNew);
   fill(fresh, identity, {});
   rename_file(fresh, path);
   synchronise_folder(folder_of(path));
@@ -179,8 +206,8 @@ bool belongs(const JournalIdentity& identity, std::int64_t team) {
 
 fs::path salvaged_file(const fs::path& path) { return beside(path, ".salvaged"); }
 
-bool salvage_journal(const fs::path& path, const JournalIdentity& identity) {
-  const auto fresh = beside(path, ".salvaging");
+bool salvage_journal(const fs::path& path, const JournalIdentity& identity, bool known) {
+  const auto fresh = beside(path, kSalvaging);
   std::size_t found = 0;
   const auto key = identity.key();
   fill(fresh, identity, [&](Database& database) {
@@ -191,8 +218,8 @@ bool salvage_journal(const fs::path& path, const JournalIdentity& identity) {
       insert.bind(1, static_cast<std::int64_t>(team)).bind_blob(2, bytes).run();
     });
   });
-  if (found == 0) {
-    for (const auto* suffix : {"", "-wal", "-shm"}) remove_file(beside(fresh, suffix));
+  if (found == 0 && !known) {
+    remove_file(fresh);
     return false;
   }
   rename_file(fresh, salvaged_file(path));

@@ -23,8 +23,11 @@ void make_journal_file(const std::filesystem::path& path, const JournalIdentity&
 
 // Copies every intact record of this identity from the damaged journal at `path` to a new one, which takes its place;
 // the old one is kept as `path`.damaged. Where this is ended, replace_by_salvaged() or the next call goes on.
-// Returns false, and changes nothing, if there is no such record.
-[[nodiscard]] bool salvage_journal(const std::filesystem::path& path, const JournalIdentity& identity);
+// Returns false, and changes nothing, if there is no such record, unless the file is `known` to be of this identity.
+[[nodiscard]] bool salvage_journal(const std::filesystem::path& path, const JournalIdentity& identity, bool known);
+
+// Removes what was left of files that were being made for the journals in a folder when their program ended.
+void remove_unfinished_journals(const std::filesystem::path& folder);
 
 // The file that a salvage has made, until it has taken its place.
 [[nodiscard]] std::filesystem::path salvaged_file(const std::filesystem::path& path);

@@ -69,7 +69,7 @@ void compare(const fs::path& folder, const JournalIdentity& one, const JournalId
   }
 }
 
-constexpr const char* kGoOn = "go on with it by the command that began it";
+constexpr const char* kGoOn = "resume it with the command that started it";
 
 // The teams of the shard that the journal neither holds intact nor says to have failed; those of which something is
 // there, but damaged, apart.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <system_error>
 
+#include "journal_file.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/published_run.hpp"
@@ -128,6 +129,7 @@ RunFolder::RunFolder(fs::path path, RunInputs inputs, bool replace)
     if (!lock_) throw Error{ErrorKind::kBusy, "another process is writing to " + path_.string()};
     settle(path_);
     { const Generation writable{path_}; }  // removes what earlier ones left, and finds out whether we may write
+    remove_unfinished_journals(path_);
     check_content(replace);
   } catch (...) {
     if (made_) fs::remove(path_, error);  // only if it is empty

@@ -60,6 +60,22 @@ std::string message_of(const std::function<void()>& action, ErrorKind kind = Err
   return {};
 }
 
+// Runs it where no file can become longer: what a full disk is like.
+std::string with_file_limit(rlim_t bytes, const std::function<std::string()>& action) {
+  struct sigaction before = {}, ignore = {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &ignore, &before);
+  rlimit unlimited = {};
+  getrlimit(RLIMIT_FSIZE, &unlimited);
+  rlimit small = unlimited;
+  small.rlim_cur = bytes;
+  setrlimit(RLIMIT_FSIZE, &small);
+  auto result = action();
+  setrlimit(RLIMIT_FSIZE, &unlimited);
+  sigaction(SIGXFSZ, &before, nullptr);
+  return result;
+}
+
 class JournalTest : public ::testing::Test {
  protected:
   [[nodiscard]] Journal opened(const JournalIdentity& whose = identity()) const {
@@ -293,6 +309,34 @@ TEST_F(JournalTest, DoesNotTakeTheLogOfAnotherJournalForItsOwn) {
   again.for_each([](std::size_t team, std::string_view bytes) { EXPECT_EQ(bytes, entry(team).bytes); });
 }
 
+TEST_F(JournalTest, StartsFromItsOwnFileIfTheLogOfAnotherHasReplacedAllOfIts) {
+  const auto other = scratch_.path() / "other.sqlite";
+  auto foreign = Journal::create(other, other_identity());
+  foreign.write(entries(1, 70, other_identity()));
+  (void)Journal::create(file_, identity());
+  fs::copy_file(other.string() + "-wal", file_.string() + "-wal");
+  const auto again = opened();
+  EXPECT_TRUE(again.was_recovered());
+  EXPECT_EQ(again.num_done(), 0u);
+}
+
+TEST_F(JournalTest, LeavesNothingBehindIfTheDiskIsFullWhileItIsMade) {
+  const auto message =
+      with_file_limit(20'000, [&] { return message_of([&] { (void)Journal::create(file_, identity()); }); });
+  EXPECT_THAT(message, HasSubstr(file_.string()));
+  EXPECT_TRUE(fs::is_empty(scratch_.path()));
+}
+
+TEST_F(JournalTest, LosesNothingIfTheDiskIsFullDuringASalvage) {
+  write_forty();
+  auto damaged = bytes();
+  damaged.replace(0, 100, 100, '\xA5');
+  put(damaged);
+  (void)with_file_limit(30'000, [&] { return message_of([&] { (void)opened(identity(40)); }); });
+  EXPECT_EQ(bytes(), damaged);
+  EXPECT_EQ(opened(identity(40)).num_done(), 40u);
+}
+
 TEST_F(JournalTest, RefusesTheWorkOfOthers) {
   (void)Journal::create(file_, other_identity());
   EXPECT_THAT(message_of([&] { (void)opened(); }, ErrorKind::kUsage), HasSubstr("another study"));
@@ -345,21 +389,10 @@ TEST_F(JournalTest, TakesUpWhatAnotherHoldsOnce) {
   EXPECT_THAT(opened().progress().failures, ElementsAre(TeamFailure{50, "why"}));
 }
 
-// A file size limit stands for a full disk.
 TEST_F(JournalTest, KeepsWhatItHasWhenTheDiskIsFull) {
   auto journal = Journal::create(file_, identity(10'000));
   journal.write(entries(1, 100));
-  struct sigaction before = {}, ignore = {};
-  ignore.sa_handler = SIG_IGN;
-  sigaction(SIGXFSZ, &ignore, &before);
-  rlimit unlimited = {};
-  getrlimit(RLIMIT_FSIZE, &unlimited);
-  rlimit small = unlimited;
-  small.rlim_cur = 300'000;
-  setrlimit(RLIMIT_FSIZE, &small);
-  const auto message = message_of([&] { journal.write(entries(101, 5000)); });
-  setrlimit(RLIMIT_FSIZE, &unlimited);
-  sigaction(SIGXFSZ, &before, nullptr);
+  const auto message = with_file_limit(300'000, [&] { return message_of([&] { journal.write(entries(101, 5000)); }); });
   EXPECT_THAT(message, HasSubstr(file_.string()));
   EXPECT_EQ(journal.num_done(), 100u);
   journal.write(entries(101, 200));  // space again
