@@ -6,6 +6,7 @@
 
 #include "behaviour_source.hpp"
 #include "kith/bec/comparison.hpp"
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
 
@@ -18,6 +19,7 @@ constexpr std::size_t kMostPicturesCompared = 1'000;
 }  // namespace
 
 void AtlasBuilder::build() {
+  require_planning_memory(atlas_.domain_);
   plan();
   find_indifference();
   reduce_one_step();
@@ -141,6 +143,7 @@ void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot) {
     if (here.next != Atlas::kTerminal) set.insert(set.end(), raw_sets_[here.next].begin(), raw_sets_[here.next].end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
+    memory_.take(set.size() * sizeof(ConstraintIndex));
     raw_sets_[atlas_.first_demo_[m.value()] + s.value()] = std::move(set);
   }
 }
