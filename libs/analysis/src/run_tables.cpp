@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "kith/table/csv_reader.hpp"
+#include "kith/table/table_text.hpp"
 
 namespace kith {
 namespace {
@@ -65,7 +65,7 @@ std::vector<std::string> required_texts(const Dataset& data, const std::string& 
 
 RunTeams read_teams(const fs::path& run_folder) {
   const auto file = teams_file(run_folder);
-  const auto text = read_file(file);
+  const auto text = read_table_text(file);
   const auto keys = varied_keys(read_csv_header(text, file.string()));
   auto wanted = kTeamColumns;
   wanted.insert(wanted.end(), keys.begin(), keys.end());

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/table/table_text.hpp"
 
 namespace kith::detail {
 namespace {
@@ -50,7 +50,7 @@ std::optional<bool> OpenRow::boolean(const std::string& column) const {
 
 void read_open_csv(const std::filesystem::path& path, std::vector<Column> required, std::vector<Column> optional,
                    std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row) {
-  const auto content = kith::read_file(path);
+  const auto content = read_table_text(path);
   std::vector<Column> columns = std::move(required);
   for (const auto& present : read_csv_header(content, path.string())) {
     const auto same = [&](const Column& column) { return column.name == present.name; };
