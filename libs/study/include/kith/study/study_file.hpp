@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include "kith/study/study.hpp"
 
 namespace kith {
+
+/// Teams of the largest study: those of more would fill a disk, and need larger numbers than tables have room for.
+inline constexpr std::size_t kMaxTeams = 10'000'000;
 
 /// What came of reading a study file: the study and its domain unless there are
 /// errors, and everything worth saying about the file, in file order.
