@@ -233,7 +233,7 @@ void add_analyze(CLI::App& app, Options& options) {
   command.add_flag("--brief", analyze.brief, "Only what was found, in words, without tables");
   command.add_option("--alpha", analyze.alpha, "Level of tests; intervals have one minus it")
       ->capture_default_str()
-      ->check([](const std::string& text) { return wrong_fraction(text); })
+      ->check([](const std::string& text) { return wrong_level(text); })
       ->type_name("P");
   takes_word(
       *command.add_option("--correct", analyze.correction, "Correction of families of tests")->capture_default_str(),

@@ -13,6 +13,7 @@
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/planning/power.hpp"
+#include "kith/study/study_memory.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
 
@@ -26,8 +27,8 @@ constexpr std::size_t kDefaultPool = 1'000;
 double fraction(const std::string& text, const std::string& option) {
   double value = 0.0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(value > 0.0 && value < 1.0))
-    throw Error{ErrorKind::kUsage, option + " must be a number between 0 and 1, not '" + text + "'"};
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(value >= 1e-6 && value <= 1.0 - 1e-6))
+    throw Error{ErrorKind::kUsage, option + " must be a number from 0.000001 to 0.999999, not '" + text + "'"};
   return value;
 }
 
@@ -213,6 +214,7 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   if (pool_spec.replicates < 2 * power.teams.back())
     throw Error{ErrorKind::kUsage, "--pool must be at least twice the largest of --teams"};
   const Study pool_study{{pool_spec}};
+  require_study_memory(pool_study, options.threads, num_teams(pool_study));  // the list of teams is long, too
   const auto addresses = team_addresses(pool_study);
   const auto run = run_teams(atlas, pool_study, addresses,
                              {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
