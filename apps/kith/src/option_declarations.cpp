@@ -409,7 +409,8 @@ void add_bench(CLI::App& app, Options& options) {
   auto& bench = options.bench;
   auto& command = *app.add_subcommand("bench", "Time kernels and whole studies, against rivals and a saved baseline");
   command.add_flag("--quick", bench.quick, "A few seconds: fewer samples, every study once");
-  command.add_option("--filter", bench.filter, "Only what has a name that matches somewhere")->type_name("REGEX");
+  command.add_option("--filter", bench.filter, "Only names that hold this; '*' is any text, '|' means or")
+      ->type_name("PATTERN");
   auto* save =
       command.add_option("--save", bench.save, "Write the figures to this file, as a baseline")->type_name("FILE");
   auto* baseline =
