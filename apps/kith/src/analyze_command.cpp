@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -8,6 +9,7 @@
 #include "json.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
+#include "kith/table/table_text.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -29,8 +31,8 @@ AnalysisOptions analysis_options(const AnalyzeOptions& options) {
 Dataset dataset_of(const AnalyzeOptions& options) {
   namespace fs = std::filesystem;
   if (options.input == "-") {
-    const auto input = read_standard_input();
-    return Dataset::parse(input.text, input.name);
+    const std::string name = "<stdin>";
+    return Dataset::parse(read_table_text(std::cin, name), name);
   }
   std::error_code failure;
   if (!fs::is_directory(options.input, failure)) return Dataset::read(options.input);

@@ -5,6 +5,7 @@
 #include "board_json.hpp"
 #include "build_facts.hpp"
 #include "commands.hpp"
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
@@ -156,7 +157,9 @@ void write_page(const std::string& out, const Json& document, Console& console) 
 }  // namespace
 
 int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
-  const Atlas atlas{load_domain(options.domain)};
+  auto domain = load_domain(options.domain);
+  require_teaching_memory(domain);
+  const Atlas atlas{std::move(domain)};
   CurriculumOptions how;
   how.seed = options.seed;
   const auto curriculum = make_curriculum(atlas, how);
