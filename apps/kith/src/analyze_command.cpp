@@ -10,6 +10,7 @@
 #include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
 #include "kith/table/table_text.hpp"
+#include "work_notice.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -132,6 +133,7 @@ Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
 }  // namespace
 
 int run_analyze(const AnalyzeOptions& options, Console& console) {
+  const WorkNotice notice{console, "analysing " + options.input};
   const auto analysis = analysis_of(options);
   if (console.json()) {
     console.print_json(analysis_json(analysis, options));

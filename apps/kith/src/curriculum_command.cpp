@@ -15,6 +15,7 @@
 #include "legend.hpp"
 #include "lesson_page.hpp"
 #include "picture.hpp"
+#include "work_notice.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -157,6 +158,7 @@ void write_page(const std::string& out, const Json& document, Console& console) 
 }  // namespace
 
 int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
+  const WorkNotice notice{console, "choosing what to teach about " + options.domain};
   auto domain = load_domain(options.domain);
   require_teaching_memory(domain);
   const Atlas atlas{std::move(domain)};

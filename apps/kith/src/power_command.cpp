@@ -16,6 +16,7 @@
 #include "kith/study/study_memory.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
+#include "work_notice.hpp"
 
 namespace kith::cli {
 namespace {
@@ -297,7 +298,10 @@ int run_power(const PowerCommandOptions& options, Console& console) {
   if (!console.quiet()) console.show(reading.diagnostics);
   check_single_variant(options.study, *reading.study);
   watch_signals();
-  const Atlas atlas{*reading.domain};
+  const auto atlas = [&] {
+    const WorkNotice notice{console, "planning the domain"};
+    return Atlas{*reading.domain};
+  }();
   require_something_to_teach(atlas);
   Progress progress{options.progress, console};
   if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);
