@@ -17,6 +17,7 @@
 #include "kith/planning/calibration.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
+#include "work_notice.hpp"
 
 namespace kith::cli {
 namespace {
@@ -320,7 +321,10 @@ int run_calibrate(const CalibrateOptions& options, Console& console) {
   }
 
   watch_signals();
-  const Atlas atlas{*reading.domain};
+  const auto atlas = [&] {
+    const WorkNotice notice{console, "planning the domain"};
+    return Atlas{*reading.domain};
+  }();
   require_something_to_teach(atlas);
   Progress progress{options.progress, console};
   auto search = search_options(options);

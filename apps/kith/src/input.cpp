@@ -4,7 +4,6 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -22,12 +21,6 @@ std::string text_of(std::istream& stream, const std::string& name) {
 }
 
 }  // namespace
-
-InputText read_standard_input() {
-  std::string text{std::istreambuf_iterator<char>{std::cin}, {}};
-  if (std::cin.bad()) throw Error{ErrorKind::kIo, "cannot read standard input"};
-  return {"<stdin>", std::move(text), {}};
-}
 
 InputText read_input(const std::string& file) {
   if (file == "-") return {"<stdin>", text_of(std::cin, "standard input"), {}};

@@ -4,6 +4,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/table/csv_reader.hpp"
+#include "kith/table/table_text.hpp"
 
 namespace kith {
 namespace {

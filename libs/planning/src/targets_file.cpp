@@ -207,7 +207,7 @@ class TargetsParser {
       }
     }
     if (const auto significant = table.boolean("significant", Presence::kRequired)) finding.significant = *significant;
-    if (const auto alpha = table.real("alpha", Presence::kOptional, {0.0, 1.0, true, true})) finding.alpha = *alpha;
+    if (const auto alpha = table.real("alpha", Presence::kOptional, {1e-6, 1.0 - 1e-6})) finding.alpha = *alpha;
     finding.f = table.real("f", Presence::kOptional, {.min = 0.0});
     if (const auto* df = table.array("df", Presence::kOptional)) {
       if (df->size() == 2) {
