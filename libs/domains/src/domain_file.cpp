@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -178,10 +179,11 @@ DomainReading parse_domain(std::string_view text, const std::string& name, const
 }
 
 DomainReading read_domain(const std::filesystem::path& path) {
+  std::error_code failure;
   std::ifstream in{path, std::ios::binary};
   std::ostringstream text;
   if (in) text << in.rdbuf();
-  if (!in || std::filesystem::is_directory(path)) {
+  if (!in || std::filesystem::is_directory(path, failure)) {
     throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string()};
   }
   return parse_domain(text.str(), path.string(), {}, {.folder = path.parent_path()});
@@ -196,7 +198,9 @@ Domain load_domain(const std::string& name_or_path) {
     }
     names.emplace_back(built_in.name);
   }
-  if (std::filesystem::exists(name_or_path)) return domain_or_error(read_domain(name_or_path));
+  std::error_code failure;
+  if (std::filesystem::exists(name_or_path, failure)) return domain_or_error(read_domain(name_or_path));
+  if (failure) throw Error{ErrorKind::kIo, "cannot read " + name_or_path + ": " + failure.message()};
   Diagnostic unknown;
   unknown.id = "E0116";
   unknown.file = name_or_path;
