@@ -52,7 +52,7 @@ class ModelReader {
     auto mdp = file_.table("mdp", Presence::kOptional);
     if (!mdp) return;
     Dynamics& dynamics = reading_.dynamics;
-    dynamics.discount = mdp->real("discount", Presence::kOptional, {0.0, 1.0, true, false}).value_or(1.0);
+    dynamics.discount = read_discount(*mdp);
     dynamics.max_steps =
         static_cast<std::size_t>(mdp->integer("max_steps", Presence::kOptional, {1, 1'000'000}).value_or(1000));
     if (const TomlArray* actions = mdp->array("actions", Presence::kOptional)) {
@@ -86,6 +86,7 @@ class ModelReader {
     feature.place = element.place();
     feature.name = reader.string("name", Presence::kRequired).value_or("");
     if (const TomlValue* name = element.table()->find("name")) feature.place = name->place();
+    check_feature_name(reader);
     rewards_.push_back(reader.real("reward", Presence::kOptional, {}));
     reader.finish();
     static const std::vector<std::string> kColumns{"mdp", "state", "action", "next", "probability"};
