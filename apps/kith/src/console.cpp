@@ -18,18 +18,16 @@ bool terminal(int fd) {
   return isatty(fd) == 1 && term != nullptr && std::strcmp(term, "dumb") != 0;
 }
 
-// Log lines are best effort: where there is no standard error there is nobody to tell.
-void write_log(const std::string& text) {
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const auto n = ::write(STDERR_FILENO, text.data() + written, text.size() - written);
+}  // namespace
+
+void write_log(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const auto n = ::write(STDERR_FILENO, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return;
-    written += static_cast<std::size_t>(n);
+    text.remove_prefix(static_cast<std::size_t>(n));
   }
 }
-
-}  // namespace
 
 bool wants_color(int fd, ColorMode mode) {
   if (mode != ColorMode::kAuto) return mode == ColorMode::kAlways;

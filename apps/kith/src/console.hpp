@@ -53,6 +53,9 @@ class Console {
 /// Whether file descriptor `fd` should get colours: NO_COLOR, TERM and --color decide.
 [[nodiscard]] bool wants_color(int fd, ColorMode mode);
 
+/// Writes to standard error as far as that can be done: where there is none, or it is full, there is nobody to tell.
+void write_log(std::string_view text) noexcept;
+
 /// Columns of text, aligned; numbers to the right.
 class TextTable {
  public:
