@@ -8,6 +8,7 @@
 #include "json.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
+#include "kith/table/atomic_file.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -33,7 +34,8 @@ Dataset dataset_of(const AnalyzeOptions& options) {
     return Dataset::parse(input.text, input.name);
   }
   std::error_code failure;
-  if (!fs::is_directory(options.input, failure)) return Dataset::read(options.input);
+  if (!fs::is_directory(options.input, failure))
+    return Dataset::parse(read_file(options.input, Readable::kAnything), options.input);
   const auto file = fs::path{options.input} / "tables" / (options.table + ".csv");
   if (fs::exists(file, failure)) return Dataset::read(file);
   throw Error{ErrorKind::kInvalidInput,

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "kith/core/error.hpp"
+#include "kith/core/printable.hpp"
 
 namespace kith::cli {
 namespace {
@@ -38,10 +39,19 @@ bool wants_color(int fd, ColorMode mode) {
 Console::Console(const CommonOptions& options)
     : options_{options},
       result_has_color_{wants_color(STDOUT_FILENO, options.color)},
+      result_is_terminal_{isatty(STDOUT_FILENO) == 1},
       log_has_color_{wants_color(STDERR_FILENO, options.color)},
       log_is_terminal_{terminal(STDERR_FILENO)} {}
 
 void Console::print(std::string_view text) {
+  if (result_is_terminal_) {
+    write_result(printable(text, Keep::kTextColors));
+  } else {
+    write_result(text);
+  }
+}
+
+void Console::write_result(std::string_view text) {
   while (!text.empty()) {
     const auto n = ::write(STDOUT_FILENO, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
@@ -54,7 +64,7 @@ void Console::print(std::string_view text) {
 void Console::log(std::string_view level, std::string_view text) {
   std::string line{"kith: "};
   if (!level.empty()) line.append(level).append(": ");
-  write_log(line.append(text).append("\n"));
+  write_log(line.append(printable(text)).append("\n"));
 }
 
 void Console::info(std::string_view text) {
