@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -178,11 +179,12 @@ DomainReading parse_domain(std::string_view text, const std::string& name, const
 }
 
 DomainReading read_domain(const std::filesystem::path& path) {
+  std::error_code failure;
   std::ifstream in{path, std::ios::binary};
   // At most one byte more than is parsed, so that too large a file is told from the right size.
   std::string text(kMaxTomlBytes + 1, '\0');
   if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!in.is_open() || in.bad() || std::filesystem::is_directory(path)) {
+  if (!in.is_open() || in.bad() || std::filesystem::is_directory(path, failure)) {
     throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string()};
   }
   text.resize(static_cast<std::size_t>(in.gcount()));
@@ -198,7 +200,9 @@ Domain load_domain(const std::string& name_or_path) {
     }
     names.emplace_back(built_in.name);
   }
-  if (std::filesystem::exists(name_or_path)) return domain_or_error(read_domain(name_or_path));
+  std::error_code failure;
+  if (std::filesystem::exists(name_or_path, failure)) return domain_or_error(read_domain(name_or_path));
+  if (failure) throw Error{ErrorKind::kIo, "cannot read " + name_or_path + ": " + failure.message()};
   Diagnostic unknown;
   unknown.id = "E0116";
   unknown.file = name_or_path;

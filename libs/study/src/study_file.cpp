@@ -66,14 +66,18 @@ class StudyParser {
       return;
     }
     const auto path = value->place().source == 0 ? options_.folder / name : std::filesystem::path{name};
-    if (auto text = text_of(path)) {
+    // What is wrong with a domain is shown with its lines, and whoever runs a study need not have written it: only
+    // files that are meant to be read so are opened, so that none can be made to show others.
+    std::error_code failure;
+    const bool may_be_domain = path.extension() == ".toml" && std::filesystem::is_regular_file(path, failure);
+    if (auto text = may_be_domain ? text_of(path) : std::nullopt) {
       take_domain(*std::move(text), path.string(), {.folder = path.parent_path()});
       return;
     }
     std::vector<std::string> names;
     for (const auto& one : known) names.emplace_back(one.name);
     report_.error("E0116", value->place(),
-                  "there is no domain '" + name + "': neither built in nor a file that can be read",
+                  "there is no domain '" + name + "': neither built in nor a file that ends in .toml and can be read",
                   suggestion(name, names));
   }
 
