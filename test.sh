@@ -49,7 +49,7 @@ everything=(all)
 if [[ $mode == --nightly ]]; then everything+=(all_verify_interface_header_sets); fi
 configure_and_build release -DKITH_BUILD_TESTS=ON -- "${everything[@]}"
 # Where pointers and indices are handled; studies and what is made of them take most of the time and are left to the night.
-sanitized=(core random toml geometry mdp domains bec belief teaching learners table explain)
+sanitized=(core files random toml geometry mdp domains bec belief teaching learners table explain)
 case $mode in
   normal)
     targets=("${sanitized[@]/#/kith_}")

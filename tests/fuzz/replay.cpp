@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fuzzing.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 int main(int count, char** arguments) {
   std::vector<std::filesystem::path> files;
