@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith::faults {
 namespace {

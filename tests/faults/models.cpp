@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "scenario.hpp"
 
 namespace kith::faults {

@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith::faults {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith::faults {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "damage.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "trial.hpp"
 
 namespace kith::faults {

@@ -5,8 +5,8 @@
 
 #include "damage.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/random/stream.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "readers.hpp"
 #include "recovery.hpp"
 
