@@ -90,7 +90,7 @@ TEST_F(AnalyzeCommand, RefusesFoldersWithoutFinishedResults) {
   std::filesystem::create_directories(*scratch_ / "half/inputs");
   const auto half = run_kith({"analyze", *scratch_ / "half"});
   EXPECT_EQ(half.code, 3);
-  EXPECT_THAT(half.err, HasSubstr("holds an unfinished study"));
+  EXPECT_THAT(half.err, HasSubstr("has not finished"));
   std::filesystem::create_directories(*scratch_ / "empty");
   EXPECT_EQ(run_kith({"analyze", *scratch_ / "empty"}).code, 3);
   EXPECT_EQ(run_kith({"analyze", *scratch_ / "nowhere"}).code, 5);

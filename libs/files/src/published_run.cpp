@@ -133,7 +133,10 @@ std::string PublishedRun::read(const std::string& name) const {
   if (found == hashes_.end())
     refuse_run(ErrorKind::kInvalidInput, "E0604", file, "the run has no such file", kRunAgain);
   std::error_code error;
-  if (!fs::exists(file, error)) refuse_run(ErrorKind::kInvalidInput, "E0604", file, "the file is missing", kRunAgain);
+  if (!fs::exists(file, error)) {
+    refuse_run(ErrorKind::kInvalidInput, "E0604", file, is_table ? "the table is missing" : "the file is missing",
+               kRunAgain);
+  }
   if (!fs::is_regular_file(file, error))
     refuse_run(ErrorKind::kInvalidInput, "E0604", file, "this is no regular file", kRunAgain);
   auto text = read_file(file);

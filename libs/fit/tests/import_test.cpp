@@ -9,6 +9,7 @@
 #include "kith/fit/fit.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/fit/import_trials.hpp"
+#include "resealed.hpp"
 #include "simulated_people.hpp"
 
 namespace kith {
@@ -46,7 +47,12 @@ class RunFolderImport : public ::testing::Test {
     auto text = read_file(path);
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
-    write_file_atomically(path, text.replace(at, from.size(), to));
+    put_table(table, text.replace(at, from.size(), to));
+  }
+  // As if the run had written it.
+  void put_table(const std::string& table, const std::string& text) {
+    write_file_atomically(run_ / "tables" / table, text);
+    testing::reseal(run_);
   }
 
   testing::TemporaryFolder folder_;
@@ -89,10 +95,10 @@ TEST_F(RunFolderImport, NamesFileAndRowOfWhatItCannotRead) {
   const auto answers = read_file(run_ / "tables" / "responses.csv");
   spoil("responses.csv", ",correct,", ",verdict,");
   EXPECT_EQ(import_fault(run_), "E0502 responses.csv:1");
-  write_file_atomically(run_ / "tables" / "responses.csv", answers);
+  put_table("responses.csv", answers);
   spoil("responses.csv", "\ncommon,NN,1,1,1", "\ncommon,NN,1,1,one");
   EXPECT_EQ(import_fault(run_), "E0506 responses.csv:2");
-  write_file_atomically(run_ / "tables" / "responses.csv", answers);
+  put_table("responses.csv", answers);
   spoil("responses.csv", "\ncommon,NN,1,1,", "\ncommon,NN,1,77,");
   EXPECT_EQ(import_fault(run_), "E0708 responses.csv:2");
 }
@@ -107,14 +113,18 @@ TEST_F(RunFolderImport, RefusesAnUnknownType) {
   EXPECT_EQ(import_fault(run_), "E0708 learners.csv:2");
 }
 
+TEST_F(RunFolderImport, RefusesTablesThatWereChanged) {
+  write_file_atomically(run_ / "tables" / "responses.csv", read_file(run_ / "tables" / "responses.csv") + "\n");
+  EXPECT_EQ(import_fault(run_), "E0607 responses.csv:0");
+}
+
 TEST_F(RunFolderImport, RefusesARunThatIsNotFinished) {
   fs::remove(run_ / "manifest.json");
   EXPECT_EQ(import_fault(run_), "E0704 run:0");
 }
 
 TEST_F(RunFolderImport, RefusesARunWithoutAnswers) {
-  write_file_atomically(run_ / "tables" / "responses.csv",
-                        "team,period,kc,test,member,mdp,start,correct,answer,covered\n");
+  put_table("responses.csv", "team,period,kc,test,member,mdp,start,correct,answer,covered\n");
   EXPECT_EQ(import_fault(run_), "E0705 responses.csv:0");
 }
 
@@ -132,7 +142,7 @@ TEST_F(RunFolderImport, CountsAPathThatIsBestForNobodyByItsVerdict) {
     spoiled += line + "\n";
     begin = end + 1;
   }
-  write_file_atomically(run_ / "tables" / "responses.csv", spoiled);
+  put_table("responses.csv", spoiled);
   const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
   ASSERT_EQ(logs.notes.size(), 1u);
   EXPECT_EQ(logs.notes[0].id, "W0706");
@@ -145,7 +155,7 @@ TEST_F(RunFolderImport, CountsTestsWithoutAnAnswerAsSayingNothing) {
   std::size_t at = row;
   for (int comma = 0; comma < 12; ++comma) at = text.find(',', at) + 1;
   text.replace(at, text.find(',', at) - at, "");
-  write_file_atomically(run_ / "tables" / "responses.csv", text);
+  put_table("responses.csv", text);
   const auto logs = import_logs({run_}, AnswerDetail::kPath).logs;
   ASSERT_FALSE(logs.notes.empty());
   EXPECT_EQ(logs.notes.back().id, "W0707");

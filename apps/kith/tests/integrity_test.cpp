@@ -1,0 +1,205 @@
+// Nothing of two runs is ever combined, and nothing that is missing goes unsaid.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+// 16 teams, which take a fraction of a second.
+Words small_study(const std::string& folder) {
+  return {"study", "quick", "-o", folder, "--set", "replicates=8", "-j", "1", "-q"};
+}
+
+const Words kSwapped{"--set", "design.strategies=[\"common\",\"baseline\"]"};
+
+RunWith fails_at(const std::string& failpoint) { return {{{"KITH_FAILPOINT", failpoint}}, "", ""}; }
+
+void must_run(const Words& words) {
+  const auto ran = run_kith(words);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+}
+
+// Flips a bit inside the record of some team of a journal that is in one file.
+void flip_a_bit(const fs::path& journal) {
+  auto bytes = text_of(journal);
+  const auto record = bytes.rfind("/NP/");  // the seed address, which every record holds
+  ASSERT_NE(record, std::string::npos);
+  bytes[record] = static_cast<char>(bytes[record] ^ 1);
+  std::ofstream{journal, std::ios::binary} << bytes;
+}
+
+TEST(Integrity, OfShardsThatWereRunAgainWithAnotherDesign) {
+  const Scratch scratch;
+  for (const Words& design : {Words{}, kSwapped + Words{"--yes"}}) {
+    for (const std::string index : {"1", "2"})
+      must_run(small_study(scratch / index) + Words{"--shard", index + "/2"} + design);
+  }
+  must_run({"merge", scratch / "1", scratch / "2", "-o", scratch / "merged", "-q"});
+  must_run(small_study(scratch / "whole") + kSwapped);
+  EXPECT_EQ(tables_in(scratch / "merged"), tables_in(scratch / "whole"));
+  EXPECT_EQ(text_of(scratch / "merged/inputs/study.toml"), text_of(scratch / "whole/inputs/study.toml"));
+}
+
+TEST(Integrity, OfAMergeWithADamagedRecord) {
+  const Scratch scratch;
+  for (const std::string index : {"1", "2"}) must_run(small_study(scratch / index) + Words{"--shard", index + "/2"});
+  flip_a_bit(scratch / "2/study.sqlite");
+  const Words merge{"merge", scratch / "1", scratch / "2", "-o", scratch / "merged"};
+  const auto refused = run_kith(merge);
+  EXPECT_EQ(refused.code, 7);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("error[E0637]"), HasSubstr("shard 2/2"), HasSubstr("the record of team ")));
+  EXPECT_FALSE(fs::exists(scratch / "merged"));
+
+  const auto partial = run_kith(merge + Words{"--allow-partial"});
+  EXPECT_EQ(partial.code, 6) << partial.err;
+  EXPECT_THAT(partial.err, HasSubstr("left out: the record of team "));
+  const auto manifest = Json::parse(text_of(scratch / "merged/manifest.json"));
+  EXPECT_EQ(manifest.at("exit_reason"), "partial");
+  EXPECT_EQ(manifest.at("teams"), 15);
+  EXPECT_THAT(run_kith({"analyze", scratch / "merged", "--brief"}).out, HasSubstr("the run is not complete"));
+  must_run({"report", scratch / "merged", "-o", scratch / "report.html"});
+  EXPECT_THAT(text_of(scratch / "report.html"), HasSubstr("The run is not complete"));
+
+  must_run(small_study(scratch / "2") + Words{"--shard", "2/2"});  // teaches that team again
+  must_run(merge);
+  must_run(small_study(scratch / "whole"));
+  EXPECT_EQ(tables_in(scratch / "merged"), tables_in(scratch / "whole"));
+}
+
+TEST(Integrity, OfAFinishedRunThatLacksATeam) {
+  const Scratch scratch;
+  must_run(small_study(scratch / "run"));
+  flip_a_bit(scratch / "run/study.sqlite");
+  const auto verified = run_kith({"verify", scratch / "run"});
+  EXPECT_EQ(verified.code, 7);
+  EXPECT_THAT(verified.err, HasSubstr("error[E0643]"));
+}
+
+TEST(Integrity, OfATruncatedJournal) {
+  const Scratch scratch;
+  must_run(small_study(scratch / "whole"));
+  must_run(small_study(scratch / "run"));
+  fs::resize_file(scratch / "run/study.sqlite", fs::file_size(scratch / "run/study.sqlite") - 4096);
+  fs::remove_all(scratch / "run/tables");
+  auto words = small_study(scratch / "run");
+  words.pop_back();  // not quiet
+  const auto ran = run_kith(words);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err,
+              AllOf(HasSubstr("was damaged"), HasSubstr("teams were recovered"), HasSubstr("study.sqlite.damaged")));
+  EXPECT_EQ(tables_in(scratch / "run"), tables_in(scratch / "whole"));
+}
+
+TEST(Integrity, OfARunWithTheLogOfAnother) {
+  const Scratch scratch;
+  must_run(small_study(scratch / "whole"));
+  EXPECT_NE(run_kith(small_study(scratch / "run"), fails_at("team:9")).code, 0);
+  EXPECT_NE(run_kith(small_study(scratch / "other") + Words{"--seed", "9"}, fails_at("team:9")).code, 0);
+  fs::copy_file(scratch / "other/study.sqlite-wal", scratch / "run/study.sqlite-wal",
+                fs::copy_options::overwrite_existing);
+  fs::remove(scratch / "run/study.sqlite-shm");
+  must_run(small_study(scratch / "run"));
+  EXPECT_EQ(tables_in(scratch / "run"), tables_in(scratch / "whole"));
+  must_run({"verify", scratch / "run"});
+}
+
+TEST(Integrity, OfResultsThatAreBeingReplacedWhenTheProgramEnds) {
+  const Scratch scratch;
+  must_run(small_study(scratch / "new") + Words{"--seed", "5"});
+  for (const std::string instant : {"generation", "inputs", "manifest.json", "tables"}) {
+    const auto run = scratch / instant;
+    must_run(small_study(run));
+    EXPECT_EQ(run_kith(small_study(run) + Words{"--seed", "5", "--yes"}, fails_at(instant + ":1")).code, 128 + SIGKILL);
+    must_run({"analyze", run, "--brief"});
+    EXPECT_EQ(tables_in(run), tables_in(scratch / "new")) << instant;
+    EXPECT_EQ(text_of(run + "/inputs/study.toml"), text_of(scratch / "new/inputs/study.toml")) << instant;
+  }
+}
+
+TEST(Integrity, OfResultsWhoseFilesDoNotBelongTogether) {
+  const Scratch scratch;
+  must_run(small_study(scratch / "run"));
+  must_run(small_study(scratch / "other") + Words{"--seed", "5"});
+  const auto sound = scratch / "run";
+  for (const std::string name : {"tables/teams.csv", "inputs/study.toml", "manifest.json"}) {
+    const auto mixed = scratch / "mixed";
+    fs::remove_all(mixed);
+    fs::copy(sound, mixed, fs::copy_options::recursive);
+    fs::copy_file(scratch / "other" + ("/" + name), mixed + "/" + name, fs::copy_options::overwrite_existing);
+    for (const Words& words :
+         {Words{"analyze", mixed}, Words{"report", mixed, "-o", scratch / "r.html"}, Words{"verify", mixed}}) {
+      const auto ran = run_kith(words);
+      EXPECT_EQ(ran.code, 7) << words[0] << ", " << name << ": " << ran.err;
+    }
+    EXPECT_FALSE(fs::exists(scratch / "r.html"));
+    must_run(small_study(mixed) + Words{"--yes"});
+    EXPECT_EQ(tables_in(mixed), tables_in(sound)) << name;
+  }
+}
+
+TEST(Integrity, OfAStudyThatNamesItsLearnersInAnotherOrder) {
+  const Scratch scratch;
+  must_run(small_study(scratch / "run"));
+  auto text = text_of(scratch / "run/inputs/study.toml");
+  const auto first = text.find("[learner.N]"), second = text.find("[learner.P]");
+  ASSERT_LT(first, second);
+  const auto end = text.find("\n[teacher", second) + 1;
+  ASSERT_NE(end, 0u);
+  text =
+      text.substr(0, first) + text.substr(second, end - second) + text.substr(first, second - first) + text.substr(end);
+  std::ofstream{scratch / "study.toml"} << text;
+  fs::copy_file(scratch / "run/inputs/domain.toml", scratch / "domain.toml");
+  must_run({"study", scratch / "study.toml", "-o", scratch / "run", "-q", "--resume", "require"});
+}
+
+TEST(Integrity, OfAFolderThatIsMovedDuringARun) {
+  const Scratch scratch;
+  std::ofstream{scratch / "in"} << "";
+  const auto child = start_kith({"study", "quick", "-o", scratch / "run", "--set", "replicates=400", "-q"}, {},
+                                scratch / "in", scratch / "out", scratch / "err");
+  const fs::path log = scratch / "run/study.sqlite-wal";
+  std::error_code none;
+  for (int i = 0; i < 6000 && (!fs::exists(log, none) || fs::file_size(log, none) == 0); ++i) usleep(5'000);
+  fs::rename(scratch / "run", scratch / "moved");
+  EXPECT_EQ(exit_code_of(child), 5);
+  EXPECT_THAT(text_of(scratch / "err"), HasSubstr("was moved, removed or replaced"));
+  EXPECT_FALSE(fs::exists(scratch / "moved/tables"));
+}
+
+// glibc chooses its functions by what the processor can do, which this takes away.
+TEST(Integrity, OfMachinesThatRoundDifferently) {
+  const Scratch scratch;
+  const RunWith without_fma{{{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA"}}, "", ""};
+  must_run(small_study(scratch / "here"));
+  EXPECT_EQ(run_kith(small_study(scratch / "there"), without_fma).code, 0);
+  const auto arithmetic = [&](const std::string& run) {
+    return Json::parse(text_of(scratch / run + "/manifest.json")).at("arithmetic").get<std::string>();
+  };
+  if (arithmetic("here") == arithmetic("there")) GTEST_SKIP() << "this machine rounds the same either way";
+  EXPECT_NE(run_kith(small_study(scratch / "run"), fails_at("team:9")).code, 0);
+  const auto ran = run_kith(small_study(scratch / "run"), without_fma);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("mathematical library rounds differently"));
+}
+
+}  // namespace
+}  // namespace kith::testing
