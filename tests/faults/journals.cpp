@@ -61,6 +61,25 @@ bool is_database(const std::string& name) {
   return true;
 }
 
+// Adds the numbers of the records that can be read from the databases of a folder.
+void read_all(const fs::path& folder, const Records& records, std::set<std::int64_t>& readable) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator{folder}) names.insert(entry.path().filename().string());
+  for (const auto& name : names) {
+    if (!is_database(name)) continue;
+    const auto database = open(folder / name);
+    if (!database) continue;
+    const auto row =
+        prepare(database, "SELECT " + records.content + " FROM " + records.table + " WHERE " + records.number + " = ?");
+    if (!row) continue;
+    for (const auto& [number, forms] : records.forms) {
+      sqlite3_bind_int64(row.get(), 1, number);
+      if (step(row) && forms.count(bytes(row.get(), 0)) > 0) readable.insert(number);
+      sqlite3_reset(row.get());
+    }
+  }
+}
+
 }  // namespace
 
 void add_records(const fs::path& journal, Records& records) {
@@ -74,29 +93,17 @@ void add_records(const fs::path& journal, Records& records) {
 std::set<std::int64_t> readable_records(const fs::path& folder, const Records& records, const fs::path& scratch) {
   std::set<std::int64_t> readable;
   if (!fs::is_directory(folder)) return readable;
-  fs::create_directory(scratch);
-  for (const auto& entry : fs::directory_iterator{folder}) {
-    const auto name = entry.path().filename().string();
-    if (entry.is_regular_file() && name.find(".sqlite") != std::string::npos) {
-      fs::copy_file(entry.path(), scratch / name);
+  // As they are, and each without the log beside it, which may be foreign.
+  for (const bool with_logs : {true, false}) {
+    fs::create_directory(scratch);
+    for (const auto& entry : fs::directory_iterator{folder}) {
+      const auto name = entry.path().filename().string();
+      if (!entry.is_regular_file() || name.find(".sqlite") == std::string::npos) continue;
+      if (with_logs || is_database(name)) fs::copy_file(entry.path(), scratch / name);
     }
+    read_all(scratch, records, readable);
+    fs::remove_all(scratch);
   }
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator{scratch}) names.insert(entry.path().filename().string());
-  for (const auto& name : names) {
-    if (!is_database(name)) continue;
-    const auto database = open(scratch / name);
-    if (!database) continue;
-    const auto row =
-        prepare(database, "SELECT " + records.content + " FROM " + records.table + " WHERE " + records.number + " = ?");
-    if (!row) continue;
-    for (const auto& [number, forms] : records.forms) {
-      sqlite3_bind_int64(row.get(), 1, number);
-      if (step(row) && forms.count(bytes(row.get(), 0)) > 0) readable.insert(number);
-      sqlite3_reset(row.get());
-    }
-  }
-  fs::remove_all(scratch);
   return readable;
 }
 

@@ -43,8 +43,8 @@ Ended run_kith(const Tools& tools, const fs::path& folder, const Words& argument
 Json comparable_manifest(const std::string& text) {
   auto document = Json::parse(text, nullptr, false);
   if (!document.is_object()) return {};
-  for (const auto* key : {"started", "stopped", "command_line", "threads", "ranks", "version", "git", "dirty",
-                          "compiler", "build_type", "flags", "processor", "system"}) {
+  for (const auto* key : {"checksum", "started", "stopped", "command_line", "threads", "ranks", "version", "git",
+                          "dirty", "compiler", "build_type", "flags", "processor", "system"}) {
     document.erase(key);
   }
   return document;
@@ -93,10 +93,11 @@ Models::Models(Tools tools, fs::path scratch) : tools_{std::move(tools)}, scratc
   make_other("key", {"--set", "teacher.process_noise=0.9"});
   make("replaced", "run", {study_into("run", {"--seed", "2"}), study_into("run", {"--yes"})});
   for (const auto& name : names()) {
-    if (fs::exists(folder(name) / "manifest.json")) expect(name);
+    if (fs::exists(folder(name) / "tables")) expect(name);
   }
   for (const std::string name : {"finished", "untabled", "merged", "s1", "s2", "s3"}) {
-    add_records(folder(name) / "study.sqlite", records_);
+    add_records(folder(name) / "study.sqlite", records_["run"]);
+    if (name.size() == 2) add_records(folder(name) / "study.sqlite", records_[name]);
   }
   for (const std::string name : {"finished", "untabled", "s1"}) damage_journal(name);
   check_messages();
@@ -182,7 +183,7 @@ void Models::damage_journal(const std::string& model) {
   const auto readable = [&](const std::string& journal) {
     fs::create_directories(place / "run");
     write_text(place / "run" / "study.sqlite", journal);
-    const auto number = readable_records(place / "run", records_, place / "copy").size();
+    const auto number = readable_records(place / "run", records_of("run"), place / "copy").size();
     fs::remove_all(place);
     return number;
   };

@@ -54,7 +54,8 @@ class Models {
   /// What is to be expected of a finished model; nullptr for others.
   [[nodiscard]] const Expected* expected_of(const std::string& model) const;
   [[nodiscard]] const Expected& expected() const { return expected_.at("finished"); }
-  [[nodiscard]] const Records& records() const { return records_; }
+  /// The records that belong into the journal of the folder of this name: run, s1, s2 or s3.
+  [[nodiscard]] const Records& records_of(const std::string& name) const { return records_.at(name); }
   /// The model's journal, damaged in ways that leave some but not all of its records readable.
   [[nodiscard]] const std::vector<std::string>& damaged_journals(const std::string& model) const {
     return damaged_.at(model);
@@ -73,7 +74,7 @@ class Models {
   std::filesystem::path scratch_;
   std::map<std::string, Expected> expected_;
   std::map<std::string, std::vector<std::string>> damaged_;
-  Records records_;
+  std::map<std::string, Records> records_;
 };
 
 /// How many teams a study says it found done when it began.

@@ -29,8 +29,8 @@ std::string unsound(const Models& models, const Reading& reading) {
   };
   if (!any_of(reading.allowed, is_whole)) return "the manifest is wrong, or of another run";
   if (reading.is_worked_on) return {};
-  const auto readable = readable_records(run, models.records(), reading.root.parent_path() / "journals");
-  return readable.size() < models.records().forms.size() ? "the journal lacks records" : "";
+  const auto readable = readable_records(run, models.records_of("run"), reading.root.parent_path() / "journals");
+  return readable.size() < models.records_of("run").forms.size() ? "the journal lacks records" : "";
 }
 
 }  // namespace

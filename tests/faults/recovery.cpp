@@ -73,7 +73,7 @@ void Recovery::look() {
   for (const auto& words : scenario_.commands) {
     const auto folder = folder_of(words);
     if (words.front() != "study") continue;
-    saved_[folder] = readable_records(root_ / folder, models_.records(), root_ / ".." / "journals").size();
+    saved_[folder] = readable_records(root_ / folder, models_.records_of(folder), root_ / ".." / "journals").size();
   }
 }
 
@@ -91,7 +91,7 @@ void Recovery::persist(Words words, bool may_refuse, bool is_mixed) {
   const auto folder = folder_of(words);
   const bool is_study = words.front() == "study";
   const auto readable =
-      is_study ? readable_records(root_ / folder, models_.records(), root_ / ".." / "journals").size() : 0;
+      is_study ? readable_records(root_ / folder, models_.records_of(folder), root_ / ".." / "journals").size() : 0;
   std::string messages;
   bool refused = false;
   auto ended = run_kith(models_.tools(), root_, words);
