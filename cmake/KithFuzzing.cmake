@@ -11,6 +11,10 @@ if(KITH_BUILD_FUZZERS AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "KITH_BUILD_FUZZERS needs clang: cmake --preset fuzz")
 endif()
 
+if(KITH_BUILD_FUZZERS)
+  add_custom_target(kith_fuzzers)  # all of them, and no layer that none of them needs
+endif()
+
 function(kith_fuzz_target name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "MAX_LEN;DICTIONARY" "DEPENDS")
   set(folder ${PROJECT_SOURCE_DIR}/tests/fuzz)
@@ -26,6 +30,7 @@ function(kith_fuzz_target name)
     set_target_properties(fuzz_${name} PROPERTIES UNITY_BUILD OFF)
     target_link_libraries(fuzz_${name} PRIVATE kith_build kith_fuzzing ${arg_DEPENDS})
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    add_dependencies(kith_fuzzers fuzz_${name})
     set(options "max_len=${arg_MAX_LEN}")
     if(arg_DICTIONARY)
       string(APPEND options " dict=${folder}/dictionaries/${arg_DICTIONARY}.dict")
