@@ -53,7 +53,7 @@ run_tests() {
 
 # Where pointers and indices are handled; studies and what is made of them take most of the time and are left to the
 # night.
-sanitized=(core random toml geometry mdp domains bec belief teaching learners table explain)
+sanitized=(core files random toml geometry mdp domains bec belief teaching learners table explain)
 
 if [[ $mode != --nightly ]]; then
   configure_and_build release -DKITH_BUILD_TESTS=ON -- all

@@ -1,10 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "kith/table/atomic_file.hpp"
 #include "kith/table/csv.hpp"
 #include "kith/toml/document.hpp"
 #include "mutate/csv_edit.hpp"

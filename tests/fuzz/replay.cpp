@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fuzzing.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace {
 

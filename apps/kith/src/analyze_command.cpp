@@ -8,6 +8,7 @@
 #include "json.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/published_run.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -34,10 +35,9 @@ Dataset dataset_of(const AnalyzeOptions& options) {
   }
   std::error_code failure;
   if (!fs::is_directory(options.input, failure)) return Dataset::read(options.input);
-  const auto file = fs::path{options.input} / "tables" / (options.table + ".csv");
-  if (fs::exists(file, failure)) return Dataset::read(file);
-  throw Error{ErrorKind::kInvalidInput,
-              options.input + " has no tables/" + options.table + ".csv; it is no finished run folder"};
+  const auto run = PublishedRun::open(options.input);
+  const auto table = "tables/" + options.table + ".csv";
+  return Dataset::parse(run.read(table), (run.folder() / table).string());
 }
 
 Analysis analysis_of(const AnalyzeOptions& options) {

@@ -13,7 +13,7 @@
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith_build_info.hpp"
 #include "machine.hpp"
 #include "progress.hpp"

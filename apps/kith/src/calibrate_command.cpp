@@ -13,8 +13,8 @@
 #include "kith/core/error.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/planning/calibration.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
 

@@ -8,7 +8,7 @@
 #include "json.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "option_values.hpp"
 
 namespace kith::cli {

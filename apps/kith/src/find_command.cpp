@@ -13,7 +13,7 @@
 #include "kith/explain/reason.hpp"
 #include "kith/explain/target.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
 #include "wrapped.hpp"

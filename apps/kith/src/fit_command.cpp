@@ -10,11 +10,11 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/fit/accuracy.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {

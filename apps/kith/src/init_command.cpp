@@ -7,7 +7,7 @@
 #include "input.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "templates.hpp"
 
 namespace kith::cli {

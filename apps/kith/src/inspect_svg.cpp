@@ -8,7 +8,7 @@
 #include "kith/core/error.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "picture.hpp"
 #include "region_svg.hpp"
 #include "wrapped.hpp"

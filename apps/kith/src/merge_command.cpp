@@ -26,18 +26,24 @@ int run_merge(const MergeOptions& options, Console& console) {
       throw Error{ErrorKind::kUsage, "kith merge cannot write to " + options.out + ", which is one of the shards"};
     }
   }
-  const auto shards = open_shards(folders, program_name());
+  const auto shards = open_shards(folders, program_name(), options.allow_partial);
   auto reading = read_run_folder(folders.front());
   if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
+  if (freeze(reading) != shards.journals.front().identity().inputs) {
+    throw Error{ErrorKind::kMismatch,
+                folders.front().string() + ": its inputs are not those that its journal is about"};
+  }
   StudyRunOptions how;
   how.program = program_name();
   how.replace = options.yes;
   how.on_instant = failpoint();
   StudyRun run{options.out, std::move(reading), std::move(how)};
-  for (const auto& shard : shards) run.take_up(shard);
+  for (const auto& shard : shards.journals) run.take_up(shard);
+  facts.missing = shards.missing;
+  for (const auto& what : shards.missing) console.warning("left out: " + what);
   facts.domain = run.study().variants.front().domain;
   const auto text =
-      fmt::format("put together {} of {}", counted(shards.size(), "shard"), counted(run.num_teams(), "team"));
+      fmt::format("put together {} of {}", counted(shards.journals.size(), "shard"), counted(run.num_teams(), "team"));
   facts.log.push_back(utc_now() + " " + text);
   console.detail(text);
   return publish_run(run, std::move(facts), place, console);

@@ -388,6 +388,10 @@ void add_merge(CLI::App& app, Options& options) {
   command.add_option("folders", merge.folders, "Run folders of all shards, in any order")->required()->type_name("DIR");
   command.add_option("-o,--out", merge.out, "Run folder to make or to bring up to date")->type_name("DIR");
   command.add_flag("--yes", merge.yes, "Replace the results of a different study in the run folder");
+  command.add_flag(
+      "--allow-partial", merge.allow_partial,
+      "Merge what can be read where shards or teams are missing; the manifest and reports say what is left "
+      "out, and the exit code is 6");
   add_common(command, options.common);
 }
 

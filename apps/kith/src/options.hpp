@@ -100,7 +100,8 @@ struct VerifyCommandOptions {
 struct MergeOptions {
   std::vector<std::string> folders;
   std::string out;
-  bool yes = false;  ///< Replace the results of a different study.
+  bool yes = false;            ///< Replace the results of a different study.
+  bool allow_partial = false;  ///< Leave out what is missing or damaged, and say so.
 };
 
 struct ExportOptions {

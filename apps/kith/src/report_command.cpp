@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/report/report.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "report_page.hpp"
 
 namespace kith::cli {

@@ -21,9 +21,10 @@ void report_failures(const Study& study, const std::vector<TeamFailure>& failure
 
 int publish_run(StudyRun& run, RunFacts facts, const RunPlace& place, Console& console) {
   facts.stopped = utc_now();
+  const bool partial = !facts.missing.empty();
   const auto summary = run.publish(std::move(facts));
   if (!summary) return 0;  // another process does it
-  const int code = run.failures().empty() ? 0 : static_cast<int>(ErrorKind::kPartial);
+  const int code = run.failures().empty() && !partial ? 0 : static_cast<int>(ErrorKind::kPartial);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - place.begin).count();
   report_failures(run.study(), run.failures(), console);
   if (console.json()) {

@@ -9,7 +9,10 @@
 #include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/files/folder_lock.hpp"
+#include "kith/files/generation.hpp"
 #include "kith/study/journal.hpp"
+#include "kith/study/run_folder.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {
@@ -35,13 +38,16 @@ void add_rank(Status& status, JournalProgress& all, const std::filesystem::path&
 
 Status status_of(const std::filesystem::path& folder) {
   const auto file = folder / kJournalFile;
-  std::error_code ignored;
-  if (!std::filesystem::exists(folder, ignored)) {
-    throw Error{ErrorKind::kIo, "there is no folder " + folder.string()};
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) {
+    throw Error{ErrorKind::kIo, error ? "cannot read " + folder.string() + ": " + error.message()
+                                      : "there is no folder " + folder.string()};
   }
-  if (!std::filesystem::exists(file, ignored)) {
+  if (!Journal::exists(file)) {
     throw Error{ErrorKind::kIo, folder.string() + " is not the folder of a run: it has no " + kJournalFile};
   }
+  const bool busy = is_busy(folder);
+  if (!busy) settle_for_reading(folder);
   const auto journal = Journal::read(file);
   auto progress = journal.progress();
   Status status;
@@ -54,8 +60,8 @@ Status status_of(const std::filesystem::path& folder) {
   status.left = status.total - std::min(status.total, status.done + status.failures.size());
   const double seconds = progress.last_write - progress.started;
   if (progress.session_teams > 0 && seconds > 0.0) status.rate = static_cast<double>(progress.session_teams) / seconds;
-  const bool published = std::filesystem::exists(folder / "manifest.json", ignored) || status.shard.count > 1;
-  status.state = is_busy(folder)           ? "running"
+  const bool published = published_digest(folder) == journal.identity().inputs.digest();
+  status.state = busy                      ? "running"
                  : status.left > 0         ? "interrupted"
                  : !published              ? "interrupted"
                  : status.failures.empty() ? "finished"

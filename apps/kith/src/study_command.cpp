@@ -102,8 +102,9 @@ StudyRunOptions run_options(const StudyOptions& options) {
 }
 
 // Shards have no tables of their own; merging them makes the tables.
-int finish_shard(const StudyOptions& options, StudyRun& run, double seconds, Console& console) {
-  run.close();
+int finish_shard(const StudyOptions& options, StudyRun& run, RunFacts facts, double seconds, Console& console) {
+  facts.stopped = utc_now();
+  run.publish_shard(std::move(facts));
   const auto name = fmt::format("{}/{}", options.shard.index, options.shard.count);
   if (console.json()) {
     console.print_json(Json{{"schema", "kith.study-shard/1"},
@@ -179,7 +180,7 @@ int run_study(const StudyOptions& options, Console& console) {
   if (!finished) return interrupted(options, run, done, console);
   facts.timings.emplace_back("teach", seconds_since(teach_begin));
   note(fmt::format("taught {} teams", run.num_done() - run.num_resumed()));
-  if (options.shard.count > 1) return finish_shard(options, run, seconds_since(begin), console);
+  if (options.shard.count > 1) return finish_shard(options, run, std::move(facts), seconds_since(begin), console);
   return publish_run(run, std::move(facts), {options.out, begin}, console);
 }
 

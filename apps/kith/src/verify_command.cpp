@@ -11,6 +11,7 @@
 #include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/study/journal.hpp"
 #include "kith/study/run_folder.hpp"
 #include "kith/study/verify.hpp"
 #include "progress.hpp"
@@ -21,8 +22,7 @@ int run_verify(const VerifyCommandOptions& options, Console& console) {
   const std::filesystem::path folder{options.folder};
   auto reading = read_run_folder(folder);
   if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
-  std::error_code ignored;
-  if (!std::filesystem::exists(folder / kJournalFile, ignored)) {
+  if (!Journal::exists(folder / kJournalFile)) {
     throw Error{ErrorKind::kIo, options.folder + " has no journal (" + kJournalFile + "); the same study gives it one"};
   }
   watch_signals();

@@ -60,7 +60,8 @@ std::string random_instant(std::mt19937& random) {
     case 2:
       return "committed:" + team;
     case 3:
-      return std::vector<std::string>{"staged:1", "inputs:1", "tables:1", "manifest:1"}[random() % 4];
+      return std::vector<std::string>{"staged:1", "generation:1",    "inputs:1",   "log.txt:1",
+                                      "tables:1", "manifest.json:1", "published:1"}[random() % 7];
     default:
       return "commit:" + team + ":" + std::to_string(random() % 3000);
   }
@@ -301,7 +302,7 @@ TEST(MergeCommand, GivesTheBytesOfTheWholeStudy) {
   EXPECT_EQ(run_kith({"verify", scratch / "all"}).code, 0);
   merge.pop_back();
   const auto refused = run_kith(merge);
-  EXPECT_EQ(refused.code, 3);
+  EXPECT_EQ(refused.code, 4);
   EXPECT_THAT(refused.err, HasSubstr("error[E0635]"));
   EXPECT_EQ(run_kith({"merge", scratch / "1", "-o", scratch / "1"}).code, 2);
   EXPECT_EQ(run_kith({"study", "quick", "-o", scratch / "x", "--shard", "4/3"}).code, 2);

@@ -23,8 +23,11 @@ std::string design_note(const RunTeams& teams) {
 }  // namespace
 
 Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOptions& options) {
-  const auto teams = read_teams(run_folder);
+  const auto run = PublishedRun::open(run_folder);
+  const auto teams = read_teams(run);
   Analysis analysis{run_folder.string(), {design_note(teams)}, {}};
+  for (const auto& what : run.missing())
+    analysis.notes.push_back("the run is not complete, and every figure is about the teams that are there: " + what);
   const auto add = [&](std::optional<Finding> finding, const std::string& otherwise) {
     if (finding) {
       analysis.findings.push_back(std::move(*finding));
@@ -41,7 +44,7 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
   for (const auto& [name, values] : responses)
     add(paired(teams, name, *values, options),
         name + ": no two strategies taught the same people, so there are no pairs");
-  add(demonstrations(teams, run_folder, options), "manipulation check: needs two group strategies");
+  add(demonstrations(teams, run, options), "manipulation check: needs two group strategies");
   for (const auto& [name, values] : responses)
     add(against_baseline(teams, name, *values, options),
         name + ": no comparison with the baseline without baseline and groups");

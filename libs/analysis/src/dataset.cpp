@@ -6,7 +6,7 @@
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/table/csv_reader.hpp"
 
 namespace kith {

@@ -29,14 +29,13 @@ std::string ranking(const std::vector<double>& values, const Factor& strategy) {
 
 }  // namespace
 
-ConveyedAreas read_areas(const RunTeams& teams, const std::filesystem::path& run_folder) {
+ConveyedAreas read_areas(const RunTeams& teams, const PublishedRun& run) {
   std::unordered_map<std::string, std::size_t> position;
   for (std::size_t i = 0; i < teams.size(); ++i) position.emplace(teams.team[i], i);
   ConveyedAreas areas;
-  std::error_code failure;
-  const auto file = run_folder / "tables" / "periods.csv";
-  if (!std::filesystem::exists(file, failure)) return areas;
-  const auto data = Dataset::read(file, kColumns);
+  const std::string table = "tables/periods.csv";
+  if (!run.has(table)) return areas;
+  const auto data = Dataset::parse(run.read(table), (run.folder() / table).string(), kColumns);
   const auto team = data.factor("team");
   const auto component = data.factor("kc");
   const auto area = data.numbers("area_sr");
@@ -63,8 +62,7 @@ ConveyedAreas read_areas(const RunTeams& teams, const std::filesystem::path& run
   return areas;
 }
 
-std::optional<Finding> demonstrations(const RunTeams& teams, const std::filesystem::path& run_folder,
-                                      const AnalysisOptions& options) {
+std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun& run, const AnalysisOptions& options) {
   const auto rows = group_teams(teams);
   const auto model = team_model(teams, rows, "area_sr", teams.area_sr);
   if (selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
@@ -76,7 +74,7 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const std::filesyst
   finding.sentence = "A smaller area means that fewer reward weights fit what was shown. " +
                      sentence_of(model, as_published, options.alpha);
   finding.tables = anova_tables(model, as_published, options);
-  const auto areas = read_areas(teams, run_folder);
+  const auto areas = read_areas(teams, run);
   if (areas.team.empty()) {
     finding.warnings.push_back("periods were not recorded, so components cannot be told apart");
     return finding;

@@ -24,7 +24,7 @@ namespace kith {
                                                       const std::vector<double>& values,
                                                       const AnalysisOptions& options);
 // How much the demonstrations convey: the manipulation check.
-[[nodiscard]] std::optional<Finding> demonstrations(const RunTeams& teams, const std::filesystem::path& run_folder,
+[[nodiscard]] std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun& run,
                                                     const AnalysisOptions& options);
 
 // One value per team and knowledge component: the mean logarithm of the area of what the demonstrations of a period
@@ -34,6 +34,6 @@ struct ConveyedAreas {
   std::vector<std::string> component;  // its number
   std::vector<double> mean_log_area;
 };
-[[nodiscard]] ConveyedAreas read_areas(const RunTeams& teams, const std::filesystem::path& run_folder);
+[[nodiscard]] ConveyedAreas read_areas(const RunTeams& teams, const PublishedRun& run);
 
 }  // namespace kith

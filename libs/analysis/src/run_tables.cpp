@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "kith/table/csv_reader.hpp"
 
 namespace kith {
@@ -13,23 +12,6 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kTeamColumns{"strategy",  "composition", "replicate", "team",   "seed_address",
                                             "completed", "periods",     "knowledge", "area_sr"};
-
-fs::path teams_file(const fs::path& run_folder) {
-  std::error_code failure;
-  if (!fs::is_directory(run_folder, failure))
-    throw Error{ErrorKind::kIo, "there is no folder " + run_folder.string() + "; make one with: kith study STUDY -o " +
-                                    run_folder.string()};
-  auto file = run_folder / "tables" / "teams.csv";
-  if (fs::exists(file, failure)) return file;
-  const bool begun = fs::exists(run_folder / "inputs", failure) || fs::exists(run_folder / "study.sqlite", failure);
-  const std::string path = run_folder.string();
-  throw Error{ErrorKind::kInvalidInput, begun ? path +
-                                                    " holds an unfinished study: it has no tables/teams.csv yet; "
-                                                    "repeat the `kith study` command that began it"
-                                              : path +
-                                                    " is no run folder: it has no tables/teams.csv; `kith study STUDY "
-                                                    "-o DIR` makes one"};
-}
 
 // The study's varied keys stand between composition and replicate.
 std::vector<std::string> varied_keys(const std::vector<Column>& columns) {
@@ -63,9 +45,9 @@ std::vector<std::string> required_texts(const Dataset& data, const std::string& 
 
 }  // namespace
 
-RunTeams read_teams(const fs::path& run_folder) {
-  const auto file = teams_file(run_folder);
-  const auto text = read_file(file);
+RunTeams read_teams(const PublishedRun& run) {
+  const auto file = run.folder() / "tables" / "teams.csv";
+  const auto text = run.read("tables/teams.csv");
   const auto keys = varied_keys(read_csv_header(text, file.string()));
   auto wanted = kTeamColumns;
   wanted.insert(wanted.end(), keys.begin(), keys.end());

@@ -7,6 +7,7 @@
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/dataset.hpp"
+#include "kith/files/published_run.hpp"
 #include "model.hpp"
 
 namespace kith {
@@ -33,7 +34,7 @@ struct RunTeams {
 };
 
 // @throws kith::Error as analyze_run does.
-[[nodiscard]] RunTeams read_teams(const std::filesystem::path& run_folder);
+[[nodiscard]] RunTeams read_teams(const PublishedRun& run);
 
 // The positions of teams that were taught as groups.
 [[nodiscard]] std::vector<std::size_t> group_teams(const RunTeams& teams);

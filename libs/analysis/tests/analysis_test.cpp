@@ -7,7 +7,8 @@
 #include <filesystem>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "resealed.hpp"
 
 namespace kith {
 namespace {
@@ -178,6 +179,7 @@ class RunTest : public ::testing::Test {
   }
   void write(const std::string& name, const std::string& text) const {
     write_file_atomically(folder_ / "tables" / name, text);
+    testing::reseal(folder_);
   }
   [[nodiscard]] Analysis analyse() const { return analyze_run(folder_, quick()); }
 
@@ -244,7 +246,7 @@ TEST_F(RunTest, RefusesFoldersWithoutResults) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
-    EXPECT_THAT(error.what(), HasSubstr("unfinished study"));
+    EXPECT_THAT(error.what(), HasSubstr("has not finished"));
   }
 }
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/fit/import_run.hpp"
 #include "kith/fit/import_trials.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "kith/table/csv_reader.hpp"
 #include "open_table.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
@@ -11,6 +12,7 @@
 
 #include "kith/bec/atlas.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/published_run.hpp"
 #include "kith/study/run_folder.hpp"
 #include "kith/study/study.hpp"
 #include "open_table.hpp"
@@ -55,6 +57,7 @@ class RunImport {
       : tables_{folder / "tables"},
         folder_{folder},
         detail_{detail},
+        run_{published(folder)},
         study_{study_of(folder)},
         atlas_{*study_.domain} {}
 
@@ -75,7 +78,7 @@ class RunImport {
   }
 
  private:
-  static StudyReading study_of(const fs::path& folder) {
+  static PublishedRun published(const fs::path& folder) {
     std::error_code ignored;
     if (!fs::exists(folder / "inputs" / "study.toml", ignored)) {
       throw Error{{detail::fault("E0703", "this folder holds no answers that can be read", folder, 0,
@@ -86,6 +89,10 @@ class RunImport {
       throw Error{{detail::fault("E0704", "this run is not finished: it has no manifest.json or no tables", folder, 0,
                                  "run the study again into the same folder")}};
     }
+    return PublishedRun::open(folder);
+  }
+
+  static StudyReading study_of(const fs::path& folder) {
     auto reading = read_run_folder(folder);
     detail::throw_if_errors(reading.diagnostics);
     return reading;
@@ -129,6 +136,12 @@ class RunImport {
     }
   }
 
+  void read_table(const std::string& file, std::vector<Column> required, std::vector<Column> optional,
+                  std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row) {
+    detail::read_open_csv(run_.read("tables/" + file), (tables_ / file).string(), std::move(required),
+                          std::move(optional), diagnostics, on_row);
+  }
+
   void complain(const std::string& file, std::size_t line, const std::string& id, const std::string& message) {
     if (logs_.notes.size() < 20) logs_.notes.push_back(detail::fault(id, message, tables_ / file, line));
   }
@@ -142,20 +155,19 @@ class RunImport {
 
   void read_learners() {
     const std::string file = "learners.csv";
-    detail::read_open_csv(tables_ / file,
-                          {needed("team", ColumnType::kInteger), needed("member", ColumnType::kInteger),
-                           needed("type", ColumnType::kText)},
-                          {}, logs_.notes, [&](const OpenRow& row) {
-                            if (!check_team(file, row)) return;
-                            const auto type = *row.text("type");
-                            const auto variant = addresses_[static_cast<std::size_t>(*row.integer("team")) - 1].variant;
-                            if (type.size() != 1 || !models_of_[variant].contains(type[0])) {
-                              complain(file, row.line(), "E0708",
-                                       "there is no learner type '" + type + "' in inputs/study.toml");
-                              return;
-                            }
-                            types_[{*row.integer("team"), *row.integer("member")}] = type;
-                          });
+    read_table(file,
+               {needed("team", ColumnType::kInteger), needed("member", ColumnType::kInteger),
+                needed("type", ColumnType::kText)},
+               {}, logs_.notes, [&](const OpenRow& row) {
+                 if (!check_team(file, row)) return;
+                 const auto type = *row.text("type");
+                 const auto variant = addresses_[static_cast<std::size_t>(*row.integer("team")) - 1].variant;
+                 if (type.size() != 1 || !models_of_[variant].contains(type[0])) {
+                   complain(file, row.line(), "E0708", "there is no learner type '" + type + "' in inputs/study.toml");
+                   return;
+                 }
+                 types_[{*row.integer("team"), *row.integer("member")}] = type;
+               });
   }
 
   // The half-spaces of a cell, or nothing after complaining.
@@ -168,8 +180,8 @@ class RunImport {
 
   void read_demonstrations() {
     const std::string file = "demonstrations.csv";
-    detail::read_open_csv(
-        tables_ / file,
+    read_table(
+        file,
         {needed("team", ColumnType::kInteger), needed("period", ColumnType::kInteger),
          needed("kc", ColumnType::kInteger), needed("constraint", ColumnType::kText)},
         {{.name = "member", .type = ColumnType::kInteger}}, logs_.notes, [&](const OpenRow& row) {
@@ -183,8 +195,8 @@ class RunImport {
 
   void read_responses() {
     const std::string file = "responses.csv";
-    detail::read_open_csv(
-        tables_ / file,
+    read_table(
+        file,
         {needed("team", ColumnType::kInteger), needed("period", ColumnType::kInteger),
          needed("kc", ColumnType::kInteger), needed("test", ColumnType::kInteger),
          needed("member", ColumnType::kInteger), needed("mdp", ColumnType::kInteger),
@@ -323,6 +335,7 @@ class RunImport {
   fs::path tables_;
   fs::path folder_;
   AnswerDetail detail_;
+  PublishedRun run_;
   StudyReading study_;
   Atlas atlas_;
   std::vector<TeamAddress> addresses_;

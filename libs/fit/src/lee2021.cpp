@@ -11,7 +11,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "open_table.hpp"
 
 namespace kith {

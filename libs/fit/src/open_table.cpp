@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith::detail {
 namespace {
@@ -50,9 +50,14 @@ std::optional<bool> OpenRow::boolean(const std::string& column) const {
 
 void read_open_csv(const std::filesystem::path& path, std::vector<Column> required, std::vector<Column> optional,
                    std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row) {
-  const auto content = kith::read_file(path);
+  read_open_csv(kith::read_file(path), path.string(), std::move(required), std::move(optional), diagnostics, on_row);
+}
+
+void read_open_csv(const std::string& content, const std::string& name, std::vector<Column> required,
+                   std::vector<Column> optional, std::vector<Diagnostic>& diagnostics,
+                   const std::function<void(const OpenRow&)>& on_row) {
   std::vector<Column> columns = std::move(required);
-  for (const auto& present : read_csv_header(content, path.string())) {
+  for (const auto& present : read_csv_header(content, name)) {
     const auto same = [&](const Column& column) { return column.name == present.name; };
     const auto it = std::find_if(optional.begin(), optional.end(), same);
     if (it != optional.end()) columns.push_back(*it);
@@ -60,7 +65,7 @@ void read_open_csv(const std::filesystem::path& path, std::vector<Column> requir
   std::map<std::string, std::size_t> positions;
   for (std::size_t i = 0; i < columns.size(); ++i) positions[columns[i].name] = i;
   const auto faults = read_csv(
-      content, path.string(), columns,
+      content, name, columns,
       [&](const CsvRow& row) {
         on_row(OpenRow{row, positions});
       },

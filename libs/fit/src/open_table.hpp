@@ -37,6 +37,11 @@ class OpenRow {
 void read_open_csv(const std::filesystem::path& path, std::vector<Column> required, std::vector<Column> optional,
                    std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row);
 
+// The same of a text; `name` is used in messages.
+void read_open_csv(const std::string& content, const std::string& name, std::vector<Column> required,
+                   std::vector<Column> optional, std::vector<Diagnostic>& diagnostics,
+                   const std::function<void(const OpenRow&)>& on_row);
+
 // @throws kith::Error with the diagnostics if one of them is an error.
 void throw_if_errors(const std::vector<Diagnostic>& diagnostics);
 

@@ -5,10 +5,10 @@
 
 #include "domain_texts.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/fit/import_trials.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "simulated_people.hpp"
 
 namespace kith {

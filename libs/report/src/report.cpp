@@ -136,6 +136,8 @@ Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& d
 // What a reader should know about the data.
 void note_data(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points,
                std::vector<std::string>& notes) {
+  for (const auto& what : run.published.missing())
+    notes.push_back("The run is not complete, and every figure is about the teams that are there: " + what + ".");
   const auto censored = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed; });
   if (censored > 0) {
     notes.push_back(std::to_string(censored) + " of " + std::to_string(data.teams.size()) +

@@ -35,7 +35,7 @@ class DataReader {
                          const std::function<void(const StudyRow&)>& on_row) {
     const auto step = "reading " + table;
     on_step_(step);
-    const auto text = table_text(run_, table, data_.notes);
+    const auto text = table_text(run_, table);
     const auto file = (run_.folder / "tables" / table).string();
     std::size_t rows = 0;
     return read_study_table(text, file, run_.study, run_.teams, table, wanted, [&](const StudyRow& row) {

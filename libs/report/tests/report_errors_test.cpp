@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "kith/core/error.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/report/report.hpp"
-#include "kith/study/sha256.hpp"
+#include "resealed.hpp"
 #include "runs.hpp"
 
 namespace kith {
@@ -72,6 +73,7 @@ TEST_F(ReportErrors, NameARunThatHasNotFinished) {
 
 TEST_F(ReportErrors, NameARunThatStoppedEarly) {
   edit(run_ / "manifest.json", "\"finished\"", "\"interrupted\"");
+  testing::reseal(run_);
   expect("E0603 manifest.json:0", "did not finish");
 }
 
@@ -84,32 +86,51 @@ TEST_F(ReportErrors, NameAMissingTable) {
 
 TEST_F(ReportErrors, NameADamagedManifest) {
   std::ofstream{run_ / "manifest.json"} << "{";
-  expect("E0605 manifest.json:0", "no manifest");
+  expect("E0605 manifest.json:0", "the manifest is damaged", 7);
+  fs::remove(run_ / "manifest.json");
+  testing::reseal(run_);
+  edit(run_ / "manifest.json", "\"finished\"", "\"fini5hed\"");
+  expect("E0605 manifest.json:0", "the manifest is damaged", 7);
+}
+
+TEST_F(ReportErrors, NameAFileThatIsNotTheOneThatTheRunWrote) {
+  const auto sound = read_file(table("teams.csv"));
+  edit(table("teams.csv"), ",true,4,", ",true,5,");
+  expect("E0607 teams.csv:0", "its hash is not that in manifest.json", 7);
+  std::ofstream{table("teams.csv")} << sound;
+  edit(run_ / "inputs/study.toml", "replicates = 2", "replicates = 3");
+  expect("E0607 study.toml:0", "its hash is not that in manifest.json", 7);
 }
 
 TEST_F(ReportErrors, NameTeamsThatAreMissingOrTwice) {
   const auto text = read_file(table("teams.csv"));
   const auto last = text.rfind('\n', text.size() - 2) + 1;
   std::ofstream{table("teams.csv")} << text.substr(0, last);
+  testing::reseal(run_);
   expect("E0606 teams.csv:0", "the table has 3 teams, the study 4");
   std::ofstream{table("teams.csv")} << text + text.substr(last);
+  testing::reseal(run_);
   expect("E0606 teams.csv:6", "team 4 is there twice");
 }
 
 TEST_F(ReportErrors, NameTheRowOfATeamThatTheStudyDoesNotHave) {
   edit(table("periods.csv"), "\ncommon,NP,1,3,", "\ncommon,NP,1,33,");
+  testing::reseal(run_);
   expect("E0620 periods.csv:5", "there is no team 33");
   edit(table("periods.csv"), "\ncommon,NP,1,33,", "\ncommon,NN,1,3,");
+  testing::reseal(run_);
   expect("E0620 periods.csv:5", "does not say the same of team 3");
 }
 
 TEST_F(ReportErrors, NameTheRowOfAValueThatCannotBe) {
   edit(table("periods.csv"), "common,NP,1,3,1,1,", "common,NP,1,3,1,9,");
+  testing::reseal(run_);
   expect("E0621 periods.csv:5", "9 is not from 1 to 3");
 }
 
 TEST_F(ReportErrors, NameTheRowOfAMassThatCannotBe) {
   edit(table("progress.csv"), ",0.2,", ",1.2,");
+  testing::reseal(run_);
   expect("E0621 progress.csv:3", "from 0 to 1");
 }
 
@@ -118,21 +139,25 @@ TEST_F(ReportErrors, NameRowsOfATeamThatAreNotTogether) {
   const auto begin = text.find('\n') + 1;
   const auto row = text.substr(begin, text.find('\n', begin) + 1 - begin);
   std::ofstream{table("responses.csv")} << text + row;
+  testing::reseal(run_);
   expect("E0622 responses.csv:7", "rows of team 3 are not together");
 }
 
 TEST_F(ReportErrors, NameTheRowOfTextInANumericColumn) {
   edit(table("teams.csv"), ",true,4,", ",true,four,");
+  testing::reseal(run_);
   expect("E0506 teams.csv:4", "\"four\" in column \"periods\"");
 }
 
 TEST_F(ReportErrors, NameAMissingColumn) {
   edit(table("periods.csv"), "area_sr", "area");
+  testing::reseal(run_);
   expect("E0502 periods.csv:1", "column \"area_sr\" is missing");
 }
 
 TEST_F(ReportErrors, ComeFromTheFrozenStudyToo) {
   edit(run_ / "inputs/study.toml", "replicates = 2", "replicates = 0");
+  testing::reseal(run_);
   expect("E0110 study.toml:", "replicates");
 }
 

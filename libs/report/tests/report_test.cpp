@@ -1,4 +1,5 @@
 #include "kith/report/report.hpp"
+#include "kith/core/error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -206,11 +207,16 @@ TEST_F(RealReport, ShowsTheBeliefsOfTeamsThatWereTaughtAgain) {
   }
 }
 
-TEST_F(RealReport, NotesTablesThatWereChanged) {
+TEST_F(RealReport, RefusesTablesThatWereChanged) {
   std::filesystem::copy(*scratch_ / "run", *scratch_ / "changed", std::filesystem::copy_options::recursive);
   edit(*scratch_ / "changed/tables/responses.csv", ",true,", ",false,");
-  const auto document = Json::parse(build_report(*scratch_ / "changed"));
-  EXPECT_THAT(document.at("notes").dump(), HasSubstr("tables/responses.csv was changed after the run"));
+  try {
+    (void)build_report(*scratch_ / "changed");
+    ADD_FAILURE() << "a report was made";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMismatch);
+    EXPECT_THAT(error.what(), HasSubstr("E0607"));
+  }
 }
 
 TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {

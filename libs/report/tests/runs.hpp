@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "kith/files/atomic_file.hpp"
 #include "kith/study/run_folder.hpp"
 #include "kith/study/study.hpp"
-#include "kith/table/atomic_file.hpp"
 
 namespace kith::testing {
 

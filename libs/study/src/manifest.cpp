@@ -5,7 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "kith/study/sha256.hpp"
+#include "kith/files/published_run.hpp"
+#include "kith/files/sha256.hpp"
+#include "kith/study/arithmetic.hpp"
 #include "kith/table/csv_writer.hpp"
 
 namespace kith {
@@ -28,17 +30,21 @@ std::string processor_name() {
   return "unknown";
 }
 
-std::string manifest(const Study& study, std::size_t num_teams, const RunInputs& inputs,
-                     const std::map<std::string, std::string>& tables, const RunFacts& facts) {
+std::string manifest(const Study& study, const RunContent& content, const RunFacts& facts) {
+  const auto& inputs = content.inputs;
   using Json = nlohmann::ordered_json;
   const auto& spec = study.variants.front();
-  Json document{{"schema", "kith.manifest/1"},
+  Json document{{"schema", "kith.manifest/2"},
+                {"run", inputs.digest()},
                 {"study", spec.id},
                 {"title", spec.title},
                 {"domain", facts.domain},
                 {"seed", spec.seed},
-                {"teams", num_teams},
-                {"exit_reason", facts.failed.empty() ? "finished" : "teams failed"},
+                {"teams", content.teams},
+                {"exit_reason", !content.shard.empty()   ? "shard"
+                                : !facts.failed.empty()  ? "teams failed"
+                                : !facts.missing.empty() ? "partial"
+                                                         : "finished"},
                 {"started", facts.started},
                 {"stopped", facts.stopped},
                 {"command_line", facts.command_line},
@@ -50,13 +56,24 @@ std::string manifest(const Study& study, std::size_t num_teams, const RunInputs&
                 {"compiler", facts.compiler},
                 {"build_type", facts.build_type},
                 {"flags", facts.flags},
+                {"math_library", math_library()},
+                {"arithmetic", arithmetic_fingerprint()},
                 {"processor", processor_name()},
                 {"system", system_name()},
                 {"inputs", {{"study.toml", sha256(inputs.study)}, {"domain.toml", sha256(inputs.domain)}}},
-                {"tables", tables}};
+                {"tables", content.tables}};
   for (const auto& file : inputs.files) document["inputs"][file.name] = file.sha256;
+  if (!content.shard.empty()) document["shard"] = content.shard;
   if (!facts.failed.empty()) document["failed"] = facts.failed;
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (!facts.missing.empty()) document["missing"] = facts.missing;
+  return sealed_manifest(document.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::optional<std::string> digest_in_manifest(const std::string& manifest) {
+  if (!is_sealed(manifest)) return std::nullopt;
+  const auto document = nlohmann::json::parse(manifest);
+  const auto digest = document.find("run");
+  return digest != document.end() && digest->is_string() ? std::optional{digest->get<std::string>()} : std::nullopt;
 }
 
 std::string timings_table(const RunFacts& facts) {

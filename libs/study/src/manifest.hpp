@@ -1,15 +1,26 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "kith/study/run_folder.hpp"
 
 namespace kith {
 
-/// manifest.json of a run. @param tables  SHA-256 by file name.
-[[nodiscard]] std::string manifest(const Study& study, std::size_t num_teams, const RunInputs& inputs,
-                                   const std::map<std::string, std::string>& tables, const RunFacts& facts);
+/// What a run has come to, for its manifest.
+struct RunContent {
+  const RunInputs& inputs;
+  std::size_t teams = 0;
+  std::string shard = {};                          ///< Such as "2/3"; empty for a whole study.
+  std::map<std::string, std::string> tables = {};  ///< SHA-256 by file name.
+};
+
+/// manifest.json of a run.
+[[nodiscard]] std::string manifest(const Study& study, const RunContent& content, const RunFacts& facts);
+
+/// The digest of the inputs that a manifest is about; nothing if it is not as it was written.
+[[nodiscard]] std::optional<std::string> digest_in_manifest(const std::string& manifest);
 
 /// timings.csv of a run.
 [[nodiscard]] std::string timings_table(const RunFacts& facts);

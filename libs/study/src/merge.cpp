@@ -1,26 +1,45 @@
 #include "kith/study/merge.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "kith/core/error.hpp"
+#include "kith/files/generation.hpp"
+#include "kith/files/published_run.hpp"
+#include "kith/study/arithmetic.hpp"
+#include "sqlite.hpp"
+#include "team_list.hpp"
 
 namespace kith {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostAbsent = 20;  // shards that are named when many are missing
+
+// Everything that stands in the way, with the exit code of the worst.
 class Complaints {
  public:
-  void add(const char* id, const fs::path& folder, const std::string& message, const std::string& hint) {
+  void add(ErrorKind kind, const char* id, const fs::path& folder, const std::string& message,
+           const std::string& hint) {
     diagnostics_.push_back({.id = id, .message = message, .file = folder.string(), .hint = hint});
+    kind_ = std::max(kind_, kind);
+  }
+  void add(const char* id, const fs::path& folder, const std::string& message, const std::string& hint) {
+    add(ErrorKind::kInvalidInput, id, folder, message, hint);
   }
   void throw_if_any() const {
-    if (!diagnostics_.empty()) throw Error{diagnostics_};
+    if (diagnostics_.empty()) return;
+    std::string text;
+    for (const auto& one : diagnostics_) text += to_text(one);
+    text.pop_back();
+    throw Error{kind_, text, diagnostics_};
   }
 
  private:
   std::vector<Diagnostic> diagnostics_;
+  ErrorKind kind_ = ErrorKind::kInvalidInput;
 };
 
 std::string name_of(const Shard& shard) { return std::to_string(shard.index) + "/" + std::to_string(shard.count); }
@@ -36,6 +55,12 @@ void compare(const fs::path& folder, const JournalIdentity& one, const JournalId
     complaints.add("E0632", folder, "this shard was run by kith " + one.program + ", and this is " + program,
                    "run and merge all shards with one program: another one may give other results");
   }
+  if (one.arithmetic != first.arithmetic || one.arithmetic != arithmetic_fingerprint()) {
+    complaints.add("E0639", folder,
+                   "this shard was run on a machine whose mathematical library rounds differently (" + one.arithmetic +
+                       "; here " + arithmetic_fingerprint() + ")",
+                   "run and merge all shards on machines of one kind");
+  }
   if (one.shard.count != first.shard.count) {
     complaints.add(
         "E0633", folder,
@@ -44,15 +69,81 @@ void compare(const fs::path& folder, const JournalIdentity& one, const JournalId
   }
 }
 
-void check_finished(const fs::path& folder, const Journal& journal, Complaints& complaints) {
-  const auto progress = journal.progress();
-  const auto tried = progress.done + progress.failures.size();
-  if (tried >= progress.total && rank_journals(folder).empty()) return;
-  complaints.add("E0636", folder,
-                 "shard " + name_of(journal.identity().shard) +
-                     " is not finished: " + std::to_string(progress.total - std::min(tried, progress.total)) + " of " +
-                     std::to_string(progress.total) + " teams are left",
-                 "wait for it, or go on with it by the command that began it");
+constexpr const char* kGoOn = "resume it with the command that started it";
+
+// The teams of the shard that the journal neither holds intact nor says to have failed; those of which something is
+// there, but damaged, apart.
+struct Lacking {
+  std::vector<std::size_t> damaged, untaught;
+};
+
+Lacking find_lacking(const Journal& journal) {
+  Lacking lacking{journal.damaged(), {}};
+  std::vector<bool> known = journal.done();
+  for (const auto& failure : journal.progress().failures) known[failure.team - 1] = true;
+  for (const auto team : lacking.damaged) known[team - 1] = true;
+  for (std::size_t team = 1; team <= known.size(); ++team) {
+    if (journal.identity().shard.contains(team) && !known[team - 1]) lacking.untaught.push_back(team);
+  }
+  return lacking;
+}
+
+// Checks every record of a shard; what is missing is a complaint, or goes to `missing` if that is given.
+void check_complete(const fs::path& folder, Journal& journal, std::vector<std::string>* missing,
+                    Complaints& complaints) {
+  const auto shard = "shard " + name_of(journal.identity().shard);
+  const bool sound = journal.check();
+  const auto lacking = find_lacking(journal);
+  if (!lacking.damaged.empty() || (!sound && !lacking.untaught.empty())) {
+    const auto& teams = lacking.damaged.empty() ? lacking.untaught : lacking.damaged;
+    const auto what = "the record" + std::string{teams.size() == 1 ? "" : "s"} + " of " + team_list(teams) + " in " +
+                      shard + " cannot be read: the journal is damaged";
+    if (missing != nullptr) {
+      missing->push_back(what);
+    } else {
+      complaints.add(ErrorKind::kMismatch, "E0637", folder, what, kGoOn);
+    }
+  }
+  const bool unfinished = (sound && !lacking.untaught.empty()) || !rank_journals(folder).empty();
+  if (!unfinished) return;
+  const auto what = shard + " is not finished: " + team_list(lacking.untaught) + " of " +
+                    std::to_string(journal.progress().total) + " are left";
+  if (missing != nullptr) {
+    missing->push_back(what);
+  } else {
+    complaints.add(ErrorKind::kInfeasible, "E0636", folder, what, std::string{"wait for it, or "} + kGoOn);
+  }
+}
+
+// The journal of a shard, if the folder holds one that belongs to what else it says of itself.
+std::optional<Journal> open_shard(const fs::path& folder, Complaints& complaints) {
+  if (!Journal::exists(folder / kJournalFile)) {
+    complaints.add("E0630", folder, "there is no shard of a study in this folder: it has no study.sqlite",
+                   "make one with: kith study STUDY --shard I/N -o DIR");
+    return std::nullopt;
+  }
+  settle_for_reading(folder);
+  const auto identity = Journal::identify(folder / kJournalFile);
+  if (!identity) {
+    complaints.add(ErrorKind::kMismatch, "E0637", folder, "the journal is damaged: it does not say whose work it holds",
+                   kGoOn);
+    return std::nullopt;
+  }
+  std::error_code ignored;
+  if (fs::exists(folder / kManifestFile, ignored) && published_digest(folder) != identity->inputs.digest()) {
+    complaints.add(ErrorKind::kMismatch, "E0638", folder,
+                   "its manifest.json is not of the study that its journal holds, or is damaged", kGoOn);
+    return std::nullopt;
+  }
+  try {
+    return Journal::read(folder / kJournalFile);
+  } catch (const SqliteError& error) {
+    if (!error.damaged()) throw;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kIo) throw;
+  }
+  complaints.add(ErrorKind::kMismatch, "E0637", folder, "the journal is damaged", kGoOn);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -61,25 +152,24 @@ std::vector<fs::path> rank_journals(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator{folder, ignored}) {
-    const auto name = entry.path().filename().string();
-    if (name.rfind(kRankJournalPrefix, 0) == 0 && entry.path().extension() == ".sqlite") files.push_back(entry.path());
+    auto file = entry.path();
+    if (file.filename().string().rfind(kRankJournalPrefix, 0) != 0) continue;
+    if (file.extension() == ".salvaged") file.replace_extension();  // it was about to take its place
+    if (file.extension() == ".sqlite") files.push_back(file);
   }
   std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
 }
 
-std::vector<Journal> open_shards(std::span<const fs::path> folders, const std::string& program) {
+Shards open_shards(std::span<const fs::path> folders, const std::string& program, bool allow_partial) {
   Complaints complaints;
   std::vector<Journal> journals;
   std::vector<fs::path> found;
   for (const auto& folder : folders) {
-    std::error_code ignored;
-    if (!fs::exists(folder / kJournalFile, ignored)) {
-      complaints.add("E0630", folder, "there is no shard of a study in this folder: it has no study.sqlite",
-                     "make one with: kith study STUDY --shard I/N -o DIR");
-      continue;
-    }
-    journals.push_back(Journal::read(folder / kJournalFile));
+    auto journal = open_shard(folder, complaints);
+    if (!journal) continue;
+    journals.push_back(*std::move(journal));
     found.push_back(folder);
   }
   complaints.throw_if_any();
@@ -87,27 +177,36 @@ std::vector<Journal> open_shards(std::span<const fs::path> folders, const std::s
     compare(found[i], journals[i].identity(), journals[0].identity(), found[0], program, complaints);
   }
   complaints.throw_if_any();
+  Shards shards;
+  auto* missing = allow_partial ? &shards.missing : nullptr;
   const auto count = journals.at(0).identity().shard.count;
-  std::vector<std::optional<std::size_t>> holders(count);
+  std::map<std::size_t, std::size_t> holders;  // where each shard is, by its index
   for (std::size_t i = 0; i < journals.size(); ++i) {
     const auto shard = journals[i].identity().shard;
-    auto& holder = holders.at(shard.index - 1);
-    if (holder) {
-      complaints.add("E0634", found[i], "this is shard " + name_of(shard) + ", and so is " + found[*holder].string(),
+    const auto [holder, fresh] = holders.emplace(shard.index, i);
+    if (!fresh) {
+      complaints.add("E0634", found[i],
+                     "this is shard " + name_of(shard) + ", and so is " + found[holder->second].string(),
                      "name every shard once");
     }
-    holder = i;
-    check_finished(found[i], journals[i], complaints);
+    check_complete(found[i], journals[i], missing, complaints);
   }
-  for (std::size_t index = 1; index <= count; ++index) {
-    if (holders[index - 1]) continue;
-    complaints.add("E0635", found[0], "shard " + name_of({index, count}) + " of the same study is missing",
-                   "run it, and name its folder too");
+  std::vector<std::size_t> absent;
+  for (std::size_t index = 1; index <= count && absent.size() < kMostAbsent; ++index) {
+    if (holders.count(index) == 0) absent.push_back(index);
+  }
+  for (const auto index : absent) {
+    const auto name = "shard " + name_of({index, count});
+    if (missing != nullptr) {
+      missing->push_back(name + " was not given");
+    } else {
+      complaints.add(ErrorKind::kInfeasible, "E0635", found[0], name + " of the same study is missing",
+                     "run it, and name its folder too; or merge what is there with --allow-partial");
+    }
   }
   complaints.throw_if_any();
-  std::vector<Journal> ordered;
-  for (const auto& holder : holders) ordered.push_back(std::move(journals[*holder]));
-  return ordered;
+  for (const auto& [index, holder] : holders) shards.journals.push_back(std::move(journals[holder]));
+  return shards;
 }
 
 }  // namespace kith

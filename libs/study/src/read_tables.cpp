@@ -48,13 +48,13 @@ class TeamKeys {
 
   std::size_t team_of(const CsvRow& row) {
     const auto number = std::get<std::int64_t>(row.cells[team_]);
-    if (number < 1 || static_cast<std::size_t>(number) > teams_.addresses.size()) {
+    const auto team = position_of(number);
+    if (team == teams_.addresses.size()) {
       refuse_row(file_, row.line, "E0620",
                  "there is no team " + std::to_string(number) + " in this study, which has " +
                      std::to_string(teams_.addresses.size()),
                  "restore the tables as the run wrote them");
     }
-    const auto team = static_cast<std::size_t>(number) - 1;
     if (!agrees(row, team)) {
       refuse_row(file_, row.line, "E0620",
                  "the row does not say the same of team " + std::to_string(number) + " as inputs/study.toml",
@@ -69,6 +69,17 @@ class TeamKeys {
   }
 
  private:
+  // Of the team with this number in the register; its size if there is none.
+  [[nodiscard]] std::size_t position_of(std::int64_t number) const {
+    const auto& all = teams_.addresses;
+    if (number < 1) return all.size();
+    const auto wanted = static_cast<std::size_t>(number);
+    if (wanted <= all.size() && all[wanted - 1].team == wanted) return wanted - 1;
+    const auto found = std::lower_bound(all.begin(), all.end(), wanted,
+                                        [](const TeamAddress& one, std::size_t team) { return one.team < team; });
+    return found != all.end() && found->team == wanted ? static_cast<std::size_t>(found - all.begin()) : all.size();
+  }
+
   [[nodiscard]] bool agrees(const CsvRow& row, std::size_t team) const {
     const auto& address = teams_.addresses[team];
     if (std::get<std::string>(row.cells[strategy_]) != teams_.strategies[team]) return false;
@@ -96,6 +107,18 @@ TeamRegister register_teams(const Study& study) {
   result.strategies.reserve(result.addresses.size());
   for (const auto& address : result.addresses) result.strategies.emplace_back(name_of(address.strategy));
   return result;
+}
+
+TeamRegister register_teams(const Study& study, std::string_view teams_csv, const std::string& file) {
+  const auto all = register_teams(study);
+  TeamRegister present;
+  const std::vector<std::string_view> no_columns;
+  read_study_table(teams_csv, file, study, all, "teams.csv", no_columns, [&](const StudyRow& row) {
+    if (!present.addresses.empty() && present.addresses.back().team == row.address().team) return;
+    present.addresses.push_back(row.address());
+    present.strategies.push_back(all.strategies[row.team()]);
+  });
+  return present;
 }
 
 const std::string& StudyRow::text(std::size_t i) const { return std::get<std::string>(row_.cells[i]); }

@@ -1,22 +1,17 @@
 #include "kith/study/run_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <map>
 #include <memory>
 #include <system_error>
 
+#include "journal_file.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/published_run.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/study/journal.hpp"
-#include "kith/study/sha256.hpp"
 #include "kith/study/tables.hpp"
-#include "kith/table/atomic_file.hpp"
 #include "manifest.hpp"
 
 namespace kith {
@@ -25,38 +20,25 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFrozenDomain = "domain.toml";
-constexpr const char* kStagingPrefix = ".kith-staging-";
-
-[[noreturn]] void fail(const std::string& action, const fs::path& path, int error) {
-  throw Error{ErrorKind::kIo, "cannot " + action + " " + path.string() + ": " + std::generic_category().message(error)};
-}
 
 void make_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) fail("make the folder", path, error.value());
-}
-
-// Puts the folder `from` in the place of `to`, which may exist; in one step where the file system can.
-void put_in_place(const fs::path& from, const fs::path& to) {
-  if (rename(from.c_str(), to.c_str()) == 0) return;  // nothing there, or an empty folder
-  if (errno != ENOTEMPTY && errno != EEXIST) fail("replace", to, errno);
-  constexpr unsigned kExchange = 2;  // RENAME_EXCHANGE
-  if (syscall(SYS_renameat2, AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), kExchange) == 0) return;
-  const auto old = fs::path{from}.concat("-old");
-  if (rename(to.c_str(), old.c_str()) != 0) fail("replace", to, errno);
-  if (rename(from.c_str(), to.c_str()) != 0) {
-    const int error = errno;
-    (void)rename(old.c_str(), to.c_str());
-    fail("replace", to, error);
-  }
+  if (error) throw Error{ErrorKind::kIo, "cannot make the folder " + path.string() + ": " + error.message()};
 }
 
 // A file's text, or nothing if there is no such file.
 std::optional<std::string> text_if_any(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) return std::nullopt;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
   return read_file(path);
+}
+
+// Whose journal it is, if that can be told.
+std::optional<JournalIdentity> identity_if_any(const fs::path& journal) try {
+  return Journal::identify(journal);
+} catch (const Error&) {  // for whoever opens it to say
+  return std::nullopt;
 }
 
 // What write_tables() leaves behind.
@@ -66,7 +48,8 @@ struct WrittenTables {
 };
 
 // The tables and the codebook, in `folder`.
-WrittenTables write_tables(const fs::path& folder, const Study& study, const TeamSource& teams) {
+WrittenTables write_tables(const fs::path& folder, const Study& study, const std::string& run,
+                           const TeamSource& teams) {
   struct Table {
     explicit Table(const fs::path& path) : file{path} {}
     AtomicFile file;
@@ -91,10 +74,23 @@ WrittenTables write_tables(const fs::path& folder, const Study& study, const Tea
     table->file.commit(FolderSync::kLater);
     written.hashes[name] = std::move(table->hash).hex();
   }
-  const auto codebook = study_codebook(study);
-  write_file_atomically(folder / "codebook.json", codebook);  // and the entries of all of them
+  const auto codebook = study_codebook(study, run);
+  write_file_atomically(folder / "codebook.json", codebook, FolderSync::kLater);
   written.hashes["codebook.json"] = sha256(codebook);
   return written;
+}
+
+// What the manifest or, without one, the journal says that the run was asked.
+std::optional<std::string> run_digest(const fs::path& folder) {
+  if (auto digest = published_digest(folder)) return digest;
+  std::error_code ignored;
+  if (fs::exists(folder / kManifestFile, ignored)) {
+    refuse_run(ErrorKind::kMismatch, "E0605", folder / kManifestFile,
+               "the manifest is damaged or was changed: it does not have the checksum at its end",
+               "repeat the command that ran the study");
+  }
+  const auto identity = Journal::identify(folder / kJournalFile);
+  return identity ? std::optional{identity->inputs.digest()} : std::nullopt;
 }
 
 }  // namespace
@@ -107,61 +103,71 @@ RunInputs freeze(const StudyReading& reading) {
   return inputs;
 }
 
+std::string RunInputs::digest() const {
+  Sha256 hash;
+  const auto add = [&](std::string_view text) {
+    hash.update(std::to_string(text.size()) + ":");
+    hash.update(text);
+  };
+  add("kith.run/1");
+  add(study);
+  add(domain);
+  for (const auto& file : files) {
+    add(file.name);
+    add(file.sha256);
+  }
+  return std::move(hash).hex();
+}
+
 RunFolder::RunFolder(fs::path path, RunInputs inputs, bool replace)
     : path_{std::move(path)}, inputs_{std::move(inputs)} {
   std::error_code error;
   made_ = !fs::exists(path_, error);
   make_folder(path_);
   try {
-    lock();
+    lock_ = FolderLock::try_acquire(path_);
+    if (!lock_) throw Error{ErrorKind::kBusy, "another process is writing to " + path_.string()};
+    settle(path_);
+    { const Generation writable{path_}; }  // removes what earlier ones left, and finds out whether we may write
+    remove_unfinished_journals(path_);
     check_content(replace);
-    staging_ = path_ / (kStagingPrefix + std::to_string(getpid()));
-    if (mkdir(staging_.c_str(), 0777) != 0) fail("write to", path_, errno);
   } catch (...) {
     if (made_) fs::remove(path_, error);  // only if it is empty
-    if (descriptor_ >= 0) close(descriptor_);
     throw;
   }
 }
 
 RunFolder::~RunFolder() {
   std::error_code ignored;
-  fs::remove_all(staging_, ignored);
-  if (made_ && !published_) fs::remove(path_, ignored);
-  close(descriptor_);
+  if (made_ && !published_) fs::remove(path_, ignored);  // only if it is empty
 }
 
-void RunFolder::lock() {
-  descriptor_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) fail("open the folder", path_, errno);
-  // Whoever looks whether the folder is busy holds it for an instant; a run holds it for longer than that.
-  for (int attempt = 0; attempt < 5; ++attempt) {
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-    if (errno != EWOULDBLOCK) return;  // some network file systems have no locks
-    usleep(20'000);
-  }
-  throw Error{ErrorKind::kBusy, "another process is writing to " + path_.string()};
+void RunFolder::require_in_place() const {
+  if (lock_->is_at(path_)) return;
+  throw Error{ErrorKind::kIo,
+              path_.string() +
+                  " was moved, removed or replaced while the study ran; the finished teams are saved in "
+                  "the " +
+                  kJournalFile + " of the folder as it was"};
 }
 
 void RunFolder::check_content(bool replace) {
-  bool empty = true;
-  for (const auto& entry : fs::directory_iterator{path_}) {
-    const auto name = entry.path().filename().string();
-    if (name.rfind(kStagingPrefix, 0) == 0 || name.rfind(std::string{kJournalFile} + ".new", 0) == 0) {
-      fs::remove_all(entry.path());  // left by a run that was killed; we hold the lock
-    } else {
-      empty = false;
-    }
-  }
+  std::error_code error;
+  const bool empty = fs::is_empty(path_, error);
+  if (error) throw Error{ErrorKind::kIo, "cannot read " + path_.string() + ": " + error.message()};
   if (empty) return;
   const auto study = text_if_any(path_ / "inputs" / "study.toml");
   const auto domain = text_if_any(path_ / "inputs" / kFrozenDomain);
-  has_inputs_ = study == inputs_.study && domain == inputs_.domain && has_files();
-  has_results_ = has_inputs_ && fs::exists(path_ / "manifest.json");
+  const bool same_files = std::all_of(inputs_.files.begin(), inputs_.files.end(), [&](const InputFile& file) {
+    return text_if_any(path_ / "inputs" / file.name) == file.text;
+  });
+  const bool same_inputs = study == inputs_.study && domain == inputs_.domain && same_files;
+  has_results_ = same_inputs && fs::exists(path_ / kManifestFile, error);
   // A run that has begun to replace another one's results has a journal of its own.
-  const auto begun = journal_inputs(path_ / kJournalFile);
-  if (replace || (begun ? *begun == inputs_ : has_inputs_)) return;
-  if (!study && !begun && !fs::exists(path_ / kJournalFile)) {
+  const bool has_journal = Journal::exists(path_ / kJournalFile);
+  const auto begun = has_journal ? identity_if_any(path_ / kJournalFile) : std::nullopt;
+  if (replace || (begun ? begun->inputs == inputs_ : same_inputs)) return;
+  if (!study && !has_journal) {
     throw Error{ErrorKind::kUsage, path_.string() +
                                        " is not empty and no run folder; choose another folder, or add --yes to "
                                        "write into it"};
@@ -172,30 +178,26 @@ void RunFolder::check_content(bool replace) {
                                      "; choose another folder, or add --yes to replace them"};
 }
 
-bool RunFolder::has_files() const {
-  return std::all_of(inputs_.files.begin(), inputs_.files.end(),
-                     [&](const InputFile& file) { return text_if_any(path_ / "inputs" / file.name) == file.text; });
-}
-
 void RunFolder::reach(const std::string& instant) const {
   if (observer_) observer_(instant);
 }
 
 void RunFolder::freeze_inputs() {
   std::error_code ignored;
-  if (!fs::exists(path_ / "inputs", ignored)) put_inputs();
+  if (fs::exists(path_ / "inputs", ignored)) return;
+  Generation generation{path_};
+  write_inputs(generation.path());
+  generation.commit();
 }
 
-void RunFolder::put_inputs() {
-  make_folder(staging_ / "inputs");
-  write_file_atomically(staging_ / "inputs" / "study.toml", inputs_.study, FolderSync::kLater);
+void RunFolder::write_inputs(const fs::path& folder) const {
+  make_folder(folder / "inputs");
+  write_file_atomically(folder / "inputs" / "study.toml", inputs_.study, FolderSync::kLater);
   for (const auto& file : inputs_.files) {
-    make_folder((staging_ / "inputs" / file.name).parent_path());
-    write_file_atomically(staging_ / "inputs" / file.name, file.text);
+    make_folder((folder / "inputs" / file.name).parent_path());
+    write_file_atomically(folder / "inputs" / file.name, file.text, FolderSync::kLater);
   }
-  write_file_atomically(staging_ / "inputs" / kFrozenDomain, inputs_.domain);
-  put_in_place(staging_ / "inputs", path_ / "inputs");
-  has_inputs_ = true;
+  write_file_atomically(folder / "inputs" / kFrozenDomain, inputs_.domain, FolderSync::kLater);
 }
 
 void RunFolder::discard() {
@@ -214,37 +216,55 @@ void RunFolder::publish(const Study& study, std::span<const TeamRecord> teams, c
 }
 
 void RunFolder::publish(const Study& study, const TeamSource& teams, const RunFacts& facts) {
-  const auto written = write_tables(staging_ / "tables", study, teams);
-  reach("staged");
-  if (!has_inputs_) put_inputs();
-  reach("inputs");
-  put_in_place(staging_ / "tables", path_ / "tables");
-  synchronise_folder(path_);
-  published_ = true;
-  reach("tables");
-  std::string log;
-  for (const auto& line : facts.log) log += line + "\n";
-  write_file_atomically(path_ / "log.txt", log, FolderSync::kLater);
-  write_file_atomically(path_ / "timings.csv", timings_table(facts), FolderSync::kLater);
-  write_file_atomically(path_ / "manifest.json", manifest(study, written.teams, inputs_, written.hashes, facts));
-  reach("manifest");
+  require_in_place();
+  Generation generation{path_};
+  const auto written = write_tables(generation.path() / "tables", study, inputs_.digest(), teams);
+  commit(generation, manifest(study, {inputs_, written.teams, {}, written.hashes}, facts), facts, {});
 }
 
-bool is_busy(const fs::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool busy = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  close(descriptor);
-  return busy;
+void RunFolder::publish_shard(const Study& study, const std::string& shard, std::size_t num_teams,
+                              const RunFacts& facts) {
+  require_in_place();
+  Generation generation{path_};
+  commit(generation, manifest(study, {inputs_, num_teams, shard, {}}, facts), facts, {"tables"});
+}
+
+void RunFolder::commit(Generation& generation, const std::string& manifest, const RunFacts& facts,
+                       std::vector<std::string> removed) {
+  write_inputs(generation.path());
+  std::string log;
+  for (const auto& line : facts.log) log += line + "\n";
+  write_file_atomically(generation.path() / "log.txt", log, FolderSync::kLater);
+  write_file_atomically(generation.path() / "timings.csv", timings_table(facts), FolderSync::kLater);
+  write_file_atomically(generation.path() / kManifestFile, manifest, FolderSync::kLater);
+  reach("staged");
+  require_in_place();
+  published_ = true;
+  generation.commit(std::move(removed), observer_);
+  reach("published");
+}
+
+std::optional<std::string> published_digest(const fs::path& folder) {
+  const auto text = text_if_any(folder / kManifestFile);
+  return text ? digest_in_manifest(*text) : std::nullopt;
 }
 
 StudyReading read_run_folder(const fs::path& path) {
+  settle_for_reading(path);
   const auto file = path / "inputs" / "study.toml";
   std::error_code error;
   if (!fs::exists(file, error)) {
     throw Error{ErrorKind::kIo, path.string() + " is not a run folder: it has no inputs/study.toml"};
   }
-  return load_study(file.string());
+  auto reading = load_study(file.string());
+  if (!reading.study || !reading.domain) return reading;
+  const auto expected = run_digest(path);
+  if (expected && *expected != freeze(reading).digest()) {
+    refuse_run(ErrorKind::kMismatch, "E0607", path / "inputs",
+               "the inputs are not those of the run: they do not give the digest in its manifest or journal",
+               "repeat the command that ran the study; if it was replacing other results, that finishes it");
+  }
+  return reading;
 }
 
 }  // namespace kith

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -40,20 +41,72 @@ bool SqliteError::damaged() const noexcept {
          primary == SQLITE_MISMATCH;
 }
 
-Database::Database(std::filesystem::path path, Mode mode) : path_{std::move(path)}, writes_{mode != Mode::kRead} {
-  const int flags = mode == Mode::kRead    ? SQLITE_OPEN_READONLY
-                    : mode == Mode::kWrite ? SQLITE_OPEN_READWRITE
-                                           : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int code = sqlite3_open_v2(path_.c_str(), &handle_, flags | SQLITE_OPEN_NOMUTEX, nullptr);
-  if (code != SQLITE_OK) {
-    const int error = handle_ != nullptr ? sqlite3_system_errno(handle_) : 0;
-    close();
-    throw SqliteError{
-        ErrorKind::kIo,
-        std::string{"cannot "} + (writes_ ? "write " : "read ") + path_.string() + ": " + reason(code, error), code};
+namespace {
+
+// The name under which SQLite opens a file without looking at what is beside it.
+std::string name_of_file_alone(const std::filesystem::path& path) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string name{"file:"};
+  for (const char c : std::filesystem::absolute(path).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '%' || c == '?' || c == '#' || byte < 0x21 || byte > 0x7E) {
+      name += {'%', kDigits[byte >> 4], kDigits[byte & 15u]};
+    } else {
+      name += c;
+    }
   }
+  return name + "?immutable=1";
+}
+
+bool has_log(const std::filesystem::path& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(std::filesystem::path{path}.concat("-wal"), none);
+  return !none && size > 0;
+}
+
+}  // namespace
+
+int Database::open(const std::string& name, int flags) {
+  const int code = sqlite3_open_v2(name.c_str(), &handle_, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  if (code != SQLITE_OK) return code;
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, 2000);  // a reader of the progress holds the file for an instant
+  return code;
+}
+
+Database::Database(std::filesystem::path path, Mode mode)
+    : path_{std::move(path)}, writes_{mode == Mode::kMake || mode == Mode::kWrite} {
+  int code = SQLITE_OK;
+  if (writes_) {
+    code = open(path_, SQLITE_OPEN_READWRITE | (mode == Mode::kMake ? SQLITE_OPEN_CREATE : 0));
+  } else if (mode == Mode::kRead && has_log(path_)) {
+    // The log can only be read by those who can write beside it; where we cannot, SQLite may still find a way.
+    code = open(path_, SQLITE_OPEN_READWRITE);
+    if (code == SQLITE_OK) keep_log(true);
+    if (code == SQLITE_OK && sqlite3_db_readonly(handle_, "main") == 1) {
+      close();
+      code = open(path_, SQLITE_OPEN_READONLY);
+    }
+  } else {
+    code = open(name_of_file_alone(path_), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+  }
+  if (code == SQLITE_OK) return;
+  const int error = handle_ != nullptr ? sqlite3_system_errno(handle_) : 0;
+  close();
+  throw SqliteError{
+      ErrorKind::kIo,
+      std::string{"cannot "} + (writes_ ? "write " : "read ") + path_.string() + ": " + reason(code, error), code};
+}
+
+void Database::keep_log(bool keep) {
+  constexpr int kPages = 1000;  // SQLite's own choice
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, keep ? 1 : 0, nullptr);
+  sqlite3_wal_autocheckpoint(handle_, keep ? 0 : kPages);
+}
+
+void Database::empty_log() {
+  auto checkpoint = prepare("PRAGMA wal_checkpoint(TRUNCATE)");
+  if (!checkpoint.step() || checkpoint.integer(0) != 0) fail(SQLITE_BUSY);
 }
 
 Database::~Database() { close(); }

@@ -26,12 +26,20 @@ class SqliteError : public Error {
 
 [[nodiscard]] std::string sqlite_version();
 
+// Of the files that are made here.
+inline constexpr int kJournalPageSize = 4096;
+
 class Statement;
 
 // A connection to a database file. All errors are SqliteErrors with the path and the reason. Not thread-safe.
 class Database {
  public:
-  enum class Mode { kMake, kWrite, kRead };
+  enum class Mode {
+    kMake,   // a new file, to write
+    kWrite,  // one that exists, to write
+    kRead,   // to read, even while another process writes; nothing is changed, also if it is the last to close the file
+    kAlone,  // to read the file alone, whatever is beside it; nobody may write meanwhile
+  };
   Database(std::filesystem::path path, Mode mode);
   ~Database();
   Database(Database&& other) noexcept;
@@ -39,10 +47,15 @@ class Database {
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   void execute(const std::string& sql);
+  // Whether the write-ahead log is left as it is, or put into the file when it is long and at the end (the default).
+  void keep_log(bool keep);
+  // Puts the write-ahead log into the file and empties it.
+  void empty_log();
   [[nodiscard]] Statement prepare(const std::string& sql);
   [[noreturn]] void fail(int code) const;
 
  private:
+  [[nodiscard]] int open(const std::string& name, int flags);
   void close() noexcept;
 
   std::filesystem::path path_;

@@ -9,7 +9,9 @@
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
 #include "kith/random/stream.hpp"
+#include "kith/study/arithmetic.hpp"
 #include "kith/study/team_codec.hpp"
+#include "team_list.hpp"
 
 namespace kith {
 namespace {
@@ -85,7 +87,8 @@ struct StudyRun::State {
   State(fs::path where, StudyReading what, StudyRunOptions how)
       : path{std::move(where)}, reading{std::move(what)}, options{std::move(how)} {
     ranks = options.ranks == nullptr ? &alone : options.ranks;
-    identity = {freeze(reading), options.program, kith::num_teams(*reading.study), options.shard};
+    identity = {freeze(reading), options.program, kith::num_teams(*reading.study), options.shard,
+                arithmetic_fingerprint()};
     KITH_ASSERT(identity.teams < kNoMoreWork);
   }
 
@@ -95,6 +98,9 @@ struct StudyRun::State {
 
   void open_folder();
   void open_journal();
+  void begin_journal();
+  [[nodiscard]] bool open_own_journal();
+  void refuse_other_journal(const JournalIdentity& found);
   void take_up_rank_journals();
   void note_damage(const Journal& one);
   void find_work(const std::vector<bool>& done);
@@ -116,64 +122,105 @@ struct StudyRun::State {
 };
 
 void StudyRun::State::note_damage(const Journal& one) {
+  const auto& file = one.path().string();
   if (one.was_recovered()) {
-    notes.push_back(one.path().string() + " was damaged; " + std::to_string(one.num_done()) +
-                    " teams were recovered from it, and it is kept as " + one.path().string() + ".damaged");
+    std::vector<std::size_t> lost;
+    for (std::size_t team = 1; team <= one.done().size(); ++team) {
+      if (options.shard.contains(team) && !one.done()[team - 1]) lost.push_back(team);
+    }
+    notes.push_back(
+        file + " was damaged: " + std::to_string(one.num_done()) + " teams were recovered from it, " +
+        (lost.empty() ? "all of them" : std::to_string(lost.size()) + " are taught again (" + team_list(lost) + ")") +
+        "; it is kept as " + file + ".damaged");
   }
   for (const auto team : one.damaged()) {
-    notes.push_back("the record of " + describe(team) + " in " + one.path().string() +
-                    " is damaged; the team is taught again");
+    notes.push_back("the record of " + describe(team) + " in " + file + " is damaged; the team is taught again");
   }
 }
 
-void StudyRun::State::open_journal() {
+void StudyRun::State::begin_journal() { journal = Journal::create(path / kJournalFile, identity); }
+
+// Whether it could be opened to go on with.
+bool StudyRun::State::open_own_journal() {
   const auto file = path / kJournalFile;
-  const auto begin = [&] { journal = Journal::create(file, identity); };
-  const bool there = fs::exists(file);
-  if (!there && options.resume == Resume::kRequire) {
-    throw Error{ErrorKind::kUsage, "there is nothing to resume in " + path.string() + " (--resume require)"};
+  journal = Journal::open(file, identity);
+  if (journal) {
+    note_damage(*journal);
+    return true;
   }
-  if (!there || options.resume == Resume::kNever) return begin();
-  const auto found = Journal::read(file).identity();
-  if (found == identity) {
-    journal = Journal::open(file);
-    return note_damage(*journal);
+  if (!options.replace) {
+    throw Error{ErrorKind::kIo, file.string() +
+                                    " is damaged beyond help: no record of this study can be read from it. Restore the "
+                                    "file from a copy, or start the study over with --resume never"};
   }
-  if (options.resume == Resume::kRequire) {
-    throw Error{ErrorKind::kUsage, path.string() + " holds the work of another study, shard or program (kith " +
-                                       found.program + "); there is nothing to resume (--resume require)"};
-  }
-  if (options.replace || found.inputs != identity.inputs) return begin();  // RunFolder has asked
-  const auto progress = Journal::read(file).progress();
+  notes.push_back(file.string() +
+                  " is damaged, and no record of this study can be read from it; the study starts over");
+  return false;
+}
+
+// What keeps us from going on with the work of somebody else, or from replacing it without being told.
+void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
   if (found.shard != identity.shard) {
     throw Error{ErrorKind::kUsage,
                 path.string() + " holds shard " + std::to_string(found.shard.index) + "/" +
                     std::to_string(found.shard.count) + " of this study, not " + std::to_string(identity.shard.index) +
                     "/" + std::to_string(identity.shard.count) + "; choose another folder, or add --yes to replace it"};
   }
+  const auto progress = Journal::read(path / kJournalFile).progress();
+  const bool same_program = found.program == identity.program;
+  const auto by = same_program ? "on a machine whose mathematical library rounds differently (" + found.arithmetic +
+                                     ", here " + identity.arithmetic + ")"
+                               : "by kith " + found.program + ", and this is " + identity.program;
   if (progress.done < progress.total) {
     throw Error{ErrorKind::kUsage, path.string() + " holds " + std::to_string(progress.done) + " of " +
-                                       std::to_string(progress.total) + " teams taught by kith " + found.program +
-                                       ", and this is " + identity.program +
-                                       ", whose results may differ; finish the run with that program, or start it "
-                                       "over with --resume never"};
+                                       std::to_string(progress.total) + " teams taught " + by +
+                                       ", so results may differ; finish the run " +
+                                       (same_program ? "on a machine like that" : "with that program") +
+                                       ", or start it over with --resume never"};
   }
-  notes.push_back("the results in " + path.string() + " are those of kith " + found.program +
-                  "; all teams are taught anew");
-  begin();
+  notes.push_back("the results in " + path.string() + " were made " + by + "; all teams are taught anew");
+}
+
+void StudyRun::State::open_journal() {
+  const auto file = path / kJournalFile;
+  const bool there = Journal::exists(file);
+  if (!there && options.resume == Resume::kRequire) {
+    throw Error{ErrorKind::kUsage, "there is nothing to resume in " + path.string() + " (--resume require)"};
+  }
+  if (!there || options.resume == Resume::kNever) return begin_journal();
+  std::optional<JournalIdentity> found;
+  try {
+    found = Journal::identify(file);
+  } catch (const Error& error) {
+    if (!options.replace || error.kind() != ErrorKind::kUsage) throw;
+    return begin_journal();  // of another version of kith
+  }
+  if (!found || *found == identity) {
+    if (!open_own_journal()) begin_journal();
+    return;
+  }
+  if (options.resume == Resume::kRequire) {
+    throw Error{ErrorKind::kUsage, path.string() +
+                                       " holds the work of another study, shard, program or machine (kith " +
+                                       found->program + "); there is nothing to resume (--resume require)"};
+  }
+  if (!options.replace && found->inputs == identity.inputs) refuse_other_journal(*found);
+  begin_journal();  // RunFolder has asked
 }
 
 void StudyRun::State::take_up_rank_journals() {
   for (const auto& file : rank_journals(path)) {
-    const auto found = journal_inputs(file);
-    if (found && *found == identity.inputs) {
-      const auto part = Journal::open(file);
-      if (part.identity() == identity) {
-        note_damage(part);
-        journal->absorb(part);
+    const auto found = Journal::identify(file);
+    if (!found || *found == identity) {
+      if (const auto part = Journal::open(file, identity)) {
+        note_damage(*part);
+        journal->absorb(*part);
+      } else {
+        notes.push_back(file.string() +
+                        " is damaged, and no record of this study can be read from it; what it held is "
+                        "taught again");
       }
     }
-    if (!found) notes.push_back(file.string() + " is damaged beyond help; what it held is taught again");
     Journal::remove(file);
   }
 }
@@ -246,7 +293,7 @@ bool StudyRun::teach(const Atlas& atlas) {
   const auto sink = [&](TeamOutcome outcome) {
     const auto team = outcome.address.team;
     if (outcome.record) {
-      writer.add({team, encode_team(*outcome.record)});
+      writer.add({team, encode_team(*outcome.record, state.journal->key())});
     } else if (!options.keep_going) {
       rethrow(outcome.failure, state.describe(team));
     } else {
@@ -305,15 +352,33 @@ std::optional<StudySummary> StudyRun::publish(RunFacts facts) {
   }
   StudySummarizer summarizer;
   const auto teams = teams_of(study(), *state.journal);
+  const bool may_miss = !facts.missing.empty();
   const TeamSource summed = [&](const std::function<void(const TeamRecord& team)>& visit) {
+    std::size_t count = state.failures.size();
     teams([&](const TeamRecord& team) {
+      ++count;
       summarizer.add(team);
       visit(team);
     });
+    if (count == state.identity.teams || may_miss) return;
+    throw Error{ErrorKind::kMismatch, state.journal->path().string() + " holds " + std::to_string(count) + " of " +
+                                          std::to_string(state.identity.teams) +
+                                          " teams; repeat the command that ran the study"};
   };
   state.folder->publish(study(), summed, facts);
-  close();
+  state.journal->close();
   return summarizer.summary();
+}
+
+void StudyRun::publish_shard(RunFacts facts) {
+  auto& state = *state_;
+  if (state.ranks->rank() != 0) return;
+  for (const auto& failure : state.failures) {
+    facts.failed.push_back(state.describe(failure.team) + ": " + failure.message);
+  }
+  const auto& [index, count] = state.options.shard;
+  state.journal->close();
+  state.folder->publish_shard(study(), std::to_string(index) + "/" + std::to_string(count), num_done(), facts);
 }
 
 void StudyRun::take_up(const Journal& journal) {
@@ -324,12 +389,10 @@ void StudyRun::take_up(const Journal& journal) {
             [](const TeamFailure& a, const TeamFailure& b) { return a.team < b.team; });
 }
 
-void StudyRun::close() { state_->journal->close(); }
-
 TeamSource teams_of(const Study& study, const Journal& journal) {
   return [&study, &journal](const std::function<void(const TeamRecord& team)>& visit) {
     journal.for_each([&](std::size_t team, std::string_view bytes) {
-      const auto record = decode_team(team_address(study, team), bytes);
+      const auto record = decode_team(team_address(study, team), bytes, journal.key());
       if (!record) {
         throw Error{ErrorKind::kIo, "the record of " + describe_team(study, team_address(study, team)) + " in " +
                                         journal.path().string() +

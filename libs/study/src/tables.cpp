@@ -354,6 +354,6 @@ void write_study_tables(const Study& study, const TeamSource& teams, const Table
   tables.flush();
 }
 
-std::string study_codebook(const Study& study) { return codebook(study_tables(study)); }
+std::string study_codebook(const Study& study, const std::string& run) { return codebook(study_tables(study), run); }
 
 }  // namespace kith

@@ -6,21 +6,21 @@
 #include <type_traits>
 
 #include "bytes.hpp"
-#include "kith/study/sha256.hpp"
+#include "kith/files/sha256.hpp"
 
 namespace kith {
 namespace {
 
-constexpr char kVersion = 1;  // of the layout; another layout gets another number
+constexpr char kVersion = 2;  // of the layout; another layout gets another number
 constexpr std::size_t kChecksumSize = 8;
 
-// The first bytes of the SHA-256 of the team's number and the record.
-std::string checksum(std::size_t team, std::string_view record) {
+std::string checksum(std::size_t team, std::string_view content, std::string_view key) {
   ByteWriter number;
   number.count(team);
   Sha256 hash;
+  hash.update(key);
   hash.update(number.bytes());
-  hash.update(record);
+  hash.update(content);
   return std::move(hash).digest().substr(0, kChecksumSize);
 }
 
@@ -198,23 +198,31 @@ class Decoder {
 
 }  // namespace
 
-std::string encode_team(const TeamRecord& record) {
+std::string seal_record(std::size_t team, std::string content, std::string_view key) {
+  content += checksum(team, content, key);
+  return content;
+}
+
+std::optional<std::string_view> unseal_record(std::size_t team, std::string_view bytes, std::string_view key) {
+  if (bytes.size() < kChecksumSize) return std::nullopt;
+  const auto content = bytes.substr(0, bytes.size() - kChecksumSize);
+  if (checksum(team, content, key) != bytes.substr(content.size())) return std::nullopt;
+  return content;
+}
+
+std::string encode_team(const TeamRecord& record, std::string_view key) {
   Encoder encoder;
   encoder.letter(kVersion);
   code(encoder, record);
-  auto bytes = std::move(encoder).take();
-  bytes += checksum(record.address.team, bytes);
-  return bytes;
+  return seal_record(record.address.team, std::move(encoder).take(), key);
 }
 
-bool is_intact(std::size_t team, std::string_view bytes) {
-  if (bytes.size() <= kChecksumSize || bytes.front() != kVersion) return false;
-  const auto record = bytes.substr(0, bytes.size() - kChecksumSize);
-  return checksum(team, record) == bytes.substr(record.size());
+bool is_intact(std::size_t team, std::string_view bytes, std::string_view key) {
+  return !bytes.empty() && bytes.front() == kVersion && unseal_record(team, bytes, key).has_value();
 }
 
-std::optional<TeamRecord> decode_team(const TeamAddress& address, std::string_view bytes) {
-  if (!is_intact(address.team, bytes)) return std::nullopt;
+std::optional<TeamRecord> decode_team(const TeamAddress& address, std::string_view bytes, std::string_view key) {
+  if (!is_intact(address.team, bytes, key)) return std::nullopt;
   Decoder decoder{bytes.substr(1, bytes.size() - 1 - kChecksumSize)};
   TeamRecord record;
   record.address = address;

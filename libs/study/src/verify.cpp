@@ -9,12 +9,14 @@
 #include <tuple>
 
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/published_run.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/random/stream.hpp"
 #include "kith/study/journal.hpp"
-#include "kith/study/sha256.hpp"
 #include "kith/study/study_run.hpp"
 #include "kith/study/team_codec.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "manifest.hpp"
 
 namespace kith {
 namespace {
@@ -31,25 +33,31 @@ std::string hash_of_file(const fs::path& file) {
   return fs::is_regular_file(file, ignored) ? sha256(read_file(file)) : std::string{};
 }
 
-// The files that the manifest names, by their place in the folder, with their hashes; nothing without a manifest.
-std::map<std::string, std::string> named_files(const fs::path& folder, Verification& result) {
-  std::map<std::string, std::string> files;
-  const auto path = folder / "manifest.json";
+// What the manifest says of the run; nothing without one.
+struct Manifest {
+  std::map<std::string, std::string> files;  // hashes by place in the folder
+  bool partial = false;
+};
+
+std::optional<Manifest> read_manifest(const fs::path& folder, const std::string& digest, Verification& result) {
+  const auto path = folder / kManifestFile;
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) return files;  // not finished
-  const auto manifest = Json::parse(read_file(path), nullptr, false);
-  for (const auto* group : {"inputs", "tables"}) {
-    const auto found = manifest.is_object() ? manifest.find(group) : manifest.end();
-    if (!manifest.is_object() || found == manifest.end() || !found->is_object()) {
-      result.mismatches.push_back(
-          mismatch("E0641", path, "this is no manifest of a run", "repeat the command that ran the study"));
-      return {};
-    }
-    for (const auto& [name, hash] : found->items()) {
-      if (hash.is_string()) files[std::string{group} + "/" + name] = hash.get<std::string>();
-    }
+  if (!fs::exists(path, ignored)) return std::nullopt;  // not finished
+  const auto text = read_file(path);
+  if (digest_in_manifest(text) != digest) {
+    result.mismatches.push_back(mismatch("E0641", path,
+                                         "this is not the manifest of the run, or it was changed after it was written",
+                                         "repeat the command that ran the study"));
+    return std::nullopt;
   }
-  return files;
+  const auto document = Json::parse(text);
+  Manifest manifest;
+  manifest.partial = document.contains("missing");
+  for (const auto* group : {"inputs", "tables"}) {
+    for (const auto& [name, hash] : document.at(group).items())
+      manifest.files[std::string{group} + "/" + name] = hash.get<std::string>();
+  }
+  return manifest;
 }
 
 void check_files(const fs::path& folder, const std::map<std::string, std::string>& named, Verification& result) {
@@ -80,6 +88,20 @@ void check_tables(const fs::path& folder, const Study& study, const Journal& jou
   }
 }
 
+// Whether every team of the study, or of the shard, is in the journal or failed.
+void check_complete(const Journal& journal, const Study& study, Verification& result) {
+  auto known = journal.done();
+  for (const auto& failure : journal.progress().failures) known[failure.team - 1] = true;
+  for (const auto team : journal.damaged()) known[team - 1] = true;  // there is a mismatch of its own for it
+  for (std::size_t team = 1; team <= known.size(); ++team) {
+    if (known[team - 1] || !journal.identity().shard.contains(team)) continue;
+    result.mismatches.push_back(
+        mismatch("E0644", journal.path(),
+                 describe_team(study, team_address(study, team)) + " is missing, though the run is said to be finished",
+                 "repeat the command that ran the study"));
+  }
+}
+
 // The teams in the journal, and those of them to teach again: the first of a random order that depends on nothing else.
 std::vector<std::uint32_t> choose(const Journal& journal, double share, const Study& study, Verification& result) {
   std::vector<std::uint32_t> teams;
@@ -87,7 +109,7 @@ std::vector<std::uint32_t> choose(const Journal& journal, double share, const St
     const auto bytes = journal.find(team);
     if (!bytes) continue;
     ++result.teams;
-    if (is_intact(team, *bytes)) {
+    if (is_intact(team, *bytes, journal.key())) {
       teams.push_back(static_cast<std::uint32_t>(team));
     } else {
       result.mismatches.push_back(mismatch(
@@ -109,18 +131,25 @@ std::vector<std::uint32_t> choose(const Journal& journal, double share, const St
 Verification verify_run(const fs::path& folder, const StudyReading& reading, const Atlas& atlas,
                         const VerifyOptions& options) {
   const auto& study = reading.study.value();
-  const auto journal = Journal::read(folder / kJournalFile);
+  auto journal = Journal::read(folder / kJournalFile);
   Verification result;
   result.program = journal.identity().program;
-  if (journal.identity().inputs != freeze(reading)) {
+  const auto inputs = freeze(reading);
+  if (journal.identity().inputs != inputs || journal.identity().teams != num_teams(study)) {
     throw Error{ErrorKind::kIo, folder.string() +
                                     " holds the results of one study and the journal of another, unfinished "
                                     "one; finish that first"};
   }
-  const auto named = named_files(folder, result);
-  check_files(folder, named, result);
+  if (!journal.check()) {
+    result.mismatches.push_back(
+        mismatch("E0643", journal.path(), "the file is damaged", "repeat the command that ran the study"));
+  }
+  const auto manifest = read_manifest(folder, inputs.digest(), result);
+  if (manifest) check_files(folder, manifest->files, result);
+  if (manifest && !manifest->partial) check_complete(journal, study, result);
   const auto teams = choose(journal, options.sample, study, result);
-  if (!named.empty() && result.mismatches.empty()) check_tables(folder, study, journal, named, result);
+  const bool is_shard = journal.identity().shard.count > 1;  // which has no tables
+  if (manifest && !is_shard && result.mismatches.empty()) check_tables(folder, study, journal, manifest->files, result);
 
   std::mutex mutex;
   StreamOptions stream;
@@ -128,7 +157,7 @@ Verification verify_run(const fs::path& folder, const StudyReading& reading, con
   stream.stopped = options.stopped;
   stream_teams(atlas, study, teams, stream, [&](TeamOutcome outcome) {
     const auto team = outcome.address.team;
-    const auto bytes = outcome.record ? encode_team(*outcome.record) : std::string{};
+    const auto bytes = outcome.record ? encode_team(*outcome.record, journal.key()) : std::string{};
     const std::lock_guard lock{mutex};
     ++result.checked;
     if (bytes != journal.find(team)) {

@@ -130,7 +130,9 @@ std::string to_toml(const Study& study, const Domain& domain) {
   root.add_count("seed", spec.seed);
   root.add_count("replicates", spec.replicates);
   root.add("design", design(study));
-  for (const auto& type : spec.learner_types) learners.add(std::string{type.letter}, learner(type, domain));
+  auto types = spec.learner_types;  // their order means nothing, so it is always the same one
+  std::sort(types.begin(), types.end(), [](const LearnerType& a, const LearnerType& b) { return a.letter < b.letter; });
+  for (const auto& type : types) learners.add(std::string{type.letter}, learner(type, domain));
   root.add("learner", learners);
   root.add("teacher", teacher(spec));
   stop.add_count("max_periods", spec.teaching.max_periods);

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "kith/core/error.hpp"
-#include "kith/study/sha256.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/study/tables.hpp"
-#include "kith/table/atomic_file.hpp"
 
 namespace kith {
 namespace {

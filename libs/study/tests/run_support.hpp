@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/study/study_file.hpp"
-#include "kith/table/atomic_file.hpp"
 
 namespace kith::testing {
 

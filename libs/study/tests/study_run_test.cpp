@@ -12,6 +12,8 @@
 
 #include "item_delivery.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/published_run.hpp"
+#include "kith/files/sha256.hpp"
 #include "kith/study/merge.hpp"
 #include "kith/study/team_codec.hpp"
 #include "kith/study/verify.hpp"
@@ -213,6 +215,79 @@ TEST_F(StudyRunTest, StopsIfItsJournalIsBeyondHelp) {
   EXPECT_EQ(run(folder_, never), expected());
 }
 
+TEST_F(StudyRunTest, StartsOverIfItsJournalIsBeyondHelpAndItMayReplace) {
+  run_partly(folder_, 2);
+  std::ofstream{folder_ / kJournalFile} << "no database";
+  auto options = how();
+  options.replace = true;
+  StudyRun run{folder_, quick_study(), options};
+  EXPECT_THAT(run.notes(), ElementsAre(HasSubstr("starts over")));
+  EXPECT_EQ(run.num_resumed(), 0u);
+}
+
+TEST_F(StudyRunTest, NamesTheTeamsThatADamagedJournalLost) {
+  run_partly(folder_, 5);
+  const auto file = folder_ / kJournalFile;
+  const auto record = *Journal::read(file).find(4);
+  auto content = read_file(file);
+  content.replace(content.find(record), record.size(), record.size(), '?');
+  content.replace(0, 100, 100, '?');
+  std::ofstream{file, std::ios::binary} << content;
+  {
+    StudyRun run{folder_, quick_study(), how()};
+    EXPECT_THAT(run.notes(), ElementsAre(AllOf(HasSubstr("4 teams were recovered"), HasSubstr("teams 4, 6"))));
+    EXPECT_EQ(run.num_resumed(), 4u);
+  }
+  EXPECT_EQ(run(folder_), expected());
+}
+
+TEST_F(StudyRunTest, DoesNotPublishIntoAnotherFolderOfTheSameName) {
+  StudyRun run{folder_, quick_study(), how()};
+  ASSERT_TRUE(run.teach(item_delivery()));
+  fs::rename(folder_, scratch_.path() / "moved");
+  fs::create_directory(folder_);
+  EXPECT_EQ(kind_of_failure([&] { (void)run.publish({}); }), ErrorKind::kIo);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+// What ends the publication between any two of its steps leaves the old results or the new ones, never both.
+TEST_F(StudyRunTest, IsPublishedAsAWholeWhateverEndsIt) {
+  struct End : std::exception {};
+  const auto other = [] { return quick_study({"seed=2"}); };
+  const auto whole = scratch_.path() / "other";
+  {
+    StudyRun run{whole, other(), how()};
+    ASSERT_TRUE(run.teach(item_delivery()));
+    (void)run.publish({});
+  }
+  const auto after = tables_in(whole);
+  (void)run(folder_);
+  for (const std::string instant :
+       {"staged", "generation", "inputs", "log.txt", "manifest.json", "tables", "timings.csv", "published"}) {
+    const auto folder = scratch_.path() / instant;
+    fs::copy(folder_, folder, fs::copy_options::recursive);
+    auto options = how();
+    options.replace = true;
+    options.on_instant = [&](const std::string& now) {
+      if (now == instant) throw End{};
+    };
+    {
+      StudyRun run{folder, other(), options};
+      ASSERT_TRUE(run.teach(item_delivery()));
+      EXPECT_THROW((void)run.publish({}), End) << instant;
+    }
+    const auto published = PublishedRun::open(folder);
+    const bool is_new = instant != "staged";
+    EXPECT_EQ(tables_in(folder), is_new ? after : expected()) << instant;
+    EXPECT_EQ(freeze(read_run_folder(folder)), freeze(is_new ? other() : quick_study())) << instant;
+    for (const auto& [name, hash] : published.hashes()) EXPECT_EQ(sha256(published.read(name)), hash) << instant;
+    StudyRun again{folder, other(), how()};
+    EXPECT_EQ(again.num_resumed(), 6u);
+    (void)again.publish({});
+    EXPECT_EQ(tables_in(folder), after) << instant;
+  }
+}
+
 // Learners of type P cannot be drawn, so every team with one of them fails.
 StudyReading failing_study() {
   auto reading = quick_study({"design.compositions=[\"NN\",\"NP\"]"});
@@ -260,14 +335,15 @@ TEST_F(StudyRunTest, MergesShardsInAnyOrder) {
       folders.push_back(scratch_.path() / (std::to_string(index) + "of" + std::to_string(count)));
       StudyRun run{folders.back(), quick_study(), options};
       EXPECT_TRUE(run.teach(item_delivery()));
-      run.close();
+      run.publish_shard({});
     }
     std::reverse(folders.begin(), folders.end());
     std::rotate(folders.begin(), folders.begin() + static_cast<std::ptrdiff_t>(count / 2), folders.end());
     const auto whole = scratch_.path() / ("all" + std::to_string(count));
     {
       StudyRun merged{whole, quick_study(), how()};
-      for (const auto& shard : open_shards(folders, "kith test")) merged.take_up(shard);
+      const auto shards = open_shards(folders, "kith test");
+      for (const auto& shard : shards.journals) merged.take_up(shard);
       (void)merged.publish({});
     }
     EXPECT_EQ(tables_in(whole), expected()) << count;
@@ -288,16 +364,17 @@ class ShardTest : public StudyRunTest {
     options.threads = 1;
     StudyRun run{scratch_.path() / name, quick_study(overrides), options};
     EXPECT_EQ(run.teach(item_delivery()), finish);
-    run.close();
+    if (finish) run.publish_shard({});
     return scratch_.path() / name;
   }
 
-  void expect_refused(const std::vector<fs::path>& folders, const std::string& id) {
+  void expect_refused(const std::vector<fs::path>& folders, const std::string& id,
+                      ErrorKind kind = ErrorKind::kInvalidInput) {
     try {
       (void)open_shards(folders, "kith test");
       ADD_FAILURE() << "not refused: " << id;
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+      EXPECT_EQ(error.kind(), kind);
       ASSERT_FALSE(error.diagnostics().empty());
       EXPECT_EQ(error.diagnostics()[0].id, id) << error.what();
     }
@@ -308,14 +385,78 @@ TEST_F(ShardTest, AreRefusedUnlessTheyFitTogether) {
   const auto first = shard("1", {1, 3});
   const auto second = shard("2", {2, 3});
   const auto third = shard("3", {3, 3});
-  EXPECT_THAT(open_shards(std::vector{third, first, second}, "kith test"), SizeIs(3));
+  EXPECT_THAT(open_shards(std::vector{third, first, second}, "kith test").journals, SizeIs(3));
   expect_refused({first, second, scratch_.path()}, "E0630");
   expect_refused({first, second, shard("seed", {3, 3}, "kith test", {"seed=2"})}, "E0631");
   expect_refused({first, second, shard("program", {3, 3}, "kith other")}, "E0632");
   expect_refused({first, second, shard("parts", {3, 4})}, "E0633");
   expect_refused({first, second, third, second}, "E0634");
-  expect_refused({first, third}, "E0635");
-  expect_refused({first, second, shard("begun", {3, 3}, "kith test", {}, false)}, "E0636");
+  expect_refused({first, third}, "E0635", ErrorKind::kInfeasible);
+  expect_refused({first, second, shard("begun", {3, 3}, "kith test", {}, false)}, "E0636", ErrorKind::kInfeasible);
+}
+
+TEST_F(ShardTest, AreRefusedWithADamagedRecordUnlessToldToLeaveItOut) {
+  const std::vector folders{shard("1", {1, 2}), shard("2", {2, 2})};
+  const auto file = folders[1] / kJournalFile;
+  const auto record = *Journal::read(file).find(4);
+  auto content = read_file(file);
+  const auto at = content.find(record);
+  ASSERT_NE(at, std::string::npos);
+  content[at + record.size() / 2] = static_cast<char>(content[at + record.size() / 2] ^ 1);
+  std::ofstream{file, std::ios::binary} << content;
+  expect_refused(folders, "E0637", ErrorKind::kMismatch);
+  const auto shards = open_shards(folders, "kith test", true);
+  EXPECT_THAT(shards.missing, ElementsAre(AllOf(HasSubstr("shard 2/2"), HasSubstr("team 4"))));
+  StudyRun merged{folder_, quick_study(), how()};
+  for (const auto& one : shards.journals) merged.take_up(one);
+  EXPECT_EQ(kind_of_failure([&] { (void)merged.publish({}); }), ErrorKind::kMismatch);
+  EXPECT_FALSE(fs::exists(folder_ / "tables"));
+  RunFacts facts;
+  facts.missing = shards.missing;
+  (void)merged.publish(facts);
+  const auto run = PublishedRun::open(folder_);
+  EXPECT_EQ(run.missing(), shards.missing);
+  const auto teams = run.read("tables/teams.csv");
+  EXPECT_EQ(std::count(teams.begin(), teams.end(), '\n'), 6);  // the header and five teams
+}
+
+TEST_F(ShardTest, SayWhatIsMissingIfTheyArePutTogetherAllTheSame) {
+  const std::vector folders{shard("1", {1, 3}), shard("3", {3, 3}, "kith test", {}, false)};
+  EXPECT_THAT(open_shards(folders, "kith test", true).missing,
+              ElementsAre("shard 3/3 is not finished: team 6 of 2 are left", "shard 2/3 was not given"));
+}
+
+// The inputs in a shard's folder are those of its journal, whatever was there before.
+TEST_F(ShardTest, ReplaceTheInputsAndTablesOfWhatWasThere) {
+  (void)run(scratch_.path() / "1");
+  const auto other = [] { return quick_study({"design.strategies=[\"common\",\"baseline\"]"}); };
+  auto options = how();
+  options.replace = true;
+  options.shard = {1, 2};
+  {
+    StudyRun run{scratch_.path() / "1", other(), options};
+    EXPECT_TRUE(run.teach(item_delivery()));
+    run.publish_shard({});
+  }
+  EXPECT_EQ(freeze(read_run_folder(scratch_.path() / "1")), freeze(other()));
+  EXPECT_FALSE(fs::exists(scratch_.path() / "1" / "tables"));
+  EXPECT_EQ(kind_of_failure([&] { (void)PublishedRun::open(scratch_.path() / "1"); }), ErrorKind::kInvalidInput);
+}
+
+TEST_F(ShardTest, AreRefusedFromAMachineThatRoundsDifferently) {
+  const std::vector folders{shard("1", {1, 2}), shard("2", {2, 2})};
+  auto elsewhere = *Journal::identify(folders[1] / kJournalFile);
+  elsewhere.arithmetic = "0123456789abcdef";
+  (void)Journal::create(folders[1] / kJournalFile, elsewhere);
+  expect_refused(folders, "E0639");
+}
+
+TEST_F(ShardTest, AreRefusedWithTheManifestOfAnotherStudy) {
+  const std::vector folders{shard("1", {1, 2}), shard("2", {2, 2})};
+  (void)shard("other", {2, 2}, "kith test", {"seed=2"});
+  fs::copy_file(scratch_.path() / "other" / "manifest.json", folders[1] / "manifest.json",
+                fs::copy_options::overwrite_existing);
+  expect_refused(folders, "E0638", ErrorKind::kMismatch);
 }
 
 TEST_F(ShardTest, DoNotMixInOneFolder) {
@@ -447,13 +588,14 @@ TEST_F(VerifyTest, FindsTheSameBytesAgain) {
 }
 
 TEST_F(VerifyTest, NamesATeamThatComesOutDifferently) {
-  auto record = decode_team(team_address(*quick_study().study, 5), *Journal::read(folder_ / kJournalFile).find(5));
+  const auto written = Journal::read(folder_ / kJournalFile);
+  auto record = decode_team(team_address(*quick_study().study, 5), *written.find(5), written.key());
   record->knowledge += 1e-15;
   {
-    auto journal = Journal::open(folder_ / kJournalFile);
-    const JournalEntry entry{5, encode_team(*record)};
-    journal.write(std::span{&entry, 1});
-    journal.close();
+    auto journal = Journal::open(folder_ / kJournalFile, written.identity());
+    const JournalEntry entry{5, encode_team(*record, written.key())};
+    journal->write(std::span{&entry, 1});
+    journal->close();
   }
   const auto result = verify();
   ASSERT_FALSE(result.mismatches.empty());
@@ -470,6 +612,14 @@ TEST_F(VerifyTest, NamesAFileThatWasChanged) {
 TEST_F(VerifyTest, NamesADamagedRecord) {
   change_journal("UPDATE units SET record = x'00' WHERE team = 2");
   EXPECT_THAT(ids(), ElementsAre("E0643"));
+}
+
+TEST_F(VerifyTest, NamesATeamThatIsMissing) {
+  change_journal("DELETE FROM units WHERE team = 2");
+  const auto result = verify();
+  ASSERT_FALSE(result.mismatches.empty());
+  EXPECT_THAT(result.mismatches.back().message, HasSubstr("team 2 (baseline, NP, replicate 2) is missing"));
+  EXPECT_THAT(ids(), ::testing::Contains("E0644"));
 }
 
 TEST_F(VerifyTest, LooksAtUnfinishedRunsToo) {

@@ -4,9 +4,11 @@
 
 namespace kith {
 
-std::string codebook(std::span<const TableDescription> tables) {
+std::string codebook(std::span<const TableDescription> tables, const std::string& run) {
   using Json = nlohmann::ordered_json;
-  Json document{{"schema", "kith.codebook/1"}, {"tables", Json::array()}};
+  Json document{{"schema", "kith.codebook/1"}};
+  if (!run.empty()) document["run"] = run;
+  document["tables"] = Json::array();
   for (const TableDescription& table : tables) {
     Json columns = Json::array();
     for (const Column& column : table.columns) {

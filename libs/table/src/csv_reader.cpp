@@ -12,7 +12,7 @@
 #include "check_columns.hpp"
 #include "csv_records.hpp"
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith {
 namespace {

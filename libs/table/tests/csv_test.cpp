@@ -9,7 +9,7 @@
 #include <random>
 
 #include "kith/core/error.hpp"
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith {
 namespace {

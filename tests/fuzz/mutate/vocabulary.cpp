@@ -4,7 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 namespace kith::fuzzing {
 namespace {

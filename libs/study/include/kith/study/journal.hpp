@@ -26,9 +26,14 @@ struct Shard {
 struct JournalIdentity {
   RunInputs inputs;
   std::string program;    ///< Version and commit: another program may give other bytes.
-  std::size_t teams = 0;  ///< Of the whole study.
+  std::size_t teams = 0;  ///< Of the whole study, at most kMaxTeams.
   Shard shard;
+  std::string arithmetic;  ///< See arithmetic_fingerprint(): another mathematical library may give other bytes.
   friend bool operator==(const JournalIdentity&, const JournalIdentity&) = default;
+
+  /// What the records of its teams are sealed with (team_codec.hpp): 32 bytes that tell the inputs, the program and the
+  /// arithmetic. All shards have the same.
+  [[nodiscard]] std::string key() const;
 };
 
 /// A finished team on its way into a journal.
@@ -56,7 +61,8 @@ struct JournalProgress {
 
 /// The file in a run folder that finished teams are saved in while a study runs (`study.sqlite`): an SQLite database
 /// in WAL mode. What write() has been given is there after a crash of the program at any instant, and of the machine
-/// too; what was not given yet is missing as a whole. Every team has a checksum of its own.
+/// too; what was not given yet is missing as a whole. Every team has a checksum of its own, which also tells whose work
+/// it is.
 ///
 /// All errors are kith::Error (kIo) with the path. Not thread-safe.
 class Journal {
@@ -65,15 +71,24 @@ class Journal {
   [[nodiscard]] static Journal create(const std::filesystem::path& path, const JournalIdentity& identity);
 
   /// One that exists, to go on writing. All teams are checked: the numbers of those that are there but damaged are in
-  /// damaged(), and are not among the teams that are done. If the file itself is damaged, the teams that can still be
-  /// read are copied to a new one, and the old one is kept as `PATH.damaged`.
-  /// @throws kith::Error (kIo) if the file is damaged beyond that.
-  [[nodiscard]] static Journal open(const std::filesystem::path& path);
+  /// damaged(), and are not among the teams that are done. If the file itself is damaged, or a file beside it belongs
+  /// to another journal, every intact record of this identity is copied to a new file, and the old one is kept as
+  /// `PATH.damaged`; this can be ended at any time and is then repeated.
+  /// @return nothing, and nothing is changed, if the file is damaged and holds no record of this identity.
+  /// @throws kith::Error (kUsage) if it is the journal of another identity.
+  [[nodiscard]] static std::optional<Journal> open(const std::filesystem::path& path, const JournalIdentity& identity);
 
-  /// One that exists, to look at, even while another process writes to it. Nothing is checked.
+  /// One that exists, to look at, even while another process writes to it. Nothing is changed.
   [[nodiscard]] static Journal read(const std::filesystem::path& path);
 
-  /// Removes it and the files beside it.
+  /// Whose journal it is; nothing if it cannot be told, or if there is none.
+  /// @throws kith::Error kUsage if it is of another version of kith.
+  [[nodiscard]] static std::optional<JournalIdentity> identify(const std::filesystem::path& path);
+
+  /// Whether there is one, sound or not.
+  [[nodiscard]] static bool exists(const std::filesystem::path& path);
+
+  /// Removes it and the files beside it, but not `PATH.damaged`.
   static void remove(const std::filesystem::path& path);
 
   Journal(Journal&&) noexcept;
@@ -82,12 +97,17 @@ class Journal {
 
   [[nodiscard]] const std::filesystem::path& path() const;
   [[nodiscard]] const JournalIdentity& identity() const;
-  /// Whether the team with number i + 1 is there and intact, at i.
+  /// See JournalIdentity::key().
+  [[nodiscard]] const std::string& key() const;
+  /// Whether the team with number i + 1 is there and intact, at i. For one that was opened to be read, after check().
   [[nodiscard]] const std::vector<bool>& done() const;
   [[nodiscard]] std::size_t num_done() const;
   [[nodiscard]] const std::vector<std::size_t>& damaged() const;
   /// Whether open() had to make a new file.
   [[nodiscard]] bool was_recovered() const;
+
+  /// Finds out which teams are there and intact, as open() does. @return whether the file is sound.
+  [[nodiscard]] bool check();
 
   /// Marks the beginning of a session, for progress().
   void begin_session();
@@ -117,8 +137,5 @@ inline constexpr const char* kRankJournalPrefix = "study.rank-";
 
 /// The version of SQLite.
 [[nodiscard]] std::string journal_library_version();
-
-/// The inputs that the journal at `path` is about; nothing if there is no readable journal.
-[[nodiscard]] std::optional<RunInputs> journal_inputs(const std::filesystem::path& path);
 
 }  // namespace kith

@@ -14,10 +14,13 @@ namespace kith {
 
 /// The teams of a design, as rows of its tables refer to them.
 struct TeamRegister {
-  std::vector<TeamAddress> addresses;   ///< Of all teams in the order of the tables.
+  std::vector<TeamAddress> addresses;   ///< In the order of the tables, which is that of their numbers.
   std::vector<std::string> strategies;  ///< Per team, as files name it.
 };
 [[nodiscard]] TeamRegister register_teams(const Study& study);
+/// Those of them that have a row in teams.csv, for a run that lacks some. @param file  how messages name it.
+/// @throws kith::Error as read_study_table() does.
+[[nodiscard]] TeamRegister register_teams(const Study& study, std::string_view teams_csv, const std::string& file);
 
 /// One row of a table of a run: the team that it belongs to, and the cells that were asked for.
 class StudyRow {
@@ -26,7 +29,7 @@ class StudyRow {
   StudyRow(const std::string& file, const CsvRow& row, std::size_t team, const TeamAddress& address)
       : file_{file}, row_{row}, team_{team}, address_{address} {}
 
-  /// Position of the team among all, from 0: one less than its number.
+  /// Position of the team in the register, from 0: one less than its number if all teams are in it.
   [[nodiscard]] std::size_t team() const noexcept { return team_; }
   [[nodiscard]] const TeamAddress& address() const noexcept { return address_; }
   /// Where the row begins in the file, from 1.

@@ -3,11 +3,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "kith/files/folder_lock.hpp"
+#include "kith/files/generation.hpp"
 #include "kith/study/records.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/tables.hpp"
@@ -25,10 +29,15 @@ struct InputFile {
 /// The frozen inputs of a run: all that its tables follow from, together with the
 /// program. Two runs are of the same study iff these are equal.
 struct RunInputs {
-  std::string study;                  ///< The resolved study file, every key written out; its domain is "domain.toml".
+  std::string study;                  ///< The resolved study file, every key written out, in a fixed order; its domain
+                                      ///< is "domain.toml".
   std::string domain;                 ///< The text of the domain file.
   std::vector<InputFile> files = {};  ///< Those that it names, equal iff their hashes are.
   friend bool operator==(const RunInputs&, const RunInputs&) = default;
+
+  /// SHA-256 of all of it, as 64 hexadecimal digits: the identity of what was asked. It stands in the journal, in every
+  /// record's checksum, in the codebook beside the tables and in the manifest.
+  [[nodiscard]] std::string digest() const;
 };
 /// @pre the reading has a study.
 [[nodiscard]] RunInputs freeze(const StudyReading& reading);
@@ -49,7 +58,8 @@ struct RunFacts {
   std::string stopped;
   std::vector<std::pair<std::string, double>> timings;  ///< Phase and seconds, for timings.csv.
   std::vector<std::string> log;                         ///< Lines of log.txt.
-  std::vector<std::string> failed;                      ///< Teams that are missing in the tables, described.
+  std::vector<std::string> failed;                      ///< Teams that could not be taught, described.
+  std::vector<std::string> missing;                     ///< What is missing for other reasons, in words.
 };
 
 /// The folder that a study's results go to:
@@ -60,12 +70,11 @@ struct RunFacts {
 ///   tables/          teams.csv and the others (tables.hpp), codebook.json
 ///   timings.csv, log.txt
 ///
-/// Results appear complete or not at all: tables are written aside and put in
-/// place in one step. Until publish() nothing that was there changes. The folder is locked
-/// while the object lives. Errors are kith::Error.
+/// Inputs, tables and manifest change together, in one step (Generation). Until publish() nothing that was there
+/// changes. The folder is locked while the object lives. Errors are kith::Error.
 class RunFolder {
  public:
-  /// Makes the folder if there is none, and locks it.
+  /// Makes the folder if there is none, locks it, and finishes a publication that was interrupted.
   /// @param replace  whether it may hold the results of another study, which are then replaced.
   /// @throws kith::Error kIo if it cannot be written, kBusy if another process has locked it, kUsage if it holds
   /// another study's results or is no run folder (unless `replace`).
@@ -78,6 +87,8 @@ class RunFolder {
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   /// Whether results of the same study were there before.
   [[nodiscard]] bool has_results() const noexcept { return has_results_; }
+  /// @throws kith::Error (kIo) unless the folder is still where it was.
+  void require_in_place() const;
 
   /// Writes the inputs now, unless those of another study are there, which stay until publish().
   void freeze_inputs();
@@ -87,23 +98,23 @@ class RunFolder {
   void publish(const Study& study, std::span<const TeamRecord> teams, const RunFacts& facts);
   /// The same for teams that come one by one; none is kept.
   void publish(const Study& study, const TeamSource& teams, const RunFacts& facts);
+  /// Writes the inputs and a manifest that says which shard this is, such as "2/3"; tables that were there are removed.
+  void publish_shard(const Study& study, const std::string& shard, std::size_t num_teams, const RunFacts& facts);
 
   /// From now on `observer` is told where publish() is, by name: for tests that end the program there.
   void watch(std::function<void(const std::string& instant)> observer) { observer_ = std::move(observer); }
 
  private:
-  void lock();
   void check_content(bool replace);
   void reach(const std::string& instant) const;
-  void put_inputs();
-  [[nodiscard]] bool has_files() const;
+  void write_inputs(const std::filesystem::path& folder) const;
+  void commit(Generation& generation, const std::string& manifest, const RunFacts& facts,
+              std::vector<std::string> removed);
 
   std::filesystem::path path_;
-  std::filesystem::path staging_;
   RunInputs inputs_;
-  int descriptor_ = -1;
+  std::optional<FolderLock> lock_;
   bool made_ = false;
-  bool has_inputs_ = false;
   bool has_results_ = false;
   bool published_ = false;
   std::function<void(const std::string& instant)> observer_;
@@ -112,11 +123,13 @@ class RunFolder {
 /// The name of the journal in a run folder.
 inline constexpr const char* kJournalFile = "study.sqlite";
 
-/// Whether a process has locked the folder, as RunFolder does, right now.
-[[nodiscard]] bool is_busy(const std::filesystem::path& folder);
+/// The digest of the inputs that the results in the folder are of (RunInputs::digest()), as its manifest says; nothing
+/// if there is none, or if it is not as it was written.
+[[nodiscard]] std::optional<std::string> published_digest(const std::filesystem::path& folder);
 
-/// The study of a finished run, from its frozen inputs.
-/// @throws kith::Error kIo if the folder is no run folder.
+/// The study of a run, from its frozen inputs, which must be those that its manifest, or its journal if the run is not
+/// finished, is about.
+/// @throws kith::Error kIo if the folder is no run folder, kMismatch if the inputs are not those of the run.
 [[nodiscard]] StudyReading read_run_folder(const std::filesystem::path& path);
 
 }  // namespace kith

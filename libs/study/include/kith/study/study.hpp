@@ -20,6 +20,9 @@ struct Study {
   std::vector<StudySpec> variants;  ///< At least one.
 };
 
+/// The most teams that a study may have.
+inline constexpr std::size_t kMaxTeams = 10'000'000;
+
 /// Teams of the whole study: the numbers of teams are 1 to this.
 [[nodiscard]] std::size_t num_teams(const Study& study);
 /// The address of a team from its number. Teams are numbered by variant, strategy, composition, replicate.

@@ -79,10 +79,12 @@ class StudyRun {
 
   /// Writes the tables from the journal, and sums them up. On ranks other than 0 nothing happens.
   /// @pre teach() returned true, or all teams were taken up; the shard is the whole study.
+  /// @throws kith::Error (kMismatch) if a team is missing that did not fail, unless facts.missing says that some are.
   std::optional<StudySummary> publish(RunFacts facts);
 
-  /// Leaves the journal as one file; for shards, which have no tables of their own.
-  void close();
+  /// For a shard, which has no tables of its own: leaves the journal as one file, and the inputs beside it with a
+  /// manifest that says which shard it is. @pre teach() returned true.
+  void publish_shard(RunFacts facts);
 
  private:
   struct State;

@@ -31,6 +31,7 @@ void write_study_tables(const Study& study, const TeamSource& teams, const Table
 [[nodiscard]] std::vector<TableDescription> study_tables(const Study& study);
 
 /// The document that describes every column of these tables (codebook.json).
-[[nodiscard]] std::string study_codebook(const Study& study);
+/// @param run  the digest of what the study was asked (RunInputs::digest()), so that tables on their own tell it.
+[[nodiscard]] std::string study_codebook(const Study& study, const std::string& run);
 
 }  // namespace kith

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,14 +9,24 @@
 
 namespace kith {
 
-/// The record as bytes, for the journal: the same record always gives the same bytes, on any machine. The team's
-/// address is left out, since its number tells it; the number is part of the checksum at the end.
-[[nodiscard]] std::string encode_team(const TeamRecord& record);
+/// `content` with a checksum behind it: the first bytes of SHA-256 over the key, the team's number and the content. The
+/// key says whose work it is (JournalIdentity::key()), so bytes of another study, program or team are never taken for
+/// it.
+[[nodiscard]] std::string seal_record(std::size_t team, std::string content, std::string_view key);
+
+/// The content, or nothing if the bytes were not sealed for this team with this key.
+[[nodiscard]] std::optional<std::string_view> unseal_record(std::size_t team, std::string_view bytes,
+                                                            std::string_view key);
+
+/// The record as sealed bytes, for the journal: the same record always gives the same bytes, on any machine. The team's
+/// address is left out, since its number tells it.
+[[nodiscard]] std::string encode_team(const TeamRecord& record, std::string_view key);
 
 /// Whether these are the bytes of that team's record, as they were written.
-[[nodiscard]] bool is_intact(std::size_t team, std::string_view bytes);
+[[nodiscard]] bool is_intact(std::size_t team, std::string_view bytes, std::string_view key);
 
 /// The record of the team at `address`, or nothing if the bytes are not an intact record of it.
-[[nodiscard]] std::optional<TeamRecord> decode_team(const TeamAddress& address, std::string_view bytes);
+[[nodiscard]] std::optional<TeamRecord> decode_team(const TeamAddress& address, std::string_view bytes,
+                                                    std::string_view key);
 
 }  // namespace kith

@@ -28,7 +28,7 @@ struct Verification {
   std::string program;  ///< That the journal was written by.
   /// What is not as it should be: a team that, taught again from the frozen inputs, gives other bytes (E0640), a file
   /// that is not the one that the manifest names (E0641), a table that does not follow from the journal (E0642), a
-  /// damaged record (E0643).
+  /// damaged record or journal (E0643), a team that a finished run does not hold (E0644).
   std::vector<Diagnostic> mismatches;
 };
 

@@ -17,8 +17,9 @@ struct TableDescription {
 
 /// The JSON document that describes every column of every table, indented, with
 /// a newline at the end:
-///   {"schema": "kith.codebook/1", "tables": [{"file", "description",
+///   {"schema": "kith.codebook/1", "run": RUN (unless empty), "tables": [{"file", "description",
 ///     "columns": [{"name", "type", "unit" (null if none), "required", "description"}]}]}
-[[nodiscard]] std::string codebook(std::span<const TableDescription> tables);
+/// @param run  what tells the run that the tables are of.
+[[nodiscard]] std::string codebook(std::span<const TableDescription> tables, const std::string& run = {});
 
 }  // namespace kith

@@ -1,4 +1,4 @@
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "kith/table/atomic_file.hpp"
+#include "kith/files/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

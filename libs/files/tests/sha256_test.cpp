@@ -1,4 +1,4 @@
-#include "kith/study/sha256.hpp"
+#include "kith/files/sha256.hpp"
 
 #include <gtest/gtest.h>
 
