@@ -82,6 +82,13 @@ std::size_t number_of(const std::string& text) {
   return error == std::errc{} && rest == end ? value : 0;
 }
 
+// "kith.journal/7"; what is not of this form is damage, not another version.
+bool is_schema(const std::string& text) {
+  const std::string begin{"kith.journal/"};
+  return text.size() > begin.size() && text.compare(0, begin.size(), begin) == 0 &&
+         number_of(text.substr(begin.size())) > 0;
+}
+
 bool makes_sense(const JournalIdentity& identity) {
   const auto& [index, count] = identity.shard;
   return identity.teams >= 1 && identity.teams <= kMaxTeams && index >= 1 && index <= count;
@@ -190,21 +197,22 @@ void make_journal_file(const fs::path& path, const JournalIdentity& identity) {
 }
 
 std::optional<JournalIdentity> read_identity(Database& database) try {
-  const auto schema = meta_value(database, "schema");
-  if (!schema.empty() && schema != kSchema) {
-    throw Error{ErrorKind::kUsage, database.path().string() + " was written by another version of kith (" + schema +
-                                       ", not " + kSchema + "); start the study over with --resume never"};
-  }
   JournalIdentity identity{
       {meta_value(database, "study"), meta_value(database, "domain"), files_from(meta_value(database, "files"))},
       meta_value(database, "program"),
       number_of(meta_value(database, "teams")),
       {number_of(meta_value(database, "shard")), number_of(meta_value(database, "shards"))},
       meta_value(database, "arithmetic")};
-  if (!makes_sense(identity)) return std::nullopt;
+  std::vector<std::string> wrong;
   for (const auto& [key, value] : meta_of(identity)) {
-    if (meta_value(database, key) != value) return std::nullopt;
+    if (meta_value(database, key) != value) wrong.push_back(key);
   }
+  const auto schema = meta_value(database, "schema");
+  if (wrong.size() > 1 && is_schema(schema) && schema != kSchema) {
+    throw Error{ErrorKind::kUsage, database.path().string() + " was written by another version of kith (" + schema +
+                                       ", not " + kSchema + "); start the study over with --resume never"};
+  }
+  if (!wrong.empty() || !makes_sense(identity)) return std::nullopt;
   return identity;
 } catch (const SqliteError& error) {
   if (error.damaged()) return std::nullopt;

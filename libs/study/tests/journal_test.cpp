@@ -367,9 +367,18 @@ TEST_F(JournalTest, IsNothingIfNoRecordCanBeRead) {
     EXPECT_EQ(bytes(), content);  // it is left as it is
     EXPECT_EQ(Journal::identify(file_), std::nullopt);
   }
+}
+
+TEST_F(JournalTest, IsOfAnotherVersionOnlyIfMoreThanItsSchemaIsDifferent) {
+  write_forty();
+  execute(file_, "UPDATE meta SET value = 'kith.journal/3' WHERE key = 'schema'");  // a flipped bit
+  EXPECT_EQ(opened(identity(40)).num_done(), 40u);
+  write_forty();
+  execute(file_, "UPDATE meta SET value = 'kith.jour' WHERE key = 'schema'");
+  EXPECT_EQ(opened(identity(40)).num_done(), 40u);
   (void)Journal::create(file_, identity());
-  execute(file_, "UPDATE meta SET value = 'kith.journal/9' WHERE key = 'schema'");
-  EXPECT_THAT(message_of([&] { (void)opened(); }, ErrorKind::kUsage), HasSubstr("kith.journal/9"));
+  execute(file_, "UPDATE meta SET value = 'kith.journal/1' WHERE key = 'schema'; DELETE FROM meta WHERE key = 'run'");
+  EXPECT_THAT(message_of([&] { (void)opened(); }, ErrorKind::kUsage), HasSubstr("kith.journal/1"));
 }
 
 TEST_F(JournalTest, IsNotWaitedForIfItIsNoRegularFile) {
