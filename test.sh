@@ -10,18 +10,24 @@ usage: ./test.sh             what has to pass before anything is merged:
                              all tests in build/release, and the tests of the
                              layers up to learners under ASan and UBSan in build/asan
        ./test.sh --quick     the same without the sanitizers
-       ./test.sh --nightly   also every header alone, the slow tests, all libraries
-                             under ASan and UBSan,
-                             ThreadSanitizer over the study layer, clang-tidy, the benchmarks built, and every
-                             fuzz target for 10 million executions, at most an
-                             hour each
+       ./test.sh --nightly [FUZZING]
+                             also the slow tests, every header alone, all layers
+                             under ASan and UBSan, the study layer under
+                             ThreadSanitizer, clang-tidy, the benchmarks built,
+                             and every fuzz target: FUZZING minutes (12) in all.
+                             About 90 minutes on two cores; ends with what took
+                             how long
 
 Installs missing Debian packages first, as ./run.sh does. To run a part of the
 tests again: ctest --preset release -R Cone
 TEXT
 }
 
-mode=${1:-normal}
+mode=${1:-normal} fuzzing=${2:-12}
+case $mode in
+  normal | --quick) [[ $# -le 1 ]] || mode=wrong ;;
+  --nightly) [[ $# -le 2 && $fuzzing =~ ^[1-9][0-9]*$ ]] || mode=wrong ;;
+esac
 case $mode in
   normal | --quick | --nightly) ;;
   -h | --help)
@@ -45,34 +51,59 @@ run_tests() {
   ctest --preset "$1" -j "$jobs" "${@:2}" || die "tests in build/$1 failed (again: ctest --preset $1 --rerun-failed)"
 }
 
-everything=(all)
-if [[ $mode == --nightly ]]; then everything+=(all_verify_interface_header_sets); fi
-configure_and_build release -DKITH_BUILD_TESTS=ON -- "${everything[@]}"
-# Where pointers and indices are handled; studies and what is made of them take most of the time and are left to the night.
+# Where pointers and indices are handled; studies and what is made of them take most of the time and are left to the
+# night.
 sanitized=(core files random toml geometry mdp domains bec belief teaching learners table explain)
-case $mode in
-  normal)
+
+if [[ $mode != --nightly ]]; then
+  configure_and_build release -DKITH_BUILD_TESTS=ON -- all
+  if [[ $mode == normal ]]; then
     targets=("${sanitized[@]/#/kith_}")
     configure_and_build asan -- "${targets[@]/%/_tests}"
     run_tests asan -L "^($(IFS='|' && printf '%s' "${sanitized[*]}"))\$"
-    ;;
-  --nightly)
-    configure_and_build asan -- all
-    run_tests asan
-    ;;
-esac
-if [[ $mode == --nightly ]]; then
-  configure_and_build tsan -- kith_study_tests
-  run_tests tsan
-  configure_and_build tidy -- all
-  configure_and_build bench -- all
-  configure_and_build fuzz -- all
-  say
-  say "== fuzzing with build/fuzz"
-  tests/fuzz/run.sh -j "$jobs" >&2 || die "fuzzing found something: see build/fuzz/findings and build/fuzz/logs"
+  fi
+  # Last, so that the log ends with the summary of the whole suite.
+  run_tests release
+  exit
+fi
+
+# The night: what most likely fails first, what takes long last, nothing twice.
+parts=''
+part() {  # NAME COMMAND...
+  local name=$1 start=$SECONDS
+  shift
+  "$@"
+  parts+=$(printf '%6d min %02d s  %s' $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) "$name")$'\n'
+}
+slow_tests() {
   say
   say "== slow tests in build/release"
   ctest --test-dir build/release -L '^slow$' --output-on-failure -j "$jobs" || die "slow tests failed"
-fi
-# Last, so that the log ends with the summary of the whole suite.
-run_tests release
+}
+fuzz() {
+  say
+  say "== fuzzing with build/fuzz for $fuzzing minutes"
+  tests/fuzz/run.sh -s $((60 * fuzzing)) -j "$jobs" >&2 ||
+    die "fuzzing found something: see build/fuzz/findings and build/fuzz/logs"
+}
+# The benchmarks are built with the libraries of the release; the corpora are replayed by the fuzz targets themselves.
+sanitized_tests() { run_tests asan -LE '^(slow|fuzz|fuzzing)$'; }
+layers=(libs/*/tests)
+layers=("${layers[@]#libs/}")
+layers=("${layers[@]%/tests}")
+all_tests=("${layers[@]/#/kith_}")
+
+part "release: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_BUILD_BENCHMARKS=ON -- all
+part "release: tests" run_tests release
+part "headers alone" configure_and_build release -- all_verify_interface_header_sets
+part "ASan: build" configure_and_build asan -- "${all_tests[@]/%/_tests}"
+part "ASan: tests" sanitized_tests
+part "TSan: build" configure_and_build tsan -- kith_study_tests
+part "TSan: tests" run_tests tsan
+part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers
+part "fuzzing" fuzz
+part "slow tests" slow_tests
+part "clang-tidy" configure_and_build tidy -- all
+say
+say "All passed:"
+printf '%s' "$parts" >&2

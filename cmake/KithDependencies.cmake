@@ -1,7 +1,6 @@
 # Everything kith needs from outside, all of it packaged in Debian 12; why each
 # was chosen: docs/adr/0008-dependencies.md. `./run.sh --setup` installs them.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(TBB REQUIRED)
 find_package(Boost 1.74 REQUIRED) # headers only: Boost.Math
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)

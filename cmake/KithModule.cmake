@@ -43,6 +43,7 @@ function(kith_module name)
   file(GLOB benches CONFIGURE_DEPENDS bench/*_bench.cpp)
   if(KITH_BUILD_BENCHMARKS AND benches)
     add_executable(kith_${name}_bench ${benches})
+    set_target_properties(kith_${name}_bench PROPERTIES UNITY_BUILD OFF)
     target_link_libraries(kith_${name}_bench PRIVATE
       kith::${name} kith_build benchmark::benchmark_main ${arg_TEST_DEPENDS})
     target_include_directories(kith_${name}_bench PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/include)

@@ -7,12 +7,12 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 
 packages_to_build=(
   g++ cmake ninja-build
-  libeigen3-dev librandom123-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
+  libeigen3-dev librandom123-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcsv-dev
   libssl-dev libsqlite3-dev libboost-math-dev
   nodejs npm
 )
 packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
-packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev libbenchmark-dev)
+packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev)
 
 # is_installed NAME: as a package; or, where people often have another source than Debian, as a command.
 is_installed() {

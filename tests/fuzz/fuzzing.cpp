@@ -34,15 +34,30 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.ends_with('\r') ? text.substr(0, text.size() - 1) : text;
 }
 
+// The text of a diagnostic is made only where a claim does not hold: there are many, and it takes long.
+void require(bool holds, std::string_view claim, const Diagnostic& diagnostic) {
+  if (!holds) fuzzing::require(false, claim, to_text(diagnostic));
+}
+
 void require_place(const Diagnostic& d, std::string_view text) {
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
-  require(d.line <= lines, "a diagnostic's line exists", to_text(d));
-  require((d.line == 0) == (d.column == 0), "a diagnostic has line and column, or neither", to_text(d));
+  require(d.line <= lines, "a diagnostic's line exists", d);
+  require((d.line == 0) == (d.column == 0), "a diagnostic has line and column, or neither", d);
   const auto line = d.line > 0 ? line_of(text, d.line) : std::string_view{};
-  require(d.column <= line.size() + 1, "a diagnostic's column is in its line or right behind it", to_text(d));
+  require(d.column <= line.size() + 1, "a diagnostic's column is in its line or right behind it", d);
 }
 
 }  // namespace
+
+HeadAndBody behind_bytes(std::string_view input, std::size_t bytes) {
+  return {input.substr(0, bytes), input.substr(std::min(bytes, input.size()))};
+}
+
+HeadAndBody behind_lines(std::string_view input, std::size_t lines) {
+  std::size_t at = 0;
+  for (; lines > 0 && at < input.size(); --lines) at = std::min(input.size(), input.find('\n', at)) + 1;
+  return behind_bytes(input, at);
+}
 
 void require(bool holds, std::string_view claim, std::string_view detail) {
   if (holds) return;
@@ -53,22 +68,22 @@ void require(bool holds, std::string_view claim, std::string_view detail) {
 void require_good(const std::vector<Diagnostic>& diagnostics, std::string_view text, const std::string& file) {
   static const auto kIds = documented_ids();
   for (const auto& d : diagnostics) {
-    require(kIds.contains(d.id), "a diagnostic's id is documented", to_text(d));
-    require(!d.message.empty() && d.length >= 1, "a diagnostic says something", to_text(d));
-    require(!d.file.empty(), "a diagnostic names its file", to_text(d));
+    require(kIds.contains(d.id), "a diagnostic's id is documented", d);
+    require(!d.message.empty() && d.length >= 1, "a diagnostic says something", d);
+    require(!d.file.empty(), "a diagnostic names its file", d);
     if (d.file == file) require_place(d, text);
   }
 }
 
-bool reads(std::string_view text, const std::string& file, const std::function<void()>& read) {
+Outcome reads(std::string_view text, const std::string& file, const std::function<void()>& read) {
   try {
     read();
-    return true;
+    return Outcome::kRead;
   } catch (const Error& error) {
     require(*error.what() != '\0', "an error says something");
     require(error.diagnostics().empty() || has_errors(error.diagnostics()), "what stops is an error", error.what());
     require_good(error.diagnostics(), text, file);
-    return false;
+    return error.diagnostics().empty() ? Outcome::kRefused : outcome_of(error.diagnostics());
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the fuzz targets share. A target is a function of any bytes, LLVMFuzzerTestOneInput; it is driven by libFuzzer,
-// or by replay.cpp over the files of its corpus.
+// What the fuzz targets share. A target is a function of any bytes, LLVMFuzzerTestOneInput, and says how its inputs are
+// mutated; it is driven by libFuzzer (libfuzzer.cpp), or by replay.cpp over the files of its corpus.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +12,25 @@
 #include <vector>
 
 #include "kith/core/diagnostic.hpp"
+#include "mutate/mutate.hpp"
+#include "outcomes.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace kith::fuzzing {
+
+/// The input with a change that leaves it well-formed, mostly. Every target defines it.
+[[nodiscard]] std::string mutated(std::string_view input, Dice& dice);
+/// The input with a part of another. Every target defines it.
+[[nodiscard]] std::string crossed(std::string_view input, std::string_view other, Dice& dice);
+
+/// An input's first lines or bytes, which say what the rest is about, and the rest.
+struct HeadAndBody {
+  std::string_view head;
+  std::string_view body;
+};
+[[nodiscard]] HeadAndBody behind_bytes(std::string_view input, std::size_t bytes);
+[[nodiscard]] HeadAndBody behind_lines(std::string_view input, std::size_t lines);
 
 /// Ends the program if the claim does not hold.
 void require(bool holds, std::string_view claim, std::string_view detail = {});
@@ -25,8 +40,8 @@ void require(bool holds, std::string_view claim, std::string_view detail = {});
 /// could be checked.
 void require_good(const std::vector<Diagnostic>& diagnostics, std::string_view text, const std::string& file);
 
-/// Runs `read`; a kith::Error must carry good diagnostics or at least say something. Returns whether there was none.
-bool reads(std::string_view text, const std::string& file, const std::function<void()>& read);
+/// Runs `read`; a kith::Error must carry good diagnostics or at least say something.
+Outcome reads(std::string_view text, const std::string& file, const std::function<void()>& read);
 
 /// Numbers made from the bytes of an input; zeros once they are used up.
 class Bytes {

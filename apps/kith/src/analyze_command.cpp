@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -9,6 +10,8 @@
 #include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
+#include "kith/table/table_text.hpp"
+#include "work_notice.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -30,8 +33,8 @@ AnalysisOptions analysis_options(const AnalyzeOptions& options) {
 Dataset dataset_of(const AnalyzeOptions& options) {
   namespace fs = std::filesystem;
   if (options.input == "-") {
-    const auto input = read_standard_input();
-    return Dataset::parse(input.text, input.name);
+    const std::string name = "<stdin>";
+    return Dataset::parse(read_table_text(std::cin, name), name);
   }
   std::error_code failure;
   if (!fs::is_directory(options.input, failure)) return Dataset::read(options.input);
@@ -130,6 +133,7 @@ Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
 }  // namespace
 
 int run_analyze(const AnalyzeOptions& options, Console& console) {
+  const WorkNotice notice{console, "analysing " + options.input};
   const auto analysis = analysis_of(options);
   if (console.json()) {
     console.print_json(analysis_json(analysis, options));

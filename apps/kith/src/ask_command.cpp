@@ -10,6 +10,7 @@
 #include "kith/explain/words.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
+#include "work_notice.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -49,6 +50,7 @@ std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& co
 }  // namespace
 
 int run_ask(const AskOptions& options, Console& console) {
+  const WorkNotice notice{console, "looking through " + options.domain};
   const Atlas atlas{load_domain(options.domain)};
   std::string question;
   for (const auto& word : options.question) question += (question.empty() ? "" : " ") + word;

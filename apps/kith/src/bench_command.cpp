@@ -4,8 +4,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <string_view>
 
 #include "bench_report.hpp"
@@ -16,17 +16,20 @@
 #include "kith/files/atomic_file.hpp"
 #include "kith_build_info.hpp"
 #include "machine.hpp"
+#include "name_pattern.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {
 namespace {
 
+// Regular expressions can take for ever; names are short, and few.
 std::function<bool(const std::string&)> selector(const std::string& filter) {
-  try {
-    return [pattern = std::regex{filter}](const std::string& name) { return std::regex_search(name, pattern); };
-  } catch (const std::regex_error&) {
-    throw Error{ErrorKind::kUsage, "--filter must be a regular expression, not '" + filter + "'"};
+  constexpr std::size_t kLongest = 1000;
+  if (filter.size() > kLongest) {
+    throw Error{ErrorKind::kUsage,
+                fmt::format("--filter has {} characters; at most {} are read", filter.size(), kLongest)};
   }
+  return [filter](const std::string& name) { return matches_somewhere(filter, name); };
 }
 
 void check_selection(const BenchOptions& options, const std::function<bool(const std::string&)>& selects) {

@@ -17,6 +17,7 @@
 #include "kith/planning/calibration.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
+#include "work_notice.hpp"
 
 namespace kith::cli {
 namespace {
@@ -263,10 +264,12 @@ std::string study_file(const CalibrateOptions& options, const StudyText& source,
   auto reading = source.read(overrides_of(set.parameters, result.best.values));
   for (auto& spec : reading.study->variants) {
     const auto domain = source.folder() / spec.domain;
-    if (spec.domain.find('.') != std::string::npos && std::filesystem::exists(domain)) {
-      const auto folder = std::filesystem::absolute(options.out).parent_path();
-      spec.domain = std::filesystem::proximate(std::filesystem::absolute(domain), folder).string();
-    }
+    std::error_code failure;
+    if (spec.domain.find('.') == std::string::npos || !std::filesystem::exists(domain, failure)) continue;
+    const auto folder = std::filesystem::absolute(options.out, failure).parent_path();
+    const auto path = std::filesystem::absolute(domain, failure);
+    const auto seen_from_there = std::filesystem::proximate(path, folder, failure);
+    spec.domain = failure ? path.string() : seen_from_there.string();
   }
   return commented(fmt::format("{} with parameters calibrated to {} (seed {}, {} simulated teams).\n\n", options.study,
                                options.targets, options.seed.value_or(1), result.teams_simulated)) +
@@ -320,7 +323,10 @@ int run_calibrate(const CalibrateOptions& options, Console& console) {
   }
 
   watch_signals();
-  const Atlas atlas{*reading.domain};
+  const auto atlas = [&] {
+    const WorkNotice notice{console, "planning the domain"};
+    return Atlas{*reading.domain};
+  }();
   require_something_to_teach(atlas);
   Progress progress{options.progress, console};
   auto search = search_options(options);

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "kith/core/error.hpp"
+#include "kith/core/printable.hpp"
 
 namespace kith::cli {
 namespace {
@@ -18,18 +19,16 @@ bool terminal(int fd) {
   return isatty(fd) == 1 && term != nullptr && std::strcmp(term, "dumb") != 0;
 }
 
-// Log lines are best effort: where there is no standard error there is nobody to tell.
-void write_log(const std::string& text) {
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const auto n = ::write(STDERR_FILENO, text.data() + written, text.size() - written);
+}  // namespace
+
+void write_log(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const auto n = ::write(STDERR_FILENO, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return;
-    written += static_cast<std::size_t>(n);
+    text.remove_prefix(static_cast<std::size_t>(n));
   }
 }
-
-}  // namespace
 
 bool wants_color(int fd, ColorMode mode) {
   if (mode != ColorMode::kAuto) return mode == ColorMode::kAlways;
@@ -40,10 +39,19 @@ bool wants_color(int fd, ColorMode mode) {
 Console::Console(const CommonOptions& options)
     : options_{options},
       result_has_color_{wants_color(STDOUT_FILENO, options.color)},
+      result_is_terminal_{isatty(STDOUT_FILENO) == 1},
       log_has_color_{wants_color(STDERR_FILENO, options.color)},
       log_is_terminal_{terminal(STDERR_FILENO)} {}
 
 void Console::print(std::string_view text) {
+  if (result_is_terminal_) {
+    write_result(printable(text, Keep::kTextColors));
+  } else {
+    write_result(text);
+  }
+}
+
+void Console::write_result(std::string_view text) {
   while (!text.empty()) {
     const auto n = ::write(STDOUT_FILENO, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
@@ -56,7 +64,7 @@ void Console::print(std::string_view text) {
 void Console::log(std::string_view level, std::string_view text) {
   std::string line{"kith: "};
   if (!level.empty()) line.append(level).append(": ");
-  write_log(line.append(text).append("\n"));
+  write_log(line.append(printable(text)).append("\n"));
 }
 
 void Console::info(std::string_view text) {

@@ -15,12 +15,13 @@ namespace kith::cli {
 class BrokenPipe : public std::exception {};
 
 /// The two places that commands write to: results to standard output, everything
-/// else to standard error, as `kith: LEVEL: TEXT`.
+/// else to standard error, as `kith: LEVEL: TEXT` with control characters escaped.
 class Console {
  public:
   explicit Console(const CommonOptions& options);
 
-  /// Writes a result. @throws BrokenPipe, or kith::Error (kIo) if it cannot be written.
+  /// Writes a result: to a terminal with control characters escaped, which may come from files; else as it is. @throws
+  /// BrokenPipe, or kith::Error (kIo) if it cannot be written.
   void print(std::string_view text);
   /// Writes one JSON document, indented, with a line break at the end.
   void print_json(const nlohmann::ordered_json& document);
@@ -41,14 +42,19 @@ class Console {
   [[nodiscard]] std::string dim(std::string_view text) const { return styled(text, "2"); }
 
  private:
+  static void write_result(std::string_view text);
   [[nodiscard]] std::string styled(std::string_view text, std::string_view code) const;
   void log(std::string_view level, std::string_view text);
 
   CommonOptions options_;
   bool result_has_color_ = false;
+  bool result_is_terminal_ = false;
   bool log_has_color_ = false;
   bool log_is_terminal_ = false;
 };
+
+/// Writes to standard error as far as that can be done: where there is none, or it is full, there is nobody to tell.
+void write_log(std::string_view text) noexcept;
 
 /// Whether file descriptor `fd` should get colours: NO_COLOR, TERM and --color decide.
 [[nodiscard]] bool wants_color(int fd, ColorMode mode);

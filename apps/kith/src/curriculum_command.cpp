@@ -5,6 +5,7 @@
 #include "board_json.hpp"
 #include "build_facts.hpp"
 #include "commands.hpp"
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
@@ -14,6 +15,7 @@
 #include "legend.hpp"
 #include "lesson_page.hpp"
 #include "picture.hpp"
+#include "work_notice.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -156,7 +158,10 @@ void write_page(const std::string& out, const Json& document, Console& console) 
 }  // namespace
 
 int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
-  const Atlas atlas{load_domain(options.domain)};
+  const WorkNotice notice{console, "choosing what to teach about " + options.domain};
+  auto domain = load_domain(options.domain);
+  require_teaching_memory(domain);
+  const Atlas atlas{std::move(domain)};
   CurriculumOptions how;
   how.seed = options.seed;
   const auto curriculum = make_curriculum(atlas, how);

@@ -16,6 +16,7 @@
 #include "kith/files/atomic_file.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
+#include "work_notice.hpp"
 #include "wrapped.hpp"
 
 namespace kith::cli {
@@ -151,6 +152,7 @@ Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose
 }  // namespace
 
 int run_find(const FindOptions& options, Console& console) {
+  const WorkNotice notice{console, "looking through " + options.domain};
   const Atlas atlas{load_domain(options.domain)};
   std::string wanted;
   for (const auto& word : options.constraint) wanted += (wanted.empty() ? "" : " ") + word;

@@ -48,7 +48,7 @@ std::string usage_line(const CommandDescription& command) {
 
 constexpr const char* kExitCodes =
     "exit codes:\n"
-    "  0 success                          5 input or output failed (disk full, permission)\n"
+    "  0 success                          5 input or output failed, or out of memory\n"
     "  1 internal error                   6 finished, but some teams failed\n"
     "  2 wrong command line               7 verification mismatch\n"
     "  3 invalid input file               8 another process uses this folder\n"

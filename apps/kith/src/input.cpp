@@ -1,10 +1,12 @@
 #include "input.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iostream>
-#include <iterator>
 
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -21,16 +23,24 @@ std::string text_of(std::istream& stream, const std::string& name) {
   return text;
 }
 
-}  // namespace
-
-InputText read_standard_input() {
-  std::string text{std::istreambuf_iterator<char>{std::cin}, {}};
-  if (std::cin.bad()) throw Error{ErrorKind::kIo, "cannot read standard input"};
-  return {"<stdin>", std::move(text), {}};
+// Up to so many bytes of standard input. Not by std::cin, which takes an error for the end.
+std::string standard_input(std::size_t most) {
+  std::string text;
+  std::array<char, 64 * 1024> piece;
+  while (text.size() < most) {
+    const auto count = ::read(STDIN_FILENO, piece.data(), std::min(piece.size(), most - text.size()));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw Error{ErrorKind::kIo, std::string{"cannot read standard input: "} + std::strerror(errno)};
+    if (count == 0) break;
+    text.append(piece.data(), static_cast<std::size_t>(count));
+  }
+  return text;
 }
 
+}  // namespace
+
 InputText read_input(const std::string& file) {
-  if (file == "-") return {"<stdin>", text_of(std::cin, "standard input"), {}};
+  if (file == "-") return {"<stdin>", standard_input(kMaxTomlBytes + 1), {}};
   std::error_code failure;
   if (std::filesystem::is_directory(file, failure))
     throw Error{ErrorKind::kIo, "cannot read " + file + ": it is a folder"};

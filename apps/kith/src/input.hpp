@@ -22,9 +22,6 @@ struct InputText {
 /// The same, or the text of the domain or study of this name that comes with kith.
 [[nodiscard]] InputText read_named(const std::string& name_or_file);
 
-/// All of standard input.
-[[nodiscard]] InputText read_standard_input();
-
 /// The study of a built-in name, a file or "-", with its overrides; warnings are
 /// returned, errors thrown.
 [[nodiscard]] StudyReading study_of(const std::string& name, const std::vector<std::string>& overrides);

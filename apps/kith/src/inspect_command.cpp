@@ -11,6 +11,7 @@
 #include "kith/explain/words.hpp"
 #include "legend.hpp"
 #include "picture.hpp"
+#include "work_notice.hpp"
 
 namespace kith::cli {
 namespace {
@@ -199,6 +200,7 @@ int inspect_without_atlas(const Domain& domain, const InspectOptions& options, C
 }  // namespace
 
 int run_inspect(const InspectOptions& options, Console& console) {
+  const WorkNotice notice{console, "planning " + options.domain};
   auto domain = load_domain(options.domain);
   if (domain.num_features() < 2) return inspect_without_atlas(domain, options, console);
   const Atlas atlas{std::move(domain)};

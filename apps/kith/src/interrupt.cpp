@@ -1,13 +1,54 @@
 #include "interrupt.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <ctime>
+#include <string_view>
 
 namespace kith::cli {
 namespace {
 
-volatile std::sig_atomic_t received = 0;
+// Time for an orderly end: people and schedulers expect an answer within a second.
+constexpr long kPatienceNanoseconds = 800'000'000;
+constexpr std::string_view kFarewell =
+    "kith: warning: interrupted in the middle of a long step; what was saved before is kept\n";
 
-extern "C" void on_signal(int number) { received = number; }
+volatile std::sig_atomic_t received = 0;
+timer_t patience = {};
+volatile std::sig_atomic_t has_timer = 0;
+
+// What follows is called by handlers: only what POSIX calls async-signal-safe.
+
+extern "C" void on_signal(int number) {
+  received = number;
+  if (has_timer == 0) return;
+  itimerspec once = {};
+  once.it_value.tv_nsec = kPatienceNanoseconds;
+  timer_settime(patience, 0, &once, nullptr);
+}
+
+extern "C" void on_end_of_patience(int) {
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, kFarewell.data(), kFarewell.size());
+  _exit(128 + received);
+}
+
+// Without a timer, of which a user can have only so many, the program still stops, only later.
+bool make_timer() {
+  sigevent event = {};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = SIGALRM;
+  if (timer_create(CLOCK_MONOTONIC, &event, &patience) != 0) return false;
+  struct sigaction action = {};
+  action.sa_handler = on_end_of_patience;
+  sigemptyset(&action.sa_mask);
+  return sigaction(SIGALRM, &action, nullptr) == 0;
+}
+
+bool is_ignored(int number) {
+  struct sigaction action = {};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
 
 }  // namespace
 
@@ -19,13 +60,14 @@ void ignore_broken_pipes() {
 }
 
 void watch_signals() {
+  if (has_timer == 0 && make_timer()) has_timer = 1;
   struct sigaction action = {};
   action.sa_handler = on_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGHUP, &action, nullptr);
+  if (!is_ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
 }
 
 int stop_signal() noexcept { return received; }

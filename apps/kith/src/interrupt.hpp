@@ -5,7 +5,10 @@ namespace kith::cli {
 /// From now on a reader that went away, or a file that may not grow, is an error of write(), not the end.
 void ignore_broken_pipes();
 
-/// From now on SIGINT, SIGTERM and SIGHUP only set a flag; a second one ends the program at once.
+/// From now on SIGINT, SIGTERM and SIGHUP set a flag, and the command comes to an orderly end of its own. One that has
+/// not done so 0.8 seconds later, because a single step takes long, is ended with exit code 128 + signal: whatever kith
+/// writes is replaced as a whole or can be gone on with, so nothing is lost but unsaved work. A second signal ends the
+/// program at once. SIGHUP stays ignored where it was, as under nohup.
 void watch_signals();
 
 /// The signal that asked us to stop, or 0.

@@ -1,9 +1,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "command_line.hpp"
@@ -11,6 +14,7 @@
 #include "interrupt.hpp"
 #include "json.hpp"
 #include "kith/core/error.hpp"
+#include "standard_streams.hpp"
 
 namespace kith::cli {
 namespace {
@@ -88,19 +92,13 @@ const char* name_of(ErrorKind kind) {
 }
 
 // Without a file or a line, the program itself is the place.
-int report(Console& console, std::vector<Diagnostic> diagnostics, int code) {
-  if (console.json()) {
-    console.print_json(error_document(diagnostics));
-  } else {
-    for (auto& diagnostic : diagnostics) {
-      if (diagnostic.file.empty()) {
-        diagnostic.file = "kith";
-        diagnostic.id.clear();
-      }
-    }
-    console.show(diagnostics);
+void show(Console& console, std::vector<Diagnostic> diagnostics) {
+  for (auto& diagnostic : diagnostics) {
+    if (!diagnostic.file.empty()) continue;
+    diagnostic.file = "kith";
+    diagnostic.id.clear();
   }
-  return code;
+  console.show(diagnostics);
 }
 
 Diagnostic diagnostic_of(std::string id, std::string message, std::string hint = {}) {
@@ -109,6 +107,43 @@ Diagnostic diagnostic_of(std::string id, std::string message, std::string hint =
   diagnostic.message = std::move(message);
   diagnostic.hint = std::move(hint);
   return diagnostic;
+}
+
+// Where the document cannot be written, its errors are shown as text, and then the reason: scripts and people both
+// learn that there is no document, and why.
+int report(Console& console, std::vector<Diagnostic> diagnostics, int code) try {
+  if (!console.json()) {
+    show(console, std::move(diagnostics));
+    return code;
+  }
+  console.print_json(error_document(diagnostics));
+  return code;
+} catch (const BrokenPipe&) {
+  return kBrokenPipeCode;
+} catch (const Error& unwritable) {
+  const bool is_known = diagnostics.size() == 1 && diagnostics.front().message == unwritable.what();
+  if (!is_known) diagnostics.push_back(diagnostic_of(name_of(unwritable.kind()), unwritable.what()));
+  show(console, std::move(diagnostics));
+  return unwritable.exit_code();
+}
+
+// Takes no memory of its own.
+int report_out_of_memory(Console& console) {
+  constexpr std::string_view kDocument =
+      "{\"schema\": \"kith.error/1\", \"errors\": [{\"id\": \"memory\", \"message\": \"out of memory\", "
+      "\"file\": null, \"line\": null, \"column\": null, \"hint\": \"use fewer threads (-j), a smaller domain or fewer "
+      "teams, or give the program more memory\"}]}\n";
+  write_log(
+      "kith: error: out of memory\n"
+      "   = help: use fewer threads (-j), a smaller domain or fewer teams, or give the program more memory\n");
+  if (console.json()) console.print(kDocument);
+  return static_cast<int>(ErrorKind::kIo);
+}
+
+int report(Console& console, const std::filesystem::filesystem_error& error) {
+  const auto path = error.path1().empty() ? std::string{"a file"} : error.path1().string();
+  const auto message = "cannot access " + path + ": " + error.code().message();
+  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), message)}, static_cast<int>(ErrorKind::kIo));
 }
 
 int report(Console& console, const UsageError& error) {
@@ -140,7 +175,11 @@ int guarded(const std::vector<std::string>& arguments, Console& console) try {
 } catch (const BrokenPipe&) {
   return kBrokenPipeCode;
 } catch (const std::bad_alloc&) {
-  return report(console, {diagnostic_of("internal", "out of memory")}, kInternalError);
+  return report_out_of_memory(console);
+} catch (const std::filesystem::filesystem_error& error) {
+  return report(console, error);
+} catch (const std::system_error& error) {
+  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), error.what())}, static_cast<int>(ErrorKind::kIo));
 } catch (const std::exception& error) {
   const std::string message = std::string{"internal error: "} + error.what();
   return report(console, {diagnostic_of("internal", message, "this is a bug in kith; please report it")},
@@ -158,12 +197,16 @@ CommonOptions first_guess(const std::vector<std::string>& arguments) {
 }  // namespace kith::cli
 
 int main(int argc, char** argv) {
+  kith::cli::reserve_standard_descriptors();
   kith::cli::ignore_broken_pipes();
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  kith::cli::Console console{kith::cli::first_guess(arguments)};
   try {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    kith::cli::Console console{kith::cli::first_guess(arguments)};
     return kith::cli::guarded(arguments, console);
-  } catch (...) {  // not even the complaint could be written
+  } catch (const kith::cli::BrokenPipe&) {
+    return kith::cli::kBrokenPipeCode;
+  } catch (...) {
+    kith::cli::write_log("kith: error: something failed, and so did saying what: out of memory, or no output\n");
     return static_cast<int>(kith::ErrorKind::kIo);
   }
 }

@@ -36,12 +36,14 @@ int run_merge(const MergeOptions& options, Console& console) {
   StudyRunOptions how;
   how.program = program_name();
   how.replace = options.yes;
+  how.rebuild = true;
   how.on_instant = failpoint();
   StudyRun run{options.out, std::move(reading), std::move(how)};
   for (const auto& shard : shards.journals) run.take_up(shard);
   facts.missing = shards.missing;
   for (const auto& what : shards.missing) console.warning("left out: " + what);
-  facts.domain = run.study().variants.front().domain;
+  facts.domain = published_fact(folders.front(), "domain").value_or(run.study().variants.front().domain);
+  for (const auto& note : run.notes()) console.warning(note);
   const auto text =
       fmt::format("put together {} of {}", counted(shards.journals.size(), "shard"), counted(run.num_teams(), "team"));
   facts.log.push_back(utc_now() + " " + text);

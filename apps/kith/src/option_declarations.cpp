@@ -233,7 +233,7 @@ void add_analyze(CLI::App& app, Options& options) {
   command.add_flag("--brief", analyze.brief, "Only what was found, in words, without tables");
   command.add_option("--alpha", analyze.alpha, "Level of tests; intervals have one minus it")
       ->capture_default_str()
-      ->check([](const std::string& text) { return wrong_fraction(text); })
+      ->check([](const std::string& text) { return wrong_level(text); })
       ->type_name("P");
   takes_word(
       *command.add_option("--correct", analyze.correction, "Correction of families of tests")->capture_default_str(),
@@ -413,7 +413,8 @@ void add_bench(CLI::App& app, Options& options) {
   auto& bench = options.bench;
   auto& command = *app.add_subcommand("bench", "Time kernels and whole studies, against rivals and a saved baseline");
   command.add_flag("--quick", bench.quick, "A few seconds: fewer samples, every study once");
-  command.add_option("--filter", bench.filter, "Only what has a name that matches somewhere")->type_name("REGEX");
+  command.add_option("--filter", bench.filter, "Only names that hold this; '*' is any text, '|' means or")
+      ->type_name("PATTERN");
   auto* save =
       command.add_option("--save", bench.save, "Write the figures to this file, as a baseline")->type_name("FILE");
   auto* baseline =

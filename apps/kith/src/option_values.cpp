@@ -83,12 +83,27 @@ std::optional<ShardOption> shard_of(const std::string& text) {
   return shard;
 }
 
-std::string wrong_fraction(const std::string& text) {
+namespace {
+
+std::optional<double> number_of(const std::string& text) {
   double value = 0.0;
   const auto* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec == std::errc{} && result.ptr == end && value > 0.0 && value < 1.0) return "";
+  return result.ec == std::errc{} && result.ptr == end ? std::optional{value} : std::nullopt;
+}
+
+}  // namespace
+
+std::string wrong_fraction(const std::string& text) {
+  const auto value = number_of(text);
+  if (value && *value > 0.0 && *value < 1.0) return "";
   return "must be a number between 0 and 1, not '" + text + "'";
+}
+
+std::string wrong_level(const std::string& text) {
+  const auto value = number_of(text);
+  if (value && *value >= 1e-6 && *value <= 1.0 - 1e-6) return "";
+  return "must be a number from 0.000001 to 0.999999, not '" + text + "'";
 }
 
 std::string wrong_word(const std::string& text, const std::vector<std::string>& words) {

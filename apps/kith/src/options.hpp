@@ -184,7 +184,7 @@ struct BenchOptions {
   bool quick = false;
   bool growth = false;   ///< How cost grows, instead of the cases.
   bool list = false;     ///< What there is to time; nothing is timed.
-  std::string filter;    ///< A regular expression that names match somewhere.
+  std::string filter;    ///< As of matches_somewhere().
   std::string save;      ///< File for the figures; empty: none.
   std::string baseline;  ///< Saved figures to compare with; empty: none.
   std::string tolerance = "0.1";

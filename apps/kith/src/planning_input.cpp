@@ -1,6 +1,7 @@
 #include "planning_input.hpp"
 
 #include <algorithm>
+#include <system_error>
 
 #include "input.hpp"
 #include "kith/core/error.hpp"
@@ -13,7 +14,7 @@ StudyText::StudyText(const std::string& name, std::vector<std::string> overrides
   const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
   if (built_in != known.end()) {
     text_ = built_in->text;
-  } else if (name == "-" || std::filesystem::exists(name)) {
+  } else if (std::error_code failure; name == "-" || std::filesystem::exists(name, failure)) {
     auto input = read_input(name);
     name_ = input.name;
     text_ = std::move(input.text);

@@ -13,8 +13,10 @@
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/planning/power.hpp"
+#include "kith/study/study_memory.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
+#include "work_notice.hpp"
 
 namespace kith::cli {
 namespace {
@@ -26,8 +28,8 @@ constexpr std::size_t kDefaultPool = 1'000;
 double fraction(const std::string& text, const std::string& option) {
   double value = 0.0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(value > 0.0 && value < 1.0))
-    throw Error{ErrorKind::kUsage, option + " must be a number between 0 and 1, not '" + text + "'"};
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(value >= 1e-6 && value <= 1.0 - 1e-6))
+    throw Error{ErrorKind::kUsage, option + " must be a number from 0.000001 to 0.999999, not '" + text + "'"};
   return value;
 }
 
@@ -213,6 +215,7 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   if (pool_spec.replicates < 2 * power.teams.back())
     throw Error{ErrorKind::kUsage, "--pool must be at least twice the largest of --teams"};
   const Study pool_study{{pool_spec}};
+  require_study_memory(pool_study, options.threads, num_teams(pool_study));  // the list of teams is long, too
   const auto addresses = team_addresses(pool_study);
   const auto run = run_teams(atlas, pool_study, addresses,
                              {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
@@ -295,7 +298,10 @@ int run_power(const PowerCommandOptions& options, Console& console) {
   if (!console.quiet()) console.show(reading.diagnostics);
   check_single_variant(options.study, *reading.study);
   watch_signals();
-  const Atlas atlas{*reading.domain};
+  const auto atlas = [&] {
+    const WorkNotice notice{console, "planning the domain"};
+    return Atlas{*reading.domain};
+  }();
   require_something_to_teach(atlas);
   Progress progress{options.progress, console};
   if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace kith::cli {
 namespace {
@@ -57,23 +56,22 @@ void Progress::update(std::size_t done, std::size_t total, std::size_t failed) {
   const double rate = static_cast<double>(done - std::min(before_, done)) / elapsed;
   const double left = rate > 0.0 ? static_cast<double>(total - done) / rate : 0.0;
   if (mode_ == ProgressMode::kJson) {
-    fmt::print(stderr, "{{\"t\":{:.1f},\"done\":{},\"total\":{},\"failed\":{},\"eta_s\":{:.0f},\"rate\":{:.1f}}}\n",
-               elapsed, done, total, failed, left, rate);
+    write_log(fmt::format("{{\"t\":{:.1f},\"done\":{},\"total\":{},\"failed\":{},\"eta_s\":{:.0f},\"rate\":{:.1f}}}\n",
+                          elapsed, done, total, failed, left, rate));
   } else if (mode_ == ProgressMode::kBar) {
     const auto text = fmt::format(" {}/{} {}, {:.0f}/s, {} left", done, total, noun_, rate, clock_text(left));
     const std::size_t width = terminal_width();
     const std::size_t room = width > text.size() + 4 ? std::min<std::size_t>(40, width - text.size() - 4) : 0;
     const auto full = room * done / std::max<std::size_t>(total, 1);
-    fmt::print(stderr, "\r[{}{}]{}\033[K", std::string(full, '#'), std::string(room - full, '.'), text);
+    write_log(fmt::format("\r[{}{}]{}\033[K", std::string(full, '#'), std::string(room - full, '.'), text));
     drawn_ = true;
   } else {
-    fmt::print(stderr, "kith: info: {} of {} {}, about {} left\n", done, total, noun_, clock_text(left));
+    write_log(fmt::format("kith: info: {} of {} {}, about {} left\n", done, total, noun_, clock_text(left)));
   }
-  std::fflush(stderr);
 }
 
-void Progress::finish() {
-  if (drawn_) fmt::print(stderr, "\r\033[K");
+void Progress::finish() noexcept {
+  if (drawn_) write_log("\r\033[K");
   drawn_ = false;
 }
 

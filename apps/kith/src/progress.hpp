@@ -9,7 +9,8 @@
 namespace kith::cli {
 
 /// Shows how far a run is, on standard error: a bar with the time left on a terminal,
-/// else a line every 10 seconds; or one JSON object a second.
+/// else a line every 10 seconds; or one JSON object a second. Where it cannot be written (the terminal was closed, the
+/// disk is full) the work goes on without it.
 class Progress {
  public:
   /// @param noun  what is counted, in the plural.
@@ -22,7 +23,7 @@ class Progress {
   void begin(std::size_t done);
   void update(std::size_t done, std::size_t total, std::size_t failed = 0);
   /// Removes the bar.
-  void finish();
+  void finish() noexcept;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -45,9 +45,10 @@ int run_report(const ReportCommandOptions& options, Console& console) {
     console.print(page);
     return 0;
   }
+  const bool is_ours = options.out.empty();  // a link that lies in the folder was not named by anybody
   const auto file =
-      options.out.empty() ? std::filesystem::path{options.folder} / "report.html" : std::filesystem::path{options.out};
-  write_file_atomically(file, page);
+      is_ours ? std::filesystem::path{options.folder} / "report.html" : std::filesystem::path{options.out};
+  write_file_atomically(file, page, FolderSync::kNow, is_ours ? OldLink::kReplace : OldLink::kFollow);
   constexpr double kMegabyte = 1e6;
   console.info(fmt::format("report in {} ({:.1f} MB); open it in a browser, it needs no network", file.string(),
                            static_cast<double>(page.size()) / kMegabyte));

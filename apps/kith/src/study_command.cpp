@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "build_facts.hpp"
@@ -13,14 +14,17 @@
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "json.hpp"
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/study/study_memory.hpp"
 #include "kith/study/study_run.hpp"
 #include "mpi_ranks.hpp"
 #include "progress.hpp"
 #include "run_outcome.hpp"
 #include "summary_json.hpp"
+#include "work_notice.hpp"
 
 namespace kith::cli {
 namespace {
@@ -149,8 +153,12 @@ int run_study(const StudyOptions& options, Console& console) {
     done = finished;
     progress.update(finished, total, failed);
   };
+  require_study_memory(*reading.study, how_many_threads);
+  require_teaching_memory(*reading.domain, how_many_threads);
   const auto plan_begin = Clock::now();
+  std::optional<WorkNotice> notice{std::in_place, console, "planning " + reading.domain->id()};
   const Atlas atlas{*reading.domain};
+  notice.reset();
   require_something_to_teach(atlas);
   const double plan_seconds = seconds_since(plan_begin);
   StudyRun run{options.out, std::move(reading), std::move(how)};

@@ -12,6 +12,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 const std::vector<std::string> kQuick{"bench", "--quick", "--filter", "minimal|solid"};
@@ -89,15 +90,33 @@ TEST(Bench, ShowsHowCostGrows) {
   EXPECT_GT(document["growth"][0]["points"][0].at("median"), 0.0);
 }
 
-TEST(Bench, RefusesAFilterThatSelectsNothingOrIsNone) {
+TEST(Bench, RefusesAFilterThatSelectsNothing) {
   const auto nothing = run_kith({"bench", "--quick", "--filter", "nosuch"});
   EXPECT_EQ(nothing.code, 2);
   EXPECT_THAT(nothing.err, AllOf(HasSubstr("selects nothing"), HasSubstr("belief.step")));
-  const auto broken = run_kith({"bench", "--quick", "--filter", "("});
-  EXPECT_EQ(broken.code, 2);
-  EXPECT_THAT(broken.err, HasSubstr("--filter must be a regular expression"));
+  const auto no_pattern = run_kith({"bench", "--quick", "--filter", "(.*)*"});  // nothing but letters and a '*'
+  EXPECT_EQ(no_pattern.code, 2);
+  EXPECT_THAT(no_pattern.err, HasSubstr("'(.*)*' selects nothing"));
+  const auto endless = run_kith({"bench", "--quick", "--filter", std::string(60'000, '(')});
+  EXPECT_EQ(endless.code, 2);
+  EXPECT_THAT(endless.err, AllOf(HasSubstr("--filter has 60000 characters; at most 1000"), Not(HasSubstr("((("))));
   EXPECT_EQ(run_kith({"bench", "--tolerance", "2", "--baseline", "x"}).code, 2);
   EXPECT_EQ(run_kith({"bench", "--growth", "--save", "x"}).code, 2);
+}
+
+TEST(Bench, FindsNamesByTheirParts) {
+  const auto named = [](const std::string& filter) {
+    std::vector<std::string> names;
+    const auto ran = run_kith({"bench", "--quick", "--json", "--filter", filter});
+    if (ran.code != 0) return names;
+    const auto document = Json::parse(ran.out);
+    for (const auto& one : document.at("cases")) names.push_back(one.at("name"));
+    return names;
+  };
+  const std::vector<std::string> minimal{"geometry.minimal-20"};
+  EXPECT_EQ(named("geo*min*20"), minimal);
+  EXPECT_EQ(named("nosuch|minimal-20"), minimal);
+  EXPECT_TRUE(named("20*geo").empty());
 }
 
 TEST(Bench, SavesAndReplacesOnlyOnDemand) {

@@ -126,8 +126,10 @@ TEST(PowerCommand, SaysWhatIsWrong) {
   const auto targets = file_with(scratch, "targets.toml", kTarget);
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
       {{"power", "quick", "--effect", "periods: nobody - common"}, "E0809"},
-      {{"power", "quick", "--alpha", "2"}, "--alpha must be a number between 0 and 1, not '2'"},
-      {{"power", "quick", "--target", "x"}, "--target must be a number between 0 and 1, not 'x'"},
+      {{"power", "quick", "--alpha", "2"}, "--alpha must be a number from 0.000001 to 0.999999, not '2'"},
+      {{"power", "quick", "--alpha", "1e-300"}, "--alpha must be a number from 0.000001"},
+      {{"analyze", "run", "--alpha", "1e-300"}, "--alpha must be a number from 0.000001"},
+      {{"power", "quick", "--target", "x"}, "--target must be a number from 0.000001 to 0.999999, not 'x'"},
       {{"power", "quick", "--teams", "10", "--pool", "12"}, "--pool must be at least twice"},
       {{"power", "quick", "--findings", targets}, "E0813"}};
   for (const auto& [arguments, message] : refused) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <initializer_list>
 #include <iterator>
 #include <map>
@@ -27,7 +28,8 @@ struct Ran {
 struct RunWith {
   std::vector<std::pair<std::string, std::string>> environment{};
   std::string input{};
-  std::string out_to{};  ///< A file for standard output, such as "/dev/full".
+  std::string out_to{};             ///< A file for standard output, such as "/dev/full".
+  std::function<void()> prepare{};  ///< Called in the new process just before it becomes the program.
 };
 
 [[nodiscard]] inline std::string text_of(const std::filesystem::path& path) {
@@ -76,6 +78,7 @@ class Scratch {
   redirect(out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   redirect(err, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
   for (const auto& [name, value] : with.environment) setenv(name.c_str(), value.c_str(), 1);
+  if (with.prepare) with.prepare();
   std::vector<std::string> words{KITH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;

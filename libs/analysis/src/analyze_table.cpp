@@ -10,6 +10,7 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kMostLevelsOfAFactor = 200;
+constexpr std::size_t kMostTerms = 63;  // six factors with all their interactions
 
 Formula formula_of(const std::string& text) {
   auto reading = parse_formula(text);
@@ -39,6 +40,16 @@ void check_factor(const Dataset& data, const Factor& factor) {
   throw Error{{std::move(diagnostic)}};
 }
 
+// Every term is tested against all others, again for every permutation and resample.
+void check_terms(const Formula& formula) {
+  if (formula.terms.size() <= kMostTerms) return;
+  Diagnostic diagnostic{.id = "E0908", .infeasible = true};
+  diagnostic.message = fmt::format("the model has {} terms; at most {} are analysed, six factors with all interactions",
+                                   formula.terms.size(), kMostTerms);
+  diagnostic.hint = "use + in place of *, or leave factors out";
+  throw Error{{std::move(diagnostic)}};
+}
+
 std::vector<bool> observed_of(const Dataset& data, const std::string& column) {
   std::vector<bool> observed;
   for (const auto& value : data.numbers(column)) observed.push_back(*value != 0.0);
@@ -49,6 +60,7 @@ std::vector<bool> observed_of(const Dataset& data, const std::string& column) {
 
 Analysis analyze_table(const Dataset& data, const ModelQuestion& question, const AnalysisOptions& options) {
   const auto formula = formula_of(question.formula);
+  check_terms(formula);
   std::vector<std::string> columns = formula.factors;
   columns.push_back(formula.response);
   if (question.observed) columns.push_back(*question.observed);

@@ -6,13 +6,21 @@
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
-#include "kith/files/atomic_file.hpp"
+#include "kith/core/memory.hpp"
 #include "kith/table/csv_reader.hpp"
+#include "kith/table/table_text.hpp"
 
 namespace kith {
 namespace {
 
 constexpr std::size_t kMaxDiagnostics = 20;
+constexpr std::size_t kMostListed = 20;      // names of columns in a message
+constexpr std::size_t kLongestListed = 40;   // bytes of one of them
+constexpr std::uint64_t kBytesPerCell = 60;  // with what vectors keep free; longer texts have their length besides
+
+MemoryGuard guard_of(const std::string& file) {
+  return {"keeping the table " + file, "keep only the rows and columns that are needed"};
+}
 
 std::optional<double> number_of(const std::string& text) {
   if (text == "true") return 1.0;
@@ -24,10 +32,19 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
+// Cut between characters.
+std::string shortened(const std::string& name) {
+  if (name.size() <= kLongestListed) return name;
+  auto end = kLongestListed;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+  return name.substr(0, end) + "...";
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+    list += (i == 0 ? "" : ", ") + shortened(names[i]);
+  return names.size() <= kMostListed ? list : list + " and " + std::to_string(names.size() - kMostListed) + " more";
 }
 
 }  // namespace
@@ -52,7 +69,9 @@ Dataset Dataset::parse(std::string_view text, const std::string& file, std::span
   }
   for (const auto& column : columns) data.columns_.push_back(column.name);
   data.cells_.resize(columns.size());
+  auto guard = guard_of(file);
   const auto keep = [&](const CsvRow& row) {
+    guard.take(row.cells.size() * kBytesPerCell + row.text.size());
     data.lines_.push_back(row.line);
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       const auto* const value = std::get_if<std::string>(&row.cells[c]);
@@ -66,7 +85,7 @@ Dataset Dataset::parse(std::string_view text, const std::string& file, std::span
 }
 
 Dataset Dataset::read(const std::filesystem::path& path, std::span<const std::string> wanted) {
-  return parse(read_file(path), path.string(), wanted);
+  return parse(read_table_text(path), path.string(), wanted);
 }
 
 bool Dataset::has(std::string_view column) const {
@@ -174,6 +193,8 @@ Dataset Dataset::select(const std::vector<std::size_t>& rows) const {
   part.file_ = file_;
   part.columns_ = columns_;
   part.cells_.resize(cells_.size());
+  auto guard = guard_of(file_);
+  guard.take(cells_.size() * rows.size() * kBytesPerCell);
   for (const auto row : rows) part.lines_.push_back(lines_[row]);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     part.cells_[c].reserve(rows.size());

@@ -4,6 +4,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/table/csv_reader.hpp"
+#include "kith/table/table_text.hpp"
 
 namespace kith {
 namespace {
@@ -13,14 +14,17 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kTeamColumns{"strategy",  "composition", "replicate", "team",   "seed_address",
                                             "completed", "periods",     "knowledge", "area_sr"};
 
-// The study's varied keys stand between composition and replicate.
+// The study's varied keys stand between composition and replicate. Where these are missing, or others stand between
+// them, that is for the reader of the columns to say.
 std::vector<std::string> varied_keys(const std::vector<Column>& columns) {
+  const auto named = [](const char* name) { return [name](const Column& column) { return column.name == name; }; };
+  const auto begin = std::find_if(columns.begin(), columns.end(), named("composition"));
+  const auto end = std::find_if(begin, columns.end(), named("replicate"));
   std::vector<std::string> keys;
-  bool between = false;
-  for (const auto& column : columns) {
-    if (column.name == "replicate") break;
-    if (between) keys.push_back(column.name);
-    between = between || column.name == "composition";
+  if (end == columns.end()) return keys;
+  for (auto column = begin + 1; column != end; ++column) {
+    const bool is_known = std::find(kTeamColumns.begin(), kTeamColumns.end(), column->name) != kTeamColumns.end();
+    if (!is_known) keys.push_back(column->name);
   }
   return keys;
 }

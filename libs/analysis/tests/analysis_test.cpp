@@ -146,6 +146,22 @@ TEST(AnalyzeTable, RefusesWhatItCannotAnalyse) {
   EXPECT_EQ(analyse(many.c_str(), "y ~ g"), (std::pair{ErrorKind::kInvalidInput, std::string{"E0907"}}));
 }
 
+// Every term is decomposed with matrices of its own, again and again: this used to take more memory by the minute.
+TEST(AnalyzeTable, RefusesMoreTermsThanSixCrossedFactorsHave) {
+  std::string text = "y,a,b,c,d,e,f,g,h\n";
+  for (int i = 0; i < 600; ++i) {
+    text += std::to_string(i * 37 % 101);
+    for (int k = 0; k < 8; ++k) text += (i >> k & 1) == 0 ? ",no" : ",yes";
+    text += '\n';
+  }
+  const auto data = Dataset::parse(text, "t.csv");
+  const auto analyse = [&](const char* formula) {
+    return failure_of([&] { (void)analyze_table(data, {formula, {}}, quick()); });
+  };
+  EXPECT_EQ(analyse("y ~ a*b*c*d*e*f*g*h"), (std::pair{ErrorKind::kInfeasible, std::string{"E0908"}}));
+  EXPECT_NO_THROW((void)analyze_table(data, {"y ~ a + b + c + d + e + f + g + h", {}}, quick()));
+}
+
 // A run folder written by hand: two group strategies and the baseline, two compositions, four replicates. The
 // strategy "joint" saves exactly one period for every group of people; knowledge does not depend on it.
 class RunTest : public ::testing::Test {

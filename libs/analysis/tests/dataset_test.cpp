@@ -1,6 +1,9 @@
 #include "kith/analysis/dataset.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cstdlib>
 
 #include "kith/core/error.hpp"
 
@@ -94,6 +97,36 @@ TEST(Dataset, NamesTheRowOfALevelThatIsMissing) {
   const auto found = diagnostic_of([] { (void)Dataset::parse("a,b\n1,x\n2,\n", "people.csv").factor("b"); });
   EXPECT_EQ(found.id, "E0903");
   EXPECT_EQ(found.line, 3u);
+}
+
+TEST(Dataset, NamesAFewOfManyColumnsAndTheBeginningOfLongNames) {
+  std::string header(1'000, 'x');
+  header.replace(39, 2, "\xC3\xA9");  // a letter of two bytes, which is not cut in two
+  for (int i = 0; i < 1'000; ++i) header += ",column" + std::to_string(i);
+  const auto data = Dataset::parse(header + "\n", "t.csv");
+  try {
+    static_cast<void>(data.cells("nothing of the kind"));
+    ADD_FAILURE() << "there is no such column";
+  } catch (const Error& error) {
+    const auto hint = error.diagnostics().at(0).hint;
+    EXPECT_LT(hint.size(), 500u);
+    EXPECT_THAT(hint, ::testing::HasSubstr(std::string(39, 'x') + "..., column0, "));
+    EXPECT_THAT(hint, ::testing::HasSubstr(" and 981 more"));
+  }
+}
+
+TEST(Dataset, ThatDoesNotFitIntoMemoryIsNotKept) {
+  std::string text = "a,b,c,d,e,f,g,h\n";
+  for (int i = 0; i < 150'000; ++i) text += "1,1,1,1,1,1,1,1\n";
+  setenv("KITH_MEMORY", "60M", 1);  // the text has 2.4 MB, its cells about 70
+  try {
+    static_cast<void>(Dataset::parse(text, "t.csv"));
+    ADD_FAILURE() << "there was memory";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
+    EXPECT_EQ(error.diagnostics().at(0).id, "E1201");
+  }
+  unsetenv("KITH_MEMORY");
 }
 
 }  // namespace

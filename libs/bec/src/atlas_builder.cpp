@@ -4,22 +4,22 @@
 #include <cmath>
 #include <numeric>
 
+#include "behaviour_source.hpp"
 #include "kith/bec/comparison.hpp"
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
 
 namespace kith {
 namespace {
 
-// Coverage sets of a thousand states take some tenths of a second, and twice as many states several times as long.
-constexpr std::size_t kMostStatesOfTables = 1'500;
-constexpr std::size_t kMostStatesOfTablesInAll = 50'000;
 // Of how many start pictures each is compared with all others; of more, with as many of them.
 constexpr std::size_t kMostPicturesCompared = 1'000;
 
 }  // namespace
 
 void AtlasBuilder::build() {
+  require_planning_memory(atlas_.domain_);
   plan();
   find_indifference();
   reduce_one_step();
@@ -37,31 +37,19 @@ void AtlasBuilder::build() {
   average_dissimilarities();
 }
 
-// Tables need exact behaviours in three dimensions, and grow fast with the number of states.
 void AtlasBuilder::choose_source(BehaviourSource source) {
   const auto& domain = atlas_.domain_;
   if (domain.num_features() < 2) {
     throw Error{ErrorKind::kInfeasible, "domain '" + domain.id() + "' has a single feature: there is nothing to weigh"};
   }
-  std::size_t states = 0;
-  std::size_t most = 0;
-  bool small_counts = true;
-  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-    small_counts = small_counts && has_small_counts(domain.mdp(m));
-    most = std::max(most, domain.mdp(m).num_states());
-    states += domain.mdp(m).num_states();
-  }
-  const bool possible =
-      domain.is_exact() && small_counts && domain.num_features() == 3 && domain.num_starts() == states;
-  if (source == BehaviourSource::kTabulated && !possible) {
+  if (source == BehaviourSource::kTabulated && !can_be_tabulated(domain)) {
     throw Error{ErrorKind::kInfeasible,
                 "behaviours in domain '" + domain.id() +
                     "' cannot be tabulated: that takes three features, exact counts below 2^31 and "
                     "all states as starts"};
   }
-  const bool cheap = most <= kMostStatesOfTables && states <= kMostStatesOfTablesInAll;
   atlas_.tabulated_ =
-      possible && (source == BehaviourSource::kTabulated || (source == BehaviourSource::kAutomatic && cheap));
+      source == BehaviourSource::kTabulated || (source == BehaviourSource::kAutomatic && is_cheap_to_tabulate(domain));
 }
 
 void AtlasBuilder::plan() {
@@ -155,6 +143,7 @@ void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot) {
     if (here.next != Atlas::kTerminal) set.insert(set.end(), raw_sets_[here.next].begin(), raw_sets_[here.next].end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
+    memory_.take(set.size() * sizeof(ConstraintIndex));
     raw_sets_[atlas_.first_demo_[m.value()] + s.value()] = std::move(set);
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/core/memory.hpp"
 #include "kith/mdp/coverage_set.hpp"
 #include "robot_plan.hpp"
 
@@ -63,6 +64,8 @@ class AtlasBuilder {
   using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, IntsHash>;
 
   Atlas& atlas_;
+  // What paths show grows with their length.
+  MemoryGuard memory_{"going on to collect what the robot's paths show", "use a smaller map or fewer features"};
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.
   ConstraintTable raw_;
   bool indifferent_ = false;  // constraints that hold with equality at the robot's weights do not count

@@ -4,7 +4,9 @@
 #include <bit>
 
 #include "kith/bec/comparison.hpp"
+#include "kith/bec/memory_needs.hpp"
 #include "kith/core/assert.hpp"
+#include "kith/core/memory.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "robot_plan.hpp"
 
@@ -39,6 +41,8 @@ Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells)
   const Domain& domain = atlas.domain();
   for (const std::int64_t w : domain.weights().integer) robot_weights_.push_back(static_cast<double>(w));
   if (atlas.is_tabulated()) return;
+  require_memory(teaching_memory(domain), "choosing what to teach in domain '" + domain.id() + "'",
+                 "use a smaller map, or teach from some starts only: [family] starts = 1000");
   place_on_paths_.assign(atlas.num_demos(), -1);
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     std::vector<bool> is_on_path(domain.mdp(m).num_states(), false);
@@ -189,6 +193,11 @@ Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, st
   for (std::size_t i = 0; i < numbering_.size(); ++i) bit_of_[numbering_[i].value()] = static_cast<std::uint32_t>(i);
 
   const std::size_t words = (numbering_.size() + kBits - 1) / kBits;
+  if (by_class.size() * words > rows_.capacity()) {
+    require_memory(by_class.size() * words * sizeof(std::uint64_t),
+                   "comparing what " + std::to_string(by_class.size()) + " starts tell",
+                   "teach from some starts only: [family] starts = 1000");
+  }
   rows_.assign(by_class.size() * words, 0);
   for (std::size_t c = 0; c < by_class.size(); ++c) {
     for (const ConstraintIndex constraint : by_class[c]) {

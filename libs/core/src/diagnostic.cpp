@@ -2,33 +2,35 @@
 
 #include <algorithm>
 
+#include "kith/core/printable.hpp"
+
 namespace kith {
 namespace {
 
 std::string place(const Diagnostic& d) {
-  std::string text = d.file;
+  std::string text = printable(d.file, Keep::kLine);
   if (d.line == 0) return text;
   text.append(":").append(std::to_string(d.line));
   if (d.column > 0) text.append(":").append(std::to_string(d.column));
   return text;
 }
 
-// Repeats the tabs of the source line, so that the caret stands under its
-// character whatever the width of a tab.
-std::string blank_like(const std::string& source, std::size_t count) {
-  std::string blank(count, ' ');
-  for (std::size_t i = 0; i < std::min(count, source.size()); ++i) {
-    if (source[i] == '\t') blank[i] = '\t';
-  }
-  return blank;
+// As wide as the line is before `column`: tabs stay tabs, so that the caret stands under its character whatever the
+// width of a tab.
+std::string blank_before(std::string_view source, std::size_t column) {
+  auto blank = printable(source.substr(0, column - 1), Keep::kLine);
+  for (char& c : blank) c = c == '\t' ? '\t' : ' ';
+  return blank.append(column - 1 - std::min(column - 1, source.size()), ' ');
 }
 
 std::string excerpt(const Diagnostic& d) {
+  std::string_view source = d.source_line;
+  if (source.ends_with('\r')) source.remove_suffix(1);  // of a line break as Windows has it
   const std::string number = std::to_string(d.line);
   const std::string gutter(std::max<std::size_t>(number.size(), 5), ' ');
-  std::string text = gutter.substr(number.size()) + number + " | " + d.source_line + "\n";
+  std::string text = gutter.substr(number.size()) + number + " | " + printable(source, Keep::kLine) + "\n";
   if (d.column == 0) return text;
-  text += gutter + " | " + blank_like(d.source_line, d.column - 1) + "^";
+  text += gutter + " | " + blank_before(source, d.column) + "^";
   text.append(std::max<std::size_t>(d.length, 1) - 1, '~');
   return text + "\n";
 }
@@ -65,9 +67,9 @@ std::string to_text(const Diagnostic& diagnostic) {
   if (!text.empty()) text += ": ";
   text += diagnostic.severity == Severity::kError ? "error" : "warning";
   if (!diagnostic.id.empty()) text += "[" + diagnostic.id + "]";
-  text += ": " + diagnostic.message + "\n";
+  text += ": " + printable(diagnostic.message) + "\n";
   if (diagnostic.line > 0 && !diagnostic.source_line.empty()) text += excerpt(diagnostic);
-  if (!diagnostic.hint.empty()) text += "   = help: " + diagnostic.hint + "\n";
+  if (!diagnostic.hint.empty()) text += "   = help: " + printable(diagnostic.hint) + "\n";
   return text;
 }
 

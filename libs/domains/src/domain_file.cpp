@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -10,6 +10,7 @@
 #include "dynamics.hpp"
 #include "family.hpp"
 #include "kith/core/error.hpp"
+#include "kith/toml/document.hpp"
 #include "kith/toml/reader.hpp"
 #include "read_model.hpp"
 #include "reward.hpp"
@@ -178,13 +179,16 @@ DomainReading parse_domain(std::string_view text, const std::string& name, const
 }
 
 DomainReading read_domain(const std::filesystem::path& path) {
+  std::error_code failure;
   std::ifstream in{path, std::ios::binary};
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || std::filesystem::is_directory(path)) {
+  // At most one byte more than is parsed, so that too large a file is told from the right size.
+  std::string text(kMaxTomlBytes + 1, '\0');
+  if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!in.is_open() || in.bad() || std::filesystem::is_directory(path, failure)) {
     throw Error{ErrorKind::kIo, "cannot read the domain file " + path.string()};
   }
-  return parse_domain(text.str(), path.string(), {}, {.folder = path.parent_path()});
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return parse_domain(text, path.string(), {}, {.folder = path.parent_path()});
 }
 
 Domain load_domain(const std::string& name_or_path) {
@@ -196,7 +200,9 @@ Domain load_domain(const std::string& name_or_path) {
     }
     names.emplace_back(built_in.name);
   }
-  if (std::filesystem::exists(name_or_path)) return domain_or_error(read_domain(name_or_path));
+  std::error_code failure;
+  if (std::filesystem::exists(name_or_path, failure)) return domain_or_error(read_domain(name_or_path));
+  if (failure) throw Error{ErrorKind::kIo, "cannot read " + name_or_path + ": " + failure.message()};
   Diagnostic unknown;
   unknown.id = "E0116";
   unknown.file = name_or_path;

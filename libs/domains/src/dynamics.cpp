@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace kith::detail {
 namespace {
@@ -26,7 +27,7 @@ class DynamicsReader {
   void read_mdp() {
     auto mdp = file_.table("mdp", Presence::kOptional);
     if (!mdp) return default_actions();
-    dynamics_.discount = mdp->real("discount", Presence::kOptional, {0.0, 1.0, true, false}).value_or(1.0);
+    dynamics_.discount = read_discount(*mdp);
     dynamics_.max_steps =
         static_cast<std::size_t>(mdp->integer("max_steps", Presence::kOptional, {1, 1'000'000}).value_or(1000));
     if (const TomlArray* actions = mdp->array("actions", Presence::kOptional)) {
@@ -95,6 +96,7 @@ class DynamicsReader {
     }
     feature.exclusive = reader.string("exclusive", Presence::kOptional).value_or("");
     reader.finish();
+    check_feature_name(reader);
     if (feature.name.empty()) dynamics_.features_are_known = false;
     const auto same = std::find_if(dynamics_.features.begin(), dynamics_.features.end(),
                                    [&](const Feature& other) { return other.name == feature.name; });
@@ -132,6 +134,28 @@ class DynamicsReader {
 };
 
 }  // namespace
+
+double read_discount(TomlReader& mdp) {
+  const double discount = mdp.real("discount", Presence::kOptional, {0.0, 1.0, true, false}).value_or(1.0);
+  if (discount <= kLargestDiscount || discount == 1.0) return discount;
+  const TomlValue& value = *mdp.content().find("discount");
+  mdp.report().error(
+      "E0110", value.place(),
+      "'discount' must be 1 or at most " + to_toml(TomlValue{kLargestDiscount}) + ", not " + to_toml(value),
+      "write discount = 1: so far ahead nobody can tell the two apart, and neither can arithmetic");
+  return 1.0;
+}
+
+void check_feature_name(const TomlReader& feature) {
+  const TomlValue* value = feature.content().find("name");
+  const std::string* name = value == nullptr ? nullptr : value->string();
+  if (name == nullptr) return;  // said already
+  constexpr std::string_view kBlanks = " \t\n\r\f\v";
+  const auto is_blank = [&](char c) { return kBlanks.find(c) != std::string_view::npos; };
+  if (!name->empty() && !is_blank(name->front()) && !is_blank(name->back())) return;
+  feature.report().error("E0225", value->place(), "'" + *name + "' cannot be the name of a feature",
+                         "a name is not empty, and has no blanks before or after it");
+}
 
 std::vector<std::string> Dynamics::feature_names() const {
   std::vector<std::string> names;

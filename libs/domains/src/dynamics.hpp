@@ -33,6 +33,17 @@ struct Dynamics {
 // Reads [mdp], [[feature]] and [[rule]].
 [[nodiscard]] Dynamics read_dynamics(TomlReader& file, const World& world);
 
+// The largest discount below 1. With it expected counts, up to 1 / (1 - discount) times the largest feature, stay
+// within the 2^53 units in which they are kept (expectation_scale()), and choices that differ by a thousandth of a
+// feature are told apart.
+inline constexpr double kLargestDiscount = 0.999999;
+
+// `discount` of [mdp]: 1 unless the file says otherwise.
+[[nodiscard]] double read_discount(TomlReader& mdp);
+
+// Complains about a feature whose name is empty or has blanks around it: sentences are made of names.
+void check_feature_name(const TomlReader& feature);
+
 // Feature vectors by atom mask: each distinct mask is evaluated once.
 class FeatureTable {
  public:

@@ -52,7 +52,7 @@ class ModelReader {
     auto mdp = file_.table("mdp", Presence::kOptional);
     if (!mdp) return;
     Dynamics& dynamics = reading_.dynamics;
-    dynamics.discount = mdp->real("discount", Presence::kOptional, {0.0, 1.0, true, false}).value_or(1.0);
+    dynamics.discount = read_discount(*mdp);
     dynamics.max_steps =
         static_cast<std::size_t>(mdp->integer("max_steps", Presence::kOptional, {1, 1'000'000}).value_or(1000));
     if (const TomlArray* actions = mdp->array("actions", Presence::kOptional)) {
@@ -86,6 +86,7 @@ class ModelReader {
     feature.place = element.place();
     feature.name = reader.string("name", Presence::kRequired).value_or("");
     if (const TomlValue* name = element.table()->find("name")) feature.place = name->place();
+    check_feature_name(reader);
     rewards_.push_back(reader.real("reward", Presence::kOptional, {}));
     reader.finish();
     static const std::vector<std::string> kColumns{"mdp", "state", "action", "next", "probability"};
@@ -137,16 +138,25 @@ class ModelReader {
     return reading_.model.files.back().get();
   }
 
-  // A study keeps copies of all files beside that of the domain file, so they lie there or below.
+  // A study keeps copies of all files beside that of the domain file, so they lie there or below. What is wrong with a
+  // file is shown with its lines, and whoever runs a study need not have written it: only files that look like the data
+  // of models are opened, so that none can be made to show others.
   bool check_name(const std::string& name, const TomlPlace& place) {
     const fs::path path{name};
-    const bool leads_out = std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
-    if (!name.empty() && path.is_relative() && !leads_out && path.extension() != ".toml" &&
-        std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
-      return true;
+    const auto is_hidden = [](const fs::path& part) { return part.native().starts_with('.') && part != "."; };
+    const bool lies_below = !name.empty() && path.is_relative() &&
+                            std::none_of(path.begin(), path.end(), is_hidden);  // ".." is hidden, too
+    const bool is_plain =
+        std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    if (!lies_below || !is_plain) {
+      report_.error("E0232", place, "'" + name + "' cannot be a file of a model",
+                    "name a file beside the domain file or below, relative to it, that is not hidden");
+      return false;
     }
+    static const std::vector<std::string> kEndings{".csv", ".json", ".tra", ".sta", ".lab", ".srew", ".trew"};
+    if (std::find(kEndings.begin(), kEndings.end(), path.extension()) != kEndings.end()) return true;
     report_.error("E0232", place, "'" + name + "' cannot be a file of a model",
-                  "name a file beside the domain file or below, relative to it, that is no TOML file");
+                  "its name ends in .csv, .json, .tra, .sta, .lab, .srew or .trew");
     return false;
   }
 

@@ -198,8 +198,7 @@ class RewardReader {
       }
       reader.finish();
     } else if (entry.value.string() != nullptr) {
-      wording.one = *entry.value.string();
-      check_not_empty(entry.value);
+      wording.one = trimmed(entry.value);
     } else {
       report_.error("E0108", entry.value.place(),
                     "words must be a string or a table, not " + std::string{entry.value.kind_name()});
@@ -209,9 +208,8 @@ class RewardReader {
   }
 
   std::string words(TomlReader& reader, std::string_view key, Presence presence) {
-    auto text = reader.string(key, presence);
-    if (text) check_not_empty(*reader.content().find(key));
-    return text.value_or("");
+    const bool is_text = reader.string(key, presence).has_value();
+    return is_text ? trimmed(*reader.content().find(key)) : "";
   }
 
   std::string plural_words(TomlReader& reader, std::string_view key) {
@@ -223,10 +221,22 @@ class RewardReader {
     return text;
   }
 
-  void check_not_empty(const TomlValue& text) {
-    if (text.string()->find_first_not_of(' ') == std::string::npos) {
-      report_.error("E0317", text.place(), "these words are empty");
+  // The text without blanks around it, which would stand in the middle of sentences.
+  std::string trimmed(const TomlValue& value) {
+    constexpr const char* kBlanks = " \t\n\r\f\v";
+    const std::string& text = *value.string();
+    const auto begin = text.find_first_not_of(kBlanks);
+    if (begin == std::string::npos) {
+      report_.error("E0317", value.place(), "these words are empty",
+                    "say what people call it, for instance \"a step\", or leave the key out");
+      return "";
     }
+    auto result = text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+    if (result.size() < text.size()) {
+      report_.warning("W0305", value.place(), "blanks before or after these words are left out",
+                      "write \"" + result + "\"");
+    }
+    return result;
   }
 
   TomlReader& file_;

@@ -88,5 +88,16 @@ TEST(OptionalGroups, StandInTheOrderOfTheVariantsBits) {
   EXPECT_EQ(groups[2].name, "skateboard");
 }
 
+TEST(Words, LoseTheBlanksAroundThem) {
+  const auto domain = domain_with_words(
+      "rubble = \"  crossing rubble\\t\"\nstep = { one = \" a step \", many = \" {n} steps\", do = \"take a step \" "
+      "}\n");
+  EXPECT_EQ(domain.wording(0).one, "crossing rubble");
+  EXPECT_EQ(domain.wording(0).many, "crossing rubble {n} times");
+  EXPECT_EQ(domain.wording(1).one, "a step");
+  EXPECT_EQ(domain.wording(1).many, "{n} steps");
+  EXPECT_EQ(domain.wording(1).do_one, "take a step");
+}
+
 }  // namespace
 }  // namespace kith

@@ -97,7 +97,9 @@ std::optional<std::size_t> Scene::step_of(MdpIndex world, const Trajectory& path
 }
 
 std::optional<Contrast> Scene::contrast_to(DemoIndex demo, const Happening& happening, bool happens) const {
-  const auto [world, start] = atlas_.id(demo);
+  const auto id = atlas_.id(demo);
+  const auto world = id.mdp;  // no structured binding, which clang 14 does not let a lambda capture
+  const auto start = id.start;
   if (question_.is_about_a_step()) {
     return best_deviation(atlas_, demo, 0, 1, [&](const Contrast& other) {
       return is_at(world, start, other.alternative.actions.front(), happening) == happens;

@@ -52,15 +52,15 @@ struct Thing {
 };
 
 bool is_gerund(const std::string& word) {
-  const auto letters = word.back() == ',' ? word.substr(0, word.size() - 1) : word;
-  return letters.size() > 4 && letters.substr(letters.size() - 3) == "ing";
+  const auto letters = word.substr(0, word.find(','));
+  return letters.size() > 4 && letters.ends_with("ing");
 }
 
 // "a step", "the charger" and "crossing rubble" are singular, "2 steps" is plural; of other words nobody knows.
 Thing thing(const Wording& wording, std::int64_t n) {
   Thing result{times(wording, n)};
   const auto first = wording.one.substr(0, wording.one.find(' '));
-  if (std::isdigit(static_cast<unsigned char>(result.words.front())) != 0) {
+  if (!result.words.empty() && std::isdigit(static_cast<unsigned char>(result.words.front())) != 0) {
     result.number = Number::kPlural;
   } else if (is_gerund(first) || first == "a" || first == "an" || first == "one" || first == "the") {
     result.number = Number::kSingular;

@@ -187,5 +187,28 @@ TEST(ActionsText, CountsRepetitions) {
   EXPECT_EQ(counts_text(domain, {0, 0, 0}), "nothing");
 }
 
+// Whatever words people write, sentences can be made of them.
+TEST(InWords, TakesAnyWordsThatADomainMayHave) {
+  for (const std::string words :
+       {" crossing mud", "crossing  mud", ",", "a ", ",ing", "{n}", "ing", "a ,", "one", "\\u001b"}) {
+    const auto domain = domain_with("{ mud = -2, dock = 3, step = -1 }", "mud = \"" + words + "\"\n");
+    for (const IntegerVector& normal : {IntegerVector{-1, 0, 2}, IntegerVector{2, 1, 0}, IntegerVector{-3, -1, 1}}) {
+      EXPECT_FALSE(in_words(domain, HalfSpace{normal}).empty()) << words;
+    }
+    for (const std::int64_t n : {1, 2, 5}) {
+      EXPECT_FALSE(times(domain.wording(0), n).empty()) << words;
+      EXPECT_FALSE(times_more(domain.wording(0), n).empty()) << words;
+      EXPECT_FALSE(doing({words, words + "{n}", words, words + "{n}"}, n, true).empty()) << words;
+    }
+    (void)in_general(domain.wording(0));
+  }
+}
+
+TEST(InWords, NeedsNoWordsToSayThatThereAreNone) {
+  const Wording none{"", "", "", ""};
+  EXPECT_EQ(times(none, 1), "");
+  EXPECT_EQ(doing(none, 2, false), "");
+}
+
 }  // namespace
 }  // namespace kith

@@ -22,21 +22,21 @@ constexpr const char* kCommitted = ".kith-committed";  // the name of a generati
 constexpr const char* kContents = ".contents";         // in it: what is put in place and what is removed
 constexpr const char* kReplaced = ".replaced";         // in it: what was there before
 
-[[noreturn]] void fail(const std::string& action, const fs::path& path, int error) {
+[[noreturn]] void fail_at(const std::string& action, const fs::path& path, int error) {
   throw Error{ErrorKind::kIo, "cannot " + action + " " + path.string() + ": " + std::generic_category().message(error)};
 }
 
-bool is_there(const fs::path& path) {
+bool is_entry(const fs::path& path) {
   struct stat status = {};
   return lstat(path.c_str(), &status) == 0;
 }
 
 void move(const fs::path& from, const fs::path& to) {
-  if (rename(from.c_str(), to.c_str()) != 0) fail("replace", to, errno);
+  if (rename(from.c_str(), to.c_str()) != 0) fail_at("replace", to, errno);
 }
 
 void make_folder(const fs::path& path) {
-  if (mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) fail("write to", path, errno);
+  if (mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) fail_at("write to", path, errno);
 }
 
 // A line for each name: a sign, which tells what becomes of it, and the name.
@@ -48,7 +48,7 @@ std::string contents_of(const fs::path& staging, const std::vector<std::string>&
   std::error_code error;
   for (fs::directory_iterator entry{staging, error}, end; !error && entry != end; entry.increment(error))
     names.push_back(entry->path().filename().string());
-  if (error) fail("read", staging, error.value());
+  if (error) fail_at("read", staging, error.value());
   std::sort(names.begin(), names.end());
   std::string text;
   for (const auto& name : names) text += kPut + name + "\n";
@@ -63,7 +63,7 @@ void synchronise_folders(const fs::path& folder) {
   for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
     if (entry->is_directory(error)) inside.push_back(entry->path());
   }
-  if (error) fail("read", folder, error.value());
+  if (error) fail_at("read", folder, error.value());
   for (const auto& one : inside) synchronise_folders(one);
   synchronise_folder(folder);
 }
@@ -71,7 +71,7 @@ void synchronise_folders(const fs::path& folder) {
 void remove_tree(const fs::path& path) {
   std::error_code error;
   fs::remove_all(path, error);
-  if (error) fail("remove", path, error.value());
+  if (error) fail_at("remove", path, error.value());
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ Generation::Generation(fs::path folder) : folder_{std::move(folder)} {
   for (fs::directory_iterator entry{folder_, error}, end; !error && entry != end; entry.increment(error)) {
     if (entry->path().filename().string().rfind(kStagingPrefix, 0) == 0) left.push_back(entry->path());
   }
-  if (error) fail("read", folder_, error.value());
+  if (error) fail_at("read", folder_, error.value());
   for (const auto& one : left) remove_tree(one);  // by a run that was killed; we hold the lock
   staging_ = folder_ / (kStagingPrefix + std::to_string(getpid()));
-  if (mkdir(staging_.c_str(), 0777) != 0) fail("write to", folder_, errno);
+  if (mkdir(staging_.c_str(), 0777) != 0) fail_at("write to", folder_, errno);
 }
 
 Generation::~Generation() {
@@ -107,19 +107,19 @@ void Generation::commit(std::vector<std::string> removed,
   settle(folder_, observer);
 }
 
-bool is_unsettled(const fs::path& folder) { return is_there(folder / kCommitted); }
+bool is_unsettled(const fs::path& folder) { return is_entry(folder / kCommitted); }
 
 void settle(const fs::path& folder, const std::function<void(const std::string& instant)>& observer) {
   const auto committed = folder / kCommitted;
-  if (!is_there(committed)) return;
+  if (!is_entry(committed)) return;
   const auto contents = read_file(committed / kContents);
   for (std::size_t begin = 0; begin < contents.size();) {
     const auto end = std::min(contents.find('\n', begin), contents.size());
     const auto name = contents.substr(begin + 1, end - begin - 1);
     const bool put = contents[begin] == kPut;
     begin = end + 1;
-    if (put && !is_there(committed / name)) continue;  // it is in place
-    if (is_there(folder / name)) {
+    if (put && !is_entry(committed / name)) continue;  // it is in place
+    if (is_entry(folder / name)) {
       remove_tree(committed / kReplaced / name);
       move(folder / name, committed / kReplaced / name);
     }

@@ -1,9 +1,13 @@
 #include "kith/files/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <thread>
 #include <vector>
 
@@ -126,6 +130,80 @@ TEST_F(AtomicFileTest, LeavesNothingBehindWhenItCannotBePutInPlace) {
   fs::create_directory(path / "full");
   EXPECT_THAT(io_error([&] { file.commit(); }), HasSubstr(path.string()));
   fs::remove_all(path);
+}
+
+// Whether files without a name can be made where the tests are.
+bool has_unnamed_files(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0600);
+  if (descriptor >= 0) close(descriptor);
+  return descriptor >= 0;
+}
+
+TEST_F(AtomicFileTest, LeavesNothingBehindWhenTheProcessIsKilled) {
+  if (!has_unnamed_files(folder_)) GTEST_SKIP() << "this file system has no files without a name";
+  write_file_atomically(folder_ / "old.csv", "old");
+  for (const auto* name : {"old.csv", "new.csv"}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      AtomicFile file{folder_ / name};
+      file.write("half");
+      _exit(0);  // no destructor is called, as with kill -9
+    }
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    EXPECT_EQ(num_entries(), 1u) << name;
+  }
+  EXPECT_EQ(read_file(folder_ / "old.csv"), "old");
+}
+
+TEST_F(AtomicFileTest, ReplacesALinkInsteadOfItsTargetWhenAskedTo) {
+  write_file_atomically(folder_ / "precious", "old");
+  fs::create_symlink("precious", folder_ / "link");
+  fs::create_symlink("nowhere", folder_ / "dangling");
+  for (const auto* name : {"link", "dangling"}) {
+    write_file_atomically(folder_ / name, "new", FolderSync::kNow, OldLink::kReplace);
+    EXPECT_FALSE(fs::is_symlink(folder_ / name)) << name;
+    EXPECT_EQ(read_file(folder_ / name), "new");
+  }
+  EXPECT_EQ(read_file(folder_ / "precious"), "old");
+  EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
+}
+
+TEST_F(AtomicFileTest, DoesNotWaitForAReaderOfANamedPipe) {
+  const auto pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  alarm(60);  // a guard: opening would wait for ever
+  EXPECT_THAT(io_error([&] { write_file_atomically(pipe, "x"); }), HasSubstr("nobody reads this pipe"));
+  alarm(0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  write_file_atomically(pipe, "x");
+  char byte = 0;
+  EXPECT_EQ(read(reader, &byte, 1), 1);
+  EXPECT_EQ(byte, 'x');
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(AtomicFileTest, WritesThroughTheNameOfAnOpenPipe) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(ends), 0);
+  write_file_atomically("/dev/fd/" + std::to_string(ends[1]), "x");  // as `-o >(...)` in a shell
+  char byte = 0;
+  EXPECT_EQ(read(ends[0], &byte, 1), 1);
+  EXPECT_EQ(byte, 'x');
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST_F(AtomicFileTest, IsReadFromARegularFileOnlyUnlessAnythingWillDo) {
+  const auto pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  alarm(60);  // a guard: opening would wait for ever
+  EXPECT_THAT(io_error([&] { (void)read_file(pipe); }), HasSubstr("it is no regular file"));
+  EXPECT_THAT(io_error([] { (void)read_file("/dev/zero"); }), HasSubstr("it is no regular file"));
+  std::thread writer{[&] { std::ofstream{pipe} << "through a pipe"; }};
+  EXPECT_EQ(read_file(pipe, Readable::kAnything), "through a pipe");
+  writer.join();
+  alarm(0);
 }
 
 // Readers at any moment see one of the whole contents.

@@ -8,6 +8,7 @@
 #include "kith/fit/import_run.hpp"
 #include "kith/fit/import_trials.hpp"
 #include "kith/table/csv_reader.hpp"
+#include "kith/table/table_text.hpp"
 #include "open_table.hpp"
 
 namespace kith {
@@ -42,7 +43,7 @@ void add(ImportedLogs& all, const fs::path& path, AnswerDetail detail, const std
     append(all.logs, import_run_folder(path, detail), prefix);
     return;
   }
-  const auto columns = read_csv_header(read_file(responses), responses.string());
+  const auto columns = read_csv_header(read_table_text(responses), responses.string());
   if (has_column(columns, "interaction_type") || has_column(columns, "user_id")) {
     append(all.logs, import_trials(responses), prefix);
     return;

@@ -11,7 +11,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
-#include "kith/files/atomic_file.hpp"
+#include "kith/table/table_text.hpp"
 #include "open_table.hpp"
 
 namespace kith {
@@ -220,7 +220,7 @@ std::optional<RecordedWorld> world_of(const std::string& line, const std::filesy
 }  // namespace
 
 std::vector<RecordedWorld> read_lee2021_worlds(const std::filesystem::path& path) {
-  std::istringstream lines{read_file(path)};
+  std::istringstream lines{read_table_text(path)};
   std::vector<RecordedWorld> worlds;
   std::vector<Diagnostic> diagnostics;
   std::size_t number = 0;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
-#include "kith/files/atomic_file.hpp"
+#include "kith/table/table_text.hpp"
 
 namespace kith::detail {
 namespace {
@@ -50,7 +50,7 @@ std::optional<bool> OpenRow::boolean(const std::string& column) const {
 
 void read_open_csv(const std::filesystem::path& path, std::vector<Column> required, std::vector<Column> optional,
                    std::vector<Diagnostic>& diagnostics, const std::function<void(const OpenRow&)>& on_row) {
-  read_open_csv(kith::read_file(path), path.string(), std::move(required), std::move(optional), diagnostics, on_row);
+  read_open_csv(read_table_text(path), path.string(), std::move(required), std::move(optional), diagnostics, on_row);
 }
 
 void read_open_csv(const std::string& content, const std::string& name, std::vector<Column> required,

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "checks.hpp"
 #include "component_paths.hpp"
+#include "kith/core/error.hpp"
 #include "policy_evaluation.hpp"
 #include "policy_solver.hpp"
 
@@ -120,7 +122,11 @@ std::vector<IntegerVector> rounded(const Mdp& mdp, std::span<const double> featu
   for (std::size_t s = 0; s < counts.size(); ++s) {
     for (std::size_t k = 0; k < d; ++k) {
       const double units = features[s * d + k] * static_cast<double>(scale);
-      require(std::abs(units) < kMostUnits, "behave", "feature counts must stay below 2^53 units");
+      if (!(std::abs(units) < kMostUnits)) {
+        throw Error{ErrorKind::kInfeasible,
+                    "somebody would wander for too long: expected feature counts must stay below 2^53 units of 1/" +
+                        std::to_string(scale) + "; make ending likelier, or give a smaller discount"};
+      }
       counts[s][k] = std::llround(units);
     }
   }

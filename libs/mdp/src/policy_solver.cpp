@@ -11,7 +11,9 @@
 namespace kith::detail {
 namespace {
 
-constexpr int kFewSweeps = 10;         // for a policy that is soon to be improved
+constexpr int kFewSweeps = 10;    // for a policy that is soon to be improved
+constexpr int kFewPolicies = 50;  // after so many each is evaluated to the end: with a discount near 1 a few sweeps
+                                  // come no nearer to its values, and what they improve is not the policy
 constexpr int kMostPolicies = 10'000;  // in practice a few dozen
 
 }  // namespace
@@ -100,7 +102,9 @@ std::optional<std::vector<double>> PolicySolver::optimal_values() const {
   for (int i = 0; i < kMostPolicies; ++i) {
     if (improve(policy, values)) {
       if (must_finish && !policy.finishes()) return std::nullopt;
-      is_evaluated = chain_of(policy).sweep(kFewSweeps, values);
+      const auto chain = chain_of(policy);
+      is_evaluated = i >= kFewPolicies || chain.sweep(kFewSweeps, values);
+      if (i >= kFewPolicies) chain.solve(values);
     } else if (is_evaluated) {
       return values;
     } else {

@@ -268,6 +268,38 @@ TEST(Behave, CountsExpectedTries) {
   EXPECT_EQ(soon->counts[0], (IntegerVector{2500, 625}));  // 1 / (1 - 0.6), 0.25 of that
 }
 
+TEST(Behave, SaysWhenEndingIsTooRareToBeCounted) {
+  MdpBuilder builder{1, 1, 1, 1, 1.0};
+  const std::vector<MdpBuilder::Transition> hardly_ever{{StateIndex{0}, 1.0 - 1e-12, {1}}, {StateIndex{1}, 1e-12, {1}}};
+  builder.add_choice(StateIndex{0}, ActionIndex{0}, hardly_ever);
+  try {
+    (void)behave(std::move(builder).build(), std::vector{-1.0}, {.scale = kScale});
+    FAIL() << "2^60 units were counted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
+  }
+}
+
+// A corridor in which going back and forth at the far end earns most. Where the discount is near 1 a few sweeps over
+// the values of one policy say little about the next.
+TEST(Behave, ComesToAnEndWithADiscountNearOne) {
+  constexpr std::size_t kLast = 11;
+  for (const double discount : {0.99, 0.9999, 0.999999}) {
+    MdpBuilder builder{kLast + 1, 1, 2, 2, discount};
+    for (std::size_t s = 0; s <= kLast; ++s) {
+      using Transitions = std::vector<MdpBuilder::Transition>;
+      const StateIndex left{s == 0 ? kLast + 1 : s - 1};
+      const StateIndex right{s == kLast ? kLast - 1 : s + 1};
+      builder.add_choice(StateIndex{s}, ActionIndex{0}, Transitions{{left, 1.0, {0.5, 0.0}}});
+      builder.add_choice(StateIndex{s}, ActionIndex{1}, Transitions{{right, 1.0, {0.0, s == kLast ? 1.2 : 0.0}}});
+    }
+    const auto behaviour = behave(std::move(builder).build(), std::vector{1.0, 1.0}, {.scale = 1 << 20});
+    ASSERT_TRUE(behaviour) << discount;
+    EXPECT_NEAR(behaviour->values[kLast] * (1.0 - discount * discount), 1.2, 1e-9) << discount;
+    for (const auto choice : behaviour->choice) EXPECT_EQ(choice, 1u) << discount;
+  }
+}
+
 // From 0 to the end at once, or round through 1, which leads back for certain.
 Mdp with_a_way_round(double there, double back, double out) {
   return make_mdp(2, 1, {{0, 0, 1, {there}}, {0, 1, 2, {out}}, {1, 0, 0, {back}}});
@@ -328,7 +360,7 @@ TEST(Behave, RefusesNonsense) {
   EXPECT_THROW((void)is_optimal(mdp, behaviour, std::vector{1.0, 1.0}, StateIndex{1}, 0), std::invalid_argument);
   EXPECT_THROW((void)is_optimal(mdp, {}, std::vector{1.0, 1.0}, StateIndex{0}, 0), std::invalid_argument);
   const Mdp huge = make_mdp(1, 1, {{0, 0, 1, {1e12}}});
-  EXPECT_THROW((void)behave(huge, std::vector{1.0}, {.scale = kScale}), std::invalid_argument);
+  EXPECT_THROW((void)behave(huge, std::vector{1.0}, {.scale = kScale}), Error);
 }
 
 TEST(Mdp, ListsComponentsAfterThoseTheyLeadTo) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "kith/core/error.hpp"
+#include "kith/study/study_memory.hpp"
 
 namespace kith {
 namespace {
@@ -104,6 +105,12 @@ Laboratory::Laboratory(const Atlas& atlas, const StudyMaker& make_study, const T
   if (!reading.study) throw Error{reading.diagnostics};
   const auto& spec = reading.study->variants.front();
   cells_ = spec.strategies.size() * spec.compositions.size();
+  // The largest batch, which may be the last: nobody wants to learn after hours that it does not fit.
+  const auto largest = std::max({cost(options_.points, options_.teams), cost(3, options_.confirm_teams),
+                                 cost(options_.frontier_points, options_.confirm_teams / 2)});
+  Study study{{spec}};
+  study.variants.front().record = RecordLevel::kTeam;
+  require_study_memory(study, options_.threads, largest);
 }
 
 std::optional<std::vector<Evaluation>> Laboratory::run(const std::vector<std::vector<double>>& settings,

@@ -11,6 +11,7 @@
 #include "kith/stats/distributions.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/power.hpp"
+#include "kith/study/study_memory.hpp"
 #include "study_tests.hpp"
 
 namespace kith {
@@ -270,6 +271,7 @@ std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpe
     variant.record = RecordLevel::kTeam;
     study.variants.push_back(std::move(variant));
   }
+  require_study_memory(study, options.threads, num_teams(study));
   const auto addresses = team_addresses(study);
   const auto run = run_teams(atlas, study, addresses, {.threads = options.threads, .on_progress = options.on_progress});
   if (run.teams.size() < addresses.size()) return std::nullopt;

@@ -12,8 +12,8 @@ std::string to_string(const Target& target) {
 
 double miss(const Target& target, double model) {
   if (!target.is_factor) return (model - target.value) / target.tolerance;
-  constexpr double kSmallest = 1e-12;  // a model without spread misses by much, not by infinitely much
-  return std::log(std::max(model, kSmallest) / target.value) / std::log(target.tolerance);
+  constexpr double kSmallestFigure = 1e-12;  // a model without spread misses by much, not by infinitely much
+  return std::log(std::max(model, kSmallestFigure) / target.value) / std::log(target.tolerance);
 }
 
 std::vector<std::string> overrides_of(const std::vector<FreeParameter>& parameters, const std::vector<double>& values) {

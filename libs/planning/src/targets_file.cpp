@@ -10,6 +10,12 @@ namespace kith {
 namespace {
 
 constexpr const char* kTargetsSchema = "kith.targets/1";
+
+// Larger figures are typing errors, and what is computed of them would not be finite.
+constexpr double kLargest = 1e9;
+constexpr double kLargestF = 1e6;
+constexpr double kLargestDf1 = 1e6;
+
 const std::vector<std::string>& quantity_words() {
   static const std::vector<std::string> kWords{"periods", "knowledge", "completed", "area_sr"};
   return kWords;
@@ -108,7 +114,7 @@ class TargetsParser {
                       "known: " + selections_of(spec()));
       }
     }
-    if (const auto value = table.real("value", Presence::kRequired)) target.value = *value;
+    if (const auto value = table.real("value", Presence::kRequired, {-kLargest, kLargest})) target.value = *value;
     read_tolerance(table, target);
     if (const auto priority = table.integer("priority", Presence::kOptional, {1, 1000}))
       target.priority = static_cast<std::size_t>(*priority);
@@ -120,8 +126,10 @@ class TargetsParser {
   }
 
   void read_tolerance(TomlReader& table, Target& target) {
-    const auto tolerance = table.real("tolerance", Presence::kOptional, {.min = 0.0, .open_min = true});
-    const auto factor = table.real("within_factor", Presence::kOptional, {.min = 1.0, .open_min = true});
+    const auto tolerance =
+        table.real("tolerance", Presence::kOptional, {.min = 0.0, .max = kLargest, .open_min = true});
+    const auto factor =
+        table.real("within_factor", Presence::kOptional, {.min = 1.0, .max = kLargest, .open_min = true});
     if (table.has("tolerance") == table.has("within_factor")) {
       report_.error("E0802", table.place(), table.name() + " needs either tolerance or within_factor",
                     "write tolerance = 0.3 (a difference) or within_factor = 1.6 (a ratio)");
@@ -150,8 +158,8 @@ class TargetsParser {
     FreeParameter parameter;
     const auto keys = table.strings("keys", Presence::kRequired);
     if (const auto name = table.string("name", Presence::kRequired)) parameter.name = *name;
-    if (const auto min = table.real("min", Presence::kRequired)) parameter.min = *min;
-    if (const auto max = table.real("max", Presence::kRequired)) parameter.max = *max;
+    if (const auto min = table.real("min", Presence::kRequired, {-kLargest, kLargest})) parameter.min = *min;
+    if (const auto max = table.real("max", Presence::kRequired, {-kLargest, kLargest})) parameter.max = *max;
     if (const auto word = table.word("scale", Presence::kOptional, {"linear", "log"}))
       parameter.logarithmic = *word == 1;
     if (const auto integer = table.boolean("integer", Presence::kOptional)) parameter.integer = *integer;
@@ -207,15 +215,16 @@ class TargetsParser {
       }
     }
     if (const auto significant = table.boolean("significant", Presence::kRequired)) finding.significant = *significant;
-    if (const auto alpha = table.real("alpha", Presence::kOptional, {0.0, 1.0, true, true})) finding.alpha = *alpha;
-    finding.f = table.real("f", Presence::kOptional, {.min = 0.0});
+    if (const auto alpha = table.real("alpha", Presence::kOptional, {1e-6, 1.0 - 1e-6})) finding.alpha = *alpha;
+    const auto errors = report_.num_errors();
+    finding.f = table.real("f", Presence::kOptional, {0.0, kLargestF});
     if (const auto* df = table.array("df", Presence::kOptional)) {
       if (df->size() == 2) {
-        finding.df1 = read_real((*df)[0], "'df'", {.min = 1.0}, report_);
-        finding.df2 = read_real((*df)[1], "'df'", {.min = 1.0}, report_);
+        finding.df1 = read_real((*df)[0], "'df'", {1.0, kLargestDf1}, report_);
+        finding.df2 = read_real((*df)[1], "'df'", {1.0, kLargest}, report_);
       }
     }
-    if (finding.f.has_value() != (finding.df1 && finding.df2)) {
+    if (report_.num_errors() == errors && finding.f.has_value() != (finding.df1 && finding.df2)) {
       report_.error("E0810", table.place(), "a published F needs two degrees of freedom, and they need an F",
                     "write f = 4.67 and df = [3, 224]");
     }

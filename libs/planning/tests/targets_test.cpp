@@ -99,6 +99,22 @@ TEST(TargetsFile, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(diagnostic.hint, HasSubstr("known: group, baseline, common"));
 }
 
+TEST(TargetsFile, RefusesFiguresThatNobodyCanMean) {
+  const std::vector<std::string> wrong{
+      with("value = 5.0", "value = 1e10"),
+      with("value = 5.0", "value = -1e300"),
+      with("tolerance = 0.5", "tolerance = 1e10"),
+      with("within_factor = 2.0", "within_factor = 1e10"),
+      with("max = 2.0", "max = 1e300"),
+      with("min = 0.5", "min = -9223372036854775807"),
+      with("significant = true", "significant = true\nf = 1e7\ndf = [3, 224]"),
+      with("significant = true", "significant = true\nf = 4.0\ndf = [9223372036854775807, 224]"),
+      with("significant = true", "significant = true\nf = 4.0\ndf = [3, 1e10]"),
+  };
+  for (const auto& text : wrong) EXPECT_THAT(ids(text), ::testing::Contains("E0110")) << text;
+  EXPECT_THAT(ids(with("significant = true", "significant = true\nf = 1e6\ndf = [1e6, 1e9]")), ElementsAre());
+}
+
 TEST(TargetsFile, RefusesRangesThatTheStudyRefuses) {
   const auto reading = parse_targets(with("max = 2.0", "max = 9.0"), "targets.toml", small_study);
   ASSERT_EQ(reading.diagnostics.size(), 1u);

@@ -19,8 +19,10 @@ using Eigen::VectorXd;
 
 // Pivots of design matrices, whose entries are -1, 0 and 1, below this part of the largest are rounding.
 constexpr double kRankTolerance = 1e-9;
-// Rows times squared columns of the largest matrix that is decomposed, about a second of work per term.
+// Rows times squared columns of the largest matrix that is decomposed, about a second of work per term, and the sum
+// over all terms, each of which keeps matrices of its own.
 constexpr double kMostWork = 2e9;
+constexpr double kMostWorkInAll = 7.0 * kMostWork;
 
 Index index_of(std::size_t i) { return static_cast<Index>(i); }
 
@@ -180,8 +182,11 @@ std::string reason_against_fitting(const Cells& cells, const std::vector<std::ve
   if (cells.cell_of.empty()) return "no observations";
   const auto rows = static_cast<double>(cells.levels.size());
   const double width = num_columns(cells, terms);
-  if (rows * width * std::min(rows, width) <= kMostWork) return "";
-  return "too many combinations of levels for an analysis of variance";
+  const double work = rows * width * std::min(rows, width);
+  if (work > kMostWork) return "too many combinations of levels for an analysis of variance";
+  if (work * static_cast<double>(terms.size()) > kMostWorkInAll)
+    return "too many terms over too many combinations of levels for an analysis of variance";
+  return "";
 }
 
 std::string reason_without_df(const std::vector<std::size_t>& term, const Cells& cells,

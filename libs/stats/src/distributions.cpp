@@ -91,6 +91,19 @@ double chi_squared_upper(double x, double df) {
   return bm::cdf(bm::complement(bm::chi_squared_distribution<double, Quiet>{df}, x));
 }
 
+namespace {
+
+// Where the non-centrality is so large that the series for it have too many terms: the numerator of F is then normal,
+// or, beside a denominator of finite df, as good as constant (its spread is 2 / sqrt(non_centrality) of it).
+double far_f_upper(double f, double df1, double df2, double non_centrality) {
+  if (std::isinf(df2)) {
+    return normal_upper((f * df1 - df1 - non_centrality) / std::sqrt(2.0 * (df1 + 2.0 * non_centrality)));
+  }
+  return bm::cdf(bm::chi_squared_distribution<double, Quiet>{df2}, df2 * (df1 + non_centrality) / (f * df1));
+}
+
+}  // namespace
+
 double non_central_f_upper(double f, double df1, double df2, double non_centrality) {
   require(!std::isnan(f), "non_central_f_upper: f must be a number");
   require(df1 > 0.0 && std::isfinite(df1), "non_central_f_upper: df1 must be > 0 and finite");
@@ -100,6 +113,8 @@ double non_central_f_upper(double f, double df1, double df2, double non_centrali
   if (non_centrality == 0.0) return f_upper(f, df1, df2);
   if (f <= 0.0) return 1.0;
   if (std::isinf(f)) return 0.0;
+  constexpr double kFar = 1e9;
+  if (non_centrality > kFar) return far_f_upper(f, df1, df2, non_centrality);
   if (std::isinf(df2))
     return bm::cdf(
         bm::complement(bm::non_central_chi_squared_distribution<double, Quiet>{df1, non_centrality}, f * df1));

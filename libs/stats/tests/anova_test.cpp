@@ -316,5 +316,29 @@ TEST(Normality, IsSeenInNormalNumbersAndNotInExponentialOnes) {
   EXPECT_EQ(check_normality(std::vector<double>{1, 2}).reason(), "fewer than three residuals");
 }
 
+// Eight factors of four levels with all interactions: 255 terms, each with matrices of its own.
+TEST(Anova, SaysThatManyTermsOverManyCombinationsAreTooMany) {
+  constexpr std::size_t kRows = 300;
+  std::vector<double> values;
+  std::vector<Factor> factors;
+  for (std::size_t k = 0; k < 8; ++k) {
+    std::vector<std::string> levels;
+    for (std::size_t i = 0; i < kRows; ++i) levels.push_back(std::to_string(i * (2 * k + 7) * 2654435761u / 8192 % 4));
+    factors.push_back(make_factor("f" + std::to_string(k), levels));
+  }
+  for (std::size_t i = 0; i < kRows; ++i) values.push_back(static_cast<double>(i * 7919 % 97));
+  std::vector<std::vector<std::size_t>> terms;
+  for (std::size_t mask = 1; mask < 256; ++mask) {
+    auto& term = terms.emplace_back();
+    for (std::size_t k = 0; k < 8; ++k) {
+      if ((mask >> k & 1U) != 0) term.push_back(k);
+    }
+  }
+  const auto table = anova(values, factors, terms, SumsOfSquares::kTypeII);
+  ASSERT_EQ(table.terms.size(), 255u);
+  EXPECT_FALSE(table.terms.front().test);
+  EXPECT_NE(table.terms.front().test.reason().find("too many"), std::string::npos) << table.terms.front().test.reason();
+}
+
 }  // namespace
 }  // namespace kith

@@ -74,6 +74,19 @@ TEST(Distributions, NonCentralFAgreesWithR) {
   expect_close(non_central_f_upper(3, 3, kInfinity, 10), 0.68896280401214394, 1e-12);
 }
 
+TEST(Distributions, NonCentralFHasNoLargestNonCentrality) {
+  for (const double df2 : {5.0, 200.0, kInfinity}) {
+    for (const double non_centrality : {1e10, 1e16, 1e300}) {
+      EXPECT_EQ(non_central_f_upper(2.6, 3, df2, non_centrality), 1.0) << df2;
+      EXPECT_NEAR(non_central_f_upper(non_centrality * 1e3, 3, df2, non_centrality), 0.0, 1e-6) << df2;
+    }
+    // Where one way of computing ends and the other begins they agree.
+    const double far = 1e9 / 3;
+    EXPECT_NEAR(non_central_f_upper(far, 3, df2, 0.999e9), non_central_f_upper(far * 1.002, 3, df2, 1.001e9), 1e-2)
+        << df2;
+  }
+}
+
 TEST(Distributions, NonCentralFWithoutNonCentralityIsF) {
   for (const double f : {0.1, 1.0, 7.0}) {
     EXPECT_EQ(non_central_f_upper(f, 3, 20, 0.0), f_upper(f, 3, 20));

@@ -103,11 +103,11 @@ void Journal::remove(const fs::path& path) {
 bool Journal::exists(const fs::path& path) { return is_there(path) || is_there(salvaged_file(path)); }
 
 std::optional<JournalIdentity> Journal::identify(const fs::path& path) {
-  const auto file = is_there(salvaged_file(path)) ? salvaged_file(path) : path;
-  if (!is_there(file)) return std::nullopt;
+  const auto file = current_file(path);
+  if (!file) return std::nullopt;
   try {
-    Database database{
-        file, Database::Mode::kAlone};  // it has said so from the beginning; what is beside it may not be its own
+    // The file alone has said so from the beginning; what is beside it may not be its own.
+    Database database{*file, Database::Mode::kAlone};
     return read_identity(database);
   } catch (const SqliteError& error) {
     if (error.damaged()) return std::nullopt;
@@ -160,7 +160,7 @@ std::optional<Journal> Journal::open(const fs::path& path, const JournalIdentity
 }
 
 Journal Journal::read(const fs::path& path) {
-  const auto file = is_there(salvaged_file(path)) ? salvaged_file(path) : path;
+  const auto file = current_file(path).value_or(path);
   Database database{file, Database::Mode::kRead};
   auto identity = read_identity(database);
   const auto alone = identify(path);

@@ -170,6 +170,18 @@ bool is_there(const fs::path& path) {
   return true;
 }
 
+std::optional<fs::path> current_file(const fs::path& path) {
+  const auto file = is_there(salvaged_file(path)) ? salvaged_file(path) : path;
+  if (!is_there(file)) return std::nullopt;
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    throw Error{ErrorKind::kIo, file.string() +
+                                    " is not a regular file, so it is no journal of a study; remove it, or start the "
+                                    "study over with --resume never"};
+  }
+  return file;
+}
+
 void make_journal_file(const fs::path& path, const JournalIdentity& identity) {
   const auto fresh = beside(path, kNew);
   fill(fresh, identity, {});

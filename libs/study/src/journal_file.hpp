@@ -11,6 +11,10 @@ namespace kith {
 // Whether there is a file of that name, whatever it is. @throws kith::Error (kIo) if that cannot be told.
 [[nodiscard]] bool is_there(const std::filesystem::path& path);
 
+// The file that holds the journal at `path` right now: the one that a salvage has just made, or the one of that name.
+// Nothing if there is neither. @throws kith::Error (kIo) if it is no regular file, which could be waited for forever.
+[[nodiscard]] std::optional<std::filesystem::path> current_file(const std::filesystem::path& path);
+
 // A new journal at `path`, complete and on the disk before it has its name.
 void make_journal_file(const std::filesystem::path& path, const JournalIdentity& identity);
 

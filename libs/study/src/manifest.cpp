@@ -69,11 +69,11 @@ std::string manifest(const Study& study, const RunContent& content, const RunFac
   return sealed_manifest(document.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-std::optional<std::string> digest_in_manifest(const std::string& manifest) {
+std::optional<std::string> fact_in_manifest(const std::string& manifest, const std::string& key) {
   if (!is_sealed(manifest)) return std::nullopt;
   const auto document = nlohmann::json::parse(manifest);
-  const auto digest = document.find("run");
-  return digest != document.end() && digest->is_string() ? std::optional{digest->get<std::string>()} : std::nullopt;
+  const auto fact = document.find(key);
+  return fact != document.end() && fact->is_string() ? std::optional{fact->get<std::string>()} : std::nullopt;
 }
 
 std::string timings_table(const RunFacts& facts) {

@@ -19,8 +19,9 @@ struct RunContent {
 /// manifest.json of a run.
 [[nodiscard]] std::string manifest(const Study& study, const RunContent& content, const RunFacts& facts);
 
-/// The digest of the inputs that a manifest is about; nothing if it is not as it was written.
-[[nodiscard]] std::optional<std::string> digest_in_manifest(const std::string& manifest);
+/// The text that a manifest has under `key` ("run": the digest of the inputs); nothing if it has none, or if the manifest
+/// is not as it was written.
+[[nodiscard]] std::optional<std::string> fact_in_manifest(const std::string& manifest, const std::string& key);
 
 /// timings.csv of a run.
 [[nodiscard]] std::string timings_table(const RunFacts& facts);

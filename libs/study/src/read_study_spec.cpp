@@ -60,7 +60,7 @@ class SpecReader {
     set_if(spec_.title, root_.string("title", Presence::kOptional));
     set_if(spec_.domain, root_.string("domain", Presence::kRequired));
     set_if(spec_.seed, root_.integer("seed", Presence::kRequired, {.min = 0}));
-    set_if(spec_.replicates, root_.integer("replicates", Presence::kOptional, {.min = 1, .max = 100'000'000}));
+    set_if(spec_.replicates, root_.integer("replicates", Presence::kOptional, {.min = 1, .max = 10'000'000}));
     if (spec_.replicates == 1) {
       const auto* value = root_.value("replicates", Presence::kOptional);
       report_.warning("W0402", value != nullptr ? value->place() : TomlPlace{},

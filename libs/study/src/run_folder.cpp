@@ -244,10 +244,12 @@ void RunFolder::commit(Generation& generation, const std::string& manifest, cons
   reach("published");
 }
 
-std::optional<std::string> published_digest(const fs::path& folder) {
+std::optional<std::string> published_fact(const fs::path& folder, const std::string& key) {
   const auto text = text_if_any(folder / kManifestFile);
-  return text ? digest_in_manifest(*text) : std::nullopt;
+  return text ? fact_in_manifest(*text, key) : std::nullopt;
 }
+
+std::optional<std::string> published_digest(const fs::path& folder) { return published_fact(folder, "run"); }
 
 StudyReading read_run_folder(const fs::path& path) {
   settle_for_reading(path);

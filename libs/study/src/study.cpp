@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "kith/study/study_memory.hpp"
 #include "kith/study/team_run.hpp"
 #include "parallel_loop.hpp"
 
@@ -90,6 +91,7 @@ std::string describe_team(const Study& study, const TeamAddress& address) {
 
 RunResult run_teams(const Atlas& atlas, const Study& study, std::span<const TeamAddress> addresses,
                     const RunOptions& options) {
+  require_study_memory(study, options.threads, addresses.size());
   std::vector<std::optional<TeamRecord>> slots(addresses.size());
   std::size_t done = 0;
   std::atomic<bool> stopped{false};
@@ -114,6 +116,7 @@ RunResult run_teams(const Atlas& atlas, const Study& study, std::span<const Team
 
 void stream_teams(const Atlas& atlas, const Study& study, std::span<const std::uint32_t> teams,
                   const StreamOptions& options, const std::function<void(TeamOutcome outcome)>& sink) {
+  require_study_memory(study, options.threads);
   share_work(atlas, teams.size(), options, [&](TeachingCache& cache, std::size_t i) {
     TeamOutcome outcome{i, team_address(study, teams[i]), {}, {}};
     try {

@@ -14,6 +14,7 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kMaxVariants = 10'000;
+constexpr std::size_t kMaxCells = 1'000'000;
 
 // At most one byte more than is parsed, so that too large a file is told from the right size.
 std::optional<std::string> text_of(const std::filesystem::path& path) {
@@ -43,6 +44,7 @@ class StudyParser {
     read_domain_of_study();
     const auto base = read_study_spec(document_, domain(), report_);
     const auto factors = read_factors();
+    if (!report_.has_errors()) check_size(base, factors);
     if (!report_.has_errors()) expand(base, factors);
     const auto own = report_.diagnostics();
     reading_.diagnostics.insert(reading_.diagnostics.begin(), own.begin(), own.end());
@@ -64,14 +66,18 @@ class StudyParser {
       return;
     }
     const auto path = value->place().source == 0 ? options_.folder / name : std::filesystem::path{name};
-    if (auto text = text_of(path)) {
+    // What is wrong with a domain is shown with its lines, and whoever runs a study need not have written it: only
+    // files that are meant to be read so are opened, so that none can be made to show others.
+    std::error_code failure;
+    const bool may_be_domain = path.extension() == ".toml" && std::filesystem::is_regular_file(path, failure);
+    if (auto text = may_be_domain ? text_of(path) : std::nullopt) {
       take_domain(*std::move(text), path.string(), {.folder = path.parent_path()});
       return;
     }
     std::vector<std::string> names;
     for (const auto& one : known) names.emplace_back(one.name);
     report_.error("E0116", value->place(),
-                  "there is no domain '" + name + "': neither built in nor a file that can be read",
+                  "there is no domain '" + name + "': neither built in nor a file that ends in .toml and can be read",
                   suggestion(name, names));
   }
 
@@ -153,6 +159,37 @@ class StudyParser {
       }
     }
     return keys;
+  }
+
+  // Before anything is made of the product: a short file can ask for more than there is room for.
+  void check_size(const StudySpec& base, const std::vector<Factor>& factors) {
+    std::size_t variants = 1;
+    for (const auto& factor : factors) variants *= factor.values->size();
+    const auto cells = variants * base.strategies.size() * base.compositions.size();
+    const auto teams = cells * base.replicates;  // below 10^14
+    if (cells <= kMaxCells && teams <= kMaxTeams) return;
+    const auto product = "variants " + std::to_string(variants) + " x strategies " +
+                         std::to_string(base.strategies.size()) + " x compositions " +
+                         std::to_string(base.compositions.size());
+    if (cells > kMaxCells) {
+      report_.error("E0416", place_of_size(factors),
+                    "the design has " + std::to_string(cells) + " cells (" + product + "); at most " +
+                        std::to_string(kMaxCells) + " are planned",
+                    "vary fewer keys at a time, or split the study into several");
+    } else {
+      report_.error("E0415", place_of_size(factors),
+                    "the study has " + std::to_string(teams) + " teams (" + product + " x replicates " +
+                        std::to_string(base.replicates) + "); at most " + std::to_string(kMaxTeams) + " are numbered",
+                    "use fewer replicates, vary fewer keys, or split the study into several with seeds of their own");
+    }
+  }
+
+  // What makes a design large: the varied keys, else the replicates, else the compositions.
+  [[nodiscard]] TomlPlace place_of_size(const std::vector<Factor>& factors) const {
+    const auto* design = document_.root.find("design")->table();
+    if (!factors.empty()) return design->find("vary")->place();
+    if (const auto* replicates = document_.root.find("replicates")) return replicates->place();
+    return design->find("compositions")->place();
   }
 
   // Every combination, the first factor slowest.

@@ -148,7 +148,7 @@ bool StudyRun::State::open_own_journal() {
     note_damage(*journal);
     return true;
   }
-  if (!options.replace) {
+  if (!options.replace && !options.rebuild) {
     throw Error{ErrorKind::kIo, file.string() +
                                     " is damaged beyond help: no record of this study can be read from it. Restore the "
                                     "file from a copy, or start the study over with --resume never"};
@@ -184,6 +184,10 @@ void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
 void StudyRun::State::open_journal() {
   const auto file = path / kJournalFile;
   const bool there = Journal::exists(file);
+  if (!there && folder->has_results()) {
+    notes.push_back(file.string() + " is missing, so all teams of the finished run are " +
+                    (options.rebuild ? "read" : "taught") + " again");
+  }
   if (!there && options.resume == Resume::kRequire) {
     throw Error{ErrorKind::kUsage, "there is nothing to resume in " + path.string() + " (--resume require)"};
   }

@@ -37,14 +37,22 @@ std::string hash_of_file(const fs::path& file) {
 struct Manifest {
   std::map<std::string, std::string> files;  // hashes by place in the folder
   bool partial = false;
+  std::string shard;  // such as "2/3"; empty for a whole study
 };
 
 std::optional<Manifest> read_manifest(const fs::path& folder, const std::string& digest, Verification& result) {
   const auto path = folder / kManifestFile;
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) return std::nullopt;  // not finished
+  if (!fs::exists(path, ignored)) {  // not finished
+    if (fs::exists(folder / "tables", ignored)) {
+      result.mismatches.push_back(mismatch("E0641", folder / "tables",
+                                           "there are tables, but no manifest.json that says what they are",
+                                           "repeat the command that ran the study, which writes them anew"));
+    }
+    return std::nullopt;
+  }
   const auto text = read_file(path);
-  if (digest_in_manifest(text) != digest) {
+  if (fact_in_manifest(text, "run") != digest) {
     result.mismatches.push_back(mismatch("E0641", path,
                                          "this is not the manifest of the run, or it was changed after it was written",
                                          "repeat the command that ran the study"));
@@ -53,6 +61,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder, const std::string&
   const auto document = Json::parse(text);
   Manifest manifest;
   manifest.partial = document.contains("missing");
+  manifest.shard = document.value("shard", "");
   for (const auto* group : {"inputs", "tables"}) {
     for (const auto& [name, hash] : document.at(group).items())
       manifest.files[std::string{group} + "/" + name] = hash.get<std::string>();
@@ -148,7 +157,16 @@ Verification verify_run(const fs::path& folder, const StudyReading& reading, con
   if (manifest) check_files(folder, manifest->files, result);
   if (manifest && !manifest->partial) check_complete(journal, study, result);
   const auto teams = choose(journal, options.sample, study, result);
-  const bool is_shard = journal.identity().shard.count > 1;  // which has no tables
+  const auto& shard = journal.identity().shard;
+  const bool is_shard = shard.count > 1;  // which has no tables
+  const auto name = is_shard ? std::to_string(shard.index) + "/" + std::to_string(shard.count) : std::string{};
+  if (manifest && manifest->shard != name) {
+    result.mismatches.push_back(mismatch("E0644", journal.path(),
+                                         "the journal holds " + (is_shard ? "shard " + name : "the whole study") +
+                                             ", but the manifest is about " +
+                                             (manifest->shard.empty() ? "the whole study" : "shard " + manifest->shard),
+                                         "repeat the command that ran the study"));
+  }
   if (manifest && !is_shard && result.mismatches.empty()) check_tables(folder, study, journal, manifest->files, result);
 
   std::mutex mutex;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -369,6 +370,14 @@ TEST_F(JournalTest, IsNothingIfNoRecordCanBeRead) {
   (void)Journal::create(file_, identity());
   execute(file_, "UPDATE meta SET value = 'kith.journal/9' WHERE key = 'schema'");
   EXPECT_THAT(message_of([&] { (void)opened(); }, ErrorKind::kUsage), HasSubstr("kith.journal/9"));
+}
+
+TEST_F(JournalTest, IsNotWaitedForIfItIsNoRegularFile) {
+  ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_TRUE(Journal::exists(file_));
+  EXPECT_THAT(message_of([&] { (void)Journal::read(file_); }), HasSubstr("not a regular file"));
+  EXPECT_THAT(message_of([&] { (void)opened(); }), HasSubstr("not a regular file"));
+  EXPECT_EQ(Journal::create(file_, identity()).num_done(), 0u);
 }
 
 TEST_F(JournalTest, DoesNotCountAFailureThatWasChanged) {

@@ -225,6 +225,13 @@ TEST_F(StudyRunTest, StartsOverIfItsJournalIsBeyondHelpAndItMayReplace) {
   EXPECT_EQ(run.num_resumed(), 0u);
 }
 
+TEST_F(StudyRunTest, SaysThatTheJournalOfAFinishedRunIsMissing) {
+  (void)run(folder_);
+  fs::remove(folder_ / kJournalFile);
+  StudyRun run{folder_, quick_study(), how()};
+  EXPECT_THAT(run.notes(), ElementsAre(AllOf(HasSubstr(kJournalFile), HasSubstr("is missing"))));
+}
+
 TEST_F(StudyRunTest, NamesTheTeamsThatADamagedJournalLost) {
   run_partly(folder_, 5);
   const auto file = folder_ / kJournalFile;
@@ -620,6 +627,24 @@ TEST_F(VerifyTest, NamesATeamThatIsMissing) {
   ASSERT_FALSE(result.mismatches.empty());
   EXPECT_THAT(result.mismatches.back().message, HasSubstr("team 2 (baseline, NP, replicate 2) is missing"));
   EXPECT_THAT(ids(), ::testing::Contains("E0644"));
+}
+
+TEST_F(VerifyTest, NamesTheJournalOfAShardUnderTheTablesOfAWholeStudy) {
+  auto options = how();
+  options.shard = {2, 2};
+  const auto shard = scratch_.path() / "shard";
+  {
+    StudyRun run{shard, quick_study(), options};
+    ASSERT_TRUE(run.teach(item_delivery()));
+    run.publish_shard({});
+  }
+  fs::copy_file(shard / kJournalFile, folder_ / kJournalFile, fs::copy_options::overwrite_existing);
+  EXPECT_THAT(ids(), ::testing::Contains("E0644"));
+}
+
+TEST_F(VerifyTest, NamesTablesWithoutAManifest) {
+  fs::remove(folder_ / kManifestFile);
+  EXPECT_THAT(ids(), ElementsAre("E0641"));
 }
 
 TEST_F(VerifyTest, LooksAtUnfinishedRunsToo) {

@@ -12,7 +12,8 @@
 #include "check_columns.hpp"
 #include "csv_records.hpp"
 #include "kith/core/error.hpp"
-#include "kith/files/atomic_file.hpp"
+#include "kith/core/memory.hpp"
+#include "kith/table/table_text.hpp"
 
 namespace kith {
 namespace {
@@ -310,9 +311,11 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
 }
 
 CsvTable read_csv_file(const std::filesystem::path& path, std::span<const Column> columns, OtherColumns others) {
-  const std::string text = read_file(path);
+  const std::string text = read_table_text(path);
   CsvTable table;
+  MemoryGuard guard{"keeping the table " + path.string(), "keep only the rows and columns that are needed"};
   const auto keep = [&](const CsvRow& row) {
+    guard.take(row.cells.size() * sizeof(TableCell) + row.text.size());
     table.rows.emplace_back(row.cells.begin(), row.cells.end());
     table.lines.push_back(row.line);
   };

@@ -24,11 +24,26 @@ void check(const ResultTable& table) {
 
 }  // namespace
 
+// The first two lines are words, the rest is a table.
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"effect"};
+  const auto [head, body] = behind_lines(input, 2);
+  if (dice.one_in(4)) return mutate_lines(head, kVocabulary, dice) + std::string{body};
+  return std::string{head} + mutate_csv(body, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto [head, body] = behind_lines(input, 2);
+  const auto [other_head, other_body] = behind_lines(other, 2);
+  if (dice.one_in(4)) return std::string{other_head} + std::string{body};
+  return std::string{head} + cross_csv(body, other_body, dice);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzzing::Bytes bytes{data, size};
   ModelQuestion question{.formula = std::string{bytes.line()}, .observed = {}};
   if (const auto observed = bytes.line(); !observed.empty()) question.observed = observed;
-  fuzzing::reads(bytes.rest(), "table.csv", [&] {
+  const auto outcome = fuzzing::reads(bytes.rest(), "table.csv", [&] {
     const auto table = Dataset::parse(bytes.rest(), "table.csv");
     const auto analysis = analyze_table(table, question, {.permutations = 3, .resamples = 3});
     fuzzing::require(!analysis.findings.empty(), "an analysis finds something");
@@ -37,5 +52,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       for (const auto& result : finding.tables) check(result);
     }
   });
+  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
   return 0;
 }

@@ -65,6 +65,16 @@ void observe_any(ParticleBelief& belief, fuzzing::Bytes& bytes, const HalfSpaceL
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  const auto d = input.empty() ? std::size_t{3} : 2 + static_cast<unsigned char>(input.front()) % 7;
+  return mutate_vectors(input, 4, d, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  return std::string{input.substr(0, dice.below(input.size() + 1))} +
+         std::string{other.substr(dice.below(other.size() + 1))};
+}
+
 // The first byte chooses how many dimensions there are.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzzing::Bytes bytes{data, size};

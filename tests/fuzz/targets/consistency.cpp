@@ -36,6 +36,13 @@ std::vector<std::vector<std::size_t>> largest(const Lists& lists, const Cone& pr
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_vectors(input, 1, 3, dice); }
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  return std::string{input.substr(0, dice.below(input.size() + 1))} +
+         std::string{other.substr(dice.below(other.size() + 1))};
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzzing::Bytes bytes{data, size};
   const auto limit = static_cast<std::int64_t>(1 + bytes.below(4));

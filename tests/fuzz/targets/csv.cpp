@@ -47,6 +47,18 @@ std::string written(const Rows& rows) {
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"csv"};
+  if (dice.one_in(20)) return mutate_bytes(input, dice);
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + mutate_csv(body, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + cross_csv(body, behind_bytes(other, 1).body, dice);
+}
+
 // The first byte says whether other columns are ignored.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzzing::Bytes bytes{data, size};
@@ -54,6 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<Diagnostic> diagnostics;
   const auto rows = rows_of(bytes.rest(), others, diagnostics);
   fuzzing::require_good(diagnostics, bytes.rest(), "table.csv");
+  fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(diagnostics));
   std::vector<Diagnostic> none;
   const auto text = written(rows);
   fuzzing::require(rows_of(text, OtherColumns::kReject, none) == rows && none.empty(), "rows read as written", text);

@@ -27,11 +27,21 @@ void check_states(const Domain& domain, MdpIndex m) {
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"domain"};
+  return mutate_toml(input, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  return cross_toml(input, other, dice);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text{reinterpret_cast<const char*>(data), size};
   const auto reading = parse_domain(text, "domain.toml", {.max_states = 2'000});
   fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
   fuzzing::require_good(reading.diagnostics, text, "domain.toml");
+  fuzzing::note(text, fuzzing::outcome_of(reading.diagnostics));
   if (!reading.domain) return 0;
   const auto& domain = *reading.domain;
   for (const auto& half_space : domain.prior()) {

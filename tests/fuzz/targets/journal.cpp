@@ -96,6 +96,12 @@ void check(const Journal& journal) {
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_vectors(input, 0, 4, dice); }
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice&) {
+  return std::string{input} + std::string{other};
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Scratch kScratch;
   static const std::string kSound = sound_journal(kScratch.journal());

@@ -41,6 +41,18 @@ const std::array<Layout, 10>& layouts() {
   return kLayouts;
 }
 
+// The functions for the text that a first byte promises.
+struct Form {
+  std::string (*mutate)(std::string_view text, const fuzzing::Vocabulary& vocabulary, fuzzing::Dice& dice);
+  std::string (*cross)(std::string_view text, std::string_view other, fuzzing::Dice& dice);
+};
+Form form_of(std::string_view head) {
+  const std::string_view name = layouts()[static_cast<unsigned char>(head.front()) % layouts().size()].fuzzed;
+  if (name.ends_with(".csv")) return {fuzzing::mutate_csv, fuzzing::cross_csv};
+  if (name.ends_with(".json")) return {fuzzing::mutate_json, fuzzing::cross_json};
+  return {fuzzing::mutate_lines, fuzzing::cross_lines};
+}
+
 DomainFiles files_with(const char* name, std::string_view text) {
   DomainFiles files;
   files.known = {{name, std::string{text}},
@@ -70,6 +82,19 @@ void export_and_read(const Domain& domain, ModelFormat format, const std::string
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"model"};
+  if (input.empty() || dice.one_in(20)) return mutate_bytes(input, dice);
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + form_of(head).mutate(body, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  if (input.empty()) return std::string{other};
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + form_of(head).cross(body, behind_bytes(other, 1).body, dice);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const auto& layout = layouts()[data[0] % layouts().size()];
@@ -77,6 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto reading = parse_domain(*layout.domain, "m.toml", {.max_states = 2'000}, files_with(layout.fuzzed, text));
   fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
   fuzzing::require_good(reading.diagnostics, text, layout.fuzzed);
+  fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(reading.diagnostics));
   if (!reading.domain) return 0;
   export_and_read(*reading.domain, ModelFormat::kGymJson, "e.json");
   export_and_read(*reading.domain, ModelFormat::kPrism, "e");

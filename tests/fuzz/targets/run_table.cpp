@@ -25,6 +25,18 @@ void check_cells(const StudyRow& row, const std::vector<Column>& columns) {
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"run_table"};
+  if (dice.one_in(20)) return mutate_bytes(input, dice);
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + mutate_csv(body, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + cross_csv(body, behind_bytes(other, 1).body, dice);
+}
+
 // The first byte chooses the table.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto kStudy = fuzzing::tiny_study().study.value();
@@ -34,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto& table = kTables[bytes.below(kTables.size())];
   std::vector<std::string_view> wanted;
   for (std::size_t i = kKeys; i < table.columns.size(); ++i) wanted.push_back(table.columns[i].name);
-  fuzzing::reads(bytes.rest(), table.file, [&] {
+  const auto outcome = fuzzing::reads(bytes.rest(), table.file, [&] {
     std::size_t last = 0;
     std::size_t seen = 0;
     const auto rows =
@@ -47,5 +59,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         });
     fuzzing::require(rows == seen, "every row is handed out");
   });
+  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
   return 0;
 }

@@ -7,6 +7,15 @@
 
 using namespace kith;
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"study"};
+  return mutate_toml(input, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  return cross_toml(input, other, dice);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text{reinterpret_cast<const char*>(data), size};
   for (const auto& domain : built_in_domains()) {
@@ -16,6 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto reading = parse_study(text, "study.toml", options);
   fuzzing::require(reading.study.has_value() != has_errors(reading.diagnostics), "a study, or errors");
   fuzzing::require_good(reading.diagnostics, text, "study.toml");
+  fuzzing::note(text, fuzzing::outcome_of(reading.diagnostics));
   if (!reading.study) return 0;
   fuzzing::require(num_teams(*reading.study) > 0, "a study has teams");
   const auto written = to_toml(*reading.study, *reading.domain);

@@ -28,12 +28,22 @@ void check(const TargetSet& set) {
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"targets"};
+  return mutate_toml(input, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  return cross_toml(input, other, dice);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text{reinterpret_cast<const char*>(data), size};
   const auto make_study = [](const std::vector<std::string>& overrides) { return fuzzing::tiny_study(overrides); };
   const auto reading = parse_targets(text, "targets.toml", make_study);
   fuzzing::require(reading.targets.has_value() != has_errors(reading.diagnostics), "targets, or errors");
   fuzzing::require_good(reading.diagnostics, text, "targets.toml");
+  fuzzing::note(text, fuzzing::outcome_of(reading.diagnostics));
   if (reading.targets) check(*reading.targets);
   return 0;
 }

@@ -3,20 +3,58 @@
 
 #include "kith/study/team_codec.hpp"
 #include "../fuzzing.hpp"
+#include "../mutate/mutate_team.hpp"
 
 using namespace kith;
 using fuzzing::require;
 
+namespace {
+
 constexpr std::string_view kKey = "whose work it is";
 
 // The first byte is the number of the team.
+TeamAddress address_of(std::string_view head) {
+  const auto team = head.empty() ? std::size_t{0} : static_cast<unsigned char>(head.front()) % std::size_t{128};
+  return {.composition = "NNP", .team = team};
+}
+
+std::optional<TeamRecord> record_of(std::string_view head, std::string_view content) {
+  const auto address = address_of(head);
+  return decode_team(address, seal_record(address.team, std::string{content}, kKey), kKey);
+}
+
+std::string content_of(const TeamRecord& record) {
+  return std::string{unseal_record(record.address.team, encode_team(record, kKey), kKey).value()};
+}
+
+}  // namespace
+
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  const auto [head, body] = behind_bytes(input, 1);
+  auto record = record_of(head, body);
+  if (!record || dice.one_in(10)) return mutate_bytes(input, dice);
+  mutate_team(*record, dice);
+  return std::string{head} + content_of(*record);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto [head, body] = behind_bytes(input, 1);
+  const auto [other_head, other_body] = behind_bytes(other, 1);
+  auto record = record_of(head, body);
+  const auto from = record_of(other_head, other_body);
+  if (!record || !from) return std::string{input.substr(0, dice.below(input.size() + 1))} + std::string{other_body};
+  cross_teams(*record, *from, dice);
+  return std::string{head} + content_of(*record);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzzing::Bytes bytes{data, size};
-  const TeamAddress address{.composition = "NNP", .team = bytes.below(128)};
-  const std::string record{bytes.rest()};
-  static_cast<void>(decode_team(address, record, kKey));  // as it is; nobody guesses a checksum
-  const auto sealed = seal_record(address.team, record, kKey);
+  const std::string_view input{reinterpret_cast<const char*>(data), size};
+  const auto [head, content] = fuzzing::behind_bytes(input, 1);
+  const auto address = address_of(head);
+  static_cast<void>(decode_team(address, content, kKey));  // as it is; nobody guesses a checksum
+  const auto sealed = seal_record(address.team, std::string{content}, kKey);
   const auto decoded = decode_team(address, sealed, kKey);
+  fuzzing::note(input, decoded ? fuzzing::Outcome::kRead : fuzzing::Outcome::kMalformed);
   require(!decoded || is_intact(address.team, sealed, kKey), "what is read is intact");
   require(!is_intact(address.team + 1, sealed, kKey), "bytes belong to one team");
   if (!decoded) return 0;

@@ -17,6 +17,18 @@ void check_assignment(std::string_view text, TomlDocument& document) {
 
 }  // namespace
 
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"toml"};
+  const auto [head, body] = behind_lines(input, 1);
+  if (dice.one_in(5)) return mutate_toml(head, kVocabulary, dice) + std::string{body};
+  return std::string{head} + mutate_toml(body, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto [head, body] = behind_lines(input, 1);
+  return std::string{head} + cross_toml(body, behind_lines(other, 1).body, dice);
+}
+
 // The first line is an assignment.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzzing::Bytes bytes{data, size};
@@ -24,6 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto parsed = parse_toml(bytes.rest(), "file");
   fuzzing::require(parsed.document.has_value() != has_errors(parsed.diagnostics), "a document, or errors");
   fuzzing::require_good(parsed.diagnostics, bytes.rest(), "file");
+  fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(parsed.diagnostics));
   auto document = parsed.document ? *std::move(parsed.document) : TomlDocument{{{"file", ""}}, {}};
   check_assignment(assignment, document);
   const auto text = to_toml(document.root);

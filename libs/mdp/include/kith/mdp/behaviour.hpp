@@ -47,15 +47,15 @@ struct Behaviour {
 /// (policy iteration [bertsekas1991]); nothing if some states can be kept in forever at a gain per step, or cannot
 /// finish at all. Where staying costs and earns nothing, finishing is required all the same. A discounted process
 /// has an optimum unless some state has no choice.
-/// @throws std::invalid_argument unless weights.size() == d, the weights are finite, tolerance >= 0, scale >= 1 and
-/// counts stay below 2^53 units.
+/// @throws std::invalid_argument unless weights.size() == d, the weights are finite, tolerance >= 0 and scale >= 1;
+/// kith::Error (kInfeasible) unless counts stay below 2^53 units: what ends too rarely cannot be counted.
 [[nodiscard]] std::optional<Behaviour> behave(const Mdp& mdp, std::span<const double> weights,
                                               const BehaveOptions& options = {});
 
 /// Benefit of the doubt: among the choices that are optimal for `weights`, those that earn most under the robot's
 /// weights, by a second dynamic programme. `choice` and `counts` are theirs, `values` are under `weights`. Nothing if
 /// behave() finds nothing, or if the remaining choices gain for ever under the robot's weights.
-/// @throws std::invalid_argument as behave(), for both weights.
+/// @throws as behave(), for both weights.
 [[nodiscard]] std::optional<Behaviour> behave_in_favour(const Mdp& mdp, std::span<const double> weights,
                                                         std::span<const double> robot_weights,
                                                         const BehaveOptions& options = {});

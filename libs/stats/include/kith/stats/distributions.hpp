@@ -13,7 +13,8 @@ namespace kith {
 [[nodiscard]] double f_upper(double f, double df1, double df2);
 [[nodiscard]] double f_quantile(double p, double df1, double df2);  ///< lower tail
 [[nodiscard]] double chi_squared_upper(double x, double df);        ///< df finite
-/// P(F > f) for the non-central F distribution, the power of an F test. df1 is finite.
+/// P(F > f) for the non-central F distribution, the power of an F test. df1 is finite. Above a non-centrality of 1e9 the
+/// spread of the numerator, less than 1e-4 of it, is left out.
 [[nodiscard]] double non_central_f_upper(double f, double df1, double df2, double non_centrality);
 
 /// Gamma(a) / Gamma(b) for a, b > 0, without overflow where the ratio itself has none.

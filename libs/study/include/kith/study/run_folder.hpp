@@ -127,6 +127,10 @@ inline constexpr const char* kJournalFile = "study.sqlite";
 /// if there is none, or if it is not as it was written.
 [[nodiscard]] std::optional<std::string> published_digest(const std::filesystem::path& folder);
 
+/// What the manifest in the folder says under `key`, such as "domain", if that is a text and the manifest is as it was
+/// written.
+[[nodiscard]] std::optional<std::string> published_fact(const std::filesystem::path& folder, const std::string& key);
+
 /// The study of a run, from its frozen inputs, which must be those that its manifest, or its journal if the run is not
 /// finished, is about.
 /// @throws kith::Error kIo if the folder is no run folder, kMismatch if the inputs are not those of the run.

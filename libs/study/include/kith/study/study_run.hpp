@@ -29,7 +29,9 @@ struct StudyRunOptions {
   std::string program;      ///< Version and commit of the program, see JournalIdentity.
   std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never a result.
   Resume resume = Resume::kAuto;
-  bool replace = false;                  ///< Whether the folder may hold something else, which is then replaced.
+  bool replace = false;  ///< Whether the folder may hold something else, which is then replaced.
+  /// Whether a journal of which nothing can be read is begun anew: for those who have the teams from elsewhere.
+  bool rebuild = false;
   Shard shard;                           ///< The part of the study that is run here.
   bool keep_going = false;               ///< Whether a team that fails stops the run.
   double checkpoint_seconds = 0.2;       ///< A finished team waits no longer for being saved, while others go on.

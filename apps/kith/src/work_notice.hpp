@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <thread>
+
+#include "console.hpp"
+
+namespace kith::cli {
+
+/// Tells people at a terminal what takes so long: a line on standard error if the work is not over after two seconds.
+/// For work that cannot say how far it is; what can has Progress.
+class WorkNotice {
+ public:
+  /// @param what  the work, as the subject of a sentence: "planning large.toml".
+  WorkNotice(const Console& console, std::string what);
+
+ private:
+  std::jthread waiter_;  // none where nobody would read it; stopped and joined at the end
+};
+
+}  // namespace kith::cli

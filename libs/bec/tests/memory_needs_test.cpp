@@ -1,0 +1,90 @@
+#include "kith/bec/memory_needs.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include "item_delivery.hpp"
+#include "kith/bec/atlas.hpp"
+#include "kith/bec/behaviours.hpp"
+#include "kith/core/error.hpp"
+#include "kith/domains/domain_file.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::item_delivery;
+
+// An open map of so many cells a side, with every state as a start or with a few.
+Domain open_map(std::size_t side, const std::string& family = {}) {
+  std::string rows;
+  for (std::size_t y = 0; y < side; ++y) {
+    std::string row(side, '.');
+    if (y == 0) row.front() = 'S';
+    if (y + 1 == side) row.back() = 'G';
+    rows += '"' + row + "\",\n";
+  }
+  const auto text =
+      "schema = \"kith.domain/1\"\nid = \"open\"\n" + family + "[map]\nrows = [\n" + rows +
+      "]\n[map.legend]\n\".\" = \"floor\"\n\"S\" = { start = true }\n\"G\" = { goal = true }\n"
+      "[[feature]]\nname = \"step\"\nwhen = \"action\"\n[[feature]]\nname = \"up\"\nwhen = \"action:up\"\n"
+      "[[feature]]\nname = \"left\"\nwhen = \"action:left\"\n"
+      "[reward]\nweights = { step = -1, up = -0.5, left = -0.5 }\n";
+  auto reading = parse_domain(text, "open.toml");
+  if (!reading.domain) throw std::logic_error{to_text(reading.diagnostics.at(0))};
+  return *std::move(reading.domain);
+}
+
+// KITH_MEMORY for as long as it lives.
+class MemoryOf {
+ public:
+  explicit MemoryOf(const char* said) { setenv("KITH_MEMORY", said, 1); }
+  ~MemoryOf() { unsetenv("KITH_MEMORY"); }
+  MemoryOf(const MemoryOf&) = delete;
+  MemoryOf& operator=(const MemoryOf&) = delete;
+};
+
+std::string refusal_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
+    EXPECT_EQ(error.diagnostics().at(0).id, "E1201");
+    return error.what();
+  }
+  return {};
+}
+
+TEST(MemoryNeeds, GrowWithTheStatesAndWithThePairsOfStartsAndStates) {
+  const auto small = open_map(50);
+  const auto large = open_map(100);
+  EXPECT_NEAR(static_cast<double>(planning_memory(large)) / static_cast<double>(planning_memory(small)), 4.0, 0.01);
+  EXPECT_GT(teaching_memory(large), 4 * teaching_memory(small));
+  EXPECT_LT(teaching_memory(open_map(100, "[family]\nstarts = 100\n")), teaching_memory(large) / 50);
+}
+
+TEST(MemoryNeeds, OfTablesAreThoseOfPlanning) {
+  EXPECT_EQ(teaching_memory(item_delivery().domain()), 0u);
+  EXPECT_GT(planning_memory(item_delivery().domain()), 0u);
+}
+
+TEST(MemoryNeeds, AreCheckedBeforePlanning) {
+  const auto domain = open_map(100);
+  const MemoryOf little{"1M"};
+  EXPECT_THAT(refusal_of([&] { (void)Atlas{domain}; }),
+              HasSubstr("planning the 9999 states of 'open' needs about 7 MB"));
+  EXPECT_THAT(refusal_of([&] { require_teaching_memory(domain, 2); }), HasSubstr("teaching the 9999 states"));
+}
+
+TEST(MemoryNeeds, AreCheckedBeforeTeaching) {
+  const Atlas atlas{open_map(100)};
+  const MemoryOf little{"1M"};
+  EXPECT_THAT(refusal_of([&] { (void)Behaviours{atlas}; }), HasSubstr("choosing what to teach in domain 'open' needs"));
+}
+
+}  // namespace
+}  // namespace kith
