@@ -77,7 +77,7 @@ std::vector<Case> Sampler::draw(const std::string& family, std::size_t number) {
   std::size_t fruitless = 0;
   for (std::size_t i = 0; cases.size() < number && !turns.empty() && fruitless < 50 * turns.size(); ++i) {
     const auto& scenario = *turns[i % turns.size()];
-    const bool is_slow = scenario.ranks > 0 && i / turns.size() % 20 != 0;  // mpirun takes a second
+    const bool is_slow = scenario.ranks > 0 && i / turns.size() % 8 != 0;  // mpirun takes a second
     const auto one = is_slow ? std::nullopt : draw_one(scenario, family, random);
     const bool is_new = one && known.insert(to_text(*one)).second;
     fruitless = is_new ? 0 : fruitless + 1;

@@ -205,6 +205,7 @@ void use_shim(Command& command, const Scenario& scenario, const Models& models, 
   const auto root = scenario.where == Where::kOutput ? command.folder.parent_path() : command.folder;
   command.environment.emplace_back("KITH_FAULT_ROOT", root.string());
   if (!fault.empty()) command.environment.emplace_back("KITH_FAULT", fault);
+  // One of the ranks; which one, follows from the fault.
   if (scenario.ranks > 0) command.environment.emplace_back("KITH_FAULT_RANK", std::to_string(fault.size() % 2));
 }
 
