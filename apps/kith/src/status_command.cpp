@@ -101,7 +101,7 @@ int run_status(const StatusOptions& options, Console& console) {
   if (status.shard.count > 1) text += fmt::format(" (shard {}/{})", status.shard.index, status.shard.count);
   if (status.rate > 0.0) text += fmt::format("\n{:.0f} teams a second", status.rate);
   if (seconds_left) text += ", about " + clock_text(*seconds_left) + " left";
-  if (status.state == "interrupted") text += "\nthe command that began it goes on with it";
+  if (status.state == "interrupted") text += "\nto resume it, run the same command again";
   console.print(text + "\n");
   for (const auto& [team, message] : status.failures) console.print(fmt::format("team {} failed: {}\n", team, message));
   return 0;

@@ -76,7 +76,7 @@ int interrupted(const StudyOptions& options, const StudyRun& run, std::size_t do
   const auto what = fmt::format("interrupted after {} of {} teams; ", done, run.num_teams()) +
                     (done > 0 ? "they are saved in " + options.out : "nothing was saved");
   const auto line = options.study == "-" ? "the same command, with the same study on standard input" : shell_line();
-  console.warning(what + "; go on with:\n  " + line);
+  console.warning(what + "; to resume, run:\n  " + line);
   if (console.json()) {
     Diagnostic diagnostic;
     diagnostic.id = "interrupted";
