@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "draw.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& fault) {
+[[noreturn]] void refuse_fault(const std::string& fault) {
   throw Error{ErrorKind::kUsage, "'" + fault + "' is no damage that can be done here"};
 }
 
@@ -28,14 +29,14 @@ std::vector<fs::path> files_with_prefix(const fs::path& prefix) {
 bool flip(const fs::path& file, const std::string& at) {
   auto text = read_file(file);
   const auto bit = std::strtoull(at.c_str(), nullptr, 10);
-  if (bit / 8 >= text.size()) refuse(file.string() + ":" + at);
+  if (bit / 8 >= text.size()) refuse_fault(file.string() + ":" + at);
   text[bit / 8] = static_cast<char>(text[bit / 8] ^ static_cast<char>(1u << bit % 8));
   write_text(file, text);
   return true;
 }
 
 bool truncate(const fs::path& file, const std::string& length) {
-  if (!fs::exists(file)) refuse(file.string());
+  if (!fs::exists(file)) refuse_fault(file.string());
   if (length == "gone") return fs::remove(file);
   const auto before = fs::file_size(file);
   fs::resize_file(file, std::min<std::uintmax_t>(std::strtoull(length.c_str(), nullptr, 10), before));
@@ -53,7 +54,7 @@ bool mix(const fs::path& to, const fs::path& from) {
     for (const auto& file : files_with_prefix(prefix(from))) fs::copy_file(file, to.parent_path() / file.filename());
     return true;
   }
-  if (!fs::exists(from)) refuse(from.string());
+  if (!fs::exists(from)) refuse_fault(from.string());
   fs::create_directories(to.parent_path());
   if (fs::is_directory(from)) {
     const bool same = files_below(from) == files_below(to);
@@ -64,11 +65,6 @@ bool mix(const fs::path& to, const fs::path& from) {
   const bool same = fs::exists(to) && read_file(from) == read_file(to);
   fs::copy_file(from, to, fs::copy_options::overwrite_existing);
   return !same;
-}
-
-template <typename List>
-const auto& any_of(const List& list, RandomStream& random) {
-  return list[random() % list.size()];
 }
 
 // A file: in two of three draws one of the journals, which say most; empty files are of no use.
@@ -125,7 +121,7 @@ std::string damaged_name(const std::string& fault) { return fault.substr(0, faul
 
 bool do_damage(const std::string& family, const std::string& fault, const fs::path& root, const Models& models) {
   const auto name = damaged_name(fault);
-  if (name.size() == fault.size()) refuse(fault);
+  if (name.size() == fault.size()) refuse_fault(fault);
   const auto rest = fault.substr(name.size() + 1);
   if (family == "flip") return flip(root / name, rest);
   if (family == "truncate") return truncate(root / name, rest);

@@ -7,6 +7,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "process.hpp"
 #include "scenario.hpp"
 
 namespace kith::faults {
@@ -18,7 +19,6 @@ using Json = nlohmann::json;
 constexpr std::size_t kPage = 4096;
 constexpr std::size_t kStep = 509;
 constexpr std::size_t kMostForms = 4;  // of a damaged journal
-constexpr int kKilled = 128 + 9;
 
 [[noreturn]] void fail(const Words& arguments, const Ended& ended) {
   std::string text = "kith";

@@ -12,6 +12,9 @@ namespace kith::faults {
 using Words = std::vector<std::string>;
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
+/// The exit code of what SIGKILL ended.
+inline constexpr int kKilled = 128 + 9;
+
 /// What to start, and how.
 struct Command {
   Words words;                     ///< The program's path and its arguments.

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "damage.hpp"
+#include "draw.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "trial.hpp"
 
@@ -13,11 +14,6 @@ namespace kith::faults {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <typename List>
-const auto& any_of(const List& list, RandomStream& random) {
-  return list[random() % list.size()];
-}
 
 bool writes(const std::string& kind) {
   return kind == "write" || kind == "pwrite" || kind == "writev" || kind == "pwritev";
@@ -40,8 +36,8 @@ std::vector<std::string> actions(const std::string& kind, const std::string& fam
 
 // The instants of `kith study` and `kith merge`, with a delay in some draws.
 std::string draw_instant(RandomStream& random) {
-  static const std::vector<std::string> kInstants{"team",   "commit", "committed", "staged",
-                                                  "inputs", "tables", "manifest"};
+  static const std::vector<std::string> kInstants{"team",   "commit",        "committed", "staged",   "generation",
+                                                  "inputs", "manifest.json", "tables",    "published"};
   const auto& instant = any_of(kInstants, random);
   const bool is_team = instant == "team" || instant.rfind("commit", 0) == 0;
   auto text = instant + ":" + std::to_string(is_team ? 1 + random() % 8 : 1);

@@ -7,6 +7,7 @@
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/random/stream.hpp"
+#include "process.hpp"
 #include "readers.hpp"
 #include "recovery.hpp"
 
@@ -14,8 +15,6 @@ namespace kith::faults {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kKilled = 128 + 9;
 
 const Preparation& preparation_of(const Scenario& scenario, const Variant& variant) {
   return scenario.preparations[static_cast<std::size_t>(variant.preparation) % scenario.preparations.size()];

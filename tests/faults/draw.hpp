@@ -1,0 +1,13 @@
+#pragma once
+
+#include "kith/random/stream.hpp"
+
+namespace kith::faults {
+
+/// An element of a list that is not empty.
+template <typename List>
+const auto& any_of(const List& list, RandomStream& random) {
+  return list[random() % list.size()];
+}
+
+}  // namespace kith::faults
