@@ -76,7 +76,7 @@ std::string draw_file(const fs::path& root, const std::string& only, RandomStrea
     if (name.find(".sqlite") != std::string::npos) journals.push_back(name);
   }
   if (all.empty()) return {};
-  return journals.empty() || random() % 3 == 0 ? any_of(all, random) : any_of(journals, random);
+  return journals.empty() || random() % 3 == 0 ? drawn_from(all, random) : drawn_from(journals, random);
 }
 
 std::string draw_length(std::uintmax_t size, RandomStream& random) {
@@ -89,7 +89,7 @@ std::string draw_length(std::uintmax_t size, RandomStream& random) {
                                             random() % size,
                                             random() % (size / kPage + 1) * kPage,
                                             (size - 1) / kPage * kPage};
-  return random() % 9 == 0 ? "gone" : std::to_string(any_of(lengths, random));
+  return random() % 9 == 0 ? "gone" : std::to_string(drawn_from(lengths, random));
 }
 
 // Something of a model for something of the same name here.
@@ -103,11 +103,11 @@ std::string draw_mixture(const fs::path& root, const std::string& only, const Mo
   if (folders.empty()) return {};
   const auto names = models.names();
   for (int attempt = 0; attempt < 100; ++attempt) {
-    const auto& folder = any_of(folders, random);
-    const auto& model = any_of(names, random);
+    const auto& folder = drawn_from(folders, random);
+    const auto& model = drawn_from(names, random);
     std::vector<std::string> parts{"inputs", "tables", "study.sqlite*"};
     for (const auto& file : names_below(models.folder(model))) parts.push_back(file);
-    const auto& part = any_of(parts, random);
+    const auto& part = drawn_from(parts, random);
     const bool is_there = part.back() == '*' || fs::exists(models.folder(model) / part);
     const bool is_loose = part == "log.txt" || part == "timings.csv";  // nothing follows from these
     if (is_there && !is_loose) return folder + "/" + part + "=" + model + "/" + part;

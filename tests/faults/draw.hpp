@@ -6,7 +6,7 @@ namespace kith::faults {
 
 /// An element of a list that is not empty.
 template <typename List>
-const auto& any_of(const List& list, RandomStream& random) {
+const auto& drawn_from(const List& list, RandomStream& random) {
   return list[random() % list.size()];
 }
 

@@ -38,7 +38,7 @@ std::vector<std::string> actions(const std::string& kind, const std::string& fam
 std::string draw_instant(RandomStream& random) {
   static const std::vector<std::string> kInstants{"team",   "commit",        "committed", "staged",   "generation",
                                                   "inputs", "manifest.json", "tables",    "published"};
-  const auto& instant = any_of(kInstants, random);
+  const auto& instant = drawn_from(kInstants, random);
   const bool is_team = instant == "team" || instant.rfind("commit", 0) == 0;
   auto text = instant + ":" + std::to_string(is_team ? 1 + random() % 8 : 1);
   if (random() % 2 == 0) text += ":" + std::to_string(1 + random() % 3000);
@@ -119,7 +119,7 @@ std::string Sampler::draw_call(const Run& run, const std::string& family, Random
   } else {
     call %= chosen->second;
   }
-  return chosen->first + ":" + std::to_string(call + 1) + ":" + any_of(actions(chosen->first, family), random);
+  return chosen->first + ":" + std::to_string(call + 1) + ":" + drawn_from(actions(chosen->first, family), random);
 }
 
 const Sampler::Run& Sampler::undisturbed(const Scenario& scenario, int variant) {
