@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> small_study(const std::string& folder) {
+std::vector<std::string> tiny_study(const std::string& folder) {
   return {"study", "quick", "-o", folder, "--set", "replicates=2", "-j", "1"};
 }
 
@@ -31,10 +31,10 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
   return arguments;
 }
 
-const Tables& expected() {
+const Tables& tiny_tables() {
   static const Tables kTables = [] {
     const Scratch scratch;
-    EXPECT_EQ(run_kith(small_study(scratch / "run")).code, 0);
+    EXPECT_EQ(run_kith(tiny_study(scratch / "run")).code, 0);
     return tables_in(scratch / "run");
   }();
   return kTables;
@@ -61,9 +61,9 @@ void break_standard_error() {
 TEST(Progress, ThatCannotBeWrittenDoesNotEndAStudy) {
   for (const auto& deny : {close_standard_error, fill_standard_error, break_standard_error}) {
     const Scratch scratch;
-    const auto ran = run_kith(with(small_study(scratch / "run"), {"--progress", "json"}), {.prepare = deny});
+    const auto ran = run_kith(with(tiny_study(scratch / "run"), {"--progress", "json"}), {.prepare = deny});
     EXPECT_EQ(ran.code, 0);
-    EXPECT_EQ(tables_in(scratch / "run"), expected());
+    EXPECT_EQ(tables_in(scratch / "run"), tiny_tables());
     EXPECT_THAT(ran.out, Not(IsEmpty()));
     EXPECT_EQ(run_kith({"verify", scratch / "run", "--progress", "json"}, {.prepare = deny}).code, 0);
   }
@@ -140,12 +140,12 @@ TEST(Progress, OfAClosedTerminalDoesNotEndAStudy) {
 TEST(StandardStreams, ThatAreClosedAreNotMixedUpWithFiles) {
   for (const int closed : {STDOUT_FILENO, STDERR_FILENO}) {
     const Scratch scratch;
-    const auto ran = run_kith(with(small_study(scratch / "run"), {"-v", "--progress", "json"}), {.prepare = [closed] {
+    const auto ran = run_kith(with(tiny_study(scratch / "run"), {"-v", "--progress", "json"}), {.prepare = [closed] {
                                 close(STDIN_FILENO);
                                 close(closed);
                               }});
     EXPECT_EQ(ran.code, closed == STDOUT_FILENO ? 5 : 0) << ran.err;
-    EXPECT_EQ(tables_in(scratch / "run"), expected());
+    EXPECT_EQ(tables_in(scratch / "run"), tiny_tables());
     for (const auto& entry : fs::recursive_directory_iterator{scratch / "run"}) {
       if (!entry.is_regular_file()) continue;
       EXPECT_THAT(text_of(entry.path()), AllOf(Not(HasSubstr("kith: ")), Not(HasSubstr("\"eta_s\"")))) << entry.path();
@@ -251,7 +251,7 @@ TEST(Files, ThatAStudyNamesAsItsDomainAreNotShown) {
 
 class RunFolder : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(run_kith(small_study(run_)).code, 0); }
+  void SetUp() override { ASSERT_EQ(run_kith(tiny_study(run_)).code, 0); }
 
   [[nodiscard]] std::string teams_file() const { return run_ + "/tables/teams.csv"; }
 

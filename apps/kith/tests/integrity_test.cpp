@@ -6,7 +6,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "run_kith.hpp"
+#include "small_study.hpp"
 
 namespace kith::testing {
 namespace {
@@ -24,14 +24,7 @@ Words operator+(Words words, const Words& more) {
   return words;
 }
 
-// 16 teams, which take a fraction of a second.
-Words small_study(const std::string& folder) {
-  return {"study", "quick", "-o", folder, "--set", "replicates=8", "-j", "1", "-q"};
-}
-
 const Words kSwapped{"--set", "design.strategies=[\"common\",\"baseline\"]"};
-
-RunWith fails_at(const std::string& failpoint) { return {{{"KITH_FAILPOINT", failpoint}}, "", ""}; }
 
 void must_run(const Words& words) {
   const auto ran = run_kith(words);
@@ -188,7 +181,8 @@ TEST(Integrity, OfAFolderThatIsMovedDuringARun) {
 // glibc chooses its functions by what the processor can do, which this takes away.
 TEST(Integrity, OfMachinesThatRoundDifferently) {
   const Scratch scratch;
-  const RunWith without_fma{{{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA"}}, "", ""};
+  RunWith without_fma;
+  without_fma.environment = {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA"}};
   must_run(small_study(scratch / "here"));
   EXPECT_EQ(run_kith(small_study(scratch / "there"), without_fma).code, 0);
   const auto arithmetic = [&](const std::string& run) {

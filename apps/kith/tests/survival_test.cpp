@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "run_kith.hpp"
+#include "small_study.hpp"
 
 namespace kith::testing {
 namespace {
@@ -23,23 +23,7 @@ using Json = nlohmann::json;
 
 namespace fs = std::filesystem;
 
-// 16 teams, which take a fraction of a second.
-std::vector<std::string> small_study(const std::string& folder) {
-  return {"study", "quick", "-o", folder, "--set", "replicates=8", "-j", "2", "-q"};
-}
-
 constexpr int kTeams = 16;
-
-const Tables& expected() {
-  static const Tables kTables = [] {
-    const Scratch scratch;
-    EXPECT_EQ(run_kith(small_study(scratch / "run")).code, 0);
-    return tables_in(scratch / "run");
-  }();
-  return kTables;
-}
-
-RunWith fails_at(const std::string& failpoint) { return {{{"KITH_FAILPOINT", failpoint}}, "", ""}; }
 
 // Runs it until the failpoint kills it, if it comes to that.
 bool is_killed(const std::vector<std::string>& arguments, const std::string& failpoint) {
