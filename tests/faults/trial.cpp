@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 #include "damage.hpp"
 #include "kith/core/error.hpp"
@@ -40,6 +41,18 @@ bool is_as_expected(const Words& command, const Ended& ended, const fs::path& ro
   if (command.front() == "analyze") return ended.out == models.expected().analysis;
   const auto page = root / "run" / "report.html";
   return fs::exists(page) && without_dates(read_file(page)) == models.expected().page;
+}
+
+// Whether every line of `some` is one of `all`, in the same order.
+bool has_lines_of(const std::string& all, const std::string& some) {
+  std::istringstream wholes{all}, parts{some};
+  std::string whole;
+  for (std::string part; std::getline(parts, part);) {
+    while (std::getline(wholes, whole) && whole != part) {
+    }
+    if (!wholes) return false;
+  }
+  return true;
 }
 
 class Trial {
@@ -95,7 +108,28 @@ class Trial {
     if (ended.code != 0 && ended.err.find(shard) == std::string::npos && !is_unfinished) {
       wrong("merge refuses without naming the shard (" + ended.err.substr(0, 300) + "); ");
     }
+    if (ended.code != 0) merge_in_part();
     fs::remove_all(root_ / "early");
+  }
+
+  // With --allow-partial there may be fewer rows, but none that are wrong, and neither exit code nor manifest is
+  // silent.
+  void merge_in_part() {
+    const auto ended = run_kith(models_.tools(), root_, {"merge", "s1", "s2", "s3", "-o", "early", "--allow-partial"});
+    wrong(wrong_ending("merge --allow-partial", ended));
+    const auto tables = files_below(root_ / "early" / "tables");
+    if (ended.code == 0 && tables != models_.expected().tables) {
+      wrong("merge --allow-partial exits with 0 and other tables; ");
+    }
+    if (ended.code != 6) return;
+    for (const auto& [name, text] : tables) {
+      const auto whole = models_.expected().tables.find(name);
+      if (whole == models_.expected().tables.end() || !has_lines_of(whole->second, text)) {
+        wrong("merge --allow-partial writes other rows into " + name + "; ");
+      }
+    }
+    const auto manifest = comparable_manifest(read_file(root_ / "early" / "manifest.json"));
+    if (!manifest.contains("missing")) wrong("merge --allow-partial does not say in the manifest what is missing; ");
   }
 
   void strike() {
