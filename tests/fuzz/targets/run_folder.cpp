@@ -50,7 +50,9 @@ std::string frozen_study(const fs::path& folder) {
 }
 
 std::string analysis(const fs::path& folder) {
-  const auto analysis = analyze_run(folder, {.permutations = 5, .resamples = 5});
+  AnalysisOptions options;
+  options.permutations = options.resamples = 5;
+  const auto analysis = analyze_run(folder, options);
   std::string text;
   for (const auto& finding : analysis.findings) text += finding.sentence + "\n";
   return text;
@@ -69,7 +71,10 @@ std::string report(const fs::path& folder) { return build_report(folder); }
 std::string verification(const fs::path& folder) {
   const auto reading = read_run_folder(folder);
   if (!reading.study) throw Error{reading.diagnostics};
-  const auto result = verify_run(folder, reading, runs().atlas, {.sample = 0.3, .threads = 1});
+  VerifyOptions options;
+  options.sample = 0.3;
+  options.threads = 1;
+  const auto result = verify_run(folder, reading, runs().atlas, options);
   if (!result.mismatches.empty()) throw Error{result.mismatches};
   return std::to_string(result.teams) + " teams, " + std::to_string(result.files) + " files";
 }
