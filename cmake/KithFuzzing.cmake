@@ -1,4 +1,4 @@
-# kith_fuzz_target(<name> [MAX_LEN bytes] [DICTIONARY name] [DEPENDS lib ...])
+# kith_fuzz_target(<name> [MAX_LEN bytes] [DICTIONARY name] [LEAKS_AT_END] [DEPENDS lib ...])
 #
 # The target tests/fuzz/targets/<name>.cpp, a function of any bytes, as
 #
@@ -6,7 +6,9 @@
 #   fuzz_<name>         with libFuzzer, if KITH_BUILD_FUZZERS (needs clang, and
 #                       the sanitizers that the preset `fuzz` sets)
 #
-# MAX_LEN and DICTIONARY are what tests/fuzz/run.sh starts libFuzzer with.
+# MAX_LEN and DICTIONARY are what tests/fuzz/run.sh starts libFuzzer with; with
+# LEAKS_AT_END it looks for leaks when the program ends only, not after every
+# input that leaves something allocated, such as a database that keeps memory.
 if(KITH_BUILD_FUZZERS AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "KITH_BUILD_FUZZERS needs clang: cmake --preset fuzz")
 endif()
@@ -16,7 +18,7 @@ if(KITH_BUILD_FUZZERS)
 endif()
 
 function(kith_fuzz_target name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "MAX_LEN;DICTIONARY" "DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LEAKS_AT_END" "MAX_LEN;DICTIONARY" "DEPENDS")
   set(folder ${PROJECT_SOURCE_DIR}/tests/fuzz)
   if(KITH_BUILD_TESTS)
     add_executable(fuzz_replay_${name} targets/${name}.cpp)
@@ -34,6 +36,9 @@ function(kith_fuzz_target name)
     set(options "max_len=${arg_MAX_LEN}")
     if(arg_DICTIONARY)
       string(APPEND options " dict=${folder}/dictionaries/${arg_DICTIONARY}.dict")
+    endif()
+    if(arg_LEAKS_AT_END)
+      string(APPEND options " detect_leaks=0")
     endif()
     file(WRITE ${PROJECT_BINARY_DIR}/fuzz/${name}.options "${options}\n")
   endif()

@@ -11,8 +11,9 @@ namespace {
 constexpr std::array<std::string_view, 15> kSyntaxIds{"E0101", "E0102", "E0103", "E0104", "E0105",
                                                       "E0501", "E0502", "E0503", "E0504", "E0508",
                                                       "E0509", "E0512", "E0234", "E0236", "E0701"};
-constexpr std::size_t kMostRemembered = 1'000'000;
-constexpr std::size_t kMostKept = 256;
+constexpr std::size_t kMostRemembered = std::size_t{1} << 18;
+constexpr std::size_t kMostKept = 128;
+constexpr std::size_t kLongestKept = 2048;
 
 }  // namespace
 
@@ -24,6 +25,10 @@ Outcome outcome_of(const std::vector<Diagnostic>& diagnostics) {
   return malformed ? Outcome::kMalformed : Outcome::kRefused;
 }
 
+Outcomes::Outcomes() : malformed_(kMostRemembered), well_formed_(kMostKept) {
+  for (auto& input : well_formed_) input.reserve(kLongestKept);
+}
+
 Outcomes::~Outcomes() {
   constexpr std::array<const char*, 3> kNames{"malformed", "refused", "read"};
   for (std::size_t i = 0; i < counts_.size(); ++i) {
@@ -32,23 +37,23 @@ Outcomes::~Outcomes() {
 }
 
 void Outcomes::add(std::string_view input, Outcome outcome) {
-  const auto number = counts_[1] + counts_[2];
   ++counts_.at(static_cast<std::size_t>(outcome));
   if (outcome == Outcome::kMalformed) {
-    if (malformed_.size() < kMostRemembered) malformed_.insert(std::hash<std::string_view>{}(input));
-  } else if (well_formed_.size() < kMostKept) {
-    well_formed_.emplace_back(input);
-  } else {
-    well_formed_[number % kMostKept] = input;
+    const auto hash = std::hash<std::string_view>{}(input);
+    malformed_[hash % kMostRemembered] = hash;
+  } else if (input.size() <= kLongestKept) {
+    well_formed_[num_well_formed_++ % kMostKept] = input;
   }
 }
 
 bool Outcomes::was_malformed(std::string_view input) const {
-  return malformed_.count(std::hash<std::string_view>{}(input)) > 0;
+  const auto hash = std::hash<std::string_view>{}(input);
+  return malformed_[hash % kMostRemembered] == hash;
 }
 
 std::string Outcomes::well_formed(Dice& dice) const {
-  return well_formed_.empty() ? std::string{} : dice.pick(well_formed_);
+  const auto kept = std::min(num_well_formed_, kMostKept);
+  return kept == 0 ? std::string{} : well_formed_[dice.below(kept)];
 }
 
 Outcomes& outcomes() {

@@ -62,7 +62,7 @@ export ASAN_OPTIONS=quarantine_size_mb=32:detect_stack_use_after_return=0:${ASAN
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
 
 flags_of() {  # TARGET [BUILD]: what is said of it in tests/fuzz/CMakeLists.txt
-  sed 's/\(max_len=\|dict=\)/-\1/g' "${2:-$build}/fuzz/$1.options"
+  sed 's/\(^\| \)\([a-z_]*=\)/\1-\2/g' "${2:-$build}/fuzz/$1.options"
 }
 
 figure() {  # LOG NAME: of the statistics at the end

@@ -2,13 +2,11 @@
 // can still be opened is of the same study and holds, of every team that it says is done, the very bytes that were
 // written; what was recovered needs no recovery any more.
 
-#include <unistd.h>
-
-#include <cstdlib>
-
-#include "../fuzzing.hpp"
-#include "kith/files/atomic_file.hpp"
 #include "kith/study/journal.hpp"
+#include "../fuzzing.hpp"
+#include "../scratch.hpp"
+#include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/study/team_codec.hpp"
 
 using namespace kith;
@@ -19,32 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kTeams = 12;
-
-// A folder of its own, in memory where there is such a place, removed at the end.
-class Scratch {
- public:
-  Scratch() {
-    std::error_code failure;
-    const fs::path memory = "/dev/shm";
-    std::string name =
-        ((fs::is_directory(memory, failure) ? memory : fs::temp_directory_path()) / "kith-XXXXXX").string();
-    require(mkdtemp(name.data()) != nullptr, "there is a place for a folder");
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] fs::path journal() const { return path_ / "study.sqlite"; }
-  void empty() const {
-    for (const auto& entry : fs::directory_iterator{path_}) fs::remove(entry);
-  }
-
- private:
-  fs::path path_;
-};
 
 const JournalIdentity& identity() {
   static const JournalIdentity kIdentity{{"a study", "a domain"}, "1.0", kTeams, {}, "bits"};
@@ -103,21 +75,27 @@ std::string fuzzing::crossed(std::string_view input, std::string_view other, Dic
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Scratch kScratch;
-  static const std::string kSound = sound_journal(kScratch.journal());
+  static const fuzzing::Scratch kScratch;
+  static const auto kPath = kScratch.path() / "study.sqlite";
+  static const std::string kSound = sound_journal(kPath);
   auto file = kSound;
   damage(file, {data, size});
-  kScratch.empty();
-  write_file_atomically(kScratch.journal(), file);
+  for (const auto& entry : fs::directory_iterator{kScratch.path()}) fs::remove(entry);
+  write_file_atomically(kPath, file);
   std::vector<bool> done;
-  {
-    auto journal = Journal::open(kScratch.journal(), identity());
-    if (!journal) return 0;
+  const auto outcome = fuzzing::reads({}, "", [&] {
+    auto journal = Journal::open(kPath, identity());
+    if (!journal) throw Error{ErrorKind::kIo, "nothing can be read from it"};
     done = journal->done();
     if (journal->damaged().empty()) check(*journal);
     journal->close();
+  });
+  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
+  if (outcome != fuzzing::Outcome::kRead) {
+    require(done.empty(), "what was opened can be read");
+    return 0;
   }
-  const auto again = Journal::open(kScratch.journal(), identity());
+  const auto again = Journal::open(kPath, identity());
   require(again && !again->was_recovered() && again->done() == done, "opening again finds the same");
   return 0;
 }

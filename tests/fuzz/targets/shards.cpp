@@ -1,0 +1,96 @@
+// The folders of three shards with some of their files edited, put together in any order, twice or not at all. What is
+// put together holds the very bytes that were written, of all teams; where less is allowed, what is missing is said.
+
+#include "../folders.hpp"
+#include "../scratch.hpp"
+#include "../small_run.hpp"
+#include "kith/core/error.hpp"
+#include "kith/study/merge.hpp"
+
+using namespace kith;
+using fuzzing::require;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShards = 3;
+constexpr std::size_t kTeams = 4;
+
+// The shards of two studies that differ in their seeds, and the records of the first.
+struct Runs {
+  fuzzing::Scratch scratch;
+  fuzzing::FolderContent sound, foreign;
+  std::map<std::size_t, std::string> records;
+
+  Runs() {
+    const Atlas atlas{*fuzzing::small_study(1).domain};
+    for (std::size_t i = 1; i <= kShards; ++i) {
+      const Shard shard{i, kShards};
+      fuzzing::run_small_study(folder("run", i), atlas, 1, shard);
+      fuzzing::run_small_study(folder("other", i), atlas, 2, shard);
+      Journal::read(folder("run", i) / kJournalFile).for_each([&](std::size_t team, std::string_view bytes) {
+        records.emplace(team, bytes);
+      });
+    }
+    sound = fuzzing::content_of(path());
+    foreign = fuzzing::content_of(scratch.path() / "other");
+    require(records.size() == kTeams, "the shards hold all teams");
+  }
+  [[nodiscard]] fs::path path() const { return scratch.path() / "run"; }
+  [[nodiscard]] fs::path folder(const char* run, std::size_t shard) const {
+    fs::create_directories(scratch.path() / run);
+    return scratch.path() / run / std::to_string(shard);
+  }
+};
+
+Runs& runs() {
+  static Runs runs;
+  return runs;
+}
+
+void check(const Shards& shards, bool allow_partial) {
+  std::map<std::size_t, std::string> found;
+  for (const auto& journal : shards.journals) {
+    for (std::size_t team = 1; team <= kTeams; ++team) {
+      if (journal.done().size() < team || !journal.done()[team - 1]) continue;
+      found.emplace(team, journal.find(team).value());
+    }
+  }
+  for (const auto& [team, bytes] : found) {
+    require(bytes == runs().records.at(team), "a team's record is the one that was written");
+  }
+  require(found.size() == kTeams || (allow_partial && !shards.missing.empty()), "all teams are there, or it is said");
+}
+
+}  // namespace
+
+std::string fuzzing::mutated(std::string_view input, Dice& dice) { return mutate_vectors(input, 2, kEditSize, dice); }
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto edits = behind_bytes(other, 2).body;
+  const auto from = dice.below(edits.size() / kEditSize + 1) * kEditSize;
+  return std::string{input} + std::string{edits.substr(from)};
+}
+
+// The first byte says whether something may be missing, the second which folders are named: four times two bits.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzzing::Bytes bytes{data, size};
+  const auto& made = runs();
+  const bool allow_partial = bytes.below(2) != 0;
+  std::vector<fs::path> folders;
+  for (unsigned choice = bytes.byte(); choice != 0; choice >>= 2) {
+    if ((choice & 3u) != 0) folders.push_back(made.folder("run", choice & 3u));
+  }
+  if (folders.empty()) {
+    for (std::size_t i = 1; i <= kShards; ++i) folders.push_back(made.folder("run", i));
+  }
+  fuzzing::put(made.path(), fuzzing::edited(made.sound, made.foreign, bytes));
+  const auto outcome = fuzzing::reads({}, "", [&] {
+    const auto shards = open_shards(folders, fuzzing::kProgram, allow_partial);
+    check(shards, allow_partial);
+  });
+  fuzzing::note({reinterpret_cast<const char*>(data), size}, outcome);
+  fuzzing::put(made.path(), made.sound);
+  return 0;
+}
