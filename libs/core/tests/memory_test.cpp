@@ -125,11 +125,11 @@ TEST(Memory, ThatIsNotThereIsSaidBeforeItIsTaken) {
 }
 
 TEST(Memory, ThatIsTakenInSmallPartsIsGuarded) {
-  setenv("KITH_MEMORY", "100M", 1);
+  setenv("KITH_MEMORY", "1G", 1);
   MemoryGuard guard{"counting", ""};
   for (int i = 0; i < 50; ++i) guard.take(kMebibyte);  // too little to look
   EXPECT_NO_THROW(guard.take(30 * kMebibyte));
-  EXPECT_THROW(guard.take(200 * kMebibyte), Error);
+  EXPECT_THROW(guard.take(2000 * kMebibyte), Error);
   unsetenv("KITH_MEMORY");
 }
 
