@@ -59,6 +59,23 @@ struct Journal::State {
     done[team - 1] = true;
   }
 
+  // Whether the file alone holds records that it does not show together with the log beside it: then that log is of
+  // another run, or of an earlier state of this one.
+  [[nodiscard]] bool lacks_records_of(const fs::path& path) const {
+    try {
+      Database alone{path, Database::Mode::kAlone};
+      auto rows = alone.prepare("SELECT team, record FROM units");
+      while (rows.step()) {
+        const auto team = rows.integer(0);
+        if (!belongs(identity, team) || done[static_cast<std::size_t>(team) - 1]) continue;
+        if (is_intact(static_cast<std::size_t>(team), rows.blob(1), key)) return true;
+      }
+    } catch (const SqliteError& error) {
+      if (!error.damaged()) throw;  // else the log was being put into the file, and completes it
+    }
+    return false;
+  }
+
   // Finds out which teams are there. Returns false if the file is damaged.
   bool scan() {
     done.assign(identity.teams, false);
@@ -136,7 +153,8 @@ std::optional<Journal> Journal::open(const fs::path& path, const JournalIdentity
       auto state = std::make_unique<State>(std::move(database), identity);
       std::error_code none;
       const bool has_log = fs::file_size(fs::path{path}.concat("-wal"), none) > 0 && !none;
-      if (!state->scan() || (has_log && !state->damaged.empty())) return nullptr;
+      if (!state->scan()) return nullptr;
+      if (has_log && (!state->damaged.empty() || state->lacks_records_of(path))) return nullptr;
       state->database.keep_log(false);
       return state;
     } catch (const SqliteError& error) {

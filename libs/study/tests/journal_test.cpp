@@ -310,6 +310,21 @@ TEST_F(JournalTest, DoesNotTakeTheLogOfAnotherJournalForItsOwn) {
   again.for_each([](std::size_t team, std::string_view bytes) { EXPECT_EQ(bytes, entry(team).bytes); });
 }
 
+TEST_F(JournalTest, KeepsTheRecordsOfItsFileBesideAnOlderLog) {
+  const auto log = file_.string() + "-wal", older = (scratch_.path() / "older").string();
+  {
+    auto journal = Journal::create(file_, identity());
+    journal.write(entries(1, 3));
+    fs::copy_file(log, older);
+    journal.write(entries(4, 9));
+    journal.close();
+  }
+  fs::copy_file(older, log, fs::copy_options::overwrite_existing);
+  const auto again = opened();
+  EXPECT_TRUE(again.was_recovered());
+  EXPECT_EQ(again.num_done(), 9u);
+}
+
 TEST_F(JournalTest, StartsFromItsOwnFileIfTheLogOfAnotherHasReplacedAllOfIts) {
   const auto other = scratch_.path() / "other.sqlite";
   auto foreign = Journal::create(other, other_identity());
