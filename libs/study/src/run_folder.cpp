@@ -255,7 +255,7 @@ StudyReading read_run_folder(const fs::path& path) {
   settle_for_reading(path);
   const auto file = path / "inputs" / "study.toml";
   std::error_code error;
-  if (!fs::exists(file, error)) {
+  if (!fs::is_regular_file(file, error)) {  // a named pipe would keep us waiting
     throw Error{ErrorKind::kIo, path.string() + " is not a run folder: it has no inputs/study.toml"};
   }
   auto reading = load_study(file.string());
