@@ -20,13 +20,20 @@ bool bytes_only() {
   return kSet;
 }
 
-// What libFuzzer chose; of inputs that are malformed, which are most of those that it finds worth keeping since there
-// are so many ways to be, only a part, and instead a well-formed one, half of the time with a piece of it.
+// What libFuzzer chose. It keeps mostly inputs that are malformed or refused, since there are so many ways to be; of
+// these only a part is taken, and otherwise one that came further, half of the time with a piece of what was chosen.
 std::string base_of(std::string_view chosen, Dice& dice) {
-  constexpr std::size_t kOneKept = 8;
+  using kith::fuzzing::Outcome;
+  constexpr std::size_t kOneMalformed = 8;
   std::string base{chosen};
-  if (!kith::fuzzing::outcomes().was_malformed(chosen) || dice.one_in(kOneKept)) return base;
-  if (auto other = kith::fuzzing::outcomes().well_formed(dice); !other.empty()) base = std::move(other);
+  const auto& outcomes = kith::fuzzing::outcomes();
+  const auto outcome = outcomes.of(chosen);
+  if (!outcome || outcome == Outcome::kRead) return base;
+  const bool malformed = outcome == Outcome::kMalformed;
+  if (malformed ? dice.one_in(kOneMalformed) : dice.one_in(2)) return base;
+  if (auto other = outcomes.one_that(malformed ? Outcome::kRefused : Outcome::kRead, dice); !other.empty()) {
+    base = std::move(other);
+  }
   return dice.one_in(2) ? kith::fuzzing::crossed(base, chosen, dice) : base;
 }
 

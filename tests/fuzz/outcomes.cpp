@@ -25,8 +25,11 @@ Outcome outcome_of(const std::vector<Diagnostic>& diagnostics) {
   return malformed ? Outcome::kMalformed : Outcome::kRefused;
 }
 
-Outcomes::Outcomes() : malformed_(kMostRemembered), well_formed_(kMostKept) {
-  for (auto& input : well_formed_) input.reserve(kLongestKept);
+Outcomes::Outcomes() : memory_(kMostRemembered) {
+  for (auto& kept : kept_) kept.inputs.resize(kMostKept);
+  for (auto& kept : kept_) {
+    for (auto& input : kept.inputs) input.reserve(kLongestKept);
+  }
 }
 
 Outcomes::~Outcomes() {
@@ -37,23 +40,27 @@ Outcomes::~Outcomes() {
 }
 
 void Outcomes::add(std::string_view input, Outcome outcome) {
-  ++counts_.at(static_cast<std::size_t>(outcome));
-  if (outcome == Outcome::kMalformed) {
-    const auto hash = std::hash<std::string_view>{}(input);
-    malformed_[hash % kMostRemembered] = hash;
-  } else if (input.size() <= kLongestKept) {
-    well_formed_[num_well_formed_++ % kMostKept] = input;
-  }
-}
-
-bool Outcomes::was_malformed(std::string_view input) const {
+  const auto i = static_cast<std::size_t>(outcome);
+  ++counts_.at(i);
   const auto hash = std::hash<std::string_view>{}(input);
-  return malformed_[hash % kMostRemembered] == hash;
+  memory_[hash % kMostRemembered] = {hash, outcome};
+  if (outcome == Outcome::kMalformed || input.size() > kLongestKept) return;
+  auto& kept = kept_.at(i);
+  kept.inputs[kept.seen++ % kMostKept] = input;
 }
 
-std::string Outcomes::well_formed(Dice& dice) const {
-  const auto kept = std::min(num_well_formed_, kMostKept);
-  return kept == 0 ? std::string{} : well_formed_[dice.below(kept)];
+std::optional<Outcome> Outcomes::of(std::string_view input) const {
+  const auto hash = std::hash<std::string_view>{}(input);
+  const auto& memory = memory_[hash % kMostRemembered];
+  return memory.hash == hash ? std::optional{memory.outcome} : std::nullopt;
+}
+
+std::string Outcomes::one_that(Outcome came, Dice& dice) const {
+  const auto& read = kept_.at(static_cast<std::size_t>(Outcome::kRead));
+  const auto& refused = kept_.at(static_cast<std::size_t>(Outcome::kRefused));
+  const bool take_refused = came != Outcome::kRead && refused.seen > 0 && (read.seen == 0 || dice.one_in(2));
+  const auto& kept = take_refused ? refused : read;
+  return kept.seen == 0 ? std::string{} : kept.inputs[dice.below(std::min(kept.seen, kMostKept))];
 }
 
 Outcomes& outcomes() {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,15 +31,24 @@ class Outcomes {
   Outcomes& operator=(const Outcomes&) = delete;
 
   void add(std::string_view input, Outcome outcome);
-  [[nodiscard]] bool was_malformed(std::string_view input) const;
-  /// One of the latest that were well-formed; empty if none was.
-  [[nodiscard]] std::string well_formed(Dice& dice) const;
+  /// How far an input came that was run before; nothing if that was forgotten.
+  [[nodiscard]] std::optional<Outcome> of(std::string_view input) const;
+  /// One of the latest that came at least as far; empty if none did.
+  [[nodiscard]] std::string one_that(Outcome came, Dice& dice) const;
 
  private:
+  struct Memory {
+    std::size_t hash = 0;
+    Outcome outcome = Outcome::kMalformed;
+  };
+  struct Kept {
+    std::vector<std::string> inputs;
+    std::size_t seen = 0;
+  };
+
   std::array<std::size_t, 3> counts_{};
-  std::vector<std::size_t> malformed_;  // hashes, each at its remainder; a later one replaces an earlier one
-  std::vector<std::string> well_formed_;
-  std::size_t num_well_formed_ = 0;
+  std::vector<Memory> memory_;  // each at the remainder of its hash; a later one replaces an earlier one
+  std::array<Kept, 3> kept_;    // by outcome; nothing is kept that is malformed
 };
 
 [[nodiscard]] Outcomes& outcomes();

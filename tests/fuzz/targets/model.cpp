@@ -1,4 +1,5 @@
-// Explicit models. The first byte says which file of which layout the rest is; the others are sound. A domain or
+// Explicit models. The first byte says which file of which layout the rest is, or that it is the domain file that names
+// the others; these are sound. A domain or
 // errors, never both; what a domain is exported to is read again as a domain with as many states.
 
 #include <array>
@@ -23,12 +24,19 @@ const std::string kPrism = kHead +
 const std::string kGymVectors = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n" + kTail;
 const std::string kGymNumbers = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n";
 
+constexpr const char* kSoundJson =
+    R"({"schema":"kith.model/1","features":["g","f"],"variables":["x"],"mdps":[{"states":[{"state":"a","variables":[1]},)"
+    R"({"state":"c","terminal":true,"variables":[2]}],"transitions":[{"state":"a","action":"go","next":"c",)"
+    R"("probability":1,"features":[0,1]}]}]})";
+constexpr const char* kSoundGym = R"([[[[0.5,1,-1,true],[0.5,1,-2,false]]],[[[1,0,3,false]]]])";
+constexpr const char* kDomainFile = "m.toml";
+
 struct Layout {
-  const std::string* domain;
-  const char* fuzzed;  // the name of the file that the bytes are
+  const std::string* domain;  // null: it is what is fuzzed
+  const char* fuzzed;         // the name of the file that the bytes are
 };
-const std::array<Layout, 10>& layouts() {
-  static const std::array<Layout, 10> kLayouts{{{&kCsv, "a.csv"},
+const std::array<Layout, 11>& layouts() {
+  static const std::array<Layout, 11> kLayouts{{{&kCsv, "a.csv"},
                                                 {&kCsv, "b.csv"},
                                                 {&kJson, "m.json"},
                                                 {&kPrism, "m.tra"},
@@ -37,7 +45,8 @@ const std::array<Layout, 10>& layouts() {
                                                 {&kPrism, "m.srew"},
                                                 {&kPrism, "m.trew"},
                                                 {&kGymVectors, "m.json"},
-                                                {&kGymNumbers, "m.json"}}};
+                                                {&kGymNumbers, "m.json"},
+                                                {nullptr, kDomainFile}}};
   return kLayouts;
 }
 
@@ -48,6 +57,7 @@ struct Form {
 };
 Form form_of(std::string_view head) {
   const std::string_view name = layouts()[static_cast<unsigned char>(head.front()) % layouts().size()].fuzzed;
+  if (name.ends_with(".toml")) return {fuzzing::mutate_toml, fuzzing::cross_toml};
   if (name.ends_with(".csv")) return {fuzzing::mutate_csv, fuzzing::cross_csv};
   if (name.ends_with(".json")) return {fuzzing::mutate_json, fuzzing::cross_json};
   return {fuzzing::mutate_lines, fuzzing::cross_lines};
@@ -61,6 +71,8 @@ DomainFiles files_with(const char* name, std::string_view text) {
                  {"m.tra", "3 3 4\n0 0 1 1 go\n1 0 0 0.5 go\n1 0 2 0.5 go\n2 0 2 1\n"},
                  {"m.sta", "(x)\n0:(1)\n1:(2)\n2:(3)\n"},
                  {"m.lab", "0=\"init\" 1=\"goal\"\n0: 0\n2: 1\n"},
+                 {"m.json", kSoundJson},
+                 {"g.json", kSoundGym},
                  {"m.srew", "3 1\n0 1\n"},
                  {"m.trew", "3 3 1\n1 0 2 1\n"}};
   return files;
@@ -99,7 +111,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const auto& layout = layouts()[data[0] % layouts().size()];
   const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
-  const auto reading = parse_domain(*layout.domain, "m.toml", {.max_states = 2'000}, files_with(layout.fuzzed, text));
+  const std::string domain{layout.domain == nullptr ? text : std::string_view{*layout.domain}};
+  const auto reading = parse_domain(domain, kDomainFile, {.max_states = 2'000}, files_with(layout.fuzzed, text));
   fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
   fuzzing::require_good(reading.diagnostics, text, layout.fuzzed);
   fuzzing::note({reinterpret_cast<const char*>(data), size}, fuzzing::outcome_of(reading.diagnostics));

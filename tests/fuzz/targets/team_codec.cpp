@@ -42,8 +42,9 @@ std::string fuzzing::crossed(std::string_view input, std::string_view other, Dic
   const auto [other_head, other_body] = behind_bytes(other, 1);
   auto record = record_of(head, body);
   const auto from = record_of(other_head, other_body);
-  if (!record || !from) return std::string{input.substr(0, dice.below(input.size() + 1))} + std::string{other_body};
-  cross_teams(*record, *from, dice);
+  if (!record) return std::string{other};
+  if (from) cross_teams(*record, *from, dice);
+  if (!from) mutate_team(*record, dice);
   return std::string{head} + content_of(*record);
 }
 
