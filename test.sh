@@ -15,8 +15,7 @@ usage: ./test.sh             what has to pass before anything is merged:
                              under ASan and UBSan, the study layer under
                              ThreadSanitizer, clang-tidy, the benchmarks built,
                              and every fuzz target: FUZZING minutes (12) in all.
-                             Takes hours rather than minutes on two cores; ends
-                             with how long each part took
+                             Ends with how long each part took
 
 Installs missing Debian packages first, as ./run.sh does. To run a part of the
 tests again: ctest --preset release -R Cone
