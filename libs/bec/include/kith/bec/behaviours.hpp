@@ -27,6 +27,7 @@ class Behaviours {
   explicit Behaviours(const Atlas& atlas, std::size_t max_cells = 256);
   Behaviours(const Behaviours&) = delete;
   Behaviours& operator=(const Behaviours&) = delete;
+  ~Behaviours() = default;
 
   [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
   /// The atlas's constraints and, after them, those met on the way. It grows; references to it stay valid.

@@ -12,6 +12,8 @@ class FolderLock {
   /// @return nothing if another process holds the folder. @throws kith::Error (kIo) if it cannot be opened.
   [[nodiscard]] static std::optional<FolderLock> try_acquire(const std::filesystem::path& folder);
 
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&& other) noexcept;
   ~FolderLock();

@@ -91,6 +91,8 @@ class Journal {
   /// Removes it and the files beside it, but not `PATH.damaged`.
   static void remove(const std::filesystem::path& path);
 
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
   ~Journal();

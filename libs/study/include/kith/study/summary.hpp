@@ -41,6 +41,8 @@ class StudySummarizer {
  public:
   StudySummarizer();
   ~StudySummarizer();
+  StudySummarizer(const StudySummarizer&) = delete;
+  StudySummarizer& operator=(const StudySummarizer&) = delete;
   StudySummarizer(StudySummarizer&&) noexcept;
   StudySummarizer& operator=(StudySummarizer&&) noexcept;
   void add(const TeamRecord& team);
