@@ -69,11 +69,17 @@ class TeamBelief {
   /// Feedback: the true half-spaces, once, to the beliefs about everybody present and those of the rules.
   void observe_feedback(std::span<const HalfSpace> half_spaces, std::uint64_t period);
 
+  /// The same beliefs and the same members present, bit for bit; whatever the options.
+  friend bool operator==(const TeamBelief& a, const TeamBelief& b) {
+    return a.present_ == b.present_ && a.members_ == b.members_ && a.aggregates_ == b.aggregates_;
+  }
+
  private:
   // A belief and the root of what it draws.
   struct Part {
     ParticleBelief belief;
     RandomStream random;
+    friend bool operator==(const Part& a, const Part& b) { return a.belief == b.belief; }
   };
 
   [[nodiscard]] bool is_single() const noexcept { return num_members() == 1; }
