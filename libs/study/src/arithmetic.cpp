@@ -8,7 +8,7 @@
 #include <gnu/libc-version.h>
 #endif
 
-#include "bytes.hpp"
+#include "kith/files/bytes.hpp"
 #include "kith/files/sha256.hpp"
 
 namespace kith {

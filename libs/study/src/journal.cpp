@@ -7,8 +7,8 @@
 #include "journal_file.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/sha256.hpp"
+#include "kith/files/sqlite.hpp"
 #include "kith/study/team_codec.hpp"
-#include "sqlite.hpp"
 
 namespace kith {
 namespace {

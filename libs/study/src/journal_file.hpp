@@ -2,11 +2,13 @@
 
 #include <filesystem>
 
+#include "kith/files/sqlite.hpp"
 #include "kith/study/journal.hpp"
-#include "sqlite.hpp"
 
 // How the file of a journal comes to be, is read, and is replaced after damage; what is in it is the Journal's.
 namespace kith {
+
+inline constexpr int kJournalPageSize = 4096;
 
 // Whether there is a file of that name, whatever it is. @throws kith::Error (kIo) if that cannot be told.
 [[nodiscard]] bool is_there(const std::filesystem::path& path);

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "kith/core/error.hpp"
+#include "kith/files/sqlite.hpp"
 #include "kith/study/team_codec.hpp"
-#include "sqlite.hpp"
 
 namespace kith {
 namespace {

@@ -7,8 +7,8 @@
 #include "kith/core/error.hpp"
 #include "kith/files/generation.hpp"
 #include "kith/files/published_run.hpp"
+#include "kith/files/sqlite.hpp"
 #include "kith/study/arithmetic.hpp"
-#include "sqlite.hpp"
 #include "team_list.hpp"
 
 namespace kith {

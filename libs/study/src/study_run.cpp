@@ -4,10 +4,10 @@
 #include <atomic>
 #include <mutex>
 
-#include "bytes.hpp"
 #include "journal_writer.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/bytes.hpp"
 #include "kith/random/stream.hpp"
 #include "kith/study/arithmetic.hpp"
 #include "kith/study/team_codec.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "bytes.hpp"
+#include "kith/files/bytes.hpp"
 #include "kith/files/sha256.hpp"
 
 namespace kith {

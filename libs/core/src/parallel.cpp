@@ -1,9 +1,9 @@
-#include "kith/study/parallel.hpp"
+#include "kith/core/parallel.hpp"
 
 #include <atomic>
 #include <mutex>
 
-#include "parallel_loop.hpp"
+#include "kith/core/parallel_loop.hpp"
 
 namespace kith {
 

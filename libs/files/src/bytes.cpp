@@ -1,4 +1,4 @@
-#include "bytes.hpp"
+#include "kith/files/bytes.hpp"
 
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "sqlite.hpp"
+#include "kith/files/sqlite.hpp"
 
 #include <sqlite3.h>
 

@@ -13,32 +13,30 @@ struct sqlite3_stmt;
 
 namespace kith {
 
-// What went wrong with a database file, in words; damaged() tells whether its content is at fault rather than the
-// disk or the permissions.
+/// An error of a database file, with its path and the reason.
 class SqliteError : public Error {
  public:
   SqliteError(ErrorKind kind, const std::string& message, int code) : Error{kind, message}, code_{code} {}
+  /// Whether the content of the file is at fault rather than the disk or the permissions.
   [[nodiscard]] bool damaged() const noexcept;
 
  private:
   int code_;
 };
 
+/// The version of SQLite, such as "3.40.1".
 [[nodiscard]] std::string sqlite_version();
-
-// Of the files that are made here.
-inline constexpr int kJournalPageSize = 4096;
 
 class Statement;
 
-// A connection to a database file. All errors are SqliteErrors with the path and the reason. Not thread-safe.
+/// A connection to an SQLite file. All errors are SqliteErrors. Not thread-safe.
 class Database {
  public:
   enum class Mode {
-    kMake,   // a new file, to write
-    kWrite,  // one that exists, to write
-    kRead,   // to read, even while another process writes; nothing is changed, also if it is the last to close the file
-    kAlone,  // to read the file alone, whatever is beside it; nobody may write meanwhile
+    kMake,   ///< A new file, to write.
+    kWrite,  ///< One that exists, to write.
+    kRead,   ///< To read, even while another process writes. Nothing changes, even if this closes the file last.
+    kAlone,  ///< To read the file without the files beside it; no process may write to it meanwhile.
   };
   Database(std::filesystem::path path, Mode mode);
   ~Database();
@@ -47,9 +45,10 @@ class Database {
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   void execute(const std::string& sql);
-  // Whether the write-ahead log is left as it is, or put into the file when it is long and at the end (the default).
+  /// Whether the write-ahead log is kept as it is, or written to the file when it grows long and on closing (the
+  /// default).
   void keep_log(bool keep);
-  // Puts the write-ahead log into the file and empties it.
+  /// Writes the write-ahead log to the file and empties it.
   void empty_log();
   [[nodiscard]] Statement prepare(const std::string& sql);
   [[noreturn]] void fail(int code) const;
@@ -63,6 +62,7 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
+/// A prepared statement of a Database, which must outlive it.
 class Statement {
  public:
   Statement(const Database& database, sqlite3* handle, const std::string& sql);
@@ -71,17 +71,19 @@ class Statement {
   Statement& operator=(Statement&&) = delete;
 
   // Parameters are numbered from 1. The bytes of a text or blob must live until reset() or the last step.
+
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, double value);
   Statement& bind_text(int parameter, std::string_view value);
   Statement& bind_blob(int parameter, std::string_view value);
-  // Whether there is a row (another row).
+  /// Advances to the next row. @return whether there is one.
   bool step();
-  // Runs it to the end and makes it ready to be run again.
+  /// Runs it to the end and makes it ready to be run again.
   void run();
   void reset();
 
   // Columns are numbered from 0; views are valid until the next step.
+
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] double real(int column) const;
   [[nodiscard]] std::string_view text(int column) const;

@@ -9,12 +9,12 @@
 
 namespace kith {
 
-// Numbers and texts one behind the other, without gaps: counts in groups of seven bits, the lowest first; reals as
-// their 64 bits, the lowest byte first; texts and lists with their length before them.
+/// Encodes numbers and texts as consecutive bytes, the same on any machine: counts in groups of seven bits, the lowest
+/// first; reals as their 64 bits, the lowest byte first; texts and lists after their length.
 class ByteWriter {
  public:
   void count(std::uint64_t value);
-  void integer(std::int64_t value);  // zigzag: small magnitudes are short
+  void integer(std::int64_t value);  ///< Zigzag: small magnitudes are short.
   void real(double value);
   void flag(bool value) { bytes_ += value ? '\1' : '\0'; }
   void letter(char value) { bytes_ += value; }
@@ -28,8 +28,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-// Reads them again. Whatever the bytes are, nothing is read beyond their end and no list is longer than they are; once
-// something does not fit, ok() is false and zeros are read.
+/// Decodes what ByteWriter wrote. Safe for any bytes: nothing is read beyond their end and no list is longer than they
+/// are. After the first value that does not fit, ok() is false and every value is zero.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : left_{bytes} {}
@@ -41,7 +41,7 @@ class ByteReader {
   std::string text();
   std::vector<double> reals();
   IntegerVector vector();
-  // The length of a list whose elements take at least `size` bytes each.
+  /// The length of a list whose elements take at least `size` bytes each.
   std::size_t length(std::size_t size = 1);
 
   [[nodiscard]] bool ok() const noexcept { return ok_; }

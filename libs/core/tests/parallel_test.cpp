@@ -1,4 +1,4 @@
-#include "kith/study/parallel.hpp"
+#include "kith/core/parallel.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "parallel_loop.hpp"
+#include "kith/core/parallel_loop.hpp"
 
 #include <sched.h>
 
