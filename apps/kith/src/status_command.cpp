@@ -11,8 +11,8 @@
 #include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
-#include "kith/study/journal.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/journal.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {

@@ -5,7 +5,7 @@
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "option_values.hpp"
 #include "transcript.hpp"
 #include "transcript_json.hpp"

@@ -11,9 +11,9 @@
 #include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/study/journal.hpp"
-#include "kith/study/run_folder.hpp"
-#include "kith/study/verify.hpp"
+#include "kith/runs/journal.hpp"
+#include "kith/runs/run_folder.hpp"
+#include "kith/runs/verify.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {

@@ -5,7 +5,7 @@
 
 #include "commands.hpp"
 #include "json.hpp"
-#include "kith/study/journal.hpp"
+#include "kith/runs/journal.hpp"
 #include "kith_build_info.hpp"
 #include "libraries.hpp"
 #include "mpi_ranks.hpp"

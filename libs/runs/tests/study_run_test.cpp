@@ -1,4 +1,4 @@
-#include "kith/study/study_run.hpp"
+#include "kith/runs/study_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/study/merge.hpp"
-#include "kith/study/team_codec.hpp"
-#include "kith/study/verify.hpp"
+#include "kith/runs/merge.hpp"
+#include "kith/runs/team_codec.hpp"
+#include "kith/runs/verify.hpp"
 #include "run_support.hpp"
 
 namespace kith {

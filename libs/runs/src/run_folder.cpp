@@ -1,4 +1,4 @@
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +10,7 @@
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/study/journal.hpp"
+#include "kith/runs/journal.hpp"
 #include "kith/study/tables.hpp"
 #include "manifest.hpp"
 

@@ -1,4 +1,4 @@
-#include "kith/study/journal.hpp"
+#include "kith/runs/journal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/team_codec.hpp"
 #include "run_support.hpp"
 
 namespace kith {

@@ -1,4 +1,4 @@
-#include "kith/study/merge.hpp"
+#include "kith/runs/merge.hpp"
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,7 @@
 #include "kith/files/generation.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sqlite.hpp"
-#include "kith/study/arithmetic.hpp"
+#include "kith/runs/arithmetic.hpp"
 #include "team_list.hpp"
 
 namespace kith {

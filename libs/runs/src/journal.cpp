@@ -1,4 +1,4 @@
-#include "kith/study/journal.hpp"
+#include "kith/runs/journal.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,7 @@
 #include "kith/core/error.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/files/sqlite.hpp"
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/team_codec.hpp"
 
 namespace kith {
 namespace {

@@ -1,4 +1,4 @@
-#include "kith/study/study_run.hpp"
+#include "kith/runs/study_run.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -9,8 +9,8 @@
 #include "kith/core/error.hpp"
 #include "kith/files/bytes.hpp"
 #include "kith/random/stream.hpp"
-#include "kith/study/arithmetic.hpp"
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/arithmetic.hpp"
+#include "kith/runs/team_codec.hpp"
 #include "team_list.hpp"
 
 namespace kith {

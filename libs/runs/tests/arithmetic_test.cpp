@@ -1,4 +1,4 @@
-#include "kith/study/arithmetic.hpp"
+#include "kith/runs/arithmetic.hpp"
 
 #include <gtest/gtest.h>
 

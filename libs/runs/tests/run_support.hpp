@@ -18,7 +18,7 @@ namespace kith::testing {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "kith-study-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "kith-runs-XXXXXX").string();
     path_ = mkdtemp(name.data());
   }
   ~ScratchFolder() {

@@ -1,4 +1,4 @@
-#include "kith/study/verify.hpp"
+#include "kith/runs/verify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,9 @@
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/random/stream.hpp"
-#include "kith/study/journal.hpp"
-#include "kith/study/study_run.hpp"
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/journal.hpp"
+#include "kith/runs/study_run.hpp"
+#include "kith/runs/team_codec.hpp"
 #include "manifest.hpp"
 
 namespace kith {

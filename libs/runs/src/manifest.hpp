@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 
 namespace kith {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kith/study/journal.hpp"
+#include "kith/runs/journal.hpp"
 
 namespace kith {
 

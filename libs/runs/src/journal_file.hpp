@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "kith/files/sqlite.hpp"
-#include "kith/study/journal.hpp"
+#include "kith/runs/journal.hpp"
 
 // How the file of a journal comes to be, is read, and is replaced after damage; what is in it is the Journal's.
 namespace kith {

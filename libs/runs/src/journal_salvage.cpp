@@ -14,7 +14,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/files/sqlite.hpp"
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/team_codec.hpp"
 
 namespace kith {
 namespace {

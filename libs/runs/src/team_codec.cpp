@@ -1,4 +1,4 @@
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/team_codec.hpp"
 
 #include <concepts>
 #include <cstddef>

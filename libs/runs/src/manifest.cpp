@@ -7,7 +7,7 @@
 
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/study/arithmetic.hpp"
+#include "kith/runs/arithmetic.hpp"
 #include "kith/table/csv_writer.hpp"
 
 namespace kith {

@@ -1,4 +1,4 @@
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

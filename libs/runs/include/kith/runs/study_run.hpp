@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
-#include "kith/study/journal.hpp"
-#include "kith/study/ranks.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/journal.hpp"
+#include "kith/runs/ranks.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
 #include "kith/study/summary.hpp"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 
 namespace kith {
 

@@ -1,18 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 
-namespace kith {
+#include "kith/study/work_counter.hpp"
 
-/// Where work is taken from: a number that all who share the work add to, threads and processes alike.
-class WorkCounter {
- public:
-  virtual ~WorkCounter() = default;
-  /// Adds `n` and returns what it was before: the first of n positions that nobody else gets. From any thread.
-  virtual std::uint64_t take(std::uint64_t n) = 0;
-};
+namespace kith {
 
 /// The processes that run one study together (ranks in the sense of MPI). Every call but take() is made by all of
 /// them, in the same order, from their main threads.
