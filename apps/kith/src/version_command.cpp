@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "json.hpp"
+#include "kith/present/json.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith_build_info.hpp"
 #include "libraries.hpp"

@@ -5,7 +5,7 @@
 
 #include "kith/study/team_run.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 /// One belief in figures.
 struct BeliefFigures {
@@ -58,4 +58,4 @@ struct Transcript {
 [[nodiscard]] std::optional<Trajectory> path_of_answer(const Atlas& atlas, DemoIndex test, const IntegerVector& counts,
                                                        const Direction& weights);
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace kith::cli {
+namespace kith {
 
 /// Attributes of an element: name and value.
 using SvgAttributes = std::initializer_list<std::pair<std::string_view, std::string>>;
@@ -38,4 +38,4 @@ class Svg {
 /// How wide a text is about, in pixels.
 [[nodiscard]] double svg_text_width(std::string_view text, double size);
 
-}  // namespace kith::cli
+}  // namespace kith

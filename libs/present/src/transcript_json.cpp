@@ -1,11 +1,11 @@
-#include "transcript_json.hpp"
+#include "kith/present/transcript_json.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "json.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/present/json.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 class Converter {
@@ -72,7 +72,7 @@ class Converter {
     Json demonstrations = Json::array();
     for (const auto& shown : lesson.demonstrations) {
       auto demo = path_to_json(shown.demo);
-      demo["conveys"] = kith::cli::to_json(shown.half_spaces, d_);
+      demo["conveys"] = kith::to_json(shown.half_spaces, d_);
       demo["gain"] = shown.gain;
       demo["new_constraints"] = shown.num_new;
       demonstrations.push_back(std::move(demo));
@@ -80,7 +80,7 @@ class Converter {
     Json tests = Json::array();
     for (std::size_t t = 0; t < lesson.tests.size(); ++t) {
       auto test = path_to_json(lesson.tests[t].demo);
-      test["covers"] = kith::cli::to_json(lesson.tests[t].covered, d_);
+      test["covers"] = kith::to_json(lesson.tests[t].covered, d_);
       test["exact"] = lesson.tests[t].exact;
       Json answers = Json::array();
       for (std::size_t i = 0; i < members_.size(); ++i) answers.push_back(answer_to_json(period, t, i));
@@ -97,7 +97,7 @@ class Converter {
             {"counterfactuals", lesson.counterfactuals.size()},
             {"repeats", lesson.repeats},
             {"demonstrations", demonstrations},
-            {"taught", kith::cli::to_json(lesson.taught, d_)},
+            {"taught", kith::to_json(lesson.taught, d_)},
             {"area_sr", lesson.area_sr},
             {"running_area_sr", lesson.running_area_sr},
             {"gain", lesson.gain},
@@ -130,13 +130,13 @@ class Converter {
     if (t < response.answers.size() && response.answers[t]) {
       const auto& counts = *response.answers[t];
       json["regret"] = verdict.regret;
-      json["features"] = kith::cli::to_json(counts);
+      json["features"] = kith::to_json(counts);
       const auto path = response.weights
                             ? path_of_answer(atlas_, period.lesson.tests[t].demo, counts, *response.weights)
                             : std::nullopt;
       if (path) json["actions"] = actions(*path);
     }
-    json["shows"] = kith::cli::to_json(verdict.half_spaces, d_);
+    json["shows"] = kith::to_json(verdict.half_spaces, d_);
     return json;
   }
 
@@ -170,8 +170,8 @@ class Converter {
 
 }  // namespace
 
-void print_transcript(const Atlas& atlas, const Transcript& transcript, Console& console) {
-  console.print_json(Converter{atlas, transcript}.document());
+Json transcript_json(const Atlas& atlas, const Transcript& transcript) {
+  return Converter{atlas, transcript}.document();
 }
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace kith::cli {
+namespace kith {
 
 /// How many characters wide the program writes its text.
 inline constexpr std::size_t kTextWidth = 100;
@@ -13,4 +13,4 @@ inline constexpr std::size_t kTextWidth = 100;
 /// begin with `indent`. Without a line break at the end.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::string_view indent = "");
 
-}  // namespace kith::cli
+}  // namespace kith

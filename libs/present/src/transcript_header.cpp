@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include "kith/explain/words.hpp"
-#include "legend.hpp"
-#include "transcript.hpp"
+#include "kith/present/legend.hpp"
+#include "kith/present/transcript.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 // What a reader must know before the first period.
@@ -90,4 +90,4 @@ std::string transcript_header(const Atlas& atlas, const Transcript& transcript) 
   return HeaderWriter{atlas, transcript}.text();
 }
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,19 +1,19 @@
-#include "inspect_svg.hpp"
+#include "kith/present/inspect_svg.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "board_svg.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "picture.hpp"
-#include "region_svg.hpp"
-#include "wrapped.hpp"
+#include "kith/present/board_svg.hpp"
+#include "kith/present/picture.hpp"
+#include "kith/present/region_svg.hpp"
+#include "kith/present/wrapped.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 constexpr double kGap = 28.0;
@@ -192,4 +192,4 @@ void write_pictures(const std::filesystem::path& folder, const std::vector<SvgFi
   for (const auto& file : files) write_file_atomically(folder / file.name, file.text);
 }
 
-}  // namespace kith::cli
+}  // namespace kith

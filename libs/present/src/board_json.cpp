@@ -1,4 +1,4 @@
-#include "board_json.hpp"
+#include "kith/present/board_json.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "kith/explain/words.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 Json cell_json(const Domain& domain, const Cell& cell) { return Json::array({cell.x, domain.height() + 1 - cell.y}); }
@@ -105,4 +105,4 @@ Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces
   return sentences;
 }
 
-}  // namespace kith::cli
+}  // namespace kith

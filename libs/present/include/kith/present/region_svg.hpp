@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "kith/geometry/cone.hpp"
-#include "svg.hpp"
+#include "kith/present/svg.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 /// A region of reward weights inside a larger one, and the robot's weights inside both.
 struct RegionPicture {
@@ -30,4 +30,4 @@ struct SizedSvg {
 /// each pair a projection of the sphere of weights of length 1.
 [[nodiscard]] SizedSvg region_svg(const RegionPicture& picture);
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,10 +1,10 @@
-#include "transcript.hpp"
+#include "kith/present/transcript.hpp"
 
 #include <array>
 
 #include "kith/mdp/planner.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 class Recorder : public TeamObserver {
@@ -82,4 +82,4 @@ std::optional<Trajectory> path_of_answer(const Atlas& atlas, DemoIndex test, con
   return Behaviours{atlas}.trajectory(test, weights);
 }
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,4 +1,4 @@
-#include "board_svg.hpp"
+#include "kith/present/board_svg.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 constexpr double kCell = 40.0;
@@ -354,4 +354,4 @@ double BoardSvg::legend(Svg& svg, double x, double y, double line_width) const {
   return row + kLine + 6.0;
 }
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,4 +1,4 @@
-#include "region_svg.hpp"
+#include "kith/present/region_svg.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "kith/geometry/cone_sampler.hpp"
-#include "wrapped.hpp"
+#include "kith/present/wrapped.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 constexpr const char* kPale = "#dfe8f2";
@@ -241,4 +241,4 @@ SizedSvg region_svg(const RegionPicture& picture) {
   return picture.features.size() == 3 ? on_sphere(picture) : in_pairs(picture);
 }
 
-}  // namespace kith::cli
+}  // namespace kith

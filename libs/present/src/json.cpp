@@ -1,20 +1,13 @@
-#include "json.hpp"
+#include "kith/present/json.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "console.hpp"
-
-namespace kith::cli {
+namespace kith {
 namespace {
 
 Json position_json(const Cell& cell) { return Json::array({cell.x, cell.y}); }
 
 }  // namespace
-
-void Console::print_json(const Json& document) {
-  // File names may be any bytes; the document is UTF-8 whatever they are.
-  print(document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-}
 
 Json to_json(const Diagnostic& diagnostic) {
   const auto known = [](std::size_t number) { return number == 0 ? Json{} : Json(number); };
@@ -76,4 +69,4 @@ Json start_to_json(const Domain& domain, DemoId id) {
   return {{"robot", position_json(state.robot)}, {"items", items}, {"stations", stations}, {"mdp", id.mdp.value()}};
 }
 
-}  // namespace kith::cli
+}  // namespace kith

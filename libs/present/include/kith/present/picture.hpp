@@ -8,7 +8,7 @@
 #include "kith/domains/domain.hpp"
 #include "kith/mdp/planner.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 /// Rows of text, top first, all of one length.
 using Picture = std::vector<std::string>;
@@ -36,4 +36,4 @@ using Picture = std::vector<std::string>;
 /// Pictures beside each other, each row indented.
 [[nodiscard]] std::string beside(const std::vector<Picture>& pictures, std::size_t indent);
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,10 +1,10 @@
-#include "legend.hpp"
+#include "kith/present/legend.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 // What one cell shows apart from the robot.
@@ -79,4 +79,4 @@ std::string legend(const Domain& domain, std::size_t indent) {
   return blank + text + "\n" + blank + "@ robot" + item + "   ^ v < > moves   o end of a leg\n";
 }
 
-}  // namespace kith::cli
+}  // namespace kith

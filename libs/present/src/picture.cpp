@@ -1,11 +1,11 @@
-#include "picture.hpp"
+#include "kith/present/picture.hpp"
 
 #include <algorithm>
 
 #include "kith/explain/words.hpp"
-#include "legend.hpp"
+#include "kith/present/legend.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 char arrow_of(const std::string& action) {
@@ -126,4 +126,4 @@ std::string beside(const std::vector<Picture>& pictures, std::size_t indent) {
   return text;
 }
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,6 +1,6 @@
-#include "wrapped.hpp"
+#include "kith/present/wrapped.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 std::string wrapped(std::string_view text, std::size_t width, std::string_view indent) {
   std::string result;
@@ -22,4 +22,4 @@ std::string wrapped(std::string_view text, std::size_t width, std::string_view i
   return result;
 }
 
-}  // namespace kith::cli
+}  // namespace kith

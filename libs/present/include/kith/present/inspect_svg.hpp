@@ -6,7 +6,7 @@
 
 #include "kith/bec/atlas.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 /// A picture as a file.
 struct SvgFile {
@@ -23,4 +23,4 @@ struct SvgFile {
 /// Writes the pictures to a folder, which is made if need be. @throws kith::Error (kIo).
 void write_pictures(const std::filesystem::path& folder, const std::vector<SvgFile>& files);
 
-}  // namespace kith::cli
+}  // namespace kith

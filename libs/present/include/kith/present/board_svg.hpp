@@ -6,9 +6,9 @@
 
 #include "kith/domains/domain.hpp"
 #include "kith/mdp/planner.hpp"
-#include "svg.hpp"
+#include "kith/present/svg.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 /// Draws maps of one domain: what stands on the cells, and what is marked on them.
 class BoardSvg {
@@ -51,4 +51,4 @@ class BoardSvg {
   std::vector<std::string> letters_;  // of things_
 };
 
-}  // namespace kith::cli
+}  // namespace kith

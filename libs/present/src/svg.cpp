@@ -1,8 +1,8 @@
-#include "svg.hpp"
+#include "kith/present/svg.hpp"
 
 #include <fmt/format.h>
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 std::string attributes_text(SvgAttributes attributes) {
@@ -70,4 +70,4 @@ double svg_text_width(std::string_view text, double size) {
   return kMeanWidth * size * static_cast<double>(text.size());
 }
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -1,12 +1,12 @@
-#include "inspect_json.hpp"
+#include "kith/present/inspect_json.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "json.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/present/json.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 Json demo_to_json(const Atlas& atlas, DemoIndex demo) {
@@ -38,7 +38,9 @@ Json components_to_json(const Atlas& atlas) {
   return components;
 }
 
-Json domain_to_json(const Domain& domain) {
+}  // namespace
+
+Json inspection_json(const Domain& domain) {
   const auto d = domain.num_features();
   return {{"schema", "kith.inspect/1"},
           {"id", domain.id()},
@@ -51,15 +53,11 @@ Json domain_to_json(const Domain& domain) {
           {"prior", to_json(domain.prior(), d)}};
 }
 
-}  // namespace
-
-void print_inspection(const Domain& domain, Console& console) { console.print_json(domain_to_json(domain)); }
-
-void print_inspection(const Atlas& atlas, const InspectOptions& options, Console& console) {
+Json inspection_json(const Atlas& atlas, const InspectionContent& content) {
   const auto& domain = atlas.domain();
   const auto d = domain.num_features();
   const auto& coverage = atlas.coverage();
-  auto document = domain_to_json(domain);
+  auto document = inspection_json(domain);
   document["bec"] = {{"constraints", to_json(atlas.policy_bec_half_spaces(), d)},
                      {"area_sr", atlas.policy_bec_area_sr()}};
   document["knowledge_components"] = components_to_json(atlas);
@@ -68,16 +66,16 @@ void print_inspection(const Atlas& atlas, const InspectOptions& options, Console
     document["coverage"] = {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}};
     document["policy_cells"] = atlas.cells().size();
   }
-  if (std::find(options.show.begin(), options.show.end(), "demos") != options.show.end()) {
+  if (content.demos) {
     Json demos = Json::array();
     for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
       const DemoIndex demo{i};
       if (!atlas.is_candidate(demo)) continue;
-      if (!options.mdp || atlas.id(demo).mdp.value() == *options.mdp) demos.push_back(demo_to_json(atlas, demo));
+      if (!content.mdp || atlas.id(demo).mdp.value() == *content.mdp) demos.push_back(demo_to_json(atlas, demo));
     }
     document["demos"] = std::move(demos);
   }
-  console.print_json(document);
+  return document;
 }
 
-}  // namespace kith::cli
+}  // namespace kith

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "kith/explain/words.hpp"
-#include "picture.hpp"
-#include "transcript.hpp"
-#include "wrapped.hpp"
+#include "kith/present/picture.hpp"
+#include "kith/present/transcript.hpp"
+#include "kith/present/wrapped.hpp"
 
-namespace kith::cli {
+namespace kith {
 namespace {
 
 // Writes a transcript from top to bottom.
@@ -264,4 +264,4 @@ std::string to_text(const Atlas& atlas, const Transcript& transcript) {
   return TranscriptWriter{atlas, transcript}.text();
 }
 
-}  // namespace kith::cli
+}  // namespace kith

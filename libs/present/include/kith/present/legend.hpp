@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "picture.hpp"
+#include "kith/present/picture.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 /// The map as it lies there in the state in which a demonstration starts: walls, terrain, stations still there
 /// and destinations, without robot and items.
@@ -13,4 +13,4 @@ namespace kith::cli {
 /// What the symbols of all pictures mean, one line each for the domain's own and for those that move.
 [[nodiscard]] std::string legend(const Domain& domain, std::size_t indent);
 
-}  // namespace kith::cli
+}  // namespace kith

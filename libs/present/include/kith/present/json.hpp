@@ -8,9 +8,8 @@
 #include "kith/core/integer_vector.hpp"
 #include "kith/domains/domain.hpp"
 #include "kith/geometry/half_space.hpp"
-#include "kith/study/summary.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 using Json = nlohmann::ordered_json;
 
@@ -29,4 +28,4 @@ using Json = nlohmann::ordered_json;
 /// {"robot": [x, y], "items": [...], "stations": [...], "mdp": n}
 [[nodiscard]] Json start_to_json(const Domain& domain, DemoId id);
 
-}  // namespace kith::cli
+}  // namespace kith

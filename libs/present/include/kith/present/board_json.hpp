@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "json.hpp"
 #include "kith/bec/atlas.hpp"
+#include "kith/present/json.hpp"
 
-namespace kith::cli {
+namespace kith {
 
 // Boards as pages animate them. Cells are [column, row] from the top left, from 1. Where a domain has no map, legend,
 // width, height, map and cell are left out, and a frame is {"state", "action"} with the state's name.
@@ -24,4 +24,4 @@ namespace kith::cli {
 /// [{"normal", "text"}]
 [[nodiscard]] Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces);
 
-}  // namespace kith::cli
+}  // namespace kith
