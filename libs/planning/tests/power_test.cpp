@@ -20,7 +20,7 @@ const std::vector<std::string> kCompositions{"NN", "NP"};
 TeamPool normal_pool(std::size_t replicates, std::uint64_t seed, double raised = 0.0) {
   RandomStream random{seed};
   std::vector<std::vector<std::vector<double>>> values;
-  for (const auto strategy : kStrategies) {
+  for (const auto& strategy : kStrategies) {
     values.emplace_back();
     for (std::size_t c = 0; c < kCompositions.size(); ++c) {
       values.back().emplace_back();
