@@ -282,9 +282,11 @@ Verdict Session::judge(const Test& test, const Answer& answer) const {
   if (sign < 0) refuse("an answer earns more than the robot's optimal behaviour, which no path can");
   verdict.correct = sign == 0;
   verdict.regret = verdict.correct ? 0.0 : regret;
+  auto preferred = preference(-loss, domain.count_scale());  // of the answer to the robot's path
   if (verdict.correct) {
-    verdict.half_spaces = test.covered;
-  } else if (auto preferred = preference(-loss, domain.count_scale())) {
+    // Another path that is as good shows no preference between the two, and nothing about others.
+    if (!preferred) verdict.half_spaces = test.covered;
+  } else if (preferred) {
     verdict.half_spaces.push_back(std::move(*preferred));
   }
   return verdict;
