@@ -93,7 +93,7 @@ std::string_view name_of(const SessionEvent& event) noexcept {
 
 Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice strategy,
                  std::vector<RandomStream> persons, RandomStream teacher)
-    : atlas_{&cache.atlas()},
+    : atlas_{cache.shared_atlas()},
       options_{std::move(options)},
       choice_{std::move(strategy)},
       strategy_{choice_.kind.make(choice_.parameters)},
@@ -146,7 +146,7 @@ struct Session::Prepared {
 bool Session::propose(TeachingCache& cache) {
   if (finished()) return false;
   require_phase(SessionPhase::kProposal, "choosing a lesson");
-  require(&cache.atlas() == atlas_, "the cache is of another atlas");
+  require(&cache.atlas() == atlas_.get(), "the cache is of another atlas");
   std::vector<bool> present;
   for (const Seat seat : seats_) present.push_back(seat != Seat::kAway);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "no lesson can be chosen: everybody is away"};
