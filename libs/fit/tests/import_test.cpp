@@ -69,7 +69,7 @@ TEST_F(RunFolderImport, ReadsEverybodyWithTheirPeriods) {
   for (const auto& person : logs.people) {
     EXPECT_EQ(person.type, "N");
     EXPECT_FALSE(person.periods.empty());
-    EXPECT_EQ(logs.models.at(person.model).filter.particles, 50u);
+    EXPECT_EQ(num_particles(logs.models.at(person.model).parameters), 50u);
     std::size_t answers = 0;
     for (const auto& period : person.periods) {
       EXPECT_FALSE(period.conveyed.empty());

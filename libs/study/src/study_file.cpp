@@ -42,7 +42,7 @@ class StudyParser {
 
   StudyReading parse() {
     read_domain_of_study();
-    const auto base = read_study_spec(document_, domain(), report_);
+    const auto base = read_study_spec(document_, domain(), options_.learner_models, report_);
     const auto factors = read_factors();
     if (!report_.has_errors()) check_size(base, factors);
     if (!report_.has_errors()) expand(base, factors);
@@ -215,7 +215,7 @@ class StudyParser {
       set(document.root, split(factors[i].key), value);
     }
     TomlReport report{document};
-    auto spec = read_study_spec(document, domain(), report);
+    auto spec = read_study_spec(document, domain(), options_.learner_models, report);
     spec.factors = std::move(settings);
     for (auto& diagnostic : report.diagnostics()) {
       auto& all = reading_.diagnostics;

@@ -30,6 +30,8 @@ struct StudyReadOptions {
   /// Where a domain file named by the study is looked for; one named by an override is relative to the working
   /// directory.
   std::filesystem::path folder{};
+  /// What `learner.X.kind` may name; the first is the default. They have to stay as long as the study does.
+  LearnerModels learner_models = kith::learner_models();
 };
 
 /// Parses and checks a study file (schema kith.study/1, see docs/formats.md) with the overrides applied, reads
