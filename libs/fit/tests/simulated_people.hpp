@@ -35,8 +35,9 @@ inline std::string study_text(const std::string& composition, std::size_t teams,
 }
 
 /// Runs a study into a folder.
-inline RunResult run_into(const std::filesystem::path& folder, const std::string& text) {
-  const auto reading = parse_study(text, "study.toml");
+inline RunResult run_into(const std::filesystem::path& folder, const std::string& text,
+                          LearnerModels models = learner_models()) {
+  const auto reading = parse_study(text, "study.toml", {.learner_models = models});
   if (!reading.study) throw Error{reading.diagnostics};
   const Atlas atlas{*reading.domain};
   auto result = run_teams(atlas, *reading.study, team_addresses(*reading.study));

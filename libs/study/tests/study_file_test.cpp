@@ -123,6 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0406", "learner.N", "learner.Nov", 9}, Mistake{"E0407", "{ half_normal = 0.03 }", "{}", 11},
         Mistake{"E0407", "{ value = 0.05 }", "{ value = 0.05, half_normal = 0.1 }", 12},
         Mistake{"E0408", "sd = 0.03", "sd = 0.03, min = 0.96", 10}, Mistake{"E0409", "value = 0.05", "value = 0.0", 9},
+        Mistake{"E0417", "correct_gain", "kind = \"baysian\"\ncorrect_gain", 12},
         Mistake{"E0410", "correct_gain", "prior = [{ stpe = -1 }]\ncorrect_gain", 12},
         Mistake{"E0410", "correct_gain", "prior = [{ step = 0 }]\ncorrect_gain", 12},
         Mistake{"E0411", "correct_gain", "prior = [{ step = 1 }]\ncorrect_gain", 12},

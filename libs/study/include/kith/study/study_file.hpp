@@ -49,7 +49,8 @@ struct BuiltInStudy {
 
 /// A built-in study by name, or the study file at that path.
 /// @throws kith::Error (kInvalidInput, E0116) if there is neither; kIo if the file cannot be read.
-[[nodiscard]] StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides = {});
+[[nodiscard]] StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides = {},
+                                      LearnerModels models = learner_models());
 
 /// The study as a study file with every key written out; reading it gives the same study again.
 /// @param domain  the study's domain, for the names of features.
