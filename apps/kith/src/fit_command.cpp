@@ -51,7 +51,7 @@ int finish(const FitCommandOptions& options, const Json& document, const std::st
 
 // Learning goes on without process noise in the published search.
 std::optional<std::vector<GridSearchGroup>> search_grid(ResponseLogs logs, const LikelihoodOptions& options) {
-  for (auto& model : logs.models) model.filter.process_noise = 0.0;
+  for (auto& model : logs.models) model.parameters.set("process_noise", 0.0);
   const auto table = log_likelihoods(logs, published_grid(), options);
   if (!table.complete) return std::nullopt;
   return grid_search(logs, table);

@@ -18,7 +18,8 @@ std::string figure(double value, int digits) {
 
 PopulationLimits limits_of(const ResponseLogs& logs, const FitOptions& options) {
   PopulationLimits limits{.ability_min = options.ability_first, .ability_max = 0.5, .gain_max = options.gain_last};
-  for (const auto& model : logs.models) limits.ability_max = std::max(limits.ability_max, model.ability_max);
+  for (const auto& model : logs.models)
+    limits.ability_max = std::max(limits.ability_max, model.parameters.real("ability_max"));
   limits.ability_max = std::min(limits.ability_max, options.ability_last);
   return limits;
 }
@@ -184,7 +185,8 @@ class Fitting {
   void warn_of_noise() {
     constexpr std::size_t kEnough = 500;
     std::size_t fewest = kEnough;
-    for (const auto& model : logs_.models) fewest = std::min(fewest, model.filter.particles * options_.replicates);
+    for (const auto& model : logs_.models)
+      fewest = std::min(fewest, num_particles(model.parameters) * options_.replicates);
     if (fewest >= kEnough) return;
     report_.sentences.push_back("with few particles and " + std::to_string(options_.replicates) +
                                 " replicates the likelihood is noisy; more replicates make it surer");

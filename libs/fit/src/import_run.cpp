@@ -53,12 +53,12 @@ struct Answered {
 
 class RunImport {
  public:
-  RunImport(const fs::path& folder, AnswerDetail detail)
+  RunImport(const fs::path& folder, AnswerDetail detail, LearnerModels models)
       : tables_{folder / "tables"},
         folder_{folder},
         detail_{detail},
         run_{published(folder)},
-        study_{study_of(folder)},
+        study_{study_of(folder, models)},
         atlas_{*study_.domain} {}
 
   ResponseLogs run() {
@@ -92,8 +92,8 @@ class RunImport {
     return PublishedRun::open(folder);
   }
 
-  static StudyReading study_of(const fs::path& folder) {
-    auto reading = read_run_folder(folder);
+  static StudyReading study_of(const fs::path& folder, LearnerModels models) {
+    auto reading = read_run_folder(folder, models);
     detail::throw_if_errors(reading.diagnostics);
     return reading;
   }
@@ -113,6 +113,14 @@ class RunImport {
                                    "demonstration conveyed to them",
                                    study_file, 0, "set teacher.learner_counterfactuals = \"teacher\"")}};
       }
+      for (const auto& type : variant.learner_types) {
+        if (type.model->kind == bayesian_model().kind) continue;
+        throw Error{{detail::fault("E0712",
+                                   "learners of type '" + std::string{type.letter} + "' are of the kind '" +
+                                       std::string{type.model->kind} +
+                                       "'; only the parameters of the kind 'bayesian' can be fitted",
+                                   study_file, 0)}};
+      }
       if (variant.record == RecordLevel::kTeam) {
         throw Error{{detail::fault("E0705", "only teams were recorded, so there are no answers to fit to", study_file,
                                    0, "run the study with record.level = \"period\"")}};
@@ -127,11 +135,8 @@ class RunImport {
       for (const auto& type : variant.learner_types) {
         of_type[type.letter] = logs_.models.size();
         const auto prior = type.prior ? Cone::intersection(*type.prior) : std::optional{atlas_.prior_cone()};
-        logs_.models.push_back({.filter = type.filter,
-                                .prior = prior.value(),
-                                .ability_max = type.population.ability_max,
-                                .ability_scale = type.population.ability_scale,
-                                .form = variant.teaching.likelihood});
+        logs_.models.push_back(
+            {.parameters = type.parameters, .prior = prior.value(), .form = variant.teaching.likelihood});
       }
     }
   }
@@ -351,6 +356,8 @@ class RunImport {
 
 }  // namespace
 
-ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail) { return RunImport{folder, detail}.run(); }
+ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail, LearnerModels models) {
+  return RunImport{folder, detail, models}.run();
+}
 
 }  // namespace kith

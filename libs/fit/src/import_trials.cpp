@@ -111,7 +111,7 @@ class TrialImport {
     read();
     detail::throw_if_errors(logs_.notes);
     find_usual_finals();
-    LearnerModel model;
+    KnownLearner model;
     model.prior = Cone::intersection(std::vector{HalfSpace{IntegerVector{0, 0, -1}}}).value();  // actions cost
     logs_.models.push_back(model);
     for (const auto& [key, participant] : participants_) add_person(key, participant);

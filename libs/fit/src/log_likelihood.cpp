@@ -3,83 +3,48 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "kith/belief/prior_cover.hpp"
-#include "kith/core/error.hpp"
+#include "kith/learners/bayesian_learner.hpp"
 
 namespace kith {
 namespace {
 
-bool holds(const std::vector<HalfSpace>& half_spaces, const Eigen::Vector3d& w) {
-  return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& h) { return h.contains(w); });
-}
-
-// The regions of a period, so that their masses are quickly summed.
-struct PeriodRegions {
-  std::vector<HalfSpace> possible;              // minimal
-  std::vector<HalfSpace> consistent;            // with the answers that lie inside their cones, minimal
-  std::vector<std::vector<HalfSpace>> outside;  // cones of the other answers
-  bool contradictory = false;                   // no weight gives these answers
-};
-
-PeriodRegions regions_of(const LoggedPeriod& period) {
-  PeriodRegions regions;
-  auto cone = Cone::intersection(period.possible);
-  if (!cone) return {.possible = {}, .consistent = {}, .outside = {}, .contradictory = true};
-  regions.possible = cone->minimal_set();
-  for (const auto& region : period.answers) {
-    if (!region.inside) {
-      regions.outside.push_back(region.cone);
-      continue;
-    }
-    for (const auto& half_space : region.cone) {
-      if (!cone->clip(half_space)) regions.contradictory = true;
-    }
-  }
-  regions.consistent = cone->minimal_set();
-  return regions;
-}
-
-// The mass of the weights that give exactly the answers.
-double consistent_mass(const PeriodRegions& regions, const ParticleBelief& belief) {
-  if (regions.contradictory) return 0.0;
-  if (regions.outside.empty()) return belief.mass_in(regions.consistent);
-  double mass = 0.0;
-  const auto weights = belief.weights();
-  for (std::size_t i = 0; i < belief.size(); ++i) {
-    const auto point = belief.point(i);
-    if (weights[i] == 0.0 || !holds(regions.consistent, point)) continue;
-    const bool fits = std::none_of(regions.outside.begin(), regions.outside.end(),
-                                   [&](const auto& cone) { return holds(cone, point); });
-    if (fits) mass += weights[i];
-  }
-  return mass;
-}
-
 // One run of the filter of one person, for all points of the grid.
 class Replay {
  public:
-  Replay(const PersonLog& person, const LearnerModel& model, const std::vector<HalfSpace>& policy,
+  Replay(const PersonLog& person, const KnownLearner& model, const std::vector<HalfSpace>& policy,
          const ParameterGrid& grid, double slip, RandomStream random)
       : person_{person}, model_{model}, policy_{policy}, slip_{slip}, random_{random} {
+    const double ability_max = model.parameters.real("ability_max");
+    const double ability_scale = model.parameters.real("ability_scale");
     for (std::size_t i = 0; i < grid.size(); ++i) {
-      points_.push_back(grid.point(i));
-      start_.push_back(std::min(points_.back().ability, model.ability_max));
+      const auto point = grid.point(i);
+      people_.push_back({.ability = std::min(point.ability, ability_max),
+                         .confirm_gain = point.confirm_gain,
+                         .correct_gain = point.correct_gain,
+                         .ability_max = ability_max,
+                         .ability_scale = ability_scale});
     }
-    for (const auto& period : person.periods) regions_.push_back(regions_of(period));
+    for (const auto& period : person.periods) {
+      answers_.emplace_back(period.possible, period.answers, period.chance);
+    }
     log_likelihood.resize(grid.size());
     knowledge.resize(grid.size());
   }
 
   void run(const PriorCover& cover) {
-    std::vector<std::size_t> all(points_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    for (const auto& [ability, group] : by_ability(all, start_)) {
-      teach(0, ability, ParticleBelief{cover, model_.filter}, 0.0, group);
+    const FilterOptions filter{.particles = num_particles(model_.parameters),
+                               .process_noise = model_.parameters.real("process_noise")};
+    std::map<double, Group> groups;
+    for (std::size_t i = 0; i < people_.size(); ++i) groups[people_[i].ability].push_back(i);
+    for (const auto& [ability, group] : groups) {
+      BayesianLearner learner{ParticleBelief{cover, filter}, people_[group.front()], model_.form, random_};
+      learner.begin_component();
+      teach(0, std::move(learner), 0.0, group);
     }
   }
 
@@ -87,72 +52,55 @@ class Replay {
   std::vector<double> knowledge;
 
  private:
-  using Group = std::vector<std::size_t>;  // points that have had the same abilities so far
+  using Group = std::vector<std::size_t>;  // points that have had the same abilities so far: one learner stands for all
 
-  static std::map<double, Group> by_ability(const Group& group, const std::vector<double>& abilities) {
+  // From period t on. The learner is this group's own, and one of its points. Recursion is at most as deep as there are
+  // periods.
+  void teach(std::size_t t, BayesianLearner learner, double log_probability, const Group& group) {
+    if (t == person_.periods.size()) return finish(learner, log_probability, group);
+    const auto& period = person_.periods[t];
+    learner.watch(period.conveyed, t);
+    log_probability += kith::log_likelihood(learner, answers_[t], slip_);
+    if (!period.feedback) return go_on(t + 1, std::move(learner), log_probability, group);
+    for (const auto& [ability, same] : by_next_ability(learner, period.all_correct, group)) {
+      auto own = learner;
+      own.become(people_[same.front()]);
+      own.hear_feedback(period.all_correct, period.taught, t);
+      go_on(t + 1, std::move(own), log_probability, same);
+    }
+  }
+
+  // A new component sets the ability back to that at the start, which is the same for all points of a group: groups
+  // never become one again.
+  void go_on(std::size_t t, BayesianLearner learner, double log_probability, const Group& group) {
+    if (t < person_.periods.size() && person_.periods[t].component != person_.periods[t - 1].component) {
+      learner.begin_component();
+    }
+    teach(t, std::move(learner), log_probability, group);
+  }
+
+  [[nodiscard]] std::map<double, Group> by_next_ability(const BayesianLearner& learner, bool all_correct,
+                                                        const Group& group) const {
     std::map<double, Group> groups;
-    for (std::size_t j = 0; j < group.size(); ++j) groups[abilities[j]].push_back(group[j]);
+    for (const auto i : group) groups[learner.ability_after(all_correct, people_[i])].push_back(i);
     return groups;
   }
 
-  // From period t on. The belief is this group's own.
-  void teach(std::size_t t, double ability, ParticleBelief belief, double log_probability, const Group& group) {
-    if (t == person_.periods.size()) return finish(belief, log_probability, group);
-    const auto& period = person_.periods[t];
-    observe(belief, period.conveyed, ability, "watch", t);
-    log_probability += log_answer(t, belief);
-    std::vector<double> heard;
-    for (const auto i : group) {
-      const double gain = period.all_correct ? points_[i].confirm_gain : points_[i].correct_gain;
-      heard.push_back(period.feedback ? std::min(ability + gain, model_.ability_max) : ability);
-    }
-    for (const auto& [new_ability, same] : by_ability(group, heard)) {
-      auto own = belief;
-      observe(own, period.taught, new_ability, "feedback", t);
-      begin(t + 1, new_ability, std::move(own), log_probability, same);
-    }
-  }
-
-  // A new component sets the ability back; points then differ by where they started.
-  void begin(std::size_t t, double ability, ParticleBelief belief, double log_probability, const Group& group) {
-    const bool same = t == person_.periods.size() || person_.periods[t].component == person_.periods[t - 1].component;
-    // All points of a group started at one ability: groups never grow together again.
-    teach(t, same ? ability : start_[group.front()], std::move(belief), log_probability, group);
-  }
-
-  void finish(const ParticleBelief& belief, double log_probability, const Group& group) {
-    const double mass = policy_.empty() ? 0.0 : belief.mass_in(policy_);
+  void finish(const BayesianLearner& learner, double log_probability, const Group& group) {
+    const double mass = policy_.empty() ? 0.0 : learner.mass_in(policy_);
     for (const auto i : group) {
       log_likelihood[i] = log_probability;
       knowledge[i] = mass;
     }
   }
 
-  void observe(ParticleBelief& belief, const std::vector<HalfSpace>& half_spaces, double ability, std::string_view what,
-               std::size_t t) const {
-    constexpr double kSurest = 1.0 - 1e-9;  // certainty could exclude every particle
-    const double scaled = std::min(scaled_ability(ability, model_.ability_scale), kSurest);
-    const HalfSpaceLikelihood likelihood{scaled, model_.form};
-    belief.observe(half_spaces, likelihood, random_.split(what).split(t));
-  }
-
-  [[nodiscard]] double log_answer(std::size_t t, const ParticleBelief& belief) const {
-    const auto& period = person_.periods[t];
-    if (period.answers.empty()) return 0.0;
-    const double possible = belief.mass_in(regions_[t].possible);
-    if (possible <= 0.0) return 0.0;
-    const double share = std::min(consistent_mass(regions_[t], belief) / possible, 1.0);
-    return std::log(std::max((1.0 - slip_) * share + slip_ * period.chance, 1e-300));
-  }
-
   const PersonLog& person_;
-  const LearnerModel& model_;
+  const KnownLearner& model_;
   const std::vector<HalfSpace>& policy_;
   double slip_;
   RandomStream random_;
-  std::vector<PeriodRegions> regions_;  // shape [periods]
-  std::vector<ParameterPoint> points_;  // shape [grid]
-  std::vector<double> start_;           // shape [grid]
+  std::vector<AnswerEvidence> answers_;  // shape [periods]
+  std::vector<BayesianPerson> people_;   // shape [grid]
 };
 
 double log_mean(const std::vector<double>& logs) {
@@ -195,7 +143,7 @@ LikelihoodTable log_likelihoods(const ResponseLogs& logs, const ParameterGrid& g
   }
   std::vector<PriorCover> covers;
   covers.reserve(logs.models.size());
-  for (const auto& model : logs.models) covers.emplace_back(model.prior, model.filter.particles);
+  for (const auto& model : logs.models) covers.emplace_back(model.prior, num_particles(model.parameters));
 
   const std::size_t num_people = logs.people.size();
   const std::size_t num_tasks = num_people * options.replicates;

@@ -69,8 +69,8 @@ TEST(Fitting, SharingTheFilterChangesNoLikelihood) {
 TEST(Fitting, TheProbabilitiesOfAPersonsVerdictsSumToOne) {
   // One period with one test: right and wrong are all there is.
   ResponseLogs logs;
-  LearnerModel model;
-  model.filter.particles = 200;
+  KnownLearner model;
+  model.parameters.set("particles", std::int64_t{200});
   model.prior = Cone::intersection(std::vector{HalfSpace{IntegerVector{0, 0, -1}}}).value();
   logs.models.push_back(model);
   for (const bool right : {true, false}) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <set>
 
@@ -69,7 +70,7 @@ TEST_F(RunFolderImport, ReadsEverybodyWithTheirPeriods) {
   for (const auto& person : logs.people) {
     EXPECT_EQ(person.type, "N");
     EXPECT_FALSE(person.periods.empty());
-    EXPECT_EQ(logs.models.at(person.model).filter.particles, 50u);
+    EXPECT_EQ(num_particles(logs.models.at(person.model).parameters), 50u);
     std::size_t answers = 0;
     for (const auto& period : person.periods) {
       EXPECT_FALSE(period.conveyed.empty());
@@ -168,6 +169,22 @@ TEST(RunImport, RefusesRecordsOfTeamsOnlyAndCounterfactualsOfPeoplesOwn) {
   testing::run_into(folder.path() / "own",
                     testing::study_text("N", 2, kTypes + "[teacher]\nlearner_counterfactuals = \"self\"\n"));
   EXPECT_EQ(import_fault(folder.path() / "own"), "E0706 study.toml:0");
+}
+
+// The same people under another name: which parameters another model has is not known here.
+TEST(RunImport, RefusesLearnersOfOtherModels) {
+  LearnerModel other = bayesian_model();
+  other.kind = "other";
+  const std::array<const LearnerModel*, 1> models{&other};
+  const testing::TemporaryFolder folder;
+  testing::run_into(folder.path() / "run", testing::study_text("N", 2, kTypes), models);
+  try {
+    (void)import_run_folder(folder.path() / "run", AnswerDetail::kPath, models);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    ASSERT_EQ(error.diagnostics().size(), 1u);
+    EXPECT_EQ(error.diagnostics().front().id, "E0712");
+  }
 }
 
 TEST(RunImport, RefusesDomainsWithoutTables) {

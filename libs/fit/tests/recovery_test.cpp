@@ -22,7 +22,7 @@ bool within(double value, const ParameterPosterior& posterior) {
   return posterior.lower <= value && value <= posterior.upper;
 }
 
-Covered covered(const FitReport& report, const std::vector<LearnerParameters>& truth) {
+Covered covered(const FitReport& report, const std::vector<BayesianPerson>& truth) {
   Covered result;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const auto& posterior = report.people[i].posterior;

@@ -7,6 +7,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/fit/import_run.hpp"
+#include "kith/learners/bayesian_learner.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
 #include "temporary_folder.hpp"
@@ -23,7 +24,7 @@ namespace kith::testing {
 /// People who were simulated, as a run folder has them, with their true parameters.
 struct SimulatedPeople {
   ResponseLogs logs;
-  std::vector<LearnerParameters> truth;  ///< In the order of logs.people.
+  std::vector<BayesianPerson> truth;  ///< In the order of logs.people.
 };
 
 /// A study of item delivery; `rest` are tables besides [design].
@@ -34,8 +35,9 @@ inline std::string study_text(const std::string& composition, std::size_t teams,
 }
 
 /// Runs a study into a folder.
-inline RunResult run_into(const std::filesystem::path& folder, const std::string& text) {
-  const auto reading = parse_study(text, "study.toml");
+inline RunResult run_into(const std::filesystem::path& folder, const std::string& text,
+                          LearnerModels models = learner_models()) {
+  const auto reading = parse_study(text, "study.toml", {.learner_models = models});
   if (!reading.study) throw Error{reading.diagnostics};
   const Atlas atlas{*reading.domain};
   auto result = run_teams(atlas, *reading.study, team_addresses(*reading.study));
@@ -48,7 +50,7 @@ inline SimulatedPeople simulate(const std::string& text, AnswerDetail detail = A
   const auto run = run_into(folder.path() / "run", text);
   SimulatedPeople people{import_run_folder(folder.path() / "run", detail), {}};
   for (const auto& team : run.teams) {
-    for (const auto& learner : team.learners) people.truth.push_back(learner.parameters);
+    for (const auto& learner : team.learners) people.truth.push_back({learner.traits[0], learner.traits[1], learner.traits[2]});
   }
   return people;
 }

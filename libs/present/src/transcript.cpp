@@ -18,22 +18,21 @@ class Recorder : public TeamObserver {
       session.members.push_back(member == 0 ? i : member);
   }
 
-  void on_lesson(const Session& session, const Lesson& lesson, const std::vector<SimulatedLearner>& learners) override {
+  void on_lesson(const Session& session, const Lesson& lesson, const Learners& learners) override {
     auto& period = sessions_.back().periods.emplace_back();
     period.lesson = lesson;
     period.before = state_of(session, lesson, learners);
   }
 
-  void on_feedback(const Session& session, const Lesson& lesson,
-                   const std::vector<SimulatedLearner::Response>& responses, const Feedback& feedback,
-                   const std::vector<SimulatedLearner>& learners) override {
+  void on_feedback(const Session& session, const Lesson& lesson, const std::vector<Learner::Response>& responses,
+                   const Feedback& feedback, const Learners& learners) override {
     auto& period = sessions_.back().periods.back();
     period.responses = responses;
     period.feedback = feedback;
     period.after = state_of(session, lesson, learners);
   }
 
-  void on_end(const Session& session, const std::vector<SimulatedLearner>&) override {
+  void on_end(const Session& session, const Learners&) override {
     sessions_.back().status = session.status();
     sessions_.back().components.assign(session.components().begin(), session.components().end());
   }
@@ -44,15 +43,19 @@ class Recorder : public TeamObserver {
             belief.effective_sample_size()};
   }
 
-  [[nodiscard]] BeliefState state_of(const Session& session, const Lesson& lesson,
-                                     const std::vector<SimulatedLearner>& learners) const {
+  [[nodiscard]] BeliefFigures figures(std::string whose, const Learner& learner, const Lesson& lesson) const {
+    if (const auto* belief = learner.belief()) return figures(std::move(whose), *belief, lesson);
+    return {std::move(whose), learner.mass_in(atlas_.policy_bec_half_spaces()), learner.mass_in(lesson.taught)};
+  }
+
+  [[nodiscard]] BeliefState state_of(const Session& session, const Lesson& lesson, const Learners& learners) const {
     BeliefState state;
     const auto& members = sessions_.back().members;
     for (std::size_t i = 0; i < learners.size(); ++i) {
       const auto name = "member " + std::to_string(members[i]);
-      state.own.push_back(figures(name, learners[i].belief(), lesson));
+      state.own.push_back(figures(name, *learners[i], lesson));
       state.teacher.push_back(figures(name, session.belief().member(i), lesson));
-      state.abilities.push_back(learners[i].ability());
+      state.abilities.push_back(learners[i]->ability());
     }
     if (learners.size() > 1) {
       for (const auto& rule : session.belief().options().rules) {

@@ -66,12 +66,8 @@ class HeaderWriter {
     line("The learners:");
     for (const auto& learner : transcript_.record.learners) {
       const auto& type = learner_type(spec, learner.type);
-      const auto& p = learner.parameters;
-      line(
-          fmt::format("  member {} ({}, {}): ability {:.4f}, gains {:.4f} confirmed and {:.4f} corrected, at most {}, "
-                      "log-odds x {}",
-                      learner.member, learner.type, type.population.label, p.ability, p.confirm_gain, p.correct_gain,
-                      p.ability_max, p.ability_scale));
+      line(fmt::format("  member {} ({}, {}): {}", learner.member, learner.type, type.label,
+                       describe_person(*type.model, type.parameters, learner.traits)));
     }
     line(fmt::format(
         "The teacher takes everybody's ability to be {}, and imagines {} people when it chooses a demonstration.",

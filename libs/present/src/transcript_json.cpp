@@ -38,17 +38,37 @@ class Converter {
 
  private:
   [[nodiscard]] Json to_json(const LearnerRecord& learner) const {
-    return {{"member", learner.member},
-            {"type", std::string{learner.type}},
-            {"label", learner_type(transcript_.spec, learner.type).population.label},
-            {"ability", learner.parameters.ability},
-            {"confirm_gain", learner.parameters.confirm_gain},
-            {"correct_gain", learner.parameters.correct_gain},
-            {"ability_max", learner.parameters.ability_max},
-            {"ability_scale", learner.parameters.ability_scale},
-            {"p_bec", learner.p_bec},
-            {"tests", learner.tests},
-            {"correct", learner.correct}};
+    const auto& type = learner_type(transcript_.spec, learner.type);
+    Json result{{"member", learner.member},
+                {"type", std::string{learner.type}},
+                {"label", type.label},
+                {"kind", type.model->kind}};
+    for (std::size_t i = 0; i < learner.traits.size(); ++i) {
+      result[std::string{type.model->traits[i].name}] = learner.traits[i];
+    }
+    result["parameters"] = to_json(type.parameters);
+    result["p_bec"] = learner.p_bec;
+    result["tests"] = learner.tests;
+    result["correct"] = learner.correct;
+    return result;
+  }
+
+  [[nodiscard]] static Json to_json(const ParameterValues& values) {
+    Json result = Json::object();
+    for (std::size_t i = 0; i < values.values().size(); ++i) {
+      auto& value = result[std::string{values.declared()[i].name}];
+      std::visit([&](const auto& one) { assign(value, one); }, values.values()[i]);
+    }
+    return result;
+  }
+  template <typename Value>
+  static void assign(Json& json, const Value& value) {
+    json = value;
+  }
+  static void assign(Json& json, const Spread& spread) {
+    json = Json::object();
+    if (spread.half_normal) json["half_normal"] = *spread.half_normal;
+    if (spread.value) json["value"] = *spread.value;
   }
 
   [[nodiscard]] Json to_json(const TranscriptSession& session) {
@@ -149,7 +169,7 @@ class Converter {
     Json own = Json::array();
     for (std::size_t i = 0; i < state.own.size(); ++i) {
       own.push_back(to_json(state.own[i]));
-      own.back()["ability"] = state.abilities[i];
+      if (state.abilities[i]) own.back()["ability"] = *state.abilities[i];
     }
     Json teacher = Json::array();
     for (const auto& figures : state.teacher) teacher.push_back(to_json(figures));
@@ -157,7 +177,9 @@ class Converter {
   }
 
   [[nodiscard]] static Json to_json(const BeliefFigures& figures) {
-    return {{"whose", figures.whose}, {"p_bec", figures.p_bec}, {"p_taught", figures.p_taught}, {"ess", figures.ess}};
+    Json result{{"whose", figures.whose}, {"p_bec", figures.p_bec}, {"p_taught", figures.p_taught}};
+    if (figures.ess) result["ess"] = *figures.ess;
+    return result;
   }
 
   const Atlas& atlas_;

@@ -208,8 +208,10 @@ class TranscriptWriter {
   }
 
   void belief_row(const std::string& kind, const BeliefFigures& before, const BeliefFigures& after) {
-    line(fmt::format("    {:<22} {:>7.4f} -> {:.4f}  {:>7.4f} -> {:.4f} {:>6.0f} -> {:<6.0f}", kind + before.whose,
-                     before.p_bec, after.p_bec, before.p_taught, after.p_taught, before.ess, after.ess));
+    line(fmt::format("    {:<22} {:>7.4f} -> {:.4f}  {:>7.4f} -> {:.4f}", kind + before.whose, before.p_bec,
+                     after.p_bec, before.p_taught, after.p_taught));
+    if (before.ess && after.ess)
+      out_.insert(out_.size() - 1, fmt::format(" {:>6.0f} -> {:<6.0f}", *before.ess, *after.ess));
     out_.erase(out_.find_last_not_of(" \n") + 1);
     line();
   }
@@ -217,9 +219,12 @@ class TranscriptWriter {
   void conclusion(const TranscriptPeriod& period) {
     line();
     for (std::size_t i = 0; i < members_.size(); ++i) {
-      line(fmt::format("  Member {}: ability {:.4f} -> {:.4f} ({})", members_[i], period.before.abilities[i],
-                       period.after.abilities[i],
-                       period.feedback.all_correct[i] ? "all answers correct" : "corrected"));
+      const auto& before = period.before.abilities[i];
+      const auto& after = period.after.abilities[i];
+      const auto* verdict = period.feedback.all_correct[i] ? "all answers correct" : "corrected";
+      line(before && after
+               ? fmt::format("  Member {}: ability {:.4f} -> {:.4f} ({})", members_[i], *before, *after, verdict)
+               : fmt::format("  Member {}: {}", members_[i], verdict));
     }
     for (const auto member : period.feedback.excluded) {
       line(fmt::format("  Member {} is left out of the common belief this time: the answers conflict",

@@ -34,19 +34,17 @@ class Camera : public TeamObserver {
         team_size_ + (member == 0 && team_size_ > 1 ? session.belief().options().rules.size() : 0);
     if (frames_.empty()) frames_.emplace_back(slots, kUnknown);
   }
-  void on_lesson(const Session& session, const Lesson&, const std::vector<SimulatedLearner>& learners) override {
+  void on_lesson(const Session& session, const Lesson&, const Learners& learners) override {
     fill_initial(session, learners);
   }
-  void on_feedback(const Session& session, const Lesson& lesson, const std::vector<SimulatedLearner::Response>&,
-                   const Feedback&, const std::vector<SimulatedLearner>& learners) override {
+  void on_feedback(const Session& session, const Lesson& lesson, const std::vector<Learner::Response>&, const Feedback&,
+                   const Learners& learners) override {
     frames_.push_back(frames_.back());
     for_each_belief(session, learners,
                     [&](std::size_t slot, const ParticleBelief& belief) { frames_.back()[slot] = take(belief, slot); });
     components_.push_back(lesson.component + 1);
   }
-  void on_end(const Session& session, const std::vector<SimulatedLearner>& learners) override {
-    fill_initial(session, learners);
-  }
+  void on_end(const Session& session, const Learners& learners) override { fill_initial(session, learners); }
 
   [[nodiscard]] std::size_t num_slots() const { return frames_.front().size(); }
   [[nodiscard]] const std::vector<std::size_t>& components() const { return components_; }
@@ -74,15 +72,17 @@ class Camera : public TeamObserver {
 
   // The members of the session in its seats, then the team's beliefs.
   template <typename Action>
-  void for_each_belief(const Session& session, const std::vector<SimulatedLearner>& learners, Action action) {
-    for (std::size_t i = 0; i < learners.size(); ++i) action(alone_ == 0 ? i : alone_ - 1, learners[i].belief());
+  void for_each_belief(const Session& session, const Learners& learners, Action action) {
+    for (std::size_t i = 0; i < learners.size(); ++i) {
+      if (const auto* own = learners[i]->belief()) action(alone_ == 0 ? i : alone_ - 1, *own);
+    }
     if (num_slots() == team_size_) return;
     const auto& rules = session.belief().options().rules;
     for (std::size_t k = 0; k < rules.size(); ++k) action(team_size_ + k, session.belief().aggregate(rules[k].name));
   }
 
   // What a belief was before its session holds for all frames before it.
-  void fill_initial(const Session& session, const std::vector<SimulatedLearner>& learners) {
+  void fill_initial(const Session& session, const Learners& learners) {
     for_each_belief(session, learners, [&](std::size_t slot, const ParticleBelief& belief) {
       if (frames_.front()[slot] != kUnknown) return;
       const auto picture = take(belief, slot);
@@ -153,7 +153,7 @@ Json regions_of(const Atlas& atlas) {
 Json belief_names(const RunFiles& run, const std::string& composition, std::size_t slots) {
   Json names = Json::array();
   for (std::size_t i = 0; i < composition.size(); ++i) {
-    const auto& label = learner_type(run.spec(), composition[i]).population.label;
+    const auto& label = learner_type(run.spec(), composition[i]).label;
     const auto type = label.empty() ? std::string{composition[i]} : label;
     names.push_back({{"name", "member " + std::to_string(i + 1) + " (" + type + ")"}, {"kind", "own"}});
   }
@@ -210,6 +210,12 @@ std::optional<Json> belief_spheres(const RunFiles& run, const ReportDesign& desi
       continue;
     }
     const auto& spec = run.study.variants[address.variant];
+    const auto has_belief = [&](char letter) { return num_particles(learner_type(spec, letter).parameters) > 0; };
+    if (!std::all_of(address.composition.begin(), address.composition.end(), has_belief)) {
+      notes.push_back("The beliefs of team " + std::to_string(address.team) +
+                      " are left out: not all of its members have a particle belief.");
+      continue;
+    }
     Camera camera{atlas, size, count, RandomStream{spec.seed}.split("report").split(address.team)};
     if (!agrees(run_team(atlas, cache, spec, address, &camera), data.teams[team])) {
       notes.push_back(

@@ -92,8 +92,8 @@ class Paragraph {
     std::string types;
     for (const auto& strategy : spec_.strategies) names.push_back(strategy.name);
     for (const auto& type : spec_.learner_types) {
-      if (type.population.label.empty()) continue;
-      types += (types.empty() ? "" : ", ") + std::string{type.letter} + ": " + type.population.label;
+      if (type.label.empty()) continue;
+      types += (types.empty() ? "" : ", ") + std::string{type.letter} + ": " + type.label;
     }
     say("We simulated " + counted(data_.teams.size(), "team") + " of " + members +
         (sizes == std::set<std::size_t>{1} ? " learner" : " learners") + " with " + program() +
@@ -134,49 +134,83 @@ class Paragraph {
         " start states; a lesson showed the robot's paths from some of them.");
   }
 
-  // What holds for every learner type of the design: said once where it is the same for all, else type by type.
+  [[nodiscard]] bool is_used(const LearnerType& type) const {
+    return std::any_of(spec_.compositions.begin(), spec_.compositions.end(),
+                       [&](const auto& composition) { return composition.find(type.letter) != std::string::npos; });
+  }
+  [[nodiscard]] static std::string name_of_type(const LearnerType& type) {
+    return type.label.empty() ? std::string{type.letter} : type.label;
+  }
+
+  // What holds for every one of these learner types: said once where it is the same for all, else type by type.
   template <typename Words>
-  [[nodiscard]] std::string per_type(Words words) const {
+  [[nodiscard]] static std::string per_type(const std::vector<const LearnerType*>& types, Words words) {
     std::vector<std::string> each;
     std::set<std::string> different;
-    for (const auto& type : spec_.learner_types) {
-      const auto used = [&](const auto& composition) { return composition.find(type.letter) != std::string::npos; };
-      if (std::none_of(spec_.compositions.begin(), spec_.compositions.end(), used)) continue;
-      const auto& label = type.population.label;
-      different.insert(words(type));
-      each.push_back(words(type) + " (" + (label.empty() ? std::string{type.letter} : label) + ")");
+    for (const auto* type : types) {
+      different.insert(words(*type));
+      each.push_back(words(*type) + " (" + name_of_type(*type) + ")");
     }
     return different.size() == 1 ? *different.begin() : listed(each);
   }
 
-  void learners() {
-    say("People's initial abilities were drawn from normal distributions with mean " +
-        per_type([](const auto& type) { return shortest(type.population.ability_mean); }) + " and standard deviation " +
-        per_type([](const auto& type) { return shortest(type.population.ability_sd); }) +
-        ", again unless they were above " +
-        per_type([](const auto& type) { return shortest(type.population.ability_min); }) + " and below " +
-        per_type([](const auto& type) { return shortest(type.population.ability_max); }) + ".");
-    say("Their gains of ability by confirmation were " +
-        per_type([](const auto& type) { return gain(type.population.confirm_gain); }) + ", those by correction " +
-        per_type([](const auto& type) { return gain(type.population.correct_gain); }) +
-        ", both drawn again unless they were " + per_type([](const auto& type) {
-          return "below " + shortest(type.population.gain_max) +
-                 (type.population.ordered_gains ? " and the first smaller than the second" : "");
-        }) +
-        ".");
-    say("The ability rose by the first gain after a period with all answers right and by the second one after any "
-        "other, up to " +
-        per_type([](const auto& type) { return shortest(type.population.ability_max); }) +
-        ", and returned to its initial value with every knowledge component.");
-    const auto scale = per_type([](const auto& type) { return shortest(type.population.ability_scale); });
-    if (scale != "1")
-      say("The log-odds of the ability were multiplied by " + scale + " whenever something was learned.");
+  // The types of the design whose model is this one, or any.
+  [[nodiscard]] std::vector<const LearnerType*> types_of(const LearnerModel* model) const {
+    std::vector<const LearnerType*> types;
     for (const auto& type : spec_.learner_types) {
-      if (type.prior) say("Learners of the type '" + type.population.label + "' started from a prior of their own.");
+      if (is_used(type) && (model == nullptr || type.model == model)) types.push_back(&type);
+    }
+    return types;
+  }
+
+  void learners() {
+    if (const auto types = types_of(&bayesian_model()); !types.empty()) bayesian_learners(types);
+    for (const auto* type : types_of(nullptr)) {
+      if (type->model != &bayesian_model()) other_learners(*type);
+    }
+    for (const auto& type : spec_.learner_types) {
+      if (type.prior) say("Learners of the type '" + type.label + "' started from a prior of their own.");
     }
   }
 
-  static std::string gain(const GainDistribution& distribution) {
+  // In the words of the declarations.
+  void other_learners(const LearnerType& type) {
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < type.parameters.values().size(); ++i) {
+      values.push_back(std::string{type.parameters.declared()[i].name} + " = " +
+                       to_string(type.parameters.values()[i]));
+    }
+    say("Learners of the type '" + name_of_type(type) + "' followed the model '" + std::string{type.model->kind} +
+        "' (" + std::string{type.model->description} + ")" + (values.empty() ? "" : " with " + listed(values)) + ".");
+  }
+
+  void bayesian_learners(const std::vector<const LearnerType*>& types) {
+    const auto real = [&](std::string_view name) {
+      return per_type(types, [&](const LearnerType& type) { return shortest(type.parameters.real(name)); });
+    };
+    const auto spread = [&](std::string_view name) {
+      return per_type(types, [&](const LearnerType& type) { return gain(type.parameters.spread(name)); });
+    };
+    say("People's initial abilities were drawn from normal distributions with mean " + real("ability.mean") +
+        " and standard deviation " + real("ability.sd") + ", and redrawn until they were above " + real("ability.min") +
+        " and below " + real("ability_max") + ".");
+    say("Their gains of ability by confirmation were " + spread("confirm_gain") + ", those by correction " +
+        spread("correct_gain") + ", both redrawn until they were " +
+        per_type(types,
+                 [](const LearnerType& type) {
+                   return "below " + shortest(type.parameters.real("gain_max")) +
+                          (type.parameters.boolean("ordered_gains") ? " and the first smaller than the second" : "");
+                 }) +
+        ".");
+    say("The ability rose by the first gain after a period with all answers right and by the second one after any "
+        "other, up to " +
+        real("ability_max") + ", and returned to its initial value with every knowledge component.");
+    const auto scale = real("ability_scale");
+    if (scale != "1")
+      say("The log-odds of the ability were multiplied by " + scale + " whenever something was learned.");
+  }
+
+  static std::string gain(const Spread& distribution) {
     if (distribution.half_normal) return "half-normal with scale " + shortest(*distribution.half_normal);
     return "equal to " + shortest(distribution.value.value_or(0.0));
   }
@@ -185,10 +219,16 @@ class Paragraph {
     const auto& options = spec_.teaching;
     const auto teachers =
         counted(options.filter.particles, "particle") + " and " + shortest(options.filter.process_noise);
-    const auto peoples = per_type([](const auto& type) {
-      return counted(type.filter.particles, "particle") + " and " + shortest(type.filter.process_noise);
+    std::vector<const LearnerType*> believers;
+    for (const auto* type : types_of(nullptr)) {
+      if (num_particles(type->parameters) > 0) believers.push_back(type);
+    }
+    const auto peoples = per_type(believers, [](const LearnerType& type) {
+      const auto particles = counted(num_particles(type.parameters), "particle");
+      return particles + " and " + shortest(type.parameters.real("process_noise"));
     });
-    const auto own = teachers == peoples ? "" : "; those of the learners themselves had " + peoples;
+    const auto own =
+        believers.empty() || teachers == peoples ? "" : "; those of the learners themselves had " + peoples;
     say("Beliefs about the reward weights were particle filters on the unit sphere with " +
         counted(options.filter.particles, "particle") + ", the " +
         (options.likelihood == LikelihoodForm::kDiscontinuous ? "discontinuous" : "continuous") +

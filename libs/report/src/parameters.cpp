@@ -1,5 +1,6 @@
 #include "parameters.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -27,22 +28,7 @@ constexpr std::array kMeanings{
             "in every cell"},
     Meaning{"design.vary.*", "settings of this key that are compared with each other"},
     Meaning{"learner.*.label", "what people of this type are called"},
-    Meaning{"learner.*.ability.mean",
-            "mean of the initial ability (beta_0), the probability mass that a constraint is believed with"},
-    Meaning{"learner.*.ability.sd", "standard deviation of the initial ability"},
-    Meaning{"learner.*.ability.min", "initial abilities up to this are drawn again"},
-    Meaning{"learner.*.confirm_gain.half_normal",
-            "scale of the half-normal gain of ability after a period with all answers right"},
-    Meaning{"learner.*.confirm_gain.value", "gain of ability after a period with all answers right, equal for all"},
-    Meaning{"learner.*.correct_gain.half_normal",
-            "scale of the half-normal gain of ability after a period with a wrong answer"},
-    Meaning{"learner.*.correct_gain.value", "gain of ability after a period with a wrong answer, equal for all"},
-    Meaning{"learner.*.gain_max", "gains from this on are drawn again"},
-    Meaning{"learner.*.ordered_gains", "whether gains are drawn again unless confirm_gain < correct_gain"},
-    Meaning{"learner.*.ability_max", "cap of the ability at all times"},
-    Meaning{"learner.*.ability_scale", "factor on the log-odds of the ability whenever something is learned"},
-    Meaning{"learner.*.particles", "particles of a person's own belief"},
-    Meaning{"learner.*.process_noise", "bandwidth factor of the kernel that moves particles after resampling"},
+    Meaning{"learner.*.kind", "learner model: how people of this type learn and answer"},
     Meaning{"learner.*.prior", "half-spaces that people of this type know from the start"},
     Meaning{"teacher.particles", "particles of each of the teacher's beliefs"},
     Meaning{"teacher.counterfactuals", "weights drawn from the belief to imagine what people expect (N)"},
@@ -80,6 +66,19 @@ bool matches(std::string_view key, std::string_view pattern) {
   }
 }
 
+// "ability.mean", or "confirm_gain.half_normal" of the parameter confirm_gain.
+std::optional<std::string> meaning_of_parameter(std::string_view key, const LearnerModel& model) {
+  for (const auto& parameter : model.parameters) {
+    const std::string name{parameter.name};
+    const std::string words{parameter.description};
+    const bool is_spread = std::holds_alternative<Spread>(parameter.default_value);
+    if (!is_spread && key == name) return words;
+    if (is_spread && key == name + ".half_normal") return words + ": scale of a half-normal distribution";
+    if (is_spread && key == name + ".value") return words + ": equal for all";
+  }
+  return std::nullopt;
+}
+
 std::string text_of(const TomlValue& value) {
   if (const auto* text = value.string()) return *text;
   const auto* array = value.array();
@@ -91,6 +90,8 @@ std::string text_of(const TomlValue& value) {
 
 class Parameters {
  public:
+  explicit Parameters(const std::vector<LearnerType>& types) : types_{types} {}
+
   // @param domain  what the study called its domain before it was frozen; may be empty.
   void add_study(const TomlTable& root, const std::string& domain) {
     for (const auto& entry : root.entries()) {
@@ -142,27 +143,32 @@ class Parameters {
     }
   }
   void add(const std::string& group, const std::string& key, const std::string& value) {
-    const auto meaning = meaning_of(group + "." + key);
-    table_.add(Json::array({group, key, value, std::string{meaning.value_or("")}}));
+    const auto type = std::find_if(types_.begin(), types_.end(), [&](const LearnerType& one) {
+      return group == std::string{"learner."} + one.letter;
+    });
+    const auto meaning = meaning_of(group + "." + key, type == types_.end() ? bayesian_model() : *type->model);
+    table_.add(Json::array({group, key, value, meaning.value_or("")}));
   }
   void add_fact(const std::string& key, const std::string& value, const std::string& meaning) {
     table_.add(Json::array({"domain", key, value, meaning}));
   }
 
+  const std::vector<LearnerType>& types_;
   JsonTable table_{{"group", "key", "value", "meaning"}};
 };
 
 }  // namespace
 
-std::optional<std::string_view> meaning_of(std::string_view key) {
+std::optional<std::string> meaning_of(std::string_view key, const LearnerModel& model) {
   for (const auto& meaning : kMeanings) {
-    if (matches(key, meaning.key)) return meaning.words;
+    if (matches(key, meaning.key)) return std::string{meaning.words};
   }
-  return std::nullopt;
+  const auto dot = key.rfind("learner.", 0) == 0 ? key.find('.', std::string_view{"learner."}.size()) : key.npos;
+  return dot == key.npos ? std::nullopt : meaning_of_parameter(key.substr(dot + 1), model);
 }
 
 Json parameters_table(const RunFiles& run) {
-  Parameters parameters;
+  Parameters parameters{run.types()};
   parameters.add_study(parse_toml(run.study_toml, "study.toml").document.value().root, manifest_text(run, "domain"));
   parameters.add_domain(run.domain);
   return std::move(parameters).take();

@@ -8,9 +8,9 @@
 
 namespace kith::detail {
 
-// What a key of a resolved study means, in words: "learner.N.ability.mean" -> "mean of the initial ability"; nothing
-// for a key that is not known. The only list of meanings.
-[[nodiscard]] std::optional<std::string_view> meaning_of(std::string_view key);
+// What a key of a resolved study means, in words: "learner.N.ability.sd" -> "standard deviation of the initial
+// ability"; nothing for a key that is not known. Parameters of learners are those of `model`.
+[[nodiscard]] std::optional<std::string> meaning_of(std::string_view key, const LearnerModel& model = bayesian_model());
 
 // Every parameter of the run, resolved: columns group, key, value, meaning.
 [[nodiscard]] Json parameters_table(const RunFiles& run);

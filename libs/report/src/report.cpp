@@ -21,7 +21,7 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
   for (const auto& series : design.series) strategies[series.code] = series.label;
   for (const auto& type : run.types()) {
     const std::string letter{type.letter};
-    types[letter] = type.population.label.empty() ? letter : type.population.label;
+    types[letter] = type.label.empty() ? letter : type.label;
   }
   const Json columns{{"strategy", "Strategy"},
                      {"composition", "Composition"},
@@ -108,7 +108,12 @@ std::vector<double> mass_before(const RunFiles& run, const Atlas& atlas) {
   for (const auto& type : run.types()) {
     auto prior = atlas.prior_cone();
     if (type.prior) prior = Cone::intersection(*type.prior).value_or(prior);
-    masses.push_back(ParticleBelief{prior, type.filter}.mass_in(atlas.policy_bec_half_spaces()));
+    std::optional<PriorCover> cover;
+    const LearnerStart start{
+        .cover = [&](std::size_t num_points) -> const PriorCover& { return cover.emplace(prior, num_points); }};
+    const RandomStream random{run.spec().seed};
+    const auto person = type.model->make(type.parameters, type.model->draw(type.parameters, random), start, random);
+    masses.push_back(person->mass_in(atlas.policy_bec_half_spaces()));
   }
   return masses;
 }

@@ -95,7 +95,7 @@ class DataReader {
       const auto member = member_of(row, 2);
       const auto [series, type] = place(row, member);
       const auto in_component = ++seen[member * data_.num_components + kc];
-      data_.ability[{series, type, kc, in_component}].push_back(fraction(row, 3));
+      if (row.has(3)) data_.ability[{series, type, kc, in_component}].push_back(fraction(row, 3));
       data_.knowledge[{series, type, 0, period}].push_back(fraction(row, 4));
     });
   }

@@ -11,7 +11,7 @@
 namespace kith {
 namespace {
 
-constexpr char kVersion = 2;  // of the layout; another layout gets another number
+constexpr char kVersion = 3;  // of the layout; another layout gets another number
 constexpr std::size_t kChecksumSize = 8;
 
 std::string checksum(std::size_t team, std::string_view content, std::string_view key) {
@@ -33,11 +33,7 @@ template <typename Coder, Is<LearnerRecord> X>
 void code(Coder& coder, X& x) {
   coder.count(x.member);
   coder.letter(x.type);
-  coder.real(x.parameters.ability);
-  coder.real(x.parameters.confirm_gain);
-  coder.real(x.parameters.correct_gain);
-  coder.real(x.parameters.ability_max);
-  coder.real(x.parameters.ability_scale);
+  coder.reals(x.traits);
   coder.real(x.p_bec);
   coder.count(x.periods);
   coder.count(x.tests);
@@ -101,7 +97,7 @@ void code(Coder& coder, X& x) {
   coder.count(x.component);
   coder.count(x.member);
   coder.letter(x.type);
-  coder.real(x.ability);
+  coder.optional_real(x.ability);
   coder.real(x.p_bec);
   coder.flag(x.all_correct);
 }

@@ -35,7 +35,7 @@ TeamRecord team() {
   record.area_sr = 1.0 / 3.0;
   LearnerRecord learner;
   learner.member = 1;
-  learner.parameters = {.ability = 0.7, .confirm_gain = 0.01, .correct_gain = 0.02};
+  learner.traits = {0.7, 0.01, 0.02};
   learner.p_bec = 0.25;
   learner.periods = 3;
   learner.tests = 4;

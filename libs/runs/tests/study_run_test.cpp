@@ -299,7 +299,7 @@ TEST_F(StudyRunTest, IsPublishedAsAWholeWhateverEndsIt) {
 StudyReading failing_study() {
   auto reading = quick_study({"design.compositions=[\"NN\",\"NP\"]"});
   for (auto& type : reading.study->variants[0].learner_types) {
-    if (type.letter == 'P') type.population.confirm_gain = {};
+    if (type.letter == 'P') type.parameters.set("gain_max", 1e-9);
   }
   return reading;
 }

@@ -26,7 +26,7 @@ std::vector<TeamRecord> teams(RecordLevel level) {
   auto study = *reading.study;
   study.variants[0].record = level;
   study.variants[0].teaching.filter.particles = 60;
-  for (auto& type : study.variants[0].learner_types) type.filter.particles = 50;
+  for (auto& type : study.variants[0].learner_types) type.parameters.set("particles", std::int64_t{50});
   return run_teams(testing::item_delivery(), study, team_addresses(study)).teams;
 }
 
@@ -40,7 +40,7 @@ TEST(TeamCodec, GivesEveryRecordBack) {
       ASSERT_TRUE(again);
       EXPECT_EQ(encode_team(*again, kKey), bytes);
       EXPECT_EQ(tables_text(study, *again), tables_text(study, team));
-      EXPECT_EQ(again->learners[0].parameters, team.learners[0].parameters);
+      EXPECT_EQ(again->learners[0].traits, team.learners[0].traits);
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/random/stream.hpp"
+#include "parameters_toml.hpp"
 #include "read_prior.hpp"
 
 namespace kith {
@@ -25,8 +26,11 @@ void set_if(Target& target, const std::optional<Value>& value) {
 
 class SpecReader {
  public:
-  SpecReader(const TomlDocument& document, const Domain* domain, TomlReport& report)
-      : root_{document.root, TomlPlace{}, "the study file", report}, domain_{domain}, report_{report} {}
+  SpecReader(const TomlDocument& document, const Domain* domain, LearnerModels models, TomlReport& report)
+      : root_{document.root, TomlPlace{}, "the study file", report},
+        domain_{domain},
+        models_{models},
+        report_{report} {}
 
   StudySpec read() {
     if (domain_ != nullptr) {
@@ -172,61 +176,54 @@ class SpecReader {
   [[nodiscard]] LearnerType read_learner_type(TomlReader& table, char letter) {
     LearnerType type;
     type.letter = letter;
-    auto& population = type.population;
-    population.label = std::string{letter};
+    type.label = std::string{letter};
     const auto errors = report_.num_errors();
-    set_if(population.label, table.string("label", Presence::kOptional));
-    set_if(population.ability_max, table.real("ability_max", Presence::kOptional, {0.5, 1.0, true, true}));
-    if (auto ability = table.table("ability", Presence::kRequired)) read_ability(*ability, population);
-    read_gain(table, "confirm_gain", population.confirm_gain);
-    read_gain(table, "correct_gain", population.correct_gain);
-    set_if(population.gain_max, table.real("gain_max", Presence::kOptional, {0.0, 0.5, true, false}));
-    set_if(population.ordered_gains, table.boolean("ordered_gains", Presence::kOptional));
-    set_if(population.ability_scale, table.real("ability_scale", Presence::kOptional, {0.0, 5.0, true, false}));
-    set_if(type.filter.particles, table.integer("particles", Presence::kOptional, {1, kMaxParticles}));
-    set_if(type.filter.process_noise, table.real("process_noise", Presence::kOptional, {0.0, 10.0}));
+    set_if(type.label, table.string("label", Presence::kOptional));
+    type.model = read_kind(table);
+    if (type.model == nullptr) {  // then it is not known which keys there are
+      type.model = models_.front();
+      return type;
+    }
+    type.parameters = read_parameters(table, type.model->parameters);
     if (const auto* prior = table.array("prior", Presence::kOptional)) {
       type.prior = read_prior(*prior, table.value("prior", Presence::kOptional)->place(), domain_, report_);
     }
     table.finish();
-    if (report_.num_errors() == errors) check_that_people_exist(table, population);
+    if (report_.num_errors() == errors) check_parameters(table, type);
+    if (report_.num_errors() == errors) check_that_people_exist(table, type);
     return type;
   }
 
-  void read_ability(TomlReader& ability, Population& population) {
-    set_if(population.ability_mean, ability.real("mean", Presence::kRequired, {0.0, 1.0}));
-    set_if(population.ability_sd, ability.real("sd", Presence::kRequired, {0.0, 1.0}));
-    set_if(population.ability_min, ability.real("min", Presence::kOptional, {0.5, 1.0, false, true}));
-    if (population.ability_min >= population.ability_max) {
-      report_.error("E0408", ability.place(), "no ability lies between min and ability_max",
-                    "ability.min must be less than ability_max");
+  // Null after reporting that there is no such kind.
+  [[nodiscard]] const LearnerModel* read_kind(TomlReader& table) {
+    const auto kind = table.string("kind", Presence::kOptional);
+    if (!kind) return table.has("kind") ? nullptr : models_.front();
+    const auto* model = find_learner_model(*kind, models_);
+    if (model == nullptr) {
+      std::vector<std::string> kinds;
+      for (const auto* known : models_) kinds.emplace_back(known->kind);
+      report_.error("E0417", table.value("kind", Presence::kOptional)->place(),
+                    "there is no learner model '" + *kind + "'", suggestion(*kind, kinds));
     }
-    ability.finish();
+    return model;
   }
 
-  void read_gain(TomlReader& table, std::string_view key, GainDistribution& gain) {
-    auto reader = table.table(key, Presence::kRequired);
-    if (!reader) return;
-    gain = {};
-    gain.half_normal = reader->real("half_normal", Presence::kOptional, {0.0, 1.0});
-    gain.value = reader->real("value", Presence::kOptional, {0.0, 1.0});
-    reader->finish();
-    if (reader->has("half_normal") == reader->has("value")) {
-      report_.error("E0407", reader->place(), in_quotes(key) + " needs either half_normal or value",
-                    "write " + std::string{key} + " = { half_normal = 0.05 } or { value = 0.05 }");
+  void check_parameters(TomlReader& table, const LearnerType& type) {
+    if (type.model->check == nullptr) return;
+    if (const auto problem = type.model->check(type.parameters)) {
+      report_.error("E0408", place_of(problem->where, table), problem->message, problem->hint);
     }
   }
 
   // Draws a few: limits that nobody, or hardly anybody, meets are found here and not in the middle of a study.
-  void check_that_people_exist(TomlReader& table, const Population& population) {
+  void check_that_people_exist(TomlReader& table, const LearnerType& type) {
     constexpr std::uint64_t kTries = 20;
     try {
       const RandomStream random{0};
-      for (std::uint64_t i = 0; i < kTries; ++i) (void)draw_learner(population, random.split(i));
-    } catch (const Error&) {
+      for (std::uint64_t i = 0; i < kTries; ++i) (void)type.model->draw(type.parameters, random.split(i));
+    } catch (const Error& error) {
       report_.infeasible("E0409", table.place(), "hardly any learner meets the limits of " + table.name(),
-                         "gains must be below gain_max and, unless ordered_gains = false, confirm_gain below "
-                         "correct_gain; abilities between ability.min and ability_max");
+                         error.what());
     }
   }
 
@@ -280,14 +277,16 @@ class SpecReader {
 
   TomlReader root_;
   const Domain* domain_;
+  LearnerModels models_;
   TomlReport& report_;
   StudySpec spec_;
 };
 
 }  // namespace
 
-StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, TomlReport& report) {
-  return SpecReader{document, domain, report}.read();
+StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, LearnerModels models,
+                          TomlReport& report) {
+  return SpecReader{document, domain, models, report}.read();
 }
 
 }  // namespace kith

@@ -18,6 +18,8 @@ inline constexpr const char* kConflictRule = "largest-consistent";
 /// Reads every key of a study document into a specification; what is wrong goes
 /// to the report, and its key keeps its default. `design.vary` is left alone.
 /// @param domain  may be null, if it could not be read; then priors are not resolved.
-[[nodiscard]] StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, TomlReport& report);
+/// @param models  what `learner.X.kind` may name; the first is the default.
+[[nodiscard]] StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, LearnerModels models,
+                                        TomlReport& report);
 
 }  // namespace kith

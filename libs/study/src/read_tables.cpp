@@ -122,6 +122,7 @@ TeamRegister register_teams(const Study& study, std::string_view teams_csv, cons
 }
 
 const std::string& StudyRow::text(std::size_t i) const { return std::get<std::string>(row_.cells[i]); }
+bool StudyRow::has(std::size_t i) const { return !std::holds_alternative<std::monostate>(row_.cells[i]); }
 bool StudyRow::boolean(std::size_t i) const { return std::get<bool>(row_.cells[i]); }
 double StudyRow::real(std::size_t i) const { return std::get<double>(row_.cells[i]); }
 

@@ -19,7 +19,7 @@ constexpr std::uint64_t kNumber = 8;
 // Particles of all beliefs about a team and of its members themselves.
 std::uint64_t num_particles(const StudySpec& spec, const std::string& composition) {
   std::uint64_t sum = (composition.size() + 2) * spec.teaching.filter.particles;  // of each, common and joint
-  for (const char letter : composition) sum += learner_type(spec, letter).filter.particles;
+  for (const char letter : composition) sum += num_particles(learner_type(spec, letter).parameters);
   return sum;
 }
 

@@ -1,5 +1,6 @@
 #include "kith/study/tables.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -55,16 +56,45 @@ Columns team_columns() {
           column("area_sr", kReal, "Mean over periods of the area in periods.csv.", "sr")};
 }
 
-Columns learner_columns() {
-  return {column("member", kInteger, "Number of the member, from 1."),
-          column("type", kText, "Letter of the learner type."),
-          column("ability", kReal, "Ability at the start of every knowledge component."),
-          column("confirm_gain", kReal, "Gain of ability after a period with all answers right."),
-          column("correct_gain", kReal, "Gain of ability after a period with a wrong answer."),
-          column("p_bec", kReal, "Mass of the final belief in the policy's behaviour equivalence class."),
-          column("periods", kInteger, "Periods the member took part in."),
-          column("tests", kInteger, "Tests the member was asked."),
-          column("correct", kInteger, "Tests answered correctly.")};
+// The learner types of all variants, as they have the model that a variant gives them, by letter.
+std::vector<const LearnerType*> types_of(const Study& study) {
+  std::vector<const LearnerType*> types;
+  for (const auto& variant : study.variants) {
+    for (const auto& type : variant.learner_types) types.push_back(&type);
+  }
+  std::stable_sort(types.begin(), types.end(),
+                   [](const LearnerType* a, const LearnerType* b) { return a->letter < b->letter; });
+  return types;
+}
+
+bool has_trait(const LearnerModel& model, std::string_view name) {
+  return std::any_of(model.traits.begin(), model.traits.end(), [&](const auto& trait) { return trait.name == name; });
+}
+
+// What describes a person, by any model of the study; missing for people of models that do not have it.
+Columns trait_columns(const Study& study) {
+  Columns columns;
+  const auto types = types_of(study);
+  for (const auto* type : types) {
+    for (const auto& trait : type->model->traits) {
+      const auto same = [&](const Column& one) { return one.name == trait.name; };
+      if (std::any_of(columns.begin(), columns.end(), same)) continue;
+      columns.push_back(column(std::string{trait.name}, kReal, std::string{trait.description}));
+      columns.back().required = std::all_of(
+          types.begin(), types.end(), [&](const LearnerType* other) { return has_trait(*other->model, trait.name); });
+    }
+  }
+  return columns;
+}
+
+Columns learner_columns(const Study& study) {
+  const Columns first{column("member", kInteger, "Number of the member, from 1."),
+                      column("type", kText, "Letter of the learner type.")};
+  const Columns last{column("p_bec", kReal, "Mass of the final belief in the policy's behaviour equivalence class."),
+                     column("periods", kInteger, "Periods the member took part in."),
+                     column("tests", kInteger, "Tests the member was asked."),
+                     column("correct", kInteger, "Tests answered correctly.")};
+  return first + trait_columns(study) + last;
 }
 
 Columns period_columns(const Study& study) {
@@ -123,12 +153,15 @@ Columns demonstration_columns() {
                  "Half-spaces that it conveys: entries of a normal separated by blanks, normals by ';'.")};
 }
 
-Columns progress_columns() {
+Columns progress_columns(const Study& study) {
+  const auto types = types_of(study);
+  const bool all_have_ability =
+      std::all_of(types.begin(), types.end(), [](const auto* one) { return one->model->has_ability; });
   return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
           column("kc", kInteger, "Number of the knowledge component, from 1."),
           column("member", kInteger, "Number of the member, from 1."),
           column("type", kText, "Letter of the learner type."),
-          column("ability", kReal, "Ability while watching the demonstrations, before ability_scale."),
+          {"ability", kReal, "Ability while watching the demonstrations, before ability_scale.", "", all_have_ability},
           column("p_bec", kReal,
                  "Mass of the member's own belief in the policy's behaviour equivalence class, after the feedback."),
           column("all_correct", kBoolean, "Whether the member answered every test of the period correctly.")};
@@ -164,12 +197,13 @@ std::vector<TableDescription> study_tables(const Study& study) {
   const auto keys = team_keys(study);
   std::vector<TableDescription> tables{
       {"teams.csv", "One row per team.", keys + team_columns()},
-      {"learners.csv", "One row per member of a team.", keys + learner_columns()},
+      {"learners.csv", "One row per member of a team.", keys + learner_columns(study)},
       {"periods.csv", "One row per interaction period; none if only teams are recorded.", keys + period_columns(study)},
       {"responses.csv", "One row per member and test; none if only teams are recorded.", keys + response_columns()},
       {"demonstrations.csv", "One row per demonstration shown; none if only teams are recorded.",
        keys + demonstration_columns()},
-      {"progress.csv", "One row per member and period; none if only teams are recorded.", keys + progress_columns()}};
+      {"progress.csv", "One row per member and period; none if only teams are recorded.",
+       keys + progress_columns(study)}};
   if (study.variants.front().record == RecordLevel::kParticles) {
     tables.push_back({"particles.csv", "One row per particle, belief and period.",
                       keys + particle_columns(study.variants.front().num_features)});
@@ -209,6 +243,7 @@ std::string text_of(const std::vector<HalfSpace>& half_spaces) {
 class Tables {
  public:
   Tables(const Study& study, const TableSink& sink) : study_{study} {
+    for (const auto& one : trait_columns(study)) trait_names_.push_back(one.name);
     for (auto& table : study_tables(study)) {
       writers_.emplace_back(std::move(table.columns),
                             [sink, file = table.file](std::string_view piece) { sink(file, piece); });
@@ -254,17 +289,21 @@ class Tables {
   }
 
   void add_learner(const TeamRecord& team, const LearnerRecord& learner) {
-    begin_row(1, team.address)
-        .integer(count(learner.member))
-        .text(std::string_view{&learner.type, 1})
-        .real(learner.parameters.ability)
-        .real(learner.parameters.confirm_gain)
-        .real(learner.parameters.correct_gain)
-        .real(learner.p_bec)
+    auto& row = begin_row(1, team.address).integer(count(learner.member)).text(std::string_view{&learner.type, 1});
+    const auto& traits = learner_type(study_.variants.at(team.address.variant), learner.type).model->traits;
+    for (const auto& name : trait_names_) row.real(trait(name, traits, learner.traits));
+    row.real(learner.p_bec)
         .integer(count(learner.periods))
         .integer(count(learner.tests))
         .integer(count(learner.correct))
         .end_row();
+  }
+
+  [[nodiscard]] static std::optional<double> trait(const std::string& name, std::span<const LearnerTrait> traits,
+                                                   const std::vector<double>& values) {
+    const auto found = std::find_if(traits.begin(), traits.end(), [&](const auto& one) { return one.name == name; });
+    if (found == traits.end()) return std::nullopt;
+    return values.at(static_cast<std::size_t>(found - traits.begin()));
   }
 
   void add_period(const TeamRecord& team, const PeriodRecord& period) {
@@ -339,7 +378,8 @@ class Tables {
   }
 
   const Study& study_;
-  std::vector<CsvWriter> writers_;  // in the order of study_tables()
+  std::vector<std::string> trait_names_;  // columns of learners.csv
+  std::vector<CsvWriter> writers_;        // in the order of study_tables()
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 // One simulated person before a session: who they are and where their chance comes from.
 struct Person {
   char type = 'N';
-  LearnerParameters parameters;
+  std::vector<double> traits;
   RandomStream stream{0};
   std::size_t member = 0;  // 1-based
 };
@@ -67,12 +67,12 @@ class TeamRun {
     for (const char letter : record_.address.composition) {
       ++member;
       const auto stream = stream_.split("person").split(member);
-      people_.push_back(
-          {letter, draw_learner(learner_type(spec_, letter).population, stream.split("parameters")), stream, member});
+      const auto& type = learner_type(spec_, letter);
+      people_.push_back({letter, type.model->draw(type.parameters, stream.split("parameters")), stream, member});
     }
   }
 
-  [[nodiscard]] SimulatedLearner learner(const Person& person) const {
+  [[nodiscard]] std::unique_ptr<Learner> learner(const Person& person) const {
     const auto& type = learner_type(spec_, person.type);
     auto prior = atlas_.prior_cone();
     if (type.prior) {
@@ -80,13 +80,15 @@ class TeamRun {
       const bool has_room = prior.clip(*type.prior);
       KITH_ASSERT(has_room);  // checked when the study was read
     }
-    return {atlas_, ParticleBelief{cache_.cover(prior, type.filter.particles), type.filter}, person.parameters,
-            spec_.teaching.likelihood, person.stream.split("learner")};
+    const LearnerStart start{
+        .cover = [&](std::size_t num_points) -> const PriorCover& { return cache_.cover(prior, num_points); },
+        .likelihood = spec_.teaching.likelihood};
+    return type.model->make(type.parameters, person.traits, start, person.stream.split("learner"));
   }
 
   void run_session(const std::vector<Person>& people, const RandomStream& teacher, std::size_t member) {
     std::vector<RandomStream> streams;
-    std::vector<SimulatedLearner> learners;
+    Learners learners;
     for (const auto& person : people) {
       streams.push_back(person.stream.split("teacher belief"));
       learners.push_back(learner(person));
@@ -95,7 +97,7 @@ class TeamRun {
     std::vector<LearnerRecord> rows;
     rows.reserve(people.size());
     for (const auto& person : people) {
-      rows.push_back({.member = person.member, .type = person.type, .parameters = person.parameters});
+      rows.push_back({.member = person.member, .type = person.type, .traits = person.traits});
     }
     if (observer_ != nullptr) observer_->on_session(session, member);
     std::optional<std::size_t> component;
@@ -104,14 +106,14 @@ class TeamRun {
       if (was_stopped_) return;
       if (component != session.lesson().component) {
         component = session.lesson().component;
-        for (auto& one : learners) one.begin_component();
+        for (auto& one : learners) one->begin_component();
       }
       run_period(session, learners, rows, member);
     }
     if (observer_ != nullptr) observer_->on_end(session, learners);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].periods = session.periods();
-      rows[i].p_bec = learners[i].belief().mass_in(atlas_.policy_bec_half_spaces());
+      rows[i].p_bec = learners[i]->mass_in(atlas_.policy_bec_half_spaces());
       record_.learners.push_back(rows[i]);
     }
     record_.periods += session.periods();
@@ -122,24 +124,23 @@ class TeamRun {
     }
   }
 
-  void run_period(Session& session, std::vector<SimulatedLearner>& learners, std::vector<LearnerRecord>& rows,
-                  std::size_t member) {
+  void run_period(Session& session, Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member) {
     const Lesson lesson = session.lesson();
     if (observer_ != nullptr) observer_->on_lesson(session, lesson, learners);
     watch(lesson, learners);
     std::vector<DemoIndex> tests;
     for (const auto& test : lesson.tests) tests.push_back(test.demo);
-    std::vector<SimulatedLearner::Response> responses;
+    std::vector<Learner::Response> responses;
     std::vector<std::vector<Answer>> answers;
     for (const auto& one : learners) {
-      responses.push_back(one.answer(cache_.behaviours(), tests, lesson.period));
+      responses.push_back(one->answer(cache_.behaviours(), tests, lesson.period));
       answers.push_back(responses.back().answers);
     }
     const auto& feedback = session.submit(answers);
-    std::vector<double> abilities;
-    for (const auto& one : learners) abilities.push_back(one.ability());
+    std::vector<std::optional<double>> abilities;
+    for (const auto& one : learners) abilities.push_back(one->ability());
     for (std::size_t i = 0; i < learners.size(); ++i) {
-      learners[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
+      learners[i]->hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
       rows[i].tests += tests.size();
       for (const auto& verdict : feedback.verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
     }
@@ -154,7 +155,7 @@ class TeamRun {
     if (observer_ != nullptr) observer_->on_feedback(session, lesson, responses, feedback, learners);
   }
 
-  void watch(const Lesson& lesson, std::vector<SimulatedLearner>& learners) {
+  void watch(const Lesson& lesson, Learners& learners) {
     std::vector<HalfSpace> conveyed;
     std::vector<DemoIndex> demos;
     for (const auto& shown : lesson.demonstrations) {
@@ -162,12 +163,14 @@ class TeamRun {
       demos.push_back(shown.demo);
     }
     for (auto& one : learners) {
+      std::vector<Direction> expected;
       if (spec_.learner_counterfactuals_self) {
-        one.watch(one.own_counterfactuals(cache_.behaviours(), cache_.regions(), demos, spec_.teaching.counterfactuals,
-                                          lesson.period),
-                  lesson.period);
+        expected = one->imagined_weights(spec_.teaching.counterfactuals, lesson.period);
+      }
+      if (expected.empty()) {
+        one->watch(conveyed, lesson.period);
       } else {
-        one.watch(conveyed, lesson.period);
+        one->watch(conveyed_to(cache_.behaviours(), cache_.regions(), demos, expected), lesson.period);
       }
     }
   }
@@ -235,8 +238,8 @@ class TeamRun {
     }
   }
 
-  void write_progress(const Lesson& lesson, const std::vector<SimulatedLearner>& learners,
-                      const std::vector<double>& abilities, const Feedback& feedback,
+  void write_progress(const Lesson& lesson, const Learners& learners,
+                      const std::vector<std::optional<double>>& abilities, const Feedback& feedback,
                       const std::vector<LearnerRecord>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       record_.progress.push_back({.period = lesson.period,
@@ -244,12 +247,12 @@ class TeamRun {
                                   .member = rows[i].member,
                                   .type = rows[i].type,
                                   .ability = abilities[i],
-                                  .p_bec = learners[i].belief().mass_in(atlas_.policy_bec_half_spaces()),
+                                  .p_bec = learners[i]->mass_in(atlas_.policy_bec_half_spaces()),
                                   .all_correct = feedback.all_correct[i]});
     }
   }
 
-  void write_beliefs(const Session& session, std::size_t period, const std::vector<SimulatedLearner>& learners,
+  void write_beliefs(const Session& session, std::size_t period, const Learners& learners,
                      const std::vector<LearnerRecord>& rows) {
     const auto keep = [&](std::string name, const ParticleBelief& belief) {
       const auto weights = belief.weights();
@@ -261,7 +264,7 @@ class TeamRun {
       record_.beliefs.push_back(std::move(snapshot));
     };
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      keep("own " + std::to_string(rows[i].member), learners[i].belief());
+      if (const auto* own = learners[i]->belief()) keep("own " + std::to_string(rows[i].member), *own);
       keep("teacher " + std::to_string(rows[i].member), session.belief().member(i));
     }
     for (const auto& rule : spec_.teaching.rules) keep(std::string{rule.name}, session.belief().aggregate(rule.name));

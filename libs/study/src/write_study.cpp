@@ -2,6 +2,7 @@
 
 #include "kith/study/study_file.hpp"
 #include "kith/toml/document.hpp"
+#include "parameters_toml.hpp"
 #include "read_study_spec.hpp"
 
 namespace kith {
@@ -61,13 +62,6 @@ TableWriter design(const Study& study) {
   return table;
 }
 
-TableWriter gain(const GainDistribution& distribution) {
-  TableWriter table;
-  if (distribution.half_normal) table.add("half_normal", *distribution.half_normal);
-  if (distribution.value) table.add("value", *distribution.value);
-  return table;
-}
-
 TomlArray prior(const std::vector<HalfSpace>& half_spaces, const Domain& domain) {
   TomlArray array;
   for (const auto& half_space : half_spaces) {
@@ -81,24 +75,14 @@ TomlArray prior(const std::vector<HalfSpace>& half_spaces, const Domain& domain)
   return array;
 }
 
-TableWriter learner(const LearnerType& type, const Domain& domain) {
-  const auto& population = type.population;
-  TableWriter table, ability;
-  table.add("label", population.label);
-  table.add("gain_max", population.gain_max);
-  table.add("ordered_gains", population.ordered_gains);
-  table.add("ability_max", population.ability_max);
-  table.add("ability_scale", population.ability_scale);
-  table.add_count("particles", type.filter.particles);
-  table.add("process_noise", type.filter.process_noise);
-  ability.add("mean", population.ability_mean);
-  ability.add("sd", population.ability_sd);
-  ability.add("min", population.ability_min);
-  table.add("ability", ability);
-  table.add("confirm_gain", gain(population.confirm_gain));
-  table.add("correct_gain", gain(population.correct_gain));
-  if (type.prior) table.add("prior", TomlValue{prior(*type.prior, domain)});
-  return table;
+TomlTable learner(const LearnerType& type, const Domain& domain) {
+  TableWriter table;
+  table.add("kind", std::string{type.model->kind});
+  table.add("label", type.label);
+  auto result = std::move(table).take();
+  write_parameters(type.parameters, result);
+  if (type.prior) result.append({"prior", {}, TomlValue{prior(*type.prior, domain)}});
+  return result;
 }
 
 TableWriter teacher(const StudySpec& spec) {
@@ -132,7 +116,7 @@ std::string to_toml(const Study& study, const Domain& domain) {
   root.add("design", design(study));
   auto types = spec.learner_types;  // their order means nothing, so it is always the same one
   std::sort(types.begin(), types.end(), [](const LearnerType& a, const LearnerType& b) { return a.letter < b.letter; });
-  for (const auto& type : types) learners.add(std::string{type.letter}, learner(type, domain));
+  for (const auto& type : types) learners.add(std::string{type.letter}, TomlValue{learner(type, domain)});
   root.add("learner", learners);
   root.add("teacher", teacher(spec));
   stop.add_count("max_periods", spec.teaching.max_periods);

@@ -59,14 +59,13 @@ Domain domain_from(const std::string& text) {
 }
 
 LearnerType learner(char letter, double ability, double sd, double confirm, double correct) {
-  Population population;
-  population.ability_mean = ability;
-  population.ability_sd = sd;
-  population.confirm_gain = {.half_normal = confirm, .value = {}};
-  population.correct_gain = {.half_normal = correct, .value = {}};
-  FilterOptions filter;
-  filter.particles = 300;
-  return {.letter = letter, .population = population, .filter = filter, .prior = {}};
+  LearnerType type{.letter = letter, .label = {}};
+  type.parameters.set("ability.mean", ability);
+  type.parameters.set("ability.sd", sd);
+  type.parameters.set("confirm_gain", Spread{.half_normal = confirm, .value = {}});
+  type.parameters.set("correct_gain", Spread{.half_normal = correct, .value = {}});
+  type.parameters.set("particles", std::int64_t{300});
+  return type;
 }
 
 Study study_for(const Domain& domain) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "item_delivery.hpp"
+#include "kith/learners/bayesian_learner.hpp"
 #include "kith/study/study.hpp"
 #include "kith/study/summary.hpp"
 #include "kith/study/team_run.hpp"
@@ -16,13 +17,13 @@ namespace {
 
 using testing::item_delivery;
 
-Population population(double ability, double sd, double confirm, double correct) {
-  Population result;
-  result.ability_mean = ability;
-  result.ability_sd = sd;
-  result.confirm_gain = {.half_normal = confirm, .value = {}};
-  result.correct_gain = {.half_normal = correct, .value = {}};
-  return result;
+LearnerType learner_type_of(char letter, double ability, double sd, double confirm, double correct) {
+  LearnerType type{.letter = letter, .label = {}};
+  type.parameters.set("ability.mean", ability);
+  type.parameters.set("ability.sd", sd);
+  type.parameters.set("confirm_gain", Spread{.half_normal = confirm, .value = {}});
+  type.parameters.set("correct_gain", Spread{.half_normal = correct, .value = {}});
+  return type;
 }
 
 // The paper's design with the default parameters.
@@ -33,12 +34,9 @@ StudySpec paper(std::size_t replicates, double ability_scale = 1.0) {
   spec.replicates = replicates;
   for (const auto& kind : strategy_kinds()) spec.strategies.push_back(strategy_named(kind.name));
   spec.compositions = {"NNN", "NNP", "NPP", "PPP"};
-  auto novice = population(0.703, 0.034, 0.033, 0.056);
-  auto proficient = population(0.809, 0.025, 0.022, 0.052);
-  novice.ability_scale = ability_scale;
-  proficient.ability_scale = ability_scale;
-  spec.learner_types = {{.letter = 'N', .population = novice, .filter = {}, .prior = {}},
-                        {.letter = 'P', .population = proficient, .filter = {}, .prior = {}}};
+  spec.learner_types = {learner_type_of('N', 0.703, 0.034, 0.033, 0.056),
+                        learner_type_of('P', 0.809, 0.025, 0.022, 0.052)};
+  for (auto& type : spec.learner_types) type.parameters.set("ability_scale", ability_scale);
   return spec;
 }
 
@@ -91,12 +89,12 @@ TEST(RunTeams, PairingTeachesTheSamePeopleInEveryStrategy) {
   const Study paired{{spec}};
   const auto teams = run_teams(item_delivery(), paired, team_addresses(paired)).teams;
   for (const auto& team : teams) {
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(team.learners[i].parameters, teams[0].learners[i].parameters);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(team.learners[i].traits, teams[0].learners[i].traits);
   }
   spec.pairing = Pairing::kNone;
   const Study unpaired{{spec}};
   const auto strangers = run_teams(item_delivery(), unpaired, team_addresses(unpaired)).teams;
-  EXPECT_NE(strangers[0].learners[0].parameters, strangers[1].learners[0].parameters);
+  EXPECT_NE(strangers[0].learners[0].traits, strangers[1].learners[0].traits);
 }
 
 TEST(RunTeams, TheBaselineSumsPeriodsOverItsMembers) {
@@ -154,16 +152,16 @@ TEST(Teams, PermutingTheMembersPermutesTheirResults) {
   const auto teach = [&](std::string_view strategy, const std::vector<std::uint64_t>& seats) {
     TeachingCache cache{atlas};
     std::vector<RandomStream> streams;
-    std::vector<SimulatedLearner> learners;
+    std::vector<BayesianLearner> learners;
     for (const auto person : seats) {
       const auto stream = RandomStream{11}.split(person);
-      const LearnerParameters parameters{.ability = 0.65 + 0.05 * static_cast<double>(person),
-                                         .confirm_gain = 0.02,
-                                         .correct_gain = 0.05,
-                                         .ability_max = 0.95,
-                                         .ability_scale = 1.0};
+      const BayesianPerson parameters{.ability = 0.65 + 0.05 * static_cast<double>(person),
+                                      .confirm_gain = 0.02,
+                                      .correct_gain = 0.05,
+                                      .ability_max = 0.95,
+                                      .ability_scale = 1.0};
       streams.push_back(stream.split("teacher belief"));
-      learners.emplace_back(atlas, ParticleBelief{atlas.prior_cone(), {}}, parameters, LikelihoodForm::kDiscontinuous,
+      learners.emplace_back(ParticleBelief{atlas.prior_cone(), {}}, parameters, LikelihoodForm::kDiscontinuous,
                             stream.split("learner"));
     }
     Session session{
@@ -194,7 +192,7 @@ TEST(Teams, PermutingTheMembersPermutesTheirResults) {
     EXPECT_EQ(session.belief().common(), other.belief().common());
     EXPECT_EQ(session.belief().joint(), other.belief().joint());
     for (std::size_t seat = 0; seat < order.size(); ++seat) {
-      EXPECT_EQ(learners[permuted[seat]].belief(), others[seat].belief());
+      EXPECT_EQ(*learners[permuted[seat]].belief(), *others[seat].belief());
       EXPECT_EQ(session.belief().member(permuted[seat]), other.belief().member(seat));
     }
   }
@@ -219,9 +217,9 @@ TEST(Teams, AblerTeamsNeedFewerPeriods) {
   auto spec = paper(100);
   spec.strategies = {strategy_named("common")};
   spec.compositions = {"NNN"};
-  spec.learner_types[0].population = population(0.66, 0.001, 0.02, 0.05);
+  spec.learner_types[0] = learner_type_of('N', 0.66, 0.001, 0.02, 0.05);
   auto abler = spec;
-  abler.learner_types[0].population = population(0.86, 0.001, 0.02, 0.05);
+  abler.learner_types[0] = learner_type_of('N', 0.86, 0.001, 0.02, 0.05);
   const Study slow{{spec}};
   const Study fast{{abler}};
   const auto a = run_teams(item_delivery(), slow, team_addresses(slow)).teams;

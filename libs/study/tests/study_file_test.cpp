@@ -68,12 +68,12 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.filter.resample_below, 0.5);
   EXPECT_EQ(spec.teaching.max_periods, 50u);
   const auto& novice = learner_type(spec, 'N');
-  EXPECT_EQ(novice.population.ability_min, 0.6);
-  EXPECT_EQ(novice.population.ability_max, 0.95);
-  EXPECT_EQ(novice.population.ability_scale, 1.0);
-  EXPECT_EQ(novice.population.gain_max, 0.08);
-  EXPECT_EQ(novice.population.confirm_gain.half_normal, 0.03);
-  EXPECT_EQ(novice.population.correct_gain.value, 0.05);
+  EXPECT_EQ(novice.parameters.real("ability.min"), 0.6);
+  EXPECT_EQ(novice.parameters.real("ability_max"), 0.95);
+  EXPECT_EQ(novice.parameters.real("ability_scale"), 1.0);
+  EXPECT_EQ(novice.parameters.real("gain_max"), 0.08);
+  EXPECT_EQ(novice.parameters.spread("confirm_gain").half_normal, 0.03);
+  EXPECT_EQ(novice.parameters.spread("correct_gain").value, 0.05);
   EXPECT_FALSE(novice.prior);
 }
 
@@ -85,7 +85,7 @@ TEST(StudyFile, ReadsTheBuiltInStudiesWithoutAComplaint) {
   }
   const auto paper = load_study("paper");
   EXPECT_EQ(team_addresses(*paper.study).size(), 300u);
-  EXPECT_EQ(learner_type(paper.study->variants.front(), 'P').population.ability_scale, 0.92);
+  EXPECT_EQ(learner_type(paper.study->variants.front(), 'P').parameters.real("ability_scale"), 0.92);
 }
 
 struct Mistake {
@@ -123,6 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0406", "learner.N", "learner.Nov", 9}, Mistake{"E0407", "{ half_normal = 0.03 }", "{}", 11},
         Mistake{"E0407", "{ value = 0.05 }", "{ value = 0.05, half_normal = 0.1 }", 12},
         Mistake{"E0408", "sd = 0.03", "sd = 0.03, min = 0.96", 10}, Mistake{"E0409", "value = 0.05", "value = 0.0", 9},
+        Mistake{"E0417", "correct_gain", "kind = \"baysian\"\ncorrect_gain", 12},
         Mistake{"E0410", "correct_gain", "prior = [{ stpe = -1 }]\ncorrect_gain", 12},
         Mistake{"E0410", "correct_gain", "prior = [{ step = 0 }]\ncorrect_gain", 12},
         Mistake{"E0411", "correct_gain", "prior = [{ step = 1 }]\ncorrect_gain", 12},

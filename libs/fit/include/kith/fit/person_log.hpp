@@ -5,18 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "kith/belief/likelihood.hpp"
-#include "kith/belief/particle_belief.hpp"
 #include "kith/core/diagnostic.hpp"
 #include "kith/geometry/cone.hpp"
+#include "kith/learners/learner_model.hpp"
 
 namespace kith {
-
-/// What one answer says about the weight that a person had in mind: that it lies in the cone, or that it does not.
-struct AnswerRegion {
-  std::vector<HalfSpace> cone;
-  bool inside = true;
-};
 
 /// What a person saw, was asked and heard in one interaction period.
 struct LoggedPeriod {
@@ -30,12 +23,10 @@ struct LoggedPeriod {
   std::vector<HalfSpace> taught;      ///< By the feedback, at the changed ability.
 };
 
-/// What is taken for known about a learner: all but the parameters that are fitted.
-struct LearnerModel {
-  FilterOptions filter;
-  Cone prior;                  ///< Where the person's belief starts, uniformly.
-  double ability_max = 0.95;   ///< Cap on the ability.
-  double ability_scale = 1.0;  ///< Factor on the log-odds of the ability, see Population.
+/// What is taken for known about a learner of the model "bayesian": all but the parameters that are fitted.
+struct KnownLearner {
+  ParameterValues parameters{bayesian_model().parameters};  ///< Of these, ability and gains are not used.
+  Cone prior;                                               ///< Where the person's belief starts, uniformly.
   LikelihoodForm form = LikelihoodForm::kDiscontinuous;
 };
 
@@ -54,7 +45,7 @@ struct PersonLog {
 /// The people of some logs, in the order of the files, and everything worth saying about how they were read.
 struct ResponseLogs {
   std::vector<PersonLog> people;
-  std::vector<LearnerModel> models;
+  std::vector<KnownLearner> models;
   std::vector<HalfSpace> policy;  ///< The behaviour equivalence class of the robot's policy; empty: unknown.
   std::vector<Diagnostic> notes;  ///< Warnings: what was repaired, left out or doubtful.
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,21 +13,21 @@ struct BeliefFigures {
   std::string whose;      ///< "member 1", "common", "joint"
   double p_bec = 0.0;     ///< Mass in the behaviour equivalence class of the policy.
   double p_taught = 0.0;  ///< Mass in the region of what the lesson teaches.
-  double ess = 0.0;       ///< Effective sample size.
+  std::optional<double> ess{};  ///< Effective sample size; none if there is no particle belief.
 };
 
 /// All beliefs at one moment: the members' own, and what the teacher believes.
 struct BeliefState {
   std::vector<BeliefFigures> own;
   std::vector<BeliefFigures> teacher;
-  std::vector<double> abilities;  ///< Per member.
+  std::vector<std::optional<double>> abilities;  ///< Per member, if the learner model has such a number.
 };
 
 /// One period, start to end.
 struct TranscriptPeriod {
   Lesson lesson;
   BeliefState before, after;
-  std::vector<SimulatedLearner::Response> responses;  ///< Per member.
+  std::vector<Learner::Response> responses;  ///< Per member.
   Feedback feedback;
 };
 

@@ -38,6 +38,8 @@ class StudyRow {
   // The cell that was asked for at position `i`, which must have that type.
 
   [[nodiscard]] const std::string& text(std::size_t i) const;
+  /// Whether the cell has a value; those of required columns do.
+  [[nodiscard]] bool has(std::size_t i) const;
   [[nodiscard]] bool boolean(std::size_t i) const;
   [[nodiscard]] double real(std::size_t i) const;
   /// @throws kith::Error (kInvalidInput, E0621) unless the cell is within [min, max].

@@ -51,9 +51,9 @@ struct ProgressRecord {
   std::size_t component = 0;  ///< 1-based
   std::size_t member = 0;     ///< 1-based
   char type = 'N';
-  double ability = 0.0;      ///< While watching, before scaling.
-  double p_bec = 0.0;        ///< Mass of the own belief in the policy's BEC, after the feedback.
-  bool all_correct = false;  ///< This member answered every test of the period correctly.
+  std::optional<double> ability;  ///< While watching, before scaling; none if the learner model has no such number.
+  double p_bec = 0.0;             ///< Mass of the own belief in the policy's BEC, after the feedback.
+  bool all_correct = false;       ///< This member answered every test of the period correctly.
 };
 
 /// A row of periods.csv.
@@ -85,8 +85,8 @@ struct BeliefSnapshot {
 struct LearnerRecord {
   std::size_t member = 0;  ///< 1-based
   char type = 'N';
-  LearnerParameters parameters;
-  double p_bec = 0.0;  ///< Mass of the final belief in the policy's BEC.
+  std::vector<double> traits;  ///< As the model of the type declares them.
+  double p_bec = 0.0;          ///< Mass of the final belief in the policy's BEC.
   std::size_t periods = 0;
   std::size_t tests = 0;
   std::size_t correct = 0;

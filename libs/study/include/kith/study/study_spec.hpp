@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kith/geometry/half_space.hpp"
-#include "kith/learners/population.hpp"
+#include "kith/learners/learner_model.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -14,9 +14,10 @@ namespace kith {
 /// A type of simulated learner, named by one letter in compositions.
 struct LearnerType {
   char letter = 'N';
-  Population population;
-  FilterOptions filter;                         ///< particles and process noise of the learner's own belief
-  std::optional<std::vector<HalfSpace>> prior;  ///< what this type starts from; none: the domain's prior
+  std::string label;  ///< What people of this type are called; may be empty.
+  const LearnerModel* model = &bayesian_model();
+  ParameterValues parameters{model->parameters};
+  std::optional<std::vector<HalfSpace>> prior{};  ///< What this type starts from; none: the domain's prior.
 };
 
 /// Whether compared strategies teach the same simulated people.

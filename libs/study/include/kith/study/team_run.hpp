@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "kith/learners/simulated_learner.hpp"
+#include "kith/learners/learner.hpp"
 #include "kith/study/records.hpp"
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/session.hpp"
@@ -18,14 +18,13 @@ class TeamObserver {
   /// A session begins: the whole team's, or one member's (1-based) in the baseline; member is 0 for the whole team.
   virtual void on_session(const Session& session, std::size_t member) = 0;
   /// The lesson of the coming period, before anybody saw it.
-  virtual void on_lesson(const Session& session, const Lesson& lesson,
-                         const std::vector<SimulatedLearner>& learners) = 0;
+  virtual void on_lesson(const Session& session, const Lesson& lesson, const Learners& learners) = 0;
   /// Everybody watched, answered and heard the feedback; learners and session are as they are afterwards.
   virtual void on_feedback(const Session& session, const Lesson& lesson,
-                           const std::vector<SimulatedLearner::Response>& responses, const Feedback& feedback,
-                           const std::vector<SimulatedLearner>& learners) = 0;
+                           const std::vector<Learner::Response>& responses, const Feedback& feedback,
+                           const Learners& learners) = 0;
   /// The session has ended.
-  virtual void on_end(const Session& session, const std::vector<SimulatedLearner>& learners) = 0;
+  virtual void on_end(const Session& session, const Learners& learners) = 0;
 };
 
 /// Teaches one simulated team to the end and writes everything down. The outcome depends on the specification

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kith/geometry/half_space.hpp"
+
+namespace kith {
+
+/// What one answer says about the weights that a person had in mind: that they lie in the cone, or that they do not.
+struct AnswerRegion {
+  std::vector<HalfSpace> cone;
+  bool inside = true;
+};
+
+/// The answers that a person gave in one period, as a learner model rates them: which weights give exactly these
+/// answers, among the weights that give any.
+class AnswerEvidence {
+ public:
+  /// @param possible  the weights that have an answer to every test; empty: all.
+  /// @param answers  one region per answer; empty: the person did not answer.
+  /// @param chance  probability of these answers by guessing, in [0, 1].
+  AnswerEvidence(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers, double chance);
+
+  /// Whether there are no answers.
+  [[nodiscard]] bool empty() const noexcept { return is_empty_; }
+  /// Whether no weights give these answers.
+  [[nodiscard]] bool is_contradictory() const noexcept { return is_contradictory_; }
+  [[nodiscard]] double chance() const noexcept { return chance_; }
+  /// The weights that have an answer to every test, as a minimal set.
+  [[nodiscard]] const std::vector<HalfSpace>& possible() const noexcept { return possible_; }
+  /// Those of them that lie in the cone of every answer with `inside`, as a minimal set.
+  [[nodiscard]] const std::vector<HalfSpace>& consistent() const noexcept { return consistent_; }
+  /// The cones of the other answers: weights in any of them give another answer.
+  [[nodiscard]] const std::vector<std::vector<HalfSpace>>& outside() const noexcept { return outside_; }
+
+ private:
+  bool is_empty_;
+  bool is_contradictory_ = false;
+  double chance_;
+  std::vector<HalfSpace> possible_;
+  std::vector<HalfSpace> consistent_;
+  std::vector<std::vector<HalfSpace>> outside_;
+};
+
+}  // namespace kith
