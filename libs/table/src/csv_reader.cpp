@@ -93,7 +93,7 @@ Parsed parse_number(const std::string& text, const Column& column, const std::st
   return {.fault = Fault{"E0506", message + "not of type " + std::string{to_string(column.type)}, hint}};
 }
 
-Parsed parse_cell(const std::optional<std::string>& field, const Column& column) {
+Parsed parse_cell(const std::optional<std::string>& field, const Column& column, char separator) {
   if (!field) {
     if (!column.required) return {};
     return {.fault = Fault{"E0507", "column \"" + column.name + "\" needs a value in every row", "fill the cell"}};
@@ -108,9 +108,9 @@ Parsed parse_cell(const std::optional<std::string>& field, const Column& column)
     case ColumnType::kInteger:
       return parse_number<std::int64_t>(*field, column, "42");
     case ColumnType::kReal:
-      return parse_number<double>(*field, column, "0.5");
+      return parse_number<double>(separator == ';' ? with_decimal_point(*field) : *field, column, "0.5");
     case ColumnType::kBoolean:
-      if (*field == "true" || *field == "false") return {.cell = *field == "true"};
+      if (const auto truth = truth_of(*field)) return {.cell = *truth};
       return {.fault = Fault{"E0506", in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
                              "write true or false"}};
   }
@@ -132,13 +132,13 @@ class Reader {
     });
     if (!has_header_ && diagnostics_.empty()) {
       diagnostics_.push_back({.id = "E0501",
-                              .message = "the table is empty; it has not even a header",
+                              .message = "the table is empty: it has no header",
                               .file = file_,
                               .hint = "begin with a line of column names, such as " + names()});
     }
     if (diagnostics_.size() >= kMaxDiagnostics) {
       diagnostics_.resize(kMaxDiagnostics);
-      diagnostics_.push_back({.id = "E0511", .message = "too many problems; the rest was not read", .file = file_});
+      diagnostics_.push_back({.id = "E0511", .message = "too many problems; the rest was not checked", .file = file_});
     }
     return std::move(diagnostics_);
   }
@@ -151,7 +151,7 @@ class Reader {
   }
 
   void report(const detail::CsvRecord& record, std::size_t field, const Fault& fault) {
-    const detail::CsvPlace place = detail::locate(record.text, field);
+    const detail::CsvPlace place = detail::locate(record.text, field, record.separator);
     const std::string_view cell = place.line_text.substr(std::min(place.offset, place.line_text.size()), place.length);
     diagnostics_.push_back(
         {.id = fault.id,
@@ -167,7 +167,7 @@ class Reader {
   bool report_malformed(const detail::CsvRecord& record) {
     if (!record.malformed) return false;
     report(record, 0,
-           {"E0508", "the quotes of this row do not match",
+           {"E0508", "unbalanced quotes in this row",
             "put the whole cell between quotes and write a quote inside it twice"});
     return true;
   }
@@ -188,7 +188,7 @@ class Reader {
       }
       auto& source = source_[column->second];
       if (source != record.fields.size()) {
-        report(record, f, {"E0504", "column " + in_quotes(name) + " is there twice", "remove one of them"});
+        report(record, f, {"E0504", "column " + in_quotes(name) + " occurs twice", "remove one of them"});
       }
       source = f;
     }
@@ -223,7 +223,7 @@ class Reader {
     for (const Column& column : columns_) known.push_back(column.name);
     const std::string nearest = nearest_word(name, known);
     report(record, field,
-           {"E0503", "nobody knows a column " + in_quotes(name),
+           {"E0503", "unknown column " + in_quotes(name),
             nearest.empty() ? "remove it; the columns are " + names() : "did you mean " + nearest + "?"});
   }
 
@@ -234,19 +234,20 @@ class Reader {
           record, std::min(num_fields_, record.fields.size()),
           {"E0505",
            "the row has " + std::to_string(record.fields.size()) + " cells, the header " + std::to_string(num_fields_),
-           "put text with commas between quotes, and keep the commas around empty cells"});
+           record.separator == ';' ? "put text with semicolons in quotes, and keep the semicolons around empty cells"
+                                   : "put text with commas in quotes, and keep the commas around empty cells"});
       return;
     }
     const std::size_t before = diagnostics_.size();
     for (std::size_t c = 0; c < columns_.size() && diagnostics_.size() < before + kMaxDiagnosticsOfRow; ++c) {
-      Parsed parsed = parse_cell(record.fields[source_[c]], columns_[c]);
+      Parsed parsed = parse_cell(record.fields[source_[c]], columns_[c], record.separator);
       if (parsed.fault) {
         report(record, source_[c], *parsed.fault);
       } else {
         cells_[c] = std::move(parsed.cell);
       }
     }
-    if (diagnostics_.size() == before) on_row_({record.line, cells_, record.text, source_});
+    if (diagnostics_.size() == before) on_row_({record.line, cells_, record.text, source_, record.separator});
   }
 
   const std::string& file_;
@@ -262,11 +263,24 @@ class Reader {
 
 }  // namespace
 
+std::string with_decimal_point(std::string text) {
+  const auto comma = text.find(',');
+  if (comma == text.find_first_of(",.") && comma == text.find_last_of(",.") && comma != std::string::npos)
+    text[comma] = '.';
+  return text;
+}
+
+std::optional<bool> truth_of(std::string_view text) {
+  if (text == "true" || text == "TRUE" || text == "True") return true;
+  if (text == "false" || text == "FALSE" || text == "False") return false;
+  return std::nullopt;
+}
+
 std::string_view CsvRow::written(std::size_t column) const {
   if (column >= fields.size()) throw std::out_of_range{"CsvRow::written: there is no such column"};
-  const detail::CsvPlace place = detail::locate(text, fields[column]);
+  const detail::CsvPlace place = detail::locate(text, fields[column], separator);
   const auto begin = static_cast<std::size_t>(place.line_text.data() - text.data()) + place.offset;
-  const bool empty = begin >= text.size() || text[begin] == ',' || text[begin] == '\r' || text[begin] == '\n';
+  const bool empty = begin >= text.size() || text[begin] == separator || text[begin] == '\r' || text[begin] == '\n';
   return text.substr(begin, empty ? 0 : place.length);
 }
 
@@ -288,7 +302,7 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
   detail::for_each_record(text, [&](const detail::CsvRecord& record) {
     found = true;
     if (record.malformed) {
-      report("E0508", "the quotes of the header do not match",
+      report("E0508", "unbalanced quotes in the header",
              "put the whole name between quotes and write a quote inside it twice");
     }
     for (const auto& field : record.fields) {
@@ -299,13 +313,13 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
       } else if (!is_text(name)) {
         report("E0509", "the name of a column is not UTF-8 text", "save the file as UTF-8");
       } else if (!names.insert(name).second) {
-        report("E0504", "column " + in_quotes(name) + " is there twice", "remove one of them");
+        report("E0504", "column " + in_quotes(name) + " occurs twice", "remove one of them");
       }
       columns.push_back({.name = name});
     }
     return false;
   });
-  if (!found) report("E0501", "the table is empty; it has not even a header", "begin with a line of column names");
+  if (!found) report("E0501", "the table is empty: it has no header", "begin with a line of column names");
   if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
   return columns;
 }
