@@ -12,7 +12,7 @@ usage: ./test.sh             what has to pass before anything is merged:
        ./test.sh --quick     the same without the sanitizers
        ./test.sh --nightly [FUZZING]
                              also the slow tests, every header alone, all layers
-                             under ASan and UBSan, the study layer under
+                             under ASan and UBSan, those that use threads under
                              ThreadSanitizer, clang-tidy, the benchmarks built,
                              and every fuzz target: FUZZING minutes (12) in all.
                              Ends with how long each part took
@@ -97,7 +97,7 @@ part "release: tests" run_tests release
 part "headers alone" configure_and_build release -- all_verify_interface_header_sets
 part "ASan: build" configure_and_build asan -- "${all_tests[@]/%/_tests}"
 part "ASan: tests" sanitized_tests
-part "TSan: build" configure_and_build tsan -- kith_study_tests
+part "TSan: build" configure_and_build tsan -- kith_core_tests kith_study_tests kith_runs_tests
 part "TSan: tests" run_tests tsan
 part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers
 part "fuzzing" fuzz

@@ -142,8 +142,8 @@ study files      libs/study/src/(study_file|read_study_spec|read_prior)
 tables of runs   libs/study/src/read_tables
 targets files    libs/planning/src/(targets_file|effect|quantity)
 logs of people   libs/fit/src/(import_trials|import_run|lee2021|open_table|vectors)
-record codec     libs/study/src/(team_codec|bytes)
-journal          libs/study/src/(journal|sqlite)
+record codec     libs/(runs/src/team_codec|files/src/bytes)
+journal          libs/(runs/src/journal|files/src/sqlite)
 '
 
 coverage_table() {  # TITLE PROFILE OBJECT...

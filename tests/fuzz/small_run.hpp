@@ -4,7 +4,7 @@
 
 #include "kith/bec/atlas.hpp"
 #include "kith/core/error.hpp"
-#include "kith/study/study_run.hpp"
+#include "kith/runs/study_run.hpp"
 #include "study_files.hpp"
 
 namespace kith::fuzzing {

@@ -7,7 +7,7 @@
 
 #include "cases.hpp"
 #include "kith/core/error.hpp"
-#include "kith/study/study_run.hpp"
+#include "kith/runs/study_run.hpp"
 #include "kith/study/tables.hpp"
 
 namespace kith::bench {

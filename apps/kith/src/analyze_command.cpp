@@ -6,13 +6,13 @@
 
 #include "commands.hpp"
 #include "input.hpp"
-#include "json.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
+#include "kith/present/json.hpp"
+#include "kith/present/wrapped.hpp"
 #include "kith/table/table_text.hpp"
 #include "work_notice.hpp"
-#include "wrapped.hpp"
 
 namespace kith::cli {
 namespace {

@@ -2,16 +2,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "board_json.hpp"
 #include "build_facts.hpp"
 #include "commands.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/question.hpp"
 #include "kith/explain/words.hpp"
-#include "legend.hpp"
-#include "picture.hpp"
+#include "kith/present/board_json.hpp"
+#include "kith/present/legend.hpp"
+#include "kith/present/picture.hpp"
+#include "kith/present/wrapped.hpp"
 #include "work_notice.hpp"
-#include "wrapped.hpp"
 
 namespace kith::cli {
 namespace {

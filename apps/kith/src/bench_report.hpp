@@ -5,7 +5,7 @@
 
 #include "bench_baseline.hpp"
 #include "console.hpp"
-#include "json.hpp"
+#include "kith/present/json.hpp"
 #include "suite.hpp"
 
 namespace kith::cli {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 
 namespace kith::cli {
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "kith/core/error.hpp"
 #include "kith/core/printable.hpp"
@@ -65,6 +66,11 @@ void Console::log(std::string_view level, std::string_view text) {
   std::string line{"kith: "};
   if (!level.empty()) line.append(level).append(": ");
   write_log(line.append(printable(text)).append("\n"));
+}
+
+void Console::print_json(const nlohmann::ordered_json& document) {
+  // File names may be any bytes; the document is UTF-8 whatever they are.
+  print(document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 void Console::info(std::string_view text) {

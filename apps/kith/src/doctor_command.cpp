@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "commands.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/present/json.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/tables.hpp"
 #include "kith_build_info.hpp"

@@ -8,8 +8,8 @@
 #include "kith/explain/words.hpp"
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
-#include "legend.hpp"
-#include "picture.hpp"
+#include "kith/present/legend.hpp"
+#include "kith/present/picture.hpp"
 
 namespace kith::cli {
 namespace {

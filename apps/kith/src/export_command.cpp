@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "json.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/present/json.hpp"
 #include "option_values.hpp"
 
 namespace kith::cli {

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "board_json.hpp"
 #include "build_facts.hpp"
 #include "commands.hpp"
 #include "input.hpp"
@@ -14,10 +13,11 @@
 #include "kith/explain/target.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "legend.hpp"
-#include "picture.hpp"
+#include "kith/present/board_json.hpp"
+#include "kith/present/legend.hpp"
+#include "kith/present/picture.hpp"
+#include "kith/present/wrapped.hpp"
 #include "work_notice.hpp"
-#include "wrapped.hpp"
 
 namespace kith::cli {
 namespace {

@@ -8,13 +8,13 @@
 #include "fit_json.hpp"
 #include "fit_text.hpp"
 #include "interrupt.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/fit/accuracy.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
+#include "kith/present/json.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {

@@ -3,10 +3,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "json.hpp"
 #include "kith/fit/accuracy.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/grid_search.hpp"
+#include "kith/present/json.hpp"
 
 namespace kith::cli {
 

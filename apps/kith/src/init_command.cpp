@@ -5,9 +5,9 @@
 
 #include "commands.hpp"
 #include "input.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/present/json.hpp"
 #include "templates.hpp"
 
 namespace kith::cli {

@@ -5,12 +5,12 @@
 
 #include "commands.hpp"
 #include "domain_view.hpp"
-#include "inspect_json.hpp"
-#include "inspect_svg.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/words.hpp"
-#include "legend.hpp"
-#include "picture.hpp"
+#include "kith/present/inspect_json.hpp"
+#include "kith/present/inspect_svg.hpp"
+#include "kith/present/legend.hpp"
+#include "kith/present/picture.hpp"
 #include "work_notice.hpp"
 
 namespace kith::cli {
@@ -183,7 +183,7 @@ int inspect_without_atlas(const Domain& domain, const InspectOptions& options, C
   const DomainView view{domain, options, console};
   if (!options.svg.empty()) write_svg(options, domain_pictures(domain, view.mdp()), console);
   if (console.json()) {
-    print_inspection(domain, console);
+    console.print_json(inspection_json(domain));
   } else {
     std::string text = view.title();
     const auto& show = options.show;
@@ -211,7 +211,8 @@ int run_inspect(const InspectOptions& options, Console& console) {
     write_svg(options, files, console);
   }
   if (console.json()) {
-    print_inspection(atlas, options, console);
+    const bool demos = std::find(options.show.begin(), options.show.end(), "demos") != options.show.end();
+    console.print_json(inspection_json(atlas, {demos, options.mdp}));
   } else {
     console.print(Inspection{atlas, options, console}.text());
   }

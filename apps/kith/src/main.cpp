@@ -12,8 +12,8 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
+#include "kith/present/json.hpp"
 #include "standard_streams.hpp"
 
 namespace kith::cli {

@@ -8,8 +8,8 @@
 #include "failpoint.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/study/merge.hpp"
-#include "kith/study/study_run.hpp"
+#include "kith/runs/merge.hpp"
+#include "kith/runs/study_run.hpp"
 #include "run_outcome.hpp"
 
 namespace kith::cli {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "kith/study/ranks.hpp"
+#include "kith/runs/ranks.hpp"
 
 namespace kith::cli {
 

@@ -8,11 +8,11 @@
 
 #include "commands.hpp"
 #include "interrupt.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/planning/power.hpp"
+#include "kith/present/json.hpp"
 #include "kith/study/study_memory.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"

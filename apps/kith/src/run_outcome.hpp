@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "console.hpp"
-#include "kith/study/study_run.hpp"
+#include "kith/runs/study_run.hpp"
 
 namespace kith::cli {
 

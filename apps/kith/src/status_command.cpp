@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
-#include "kith/study/journal.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/present/json.hpp"
+#include "kith/runs/journal.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "json.hpp"
+#include "kith/present/json.hpp"
 
 namespace kith::cli {
 namespace {

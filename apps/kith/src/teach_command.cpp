@@ -1,14 +1,16 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "commands.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/present/transcript.hpp"
+#include "kith/present/transcript_json.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "option_values.hpp"
-#include "transcript.hpp"
-#include "transcript_json.hpp"
 
 namespace kith::cli {
 namespace {
@@ -64,7 +66,7 @@ int run_teach(const TeachOptions& options, Console& console) {
   require_something_to_teach(atlas);
   const auto transcript = transcribe(atlas, assignment.spec, assignment.address);
   if (console.json()) {
-    print_transcript(atlas, transcript, console);
+    console.print_json(transcript_json(atlas, transcript));
   } else {
     console.print(to_text(atlas, transcript));
   }

@@ -6,9 +6,9 @@
 
 #include "commands.hpp"
 #include "input.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/present/json.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/toml/document.hpp"
 

@@ -8,12 +8,12 @@
 #include "build_facts.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
-#include "json.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/study/journal.hpp"
-#include "kith/study/run_folder.hpp"
-#include "kith/study/verify.hpp"
+#include "kith/present/json.hpp"
+#include "kith/runs/journal.hpp"
+#include "kith/runs/run_folder.hpp"
+#include "kith/runs/verify.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {

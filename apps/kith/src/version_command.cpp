@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "json.hpp"
-#include "kith/study/journal.hpp"
+#include "kith/present/json.hpp"
+#include "kith/runs/journal.hpp"
 #include "kith_build_info.hpp"
 #include "libraries.hpp"
 #include "mpi_ranks.hpp"

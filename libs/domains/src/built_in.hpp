@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-// Texts of the files in domains/, made by embed_text.cmake when kith is built.
+// Texts of the files in domains/, embedded when kith is built (kith_embed_text).
 namespace kith::detail {
 extern const std::string_view kItemDeliveryText;
 extern const std::string_view kColoredTilesText;

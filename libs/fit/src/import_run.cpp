@@ -13,7 +13,7 @@
 #include "kith/bec/atlas.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
 #include "open_table.hpp"
 #include "vectors.hpp"

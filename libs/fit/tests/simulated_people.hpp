@@ -7,7 +7,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/fit/import_run.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
 #include "temporary_folder.hpp"
 

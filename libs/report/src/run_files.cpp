@@ -1,6 +1,6 @@
 #include "run_files.hpp"
 
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 
 namespace kith::detail {
 

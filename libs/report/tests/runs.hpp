@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kith/files/atomic_file.hpp"
-#include "kith/study/run_folder.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
 
 namespace kith::testing {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "kith/core/parallel_loop.hpp"
 #include "kith/study/study_memory.hpp"
 #include "kith/study/team_run.hpp"
-#include "parallel_loop.hpp"
 
 namespace kith {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kith/core/memory.hpp"
-#include "parallel_loop.hpp"
+#include "kith/core/parallel_loop.hpp"
 
 namespace kith {
 namespace {

@@ -27,7 +27,7 @@ TEST(StudyErrorIds, AreAllExplainedOnAPage) {
 // Tests name the ids that they trigger; those of the tables of a run are triggered where runs are read.
 TEST(StudyErrorIds, AreAllTriggeredByATest) {
   std::string tests;
-  for (const auto* layer : {"study", "report", "fit"}) {
+  for (const auto* layer : {"study", "runs", "report", "fit"}) {
     tests += text_of_files(std::filesystem::path{KITH_SOURCE_DIR} / "libs" / layer / "tests", "", ".cpp");
   }
   for (const auto& id : testing::error_ids_in("study")) EXPECT_NE(tests.find(id), std::string::npos) << id;

@@ -2,12 +2,12 @@
 // can still be opened is of the same study and holds, of every team that it says is done, the very bytes that were
 // written; what was recovered needs no recovery any more.
 
-#include "kith/study/journal.hpp"
+#include "kith/runs/journal.hpp"
 #include "../fuzzing.hpp"
 #include "../scratch.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/team_codec.hpp"
 
 using namespace kith;
 using fuzzing::require;

@@ -12,7 +12,7 @@
 #include "kith/core/error.hpp"
 #include "kith/fit/import_run.hpp"
 #include "kith/report/report.hpp"
-#include "kith/study/verify.hpp"
+#include "kith/runs/verify.hpp"
 
 using namespace kith;
 using fuzzing::require;

@@ -5,7 +5,7 @@
 #include "../scratch.hpp"
 #include "../small_run.hpp"
 #include "kith/core/error.hpp"
-#include "kith/study/merge.hpp"
+#include "kith/runs/merge.hpp"
 
 using namespace kith;
 using fuzzing::require;

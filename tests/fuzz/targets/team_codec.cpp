@@ -1,7 +1,7 @@
 // Records of teams as the journal keeps them. The bytes after the first, with the right checksum put behind them, are
 // read as a record or refused; a record that was read is written as bytes that give the same bytes again.
 
-#include "kith/study/team_codec.hpp"
+#include "kith/runs/team_codec.hpp"
 #include "../fuzzing.hpp"
 #include "../mutate/mutate_team.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kith/core/parallel.hpp"
 #include "kith/fit/person_log.hpp"
-#include "kith/study/parallel.hpp"
 
 namespace kith {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
-#include "kith/study/ranks.hpp"
 #include "kith/study/records.hpp"
 #include "kith/study/study_spec.hpp"
+#include "kith/study/work_counter.hpp"
 
 namespace kith {
 

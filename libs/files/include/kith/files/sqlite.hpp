@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "kith/core/error.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace kith {
+
+/// An error of a database file, with its path and the reason.
+class SqliteError : public Error {
+ public:
+  SqliteError(ErrorKind kind, const std::string& message, int code) : Error{kind, message}, code_{code} {}
+  /// Whether the content of the file is at fault rather than the disk or the permissions.
+  [[nodiscard]] bool damaged() const noexcept;
+
+ private:
+  int code_;
+};
+
+/// The version of SQLite, such as "3.40.1".
+[[nodiscard]] std::string sqlite_version();
+
+class Statement;
+
+/// A connection to an SQLite file. All errors are SqliteErrors. Not thread-safe.
+class Database {
+ public:
+  enum class Mode {
+    kMake,   ///< A new file, to write.
+    kWrite,  ///< One that exists, to write.
+    kRead,   ///< To read, even while another process writes. Nothing changes, even if this closes the file last.
+    kAlone,  ///< To read the file without the files beside it; no process may write to it meanwhile.
+  };
+  Database(std::filesystem::path path, Mode mode);
+  ~Database();
+  Database(Database&& other) noexcept;
+  Database& operator=(Database&& other) noexcept;
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  void execute(const std::string& sql);
+  /// Whether the write-ahead log is kept as it is, or written to the file when it grows long and on closing (the
+  /// default).
+  void keep_log(bool keep);
+  /// Writes the write-ahead log to the file and empties it.
+  void empty_log();
+  [[nodiscard]] Statement prepare(const std::string& sql);
+  [[noreturn]] void fail(int code) const;
+
+ private:
+  [[nodiscard]] int open(const std::string& name, int flags);
+  void close() noexcept;
+
+  std::filesystem::path path_;
+  bool writes_ = true;
+  sqlite3* handle_ = nullptr;
+};
+
+/// A prepared statement of a Database, which must outlive it.
+class Statement {
+ public:
+  Statement(const Database& database, sqlite3* handle, const std::string& sql);
+  ~Statement();
+  Statement(Statement&& other) noexcept;
+  Statement& operator=(Statement&&) = delete;
+
+  // Parameters are numbered from 1. The bytes of a text or blob must live until reset() or the last step.
+
+  Statement& bind(int parameter, std::int64_t value);
+  Statement& bind(int parameter, double value);
+  Statement& bind_text(int parameter, std::string_view value);
+  Statement& bind_blob(int parameter, std::string_view value);
+  /// Advances to the next row. @return whether there is one.
+  bool step();
+  /// Runs it to the end and makes it ready to be run again.
+  void run();
+  void reset();
+
+  // Columns are numbered from 0; views are valid until the next step.
+
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] double real(int column) const;
+  [[nodiscard]] std::string_view text(int column) const;
+  [[nodiscard]] std::string_view blob(int column) const;
+
+ private:
+  void check(int code) const;
+
+  const Database* database_;
+  sqlite3_stmt* handle_ = nullptr;
+};
+
+}  // namespace kith

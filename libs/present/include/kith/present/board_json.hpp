@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "kith/bec/atlas.hpp"
+#include "kith/present/json.hpp"
+
+namespace kith {
+
+// Boards as pages animate them. Cells are [column, row] from the top left, from 1. Where a domain has no map, legend,
+// width, height, map and cell are left out, and a frame is {"state", "action"} with the state's name.
+
+/// {"id", "title", "features": [{name, words, weight}], "legend": [{symbol, kind, name, parts: [{kind, name}]}],
+/// "width", "height"}. The parts of a symbol are what it puts on a cell, in the order wall, terrain, station,
+/// destination, goal, start, item; kind and name are those of the first.
+[[nodiscard]] Json board_domain_json(const Domain& domain);
+/// {"world", "map", "start"}: the number of the MDP, its map in the symbols of the file, and the state as a frame.
+[[nodiscard]] Json board_json(const Domain& domain, DemoId id);
+/// [{"robot", "items": [{name, cell, carried}], "stations", "action"}]: entry i is the state before action i; the last
+/// has action null.
+[[nodiscard]] Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path);
+/// {"frame", "cell"}: where a step of a path is taken.
+[[nodiscard]] Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step);
+/// [{"normal", "text"}]
+[[nodiscard]] Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces);
+
+}  // namespace kith

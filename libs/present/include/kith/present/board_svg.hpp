@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/domains/domain.hpp"
+#include "kith/mdp/planner.hpp"
+#include "kith/present/svg.hpp"
+
+namespace kith {
+
+/// Draws maps of one domain: what stands on the cells, and what is marked on them.
+class BoardSvg {
+ public:
+  explicit BoardSvg(const Domain& domain);
+
+  [[nodiscard]] double width() const;   ///< With the numbers of the rows.
+  [[nodiscard]] double height() const;  ///< With the numbers of the columns.
+
+  /// The map of an MDP as it is in a state; the robot is drawn unless `bare`.
+  [[nodiscard]] Svg board(MdpIndex m, const GridState& state, bool bare = false) const;
+  /// A path, to be added on top of a board.
+  [[nodiscard]] Svg path(MdpIndex m, const Trajectory& path, const std::string& color, bool dashed = false) const;
+  /// What the robot does at a cell: an arrow, or the action's name.
+  void action(Svg& svg, const Cell& cell, const std::string& name) const;
+  /// A number on a cell whose ground is darker the larger it is. @param share  of the largest, in [0, 1].
+  void number(Svg& svg, const Cell& cell, std::size_t number, double share) const;
+
+  /// The signs on the boards, with their names, in lines of this width. Returns how high it is.
+  double legend(Svg& svg, double x, double y, double line_width) const;
+
+ private:
+  struct Point {
+    double x = 0.0, y = 0.0;
+  };
+  [[nodiscard]] Point centre(const Cell& cell) const;
+  void terrain(Svg& svg, const Point& at, const std::string& name) const;
+  void disc(Svg& svg, const Point& at, const std::string& letters) const;
+  void station(Svg& svg, const Point& at, const std::string& letters) const;
+  void destination(Svg& svg, const Point& at, const std::string& letters) const;
+  void goal(Svg& svg, const Point& at, const std::string& letters) const;
+  void robot(Svg& svg, const Point& at) const;
+  void contents(Svg& svg, MdpIndex m, const GridState& state) const;
+  void grid(Svg& svg) const;
+  [[nodiscard]] std::string letters(const std::string& name) const;
+
+  const Domain& domain_;
+  std::vector<std::string> terrains_;
+  std::vector<std::string> things_;   // stations, items and named goals
+  std::vector<std::string> letters_;  // of things_
+};
+
+}  // namespace kith

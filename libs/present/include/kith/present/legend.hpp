@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "kith/present/picture.hpp"
+
+namespace kith {
+
+/// The map as it lies there in the state in which a demonstration starts: walls, terrain, stations still there
+/// and destinations, without robot and items.
+[[nodiscard]] Picture bare_picture(const Domain& domain, DemoId id);
+
+/// What the symbols of all pictures mean, one line each for the domain's own and for those that move.
+[[nodiscard]] std::string legend(const Domain& domain, std::size_t indent);
+
+}  // namespace kith

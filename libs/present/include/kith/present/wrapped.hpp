@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace kith {
+
+/// How many characters wide the program writes its text.
+inline constexpr std::size_t kTextWidth = 100;
+
+/// The words of a text on lines of at most `width` characters, where words are not longer; lines after the first
+/// begin with `indent`. Without a line break at the end.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::string_view indent = "");
+
+}  // namespace kith

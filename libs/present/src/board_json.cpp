@@ -1,0 +1,108 @@
+#include "kith/present/board_json.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "kith/explain/words.hpp"
+
+namespace kith {
+namespace {
+
+Json cell_json(const Domain& domain, const Cell& cell) { return Json::array({cell.x, domain.height() + 1 - cell.y}); }
+
+struct Kind {
+  std::string kind, name;
+};
+
+// All that a symbol puts on a cell.
+std::vector<Kind> parts_of(const LegendEntry& entry) {
+  std::vector<Kind> parts;
+  if (entry.content.wall) parts.push_back({"wall", "wall"});
+  if (!entry.content.terrain.empty()) parts.push_back({"terrain", entry.content.terrain});
+  if (!entry.station.empty()) parts.push_back({"station", entry.station});
+  if (!entry.content.destination_of.empty()) {
+    parts.push_back({"destination", "destination of " + entry.content.destination_of});
+  }
+  if (entry.content.goal) parts.push_back({"goal", entry.goal_name.empty() ? "goal" : entry.goal_name + " goal"});
+  if (entry.start) parts.push_back({"start", "start"});
+  if (!entry.item.empty()) parts.push_back({"item", entry.item});
+  return parts;
+}
+
+Json frame_json(const Domain& domain, MdpIndex world, StateIndex s) {
+  if (!domain.has_map()) return {{"state", domain.state_name(world, s)}};
+  const auto state = domain.state(world, s);
+  const auto names = domain.items_in(world);
+  Json items = Json::array();
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    items.push_back({{"name", domain.item_names()[names[i]]},
+                     {"cell", cell_json(domain, state.items[i])},
+                     {"carried", bool{state.carried[i]}}});
+  }
+  Json stations = Json::array();
+  for (const auto& station : state.stations) stations.push_back(cell_json(domain, station));
+  return {{"robot", cell_json(domain, state.robot)}, {"items", items}, {"stations", stations}};
+}
+
+}  // namespace
+
+Json board_domain_json(const Domain& domain) {
+  Json features = Json::array();
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    features.push_back(
+        {{"name", domain.feature_names()[k]}, {"words", domain.feature_words(k)}, {"weight", domain.weights().raw[k]}});
+  }
+  Json json{{"id", domain.id()}, {"title", domain.title()}, {"features", features}};
+  if (!domain.has_map()) return json;
+  Json legend = Json::array();
+  for (const auto& entry : domain.legend()) {
+    const auto kinds = parts_of(entry);
+    if (kinds.empty()) continue;  // floor
+    Json parts = Json::array();
+    for (const auto& [kind, name] : kinds) parts.push_back({{"kind", kind}, {"name", name}});
+    legend.push_back({{"symbol", std::string{entry.symbol}},
+                      {"kind", kinds.front().kind},
+                      {"name", kinds.front().name},
+                      {"parts", parts}});
+  }
+  json["legend"] = legend;
+  json["width"] = domain.width();
+  json["height"] = domain.height();
+  return json;
+}
+
+Json board_json(const Domain& domain, DemoId id) {
+  Json json{{"world", id.mdp.value()}};
+  if (domain.has_map()) json["map"] = domain.draw(id.mdp, std::nullopt);
+  json["start"] = frame_json(domain, id.mdp, id.start);
+  return json;
+}
+
+Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  Json frames = Json::array();
+  for (std::size_t t = 0; t < path.states.size(); ++t) {
+    auto frame = frame_json(domain, world, path.states[t]);
+    frame["action"] = t < path.actions.size() ? Json(domain.action_names()[path.actions[t].value()]) : Json{};
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step) {
+  Json json{{"frame", step}};
+  if (domain.has_map()) json["cell"] = cell_json(domain, domain.state(world, path.states[step]).robot);
+  return json;
+}
+
+Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces) {
+  Json sentences = Json::array();
+  for (const auto& half_space : half_spaces) {
+    Json normal = Json::array();
+    for (std::size_t k = 0; k < domain.num_features(); ++k) normal.push_back(half_space.normal()[k]);
+    sentences.push_back({{"normal", normal}, {"text", in_words(domain, half_space)}});
+  }
+  return sentences;
+}
+
+}  // namespace kith

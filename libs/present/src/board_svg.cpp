@@ -1,0 +1,357 @@
+#include "kith/present/board_svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+namespace kith {
+namespace {
+
+constexpr double kCell = 40.0;
+constexpr double kMargin = 22.0;
+constexpr const char* kInk = "#1c2127";
+
+struct Tint {
+  std::string_view name, ground, mark;
+};
+constexpr std::array<Tint, 8> kTints{{{"brown", "#e9dcc9", "#8f6f45"},
+                                      {"blue", "#d3e4f7", "#5b8db8"},
+                                      {"green", "#d9ecd9", "#5d9a64"},
+                                      {"purple", "#e6dcf3", "#8d6fb5"},
+                                      {"grey", "#e1e4e8", "#87909b"},
+                                      {"orange", "#fbdcbf", "#c9762b"},
+                                      {"red", "#f7d4d0", "#c25a50"},
+                                      {"yellow", "#f8edc0", "#b39a3a"}}};
+
+void add_once(std::vector<std::string>& all, const std::string& name) {
+  if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+}
+
+// Terrains that are called by a colour have it; others take the next.
+const Tint& tint_of(const std::vector<std::string>& terrains, const std::string& name) {
+  const auto named = std::find_if(kTints.begin(), kTints.end(), [&](const Tint& tint) { return tint.name == name; });
+  if (named != kTints.end()) return *named;
+  const auto at = static_cast<std::size_t>(std::find(terrains.begin(), terrains.end(), name) - terrains.begin());
+  return kTints[at % kTints.size()];
+}
+
+std::string capital(const std::string& name, std::size_t n) {
+  auto text = name.substr(0, n);
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
+void centred(Svg& svg, double x, double y, const std::string& words, double size) {
+  svg.text(x, y + 0.36 * size, words,
+           {{"text-anchor", "middle"}, {"font-size", svg_number(size)}, {"font-weight", "bold"}, {"fill", kInk}});
+}
+
+}  // namespace
+
+BoardSvg::BoardSvg(const Domain& domain) : domain_{domain} {
+  for (const auto& entry : domain.legend()) {
+    add_once(terrains_, entry.content.terrain);
+    add_once(things_, entry.station);
+    add_once(things_, entry.item);
+    add_once(things_, entry.goal_name);
+  }
+  for (const auto& name : things_) {
+    auto sign = capital(name, 1);
+    if (std::find(letters_.begin(), letters_.end(), sign) != letters_.end()) sign = capital(name, 2);
+    letters_.push_back(sign);
+  }
+}
+
+double BoardSvg::width() const { return kMargin + kCell * domain_.width() + 2.0; }
+double BoardSvg::height() const { return kMargin + kCell * domain_.height() + 2.0; }
+
+BoardSvg::Point BoardSvg::centre(const Cell& cell) const {
+  return {kMargin + (cell.x - 0.5) * kCell, kMargin + (domain_.height() - cell.y + 0.5) * kCell};
+}
+
+std::string BoardSvg::letters(const std::string& name) const {
+  const auto at = std::find(things_.begin(), things_.end(), name);
+  return at == things_.end() ? "" : letters_[static_cast<std::size_t>(at - things_.begin())];
+}
+
+void BoardSvg::terrain(Svg& svg, const Point& at, const std::string& name) const {
+  const auto& tint = tint_of(terrains_, name);
+  const double half = kCell / 2;
+  svg.add("rect", {{"x", svg_number(at.x - half)},
+                   {"y", svg_number(at.y - half)},
+                   {"width", svg_number(kCell)},
+                   {"height", svg_number(kCell)},
+                   {"fill", std::string{tint.ground}}});
+  // Texture: other marks for every other terrain, so that colour is not all.
+  const auto number = static_cast<std::size_t>(std::find(terrains_.begin(), terrains_.end(), name) - terrains_.begin());
+  std::string marks;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const double x = at.x - half + 5.0 + 10.0 * i;
+      const double y = at.y - half + 5.0 + 10.0 * j;
+      const bool cross = number % 2 == 1;
+      marks += cross ? fmt::format("M{} {}l4 -4", svg_number(x - 2), svg_number(y + 2))
+                     : fmt::format("M{} {}h1.6v1.6h-1.6z", svg_number(x - 0.8 + (j % 2) * 3), svg_number(y - 0.8));
+    }
+  }
+  svg.add("path", {{"d", marks}, {"fill", std::string{tint.mark}}, {"stroke", std::string{tint.mark}}});
+}
+
+void BoardSvg::disc(Svg& svg, const Point& at, const std::string& sign) const {
+  svg.add("circle", {{"cx", svg_number(at.x)},
+                     {"cy", svg_number(at.y)},
+                     {"r", "10.5"},
+                     {"fill", "#cfe6d8"},
+                     {"stroke", kInk},
+                     {"stroke-width", "1.5"}});
+  centred(svg, at.x, at.y, sign, 12);
+}
+
+void BoardSvg::station(Svg& svg, const Point& at, const std::string& sign) const {
+  svg.add("rect", {{"x", svg_number(at.x - 12)},
+                   {"y", svg_number(at.y - 12)},
+                   {"width", "24"},
+                   {"height", "24"},
+                   {"rx", "4"},
+                   {"fill", "#ffe08a"},
+                   {"stroke", kInk},
+                   {"stroke-width", "1.5"}});
+  centred(svg, at.x, at.y, sign, 13);
+}
+
+void BoardSvg::destination(Svg& svg, const Point& at, const std::string& sign) const {
+  for (const double r : {14.5, 10.5}) {
+    svg.add("circle", {{"cx", svg_number(at.x)},
+                       {"cy", svg_number(at.y)},
+                       {"r", svg_number(r)},
+                       {"fill", "#ffffff"},
+                       {"stroke", kInk},
+                       {"stroke-width", "1.5"},
+                       {"stroke-dasharray", r > 12 ? "3 2.2" : "none"}});
+  }
+  centred(svg, at.x, at.y, sign, 12);
+}
+
+void BoardSvg::goal(Svg& svg, const Point& at, const std::string& sign) const {
+  svg.add("path", {{"d", fmt::format("M{0} {1}v-28", svg_number(at.x - 9), svg_number(at.y + 14))},
+                   {"stroke", kInk},
+                   {"stroke-width", "2.4"}});
+  svg.add("path", {{"d", fmt::format("M{} {}h22l-5 7.5l5 7.5h-22z", svg_number(at.x - 9), svg_number(at.y - 14))},
+                   {"fill", "#b9e2c6"},
+                   {"stroke", kInk},
+                   {"stroke-width", "1.4"}});
+  centred(svg, at.x - 1, at.y - 6.5, sign, 11);
+}
+
+void BoardSvg::robot(Svg& svg, const Point& at) const {
+  const auto x = [&](double by) { return svg_number(at.x + by); };
+  const auto y = [&](double by) { return svg_number(at.y + by); };
+  svg.add("path", {{"d", "M" + x(0) + " " + y(-10) + "v-5"}, {"stroke", kInk}, {"stroke-width", "2"}});
+  svg.add("circle", {{"cx", x(0)}, {"cy", y(-15.5)}, {"r", "2.4"}, {"fill", kInk}});
+  svg.add("rect", {{"x", x(-11)},
+                   {"y", y(-10)},
+                   {"width", "22"},
+                   {"height", "21"},
+                   {"rx", "6"},
+                   {"fill", kInk},
+                   {"stroke", "#ffffff"}});
+  for (const double eye : {-4.6, 4.6}) {
+    svg.add("circle", {{"cx", x(eye)}, {"cy", y(-2)}, {"r", "2.6"}, {"fill", "#ffffff"}});
+  }
+  svg.add("path", {{"d", "M" + x(-4) + " " + y(5.5) + "h8"}, {"stroke", "#ffffff"}, {"stroke-width", "1.8"}});
+}
+
+void BoardSvg::grid(Svg& svg) const {
+  const double right = kMargin + kCell * domain_.width();
+  const double bottom = kMargin + kCell * domain_.height();
+  for (int x = 0; x <= domain_.width(); ++x) {
+    const double at = kMargin + kCell * x;
+    const bool edge = x == 0 || x == domain_.width();
+    svg.line(at, kMargin, at, bottom, {{"stroke", edge ? "#57606a" : "#d5d9de"}});
+    if (x > 0) {
+      svg.text(at - kCell / 2, kMargin - 7, std::to_string(x),
+               {{"text-anchor", "middle"}, {"font-size", "11"}, {"fill", "#57606a"}});
+    }
+  }
+  for (int y = 0; y <= domain_.height(); ++y) {
+    const double at = kMargin + kCell * y;
+    const bool edge = y == 0 || y == domain_.height();
+    svg.line(kMargin, at, right, at, {{"stroke", edge ? "#57606a" : "#d5d9de"}});
+    if (y > 0) {
+      svg.text(kMargin - 6, at - kCell / 2 + 4, std::to_string(y),
+               {{"text-anchor", "end"}, {"font-size", "11"}, {"fill", "#57606a"}});
+    }
+  }
+}
+
+void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state) const {
+  for (int y = 1; y <= domain_.height(); ++y) {
+    for (int x = 1; x <= domain_.width(); ++x) {
+      const Cell cell{x, y};
+      const auto at = centre(cell);
+      const auto content = domain_.content(m, cell);
+      if (content.wall) {
+        svg.add("rect", {{"x", svg_number(at.x - kCell / 2)},
+                         {"y", svg_number(at.y - kCell / 2)},
+                         {"width", svg_number(kCell)},
+                         {"height", svg_number(kCell)},
+                         {"fill", "#3c444d"}});
+      }
+      if (!content.destination_of.empty()) destination(svg, at, letters(content.destination_of));
+      if (content.goal) goal(svg, at, letters(domain_.legend()[domain_.legend_index(cell)].goal_name));
+    }
+  }
+  for (const auto& cell : state.stations) {
+    station(svg, centre(cell), letters(domain_.legend()[domain_.legend_index(cell)].station));
+  }
+  const auto items = domain_.items_in(m);
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    if (!state.carried[i]) disc(svg, centre(state.items[i]), letters(domain_.item_names()[items[i]]));
+  }
+}
+
+Svg BoardSvg::board(MdpIndex m, const GridState& state, bool bare) const {
+  Svg svg;
+  for (int y = 1; y <= domain_.height(); ++y) {
+    for (int x = 1; x <= domain_.width(); ++x) {
+      const auto content = domain_.content(m, {x, y});
+      if (!content.terrain.empty()) terrain(svg, centre({x, y}), content.terrain);
+    }
+  }
+  grid(svg);
+  contents(svg, m, state);
+  if (!bare) robot(svg, centre(state.robot));
+  return svg;
+}
+
+Svg BoardSvg::path(MdpIndex m, const Trajectory& path, const std::string& color, bool dashed) const {
+  Svg svg;
+  constexpr double kLane = 3.5;  // to the right of the middle, so that ways there and back lie beside each other
+  const double width = dashed ? 2.6 : 3.4;
+  for (std::size_t t = 0; t + 1 < path.states.size(); ++t) {
+    const auto from = centre(domain_.state(m, path.states[t]).robot);
+    const auto to = centre(domain_.state(m, path.states[t + 1]).robot);
+    const double dx = (to.x - from.x) / kCell;
+    const double dy = (to.y - from.y) / kCell;
+    if (dx == 0.0 && dy == 0.0) {
+      svg.add("circle", {{"cx", svg_number(from.x)},
+                         {"cy", svg_number(from.y)},
+                         {"r", "16.5"},
+                         {"fill", "none"},
+                         {"stroke", color},
+                         {"stroke-width", "2"}});
+      continue;
+    }
+    const double x = -dy * kLane;
+    const double y = dx * kLane;
+    svg.line(from.x + x, from.y + y, to.x + x, to.y + y,
+             {{"stroke", color},
+              {"stroke-width", svg_number(width)},
+              {"stroke-linecap", "round"},
+              {"stroke-dasharray", dashed ? "6 5" : "none"}});
+    const double angle = std::atan2(dy, dx) * 180.0 / std::numbers::pi;
+    svg.add("path", {{"d", "M5 0L-4 -4.6V4.6Z"},
+                     {"fill", color},
+                     {"transform", fmt::format("translate({} {}) rotate({})", svg_number((from.x + to.x) / 2 + x),
+                                               svg_number((from.y + to.y) / 2 + y), svg_number(angle))}});
+  }
+  return svg;
+}
+
+void BoardSvg::action(Svg& svg, const Cell& cell, const std::string& name) const {
+  const auto at = centre(cell);
+  static constexpr std::array<std::pair<std::string_view, int>, 4> kAngles{
+      {{"right", 0}, {"down", 90}, {"left", 180}, {"up", 270}}};
+  const auto move = std::find_if(kAngles.begin(), kAngles.end(), [&](const auto& one) { return one.first == name; });
+  if (move == kAngles.end()) {
+    svg.add("rect", {{"x", svg_number(at.x - 19)},
+                     {"y", svg_number(at.y + 7)},
+                     {"width", "38"},
+                     {"height", "12"},
+                     {"rx", "3"},
+                     {"fill", "#ffffff"},
+                     {"fill-opacity", "0.85"}});
+    svg.text(at.x, at.y + 16.5, name,
+             {{"text-anchor", "middle"}, {"font-size", "10"}, {"font-weight", "bold"}, {"fill", "#0b5cad"}});
+    return;
+  }
+  svg.add("path",
+          {{"d", "M-12 0H8M2 -6L9 0L2 6"},
+           {"transform", fmt::format("translate({} {}) rotate({})", svg_number(at.x), svg_number(at.y), move->second)},
+           {"fill", "none"},
+           {"stroke", "#0b5cad"},
+           {"stroke-width", "3"},
+           {"stroke-linecap", "round"},
+           {"stroke-linejoin", "round"}});
+}
+
+void BoardSvg::number(Svg& svg, const Cell& cell, std::size_t number, double share) const {
+  const auto at = centre(cell);
+  constexpr double kHalf = kCell / 2 - 3;
+  svg.add("rect", {{"x", svg_number(at.x - kHalf)},
+                   {"y", svg_number(at.y - kHalf)},
+                   {"width", svg_number(2 * kHalf)},
+                   {"height", svg_number(2 * kHalf)},
+                   {"rx", "4"},
+                   {"fill", "#0b5cad"},
+                   {"fill-opacity", svg_number(0.08 + 0.72 * share)}});
+  svg.text(at.x, at.y + 5, std::to_string(number),
+           {{"text-anchor", "middle"},
+            {"font-size", "14"},
+            {"font-weight", "bold"},
+            {"fill", share > 0.55 ? "#ffffff" : kInk}});
+}
+
+double BoardSvg::legend(Svg& svg, double x, double y, double line_width) const {
+  constexpr double kLine = 38.0;
+  double column = 0.0;
+  double row = 0.0;
+  const auto entry = [&](const std::string& name, const auto& draw) {
+    const double width = 46.0 + svg_text_width(name, 13) + 12.0;
+    if (column > 0.0 && column + width > line_width) {
+      column = 0.0;
+      row += kLine;
+    }
+    draw(Point{x + column + 20.0, y + row + 20.0});
+    svg.text(x + column + 46.0, y + row + 24.5, name);
+    column += width;
+  };
+  entry("robot", [&](const Point& at) { robot(svg, at); });
+  bool has_wall = false;
+  std::vector<std::string> known;
+  for (const auto& symbol : domain_.legend()) has_wall = has_wall || symbol.content.wall;
+  if (has_wall) {
+    entry("wall", [&](const Point& at) {
+      svg.add("rect", {{"x", svg_number(at.x - 14)},
+                       {"y", svg_number(at.y - 14)},
+                       {"width", "28"},
+                       {"height", "28"},
+                       {"fill", "#3c444d"}});
+    });
+  }
+  for (const auto& name : terrains_) entry(name, [&](const Point& at) { terrain(svg, at, name); });
+  const auto once = [&](const std::string& name, const auto& draw) {
+    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+    known.push_back(name);
+    entry(name, draw);
+  };
+  for (const auto& symbol : domain_.legend()) {
+    once(symbol.station, [&](const Point& at) { station(svg, at, letters(symbol.station)); });
+    once(symbol.item, [&](const Point& at) { disc(svg, at, letters(symbol.item)); });
+    if (!symbol.content.destination_of.empty()) {
+      once("destination of " + symbol.content.destination_of,
+           [&](const Point& at) { destination(svg, at, letters(symbol.content.destination_of)); });
+    }
+    if (symbol.content.goal) {
+      once(symbol.goal_name.empty() ? "goal" : symbol.goal_name + " goal",
+           [&](const Point& at) { goal(svg, at, letters(symbol.goal_name)); });
+    }
+  }
+  return row + kLine + 6.0;
+}
+
+}  // namespace kith

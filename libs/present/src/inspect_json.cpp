@@ -1,0 +1,81 @@
+#include "kith/present/inspect_json.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "kith/explain/words.hpp"
+#include "kith/present/json.hpp"
+
+namespace kith {
+namespace {
+
+Json demo_to_json(const Atlas& atlas, DemoIndex demo) {
+  const auto& domain = atlas.domain();
+  Json actions = Json::array();
+  for (const auto action : atlas.trajectory(demo).actions) actions.push_back(domain.action_names()[action.value()]);
+  const auto& counts = atlas.feature_counts(demo);
+  return {{"start", start_to_json(domain, atlas.id(demo))},
+          {"actions", actions},
+          {"features", counts_to_json(domain, counts)},
+          {"return", return_of(domain, counts)},
+          {"one_step", to_json(atlas.constraints().half_spaces(atlas.one_step(demo)), domain.num_features())},
+          {"unique", atlas.is_unique(demo)}};
+}
+
+Json components_to_json(const Atlas& atlas) {
+  const auto& domain = atlas.domain();
+  Json components = Json::array();
+  for (const auto& component : atlas.knowledge_components()) {
+    Json masked = Json::array();
+    for (const auto k : component.masked) masked.push_back(domain.feature_names()[k]);
+    components.push_back(
+        {{"name", component.name},
+         {"masked", masked},
+         {"mdps", std::count(component.uses_mdp.begin(), component.uses_mdp.end(), true)},
+         {"constraints", to_json(atlas.constraints().half_spaces(component.constraints), domain.num_features())},
+         {"area_sr", component.area_sr}});
+  }
+  return components;
+}
+
+}  // namespace
+
+Json inspection_json(const Domain& domain) {
+  const auto d = domain.num_features();
+  return {{"schema", "kith.inspect/1"},
+          {"id", domain.id()},
+          {"title", domain.title()},
+          {"mdps", domain.num_mdps()},
+          {"demonstrations", domain.num_starts()},
+          {"features", domain.feature_names()},
+          {"actions", domain.action_names()},
+          {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit)}}},
+          {"prior", to_json(domain.prior(), d)}};
+}
+
+Json inspection_json(const Atlas& atlas, const InspectionContent& content) {
+  const auto& domain = atlas.domain();
+  const auto d = domain.num_features();
+  const auto& coverage = atlas.coverage();
+  auto document = inspection_json(domain);
+  document["bec"] = {{"constraints", to_json(atlas.policy_bec_half_spaces(), d)},
+                     {"area_sr", atlas.policy_bec_area_sr()}};
+  document["knowledge_components"] = components_to_json(atlas);
+  document["mask_counters"] = atlas.mask_counters();
+  if (atlas.is_tabulated()) {
+    document["coverage"] = {{"vertices", coverage.vertices}, {"mean", coverage.mean}, {"max", coverage.max}};
+    document["policy_cells"] = atlas.cells().size();
+  }
+  if (content.demos) {
+    Json demos = Json::array();
+    for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
+      const DemoIndex demo{i};
+      if (!atlas.is_candidate(demo)) continue;
+      if (!content.mdp || atlas.id(demo).mdp.value() == *content.mdp) demos.push_back(demo_to_json(atlas, demo));
+    }
+    document["demos"] = std::move(demos);
+  }
+  return document;
+}
+
+}  // namespace kith

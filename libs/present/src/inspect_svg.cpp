@@ -1,0 +1,195 @@
+#include "kith/present/inspect_svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kith/core/error.hpp"
+#include "kith/explain/contrast.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/present/board_svg.hpp"
+#include "kith/present/picture.hpp"
+#include "kith/present/region_svg.hpp"
+#include "kith/present/wrapped.hpp"
+
+namespace kith {
+namespace {
+
+constexpr double kGap = 28.0;
+constexpr double kCaption = 17.0;  // height of a line
+constexpr double kPageWidth = 1200.0;
+
+// Lines of text that fit into a width; at least one.
+std::vector<std::string> lines_of(const std::string& text, double width) {
+  const auto characters = static_cast<std::size_t>(std::max(12.0, width / svg_text_width("n", 12.5)));
+  std::vector<std::string> lines;
+  std::string rest = wrapped(text, characters);
+  while (true) {
+    const auto end = rest.find('\n');
+    lines.push_back(rest.substr(0, end));
+    if (end == std::string::npos) return lines;
+    rest = rest.substr(end + 1);
+  }
+}
+
+// Boards with captions, as many beside each other as fit, under a heading and above the legend.
+class Sheet {
+ public:
+  Sheet(const BoardSvg& boards, std::string heading)
+      : boards_{boards},
+        heading_{std::move(heading)},
+        width_{std::max(boards.width(), 200.0)},
+        columns_{std::max<std::size_t>(1, static_cast<std::size_t>(kPageWidth / (width_ + kGap)))} {}
+
+  void add(Svg board, const std::string& caption) { panels_.push_back({std::move(board), lines_of(caption, width_)}); }
+
+  [[nodiscard]] std::string file() const {
+    Svg svg;
+    const auto used = std::min(columns_, panels_.size());
+    const double width = std::max(kGap + static_cast<double>(used) * (width_ + kGap), 420.0);
+    double y = 26.0;
+    for (const auto& line : lines_of(heading_, width - 2 * kGap)) {
+      svg.text(kGap, y + 8, line, {{"font-size", "16"}, {"font-weight", "bold"}});
+      y += 22.0;
+    }
+    y += 10.0;
+    for (std::size_t first = 0; first < panels_.size(); first += columns_) {
+      std::size_t most = 0;
+      for (std::size_t i = first; i < std::min(first + columns_, panels_.size()); ++i) {
+        const double x = kGap + static_cast<double>(i - first) * (width_ + kGap);
+        svg.add(x, y, panels_[i].board);
+        for (std::size_t line = 0; line < panels_[i].caption.size(); ++line) {
+          svg.text(x, y + boards_.height() + kCaption * static_cast<double>(line + 1), panels_[i].caption[line],
+                   {{"font-size", "12.5"}});
+        }
+        most = std::max(most, panels_[i].caption.size());
+      }
+      y += boards_.height() + kCaption * static_cast<double>(most) + kGap;
+    }
+    y += boards_.legend(svg, kGap - 6, y, width - 2 * kGap);
+    return svg.file(width, y + 10.0, heading_);
+  }
+
+ private:
+  struct Panel {
+    Svg board;
+    std::vector<std::string> caption;
+  };
+  const BoardSvg& boards_;
+  std::string heading_;
+  double width_;
+  std::size_t columns_;
+  std::vector<Panel> panels_;
+};
+
+std::string title_of(const Domain& domain) {
+  return domain.title().empty() ? domain.id() : domain.id() + ": " + domain.title();
+}
+
+template <typename Visit>
+void for_each_cell_from_bottom(const Domain& domain, const Visit& visit) {
+  for (int y = 1; y <= domain.height(); ++y) {
+    for (int x = 1; x <= domain.width(); ++x) visit(Cell{x, y});
+  }
+}
+
+SvgFile map_picture(const Domain& domain, const BoardSvg& boards, MdpIndex m) {
+  Sheet sheet{boards, fmt::format("{}, MDP {}", title_of(domain), m.value())};
+  sheet.add(boards.board(m, domain.state(m, domain.initial_state(m))), "");
+  return {"map.svg", sheet.file()};
+}
+
+std::optional<SvgFile> policy_picture(const Domain& domain, const BoardSvg& boards, MdpIndex m) {
+  const auto& mdp = domain.mdp(m);
+  if (!mdp.is_deterministic() || !mdp.is_integral() || mdp.discount() != 1.0) return std::nullopt;
+  const auto solution = plan_exactly(mdp, domain.weights().integer).solution.value();
+  const auto path = canonical_trajectory(mdp, solution.canonical_choice, domain.initial_state(m));
+  Sheet sheet{boards, fmt::format("What the robot does in MDP {} of {}", m.value(), domain.id())};
+  for (const auto& configuration : configurations_on(domain, m, path)) {
+    auto board = boards.board(m, configuration, true);
+    for_each_cell_from_bottom(domain, [&](const Cell& cell) {
+      const auto state = domain.find_state(m, with_robot_at(configuration, cell));
+      if (!state || mdp.is_terminal(*state)) return;
+      const auto& choice = mdp.choices(*state)[solution.canonical_choice[state->value()]];
+      boards.action(board, cell, domain.action_names()[choice.action.value()]);
+    });
+    sheet.add(std::move(board), configuration_in_words(domain, m, configuration));
+  }
+  return SvgFile{"policy.svg", sheet.file()};
+}
+
+SvgFile region_picture(const Atlas& atlas) {
+  const auto& domain = atlas.domain();
+  auto region = atlas.prior_cone();
+  static_cast<void>(region.clip(atlas.policy_bec_half_spaces()));
+  RegionPicture picture{domain.feature_names(), atlas.prior_cone(), region, domain.weights().integer, {}};
+  for (const auto& facet : region.facets()) picture.captions.push_back(described(domain, facet));
+  const auto [svg, width, height] = region_svg(picture);
+  return {"bec.svg", svg.file(width, height, "The behaviour equivalence class of the policy of " + domain.id())};
+}
+
+SvgFile coverage_picture(const Atlas& atlas, const BoardSvg& boards, MdpIndex m) {
+  const auto& domain = atlas.domain();
+  const auto path = atlas.trajectory(atlas.index({m, domain.initial_state(m)}));
+  Sheet sheet{boards, fmt::format("How many ways people could expect from where the robot stands, MDP {} of {}",
+                                  m.value(), domain.id())};
+  const auto largest = std::max<std::size_t>(2, atlas.coverage().max);
+  for (const auto& configuration : configurations_on(domain, m, path)) {
+    auto board = boards.board(m, configuration, true);
+    for_each_cell_from_bottom(domain, [&](const Cell& cell) {
+      const auto state = domain.find_state(m, with_robot_at(configuration, cell));
+      if (!state || domain.mdp(m).is_terminal(*state)) return;
+      const auto n = atlas.coverage_set(atlas.index({m, *state})).size();
+      boards.number(board, cell, n, static_cast<double>(n - 1) / static_cast<double>(largest - 1));
+    });
+    sheet.add(std::move(board), configuration_in_words(domain, m, configuration));
+  }
+  return {"coverage.svg", sheet.file()};
+}
+
+SvgFile expected_picture(const Atlas& atlas, const BoardSvg& boards, MdpIndex m) {
+  const auto& domain = atlas.domain();
+  const auto demo = atlas.index({m, domain.initial_state(m)});
+  const auto start = domain.state(m, domain.initial_state(m));
+  Sheet sheet{boards, fmt::format("What people could expect from the start of MDP {} of {}", m.value(), domain.id())};
+  const auto& robot = atlas.feature_counts(demo);
+  auto own = boards.board(m, start);
+  own.add(0, 0, boards.path(m, atlas.trajectory(demo), "#0b5cad"));
+  sheet.add(std::move(own), "the robot's own: " + counts_text(domain, robot));
+  for (const auto& vertex : atlas.coverage_set(demo)) {
+    if (vertex == robot) continue;
+    const auto contrast = contrast_with(atlas, demo, 0, vertex);
+    auto board = boards.board(m, start);
+    board.add(0, 0, boards.path(m, contrast.alternative, "#b8480a", true));
+    sheet.add(std::move(board),
+              counts_text(domain, vertex) + ": the robot's shows that " + in_words(domain, HalfSpace{robot - vertex}));
+  }
+  return {"counterfactuals.svg", sheet.file()};
+}
+
+}  // namespace
+
+std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
+  if (!domain.has_map()) return {};
+  const BoardSvg boards{domain};
+  std::vector<SvgFile> files{map_picture(domain, boards, m)};
+  if (auto policy = policy_picture(domain, boards, m)) files.push_back(*std::move(policy));
+  return files;
+}
+
+std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
+  if (!atlas.domain().has_map()) return {region_picture(atlas)};
+  if (!atlas.is_tabulated()) return {region_picture(atlas)};
+  const BoardSvg boards{atlas.domain()};
+  return {region_picture(atlas), coverage_picture(atlas, boards, m), expected_picture(atlas, boards, m)};
+}
+
+void write_pictures(const std::filesystem::path& folder, const std::vector<SvgFile>& files) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw Error{ErrorKind::kIo, "cannot make the folder " + folder.string() + ": " + failure.message()};
+  for (const auto& file : files) write_file_atomically(folder / file.name, file.text);
+}
+
+}  // namespace kith

@@ -1,0 +1,129 @@
+#include "kith/present/picture.hpp"
+
+#include <algorithm>
+
+#include "kith/explain/words.hpp"
+#include "kith/present/legend.hpp"
+
+namespace kith {
+namespace {
+
+char arrow_of(const std::string& action) {
+  if (action == "up") return '^';
+  if (action == "down") return 'v';
+  if (action == "left") return '<';
+  if (action == "right") return '>';
+  return action.front();
+}
+
+char& at(Picture& picture, const Cell& cell) {
+  return picture[picture.size() - static_cast<std::size_t>(cell.y)][static_cast<std::size_t>(cell.x - 1)];
+}
+
+// Whether only the robot is elsewhere.
+bool same_things(const GridState& a, const GridState& b) {
+  for (std::size_t i = 0; i < a.items.size(); ++i) {
+    if (a.carried[i] != b.carried[i] || (!a.carried[i] && a.items[i] != b.items[i])) return false;
+  }
+  return a.stations == b.stations;
+}
+
+}  // namespace
+
+GridState with_robot_at(GridState state, const Cell& cell) {
+  state.robot = cell;
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    if (state.carried[i]) state.items[i] = cell;
+  }
+  return state;
+}
+
+std::vector<GridState> configurations_on(const Domain& domain, MdpIndex m, const Trajectory& path) {
+  std::vector<GridState> seen;
+  for (const auto s : path.states) {
+    if (domain.mdp(m).is_terminal(s)) continue;
+    const auto now = domain.state(m, s);
+    if (std::none_of(seen.begin(), seen.end(), [&](const auto& other) { return same_things(now, other); })) {
+      seen.push_back(now);
+    }
+  }
+  return seen;
+}
+
+std::string configuration_in_words(const Domain& domain, MdpIndex m, const GridState& state) {
+  std::string text;
+  const auto names = domain.items_in(m);
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    const auto& name = domain.item_names()[names[i]];
+    text += (state.carried[i] ? "carrying " + name : name + " at " + cell_text(domain, state.items[i])) + ", ";
+  }
+  return text + counted(state.stations.size(), "station") + " left";
+}
+
+Picture start_picture(const Domain& domain, DemoId id) { return domain.draw(id.mdp, id.start); }
+
+std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajectory& path) {
+  const auto robot = [&](std::size_t i) { return domain.state(id.mdp, path.states[i]).robot; };
+  std::vector<Picture> legs;
+  Picture leg;
+  std::size_t moves = 0;
+  for (std::size_t i = 0; i < path.actions.size(); ++i) {
+    if (leg.empty()) leg = start_picture(domain, DemoId{id.mdp, path.states[i]});
+    if (robot(i) != robot(i + 1)) {
+      at(leg, robot(i)) = arrow_of(domain.action_names()[path.actions[i].value()]);
+      ++moves;
+    }
+    const bool ends = robot(i) == robot(i + 1) || i + 1 == path.actions.size();
+    if (!ends) continue;
+    at(leg, robot(i + 1)) = 'o';
+    if (moves > 0) legs.push_back(std::move(leg));
+    leg.clear();
+    moves = 0;
+  }
+  return legs;
+}
+
+std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
+  const std::string blank(indent, ' ');
+  std::string text = blank + domain.state_name(id.mdp, path.states.front()) + "\n";
+  for (std::size_t i = 0; i < path.actions.size(); ++i) {
+    text += blank + "  " + domain.action_names()[path.actions[i].value()] + " -> " +
+            domain.state_name(id.mdp, path.states[i + 1]) + "\n";
+  }
+  return text;
+}
+
+std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
+  if (!domain.has_map()) return path_text(domain, id, path, indent);
+  std::vector<Picture> pictures{bare_picture(domain, id), start_picture(domain, id)};
+  for (auto& leg : path_pictures(domain, id, path)) pictures.push_back(std::move(leg));
+  return beside(pictures, indent);
+}
+
+Picture policy_picture(const Domain& domain, MdpIndex m, std::span<const std::uint32_t> choice,
+                       const GridState& configuration) {
+  auto picture = domain.draw(m, std::nullopt);
+  for (int y = 1; y <= domain.height(); ++y) {
+    for (int x = 1; x <= domain.width(); ++x) {
+      const Cell cell{x, y};
+      const auto state = domain.find_state(m, with_robot_at(configuration, cell));
+      if (!state || domain.mdp(m).is_terminal(*state)) continue;
+      const auto path = canonical_trajectory(domain.mdp(m), choice, *state);
+      at(picture, cell) = arrow_of(domain.action_names()[path.actions.front().value()]);
+    }
+  }
+  return picture;
+}
+
+std::string beside(const std::vector<Picture>& pictures, std::size_t indent) {
+  std::string text;
+  for (std::size_t row = 0; row < pictures.front().size(); ++row) {
+    std::string line(indent, ' ');
+    for (std::size_t i = 0; i < pictures.size(); ++i) line += (i > 0 ? "    " : "") + pictures[i][row];
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace kith

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include "kith/explain/words.hpp"
+#include "kith/present/legend.hpp"
+#include "kith/present/transcript.hpp"
+
+namespace kith {
+namespace {
+
+// What a reader must know before the first period.
+class HeaderWriter {
+ public:
+  HeaderWriter(const Atlas& atlas, const Transcript& transcript)
+      : atlas_{atlas}, domain_{atlas.domain()}, transcript_{transcript} {}
+
+  std::string text() {
+    header();
+    return std::move(out_);
+  }
+
+ private:
+  void line(const std::string& text = "") { out_ += text + "\n"; }
+
+  void header() {
+    const auto& address = transcript_.address;
+    const auto& spec = transcript_.spec;
+    line(fmt::format("{}: teaching {} by strategy {}", domain_.id(), address.composition, name_of(address.strategy)));
+    line(fmt::format("study {}, seed address {}", spec.id, transcript_.record.seed_address));
+    for (const auto& factor : spec.factors) line("  " + factor.key + " = " + factor.value);
+    reward();
+    pictures();
+    learners();
+  }
+
+  void reward() {
+    line();
+    line("What the robot is paid (all returns and regrets are at length 1):");
+    line(fmt::format("  {:<10} {:>6} {:>12}", "", "raw", "at length 1"));
+    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
+      IntegerVector once(domain_.num_features());
+      once[k] = 1;
+      line(fmt::format("  {:<10} {:>6} {:>12.4f} for {}", domain_.feature_names()[k], domain_.weights().raw[k],
+                       domain_.weights().return_of(once), domain_.feature_words(k)));
+    }
+    line("What makes its policy, and is to be learned:");
+    for (const auto& half_space : atlas_.policy_bec_half_spaces()) line("  " + described(domain_, half_space));
+    for (const auto& half_space : domain_.prior()) line("  " + described(domain_, half_space) + " (known to all)");
+  }
+
+  void pictures() {
+    line();
+    if (!domain_.has_map()) {
+      line("MDP n is one of the model's MDPs; start m is one of its states. Paths are told in words.");
+      return;
+    }
+    line("How to read the pictures, from left to right: the bare map; the start; the path, one picture per leg (a leg");
+    line("ends where the robot does something without moving).");
+    out_ += legend(domain_, 2);
+    line("  MDP n is a variant of the map (n tells which optional things are there); start m is one of its states:");
+    line("  where the robot, the items and the stations are.");
+  }
+
+  void learners() {
+    const auto& spec = transcript_.spec;
+    line();
+    line("The learners:");
+    for (const auto& learner : transcript_.record.learners) {
+      const auto& type = learner_type(spec, learner.type);
+      const auto& p = learner.parameters;
+      line(
+          fmt::format("  member {} ({}, {}): ability {:.4f}, gains {:.4f} confirmed and {:.4f} corrected, at most {}, "
+                      "log-odds x {}",
+                      learner.member, learner.type, type.population.label, p.ability, p.confirm_gain, p.correct_gain,
+                      p.ability_max, p.ability_scale));
+    }
+    line(fmt::format(
+        "The teacher takes everybody's ability to be {}, and imagines {} people when it chooses a demonstration.",
+        spec.teaching.assumed_ability, spec.teaching.counterfactuals));
+  }
+
+  const Atlas& atlas_;
+  const Domain& domain_;
+  const Transcript& transcript_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string transcript_header(const Atlas& atlas, const Transcript& transcript) {
+  return HeaderWriter{atlas, transcript}.text();
+}
+
+}  // namespace kith

@@ -1,0 +1,177 @@
+#include "kith/present/transcript_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "kith/explain/words.hpp"
+#include "kith/present/json.hpp"
+
+namespace kith {
+namespace {
+
+class Converter {
+ public:
+  Converter(const Atlas& atlas, const Transcript& transcript)
+      : atlas_{atlas}, domain_{atlas.domain()}, d_{domain_.num_features()}, transcript_{transcript} {}
+
+  Json document() {
+    const auto& record = transcript_.record;
+    Json learners = Json::array();
+    for (const auto& learner : record.learners) learners.push_back(to_json(learner));
+    Json sessions = Json::array();
+    for (const auto& session : transcript_.sessions) sessions.push_back(to_json(session));
+    return {{"schema", "kith.teach/1"},
+            {"domain", domain_.id()},
+            {"study", transcript_.spec.id},
+            {"strategy", name_of(transcript_.address.strategy)},
+            {"composition", transcript_.address.composition},
+            {"replicate", transcript_.address.replicate},
+            {"seed_address", record.seed_address},
+            {"learners", learners},
+            {"sessions", sessions},
+            {"completed", record.completed},
+            {"periods", record.periods},
+            {"demonstrations", record.demonstrations},
+            {"tests", record.tests},
+            {"knowledge", record.knowledge},
+            {"knowledge_min", record.knowledge_min}};
+  }
+
+ private:
+  [[nodiscard]] Json to_json(const LearnerRecord& learner) const {
+    return {{"member", learner.member},
+            {"type", std::string{learner.type}},
+            {"label", learner_type(transcript_.spec, learner.type).population.label},
+            {"ability", learner.parameters.ability},
+            {"confirm_gain", learner.parameters.confirm_gain},
+            {"correct_gain", learner.parameters.correct_gain},
+            {"ability_max", learner.parameters.ability_max},
+            {"ability_scale", learner.parameters.ability_scale},
+            {"p_bec", learner.p_bec},
+            {"tests", learner.tests},
+            {"correct", learner.correct}};
+  }
+
+  [[nodiscard]] Json to_json(const TranscriptSession& session) {
+    members_ = session.members;
+    Json periods = Json::array();
+    for (const auto& period : session.periods) periods.push_back(to_json(period));
+    Json components = Json::array();
+    for (const auto status : session.components) {
+      components.push_back(status == ComponentStatus::kLearned   ? "learned"
+                           : status == ComponentStatus::kSkipped ? "skipped"
+                                                                 : "open");
+    }
+    return {{"members", session.members},
+            {"periods", periods},
+            {"status", session.status == SessionStatus::kComplete ? "complete" : "max_periods"},
+            {"components", components}};
+  }
+
+  [[nodiscard]] Json to_json(const TranscriptPeriod& period) const {
+    const auto& lesson = period.lesson;
+    Json demonstrations = Json::array();
+    for (const auto& shown : lesson.demonstrations) {
+      auto demo = path_to_json(shown.demo);
+      demo["conveys"] = kith::to_json(shown.half_spaces, d_);
+      demo["gain"] = shown.gain;
+      demo["new_constraints"] = shown.num_new;
+      demonstrations.push_back(std::move(demo));
+    }
+    Json tests = Json::array();
+    for (std::size_t t = 0; t < lesson.tests.size(); ++t) {
+      auto test = path_to_json(lesson.tests[t].demo);
+      test["covers"] = kith::to_json(lesson.tests[t].covered, d_);
+      test["exact"] = lesson.tests[t].exact;
+      Json answers = Json::array();
+      for (std::size_t i = 0; i < members_.size(); ++i) answers.push_back(answer_to_json(period, t, i));
+      test["answers"] = std::move(answers);
+      tests.push_back(std::move(test));
+    }
+    Json excluded = Json::array();
+    for (const auto member : period.feedback.excluded) excluded.push_back(members_[member]);
+    const auto& component = atlas_.knowledge_components()[lesson.component];
+    return {{"period", lesson.period},
+            {"kc", lesson.component + 1},
+            {"kc_name", component.name},
+            {"source", source_name(lesson.source)},
+            {"counterfactuals", lesson.counterfactuals.size()},
+            {"repeats", lesson.repeats},
+            {"demonstrations", demonstrations},
+            {"taught", kith::to_json(lesson.taught, d_)},
+            {"area_sr", lesson.area_sr},
+            {"running_area_sr", lesson.running_area_sr},
+            {"gain", lesson.gain},
+            {"untested", lesson.untested},
+            {"tests", tests},
+            {"before", to_json(period.before)},
+            {"after", to_json(period.after)},
+            {"excluded", excluded},
+            {"learned", period.feedback.component_learned}};
+  }
+
+  [[nodiscard]] Json path_to_json(DemoIndex demo) const {
+    const auto& counts = atlas_.feature_counts(demo);
+    return {{"start", start_to_json(domain_, atlas_.id(demo))},
+            {"actions", actions(atlas_.trajectory(demo))},
+            {"features", counts_to_json(domain_, counts)},
+            {"return", return_of(domain_, counts)}};
+  }
+
+  [[nodiscard]] Json actions(const Trajectory& path) const {
+    Json array = Json::array();
+    for (const auto action : path.actions) array.push_back(domain_.action_names()[action.value()]);
+    return array;
+  }
+
+  [[nodiscard]] Json answer_to_json(const TranscriptPeriod& period, std::size_t t, std::size_t i) const {
+    const auto& verdict = period.feedback.verdicts[i][t];
+    const auto& response = period.responses[i];
+    Json json{{"member", members_[i]}, {"correct", verdict.correct}};
+    if (t < response.answers.size() && response.answers[t]) {
+      const auto& counts = *response.answers[t];
+      json["regret"] = verdict.regret;
+      json["features"] = kith::to_json(counts);
+      const auto path = response.weights
+                            ? path_of_answer(atlas_, period.lesson.tests[t].demo, counts, *response.weights)
+                            : std::nullopt;
+      if (path) json["actions"] = actions(*path);
+    }
+    json["shows"] = kith::to_json(verdict.half_spaces, d_);
+    return json;
+  }
+
+  [[nodiscard]] std::string source_name(SourceBelief source) const {
+    if (source.kind == SourceBelief::Kind::kCommon) return "common";
+    if (source.kind == SourceBelief::Kind::kJoint) return "joint";
+    return "member " + std::to_string(members_[source.member]);
+  }
+
+  [[nodiscard]] static Json to_json(const BeliefState& state) {
+    Json own = Json::array();
+    for (std::size_t i = 0; i < state.own.size(); ++i) {
+      own.push_back(to_json(state.own[i]));
+      own.back()["ability"] = state.abilities[i];
+    }
+    Json teacher = Json::array();
+    for (const auto& figures : state.teacher) teacher.push_back(to_json(figures));
+    return {{"own", own}, {"teacher", teacher}};
+  }
+
+  [[nodiscard]] static Json to_json(const BeliefFigures& figures) {
+    return {{"whose", figures.whose}, {"p_bec", figures.p_bec}, {"p_taught", figures.p_taught}, {"ess", figures.ess}};
+  }
+
+  const Atlas& atlas_;
+  const Domain& domain_;
+  std::size_t d_;
+  const Transcript& transcript_;
+  std::vector<std::size_t> members_;
+};
+
+}  // namespace
+
+Json transcript_json(const Atlas& atlas, const Transcript& transcript) {
+  return Converter{atlas, transcript}.document();
+}
+
+}  // namespace kith

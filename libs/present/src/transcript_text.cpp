@@ -1,0 +1,267 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kith/explain/words.hpp"
+#include "kith/present/picture.hpp"
+#include "kith/present/transcript.hpp"
+#include "kith/present/wrapped.hpp"
+
+namespace kith {
+namespace {
+
+// Writes a transcript from top to bottom.
+class TranscriptWriter {
+ public:
+  TranscriptWriter(const Atlas& atlas, const Transcript& transcript)
+      : atlas_{atlas}, domain_{atlas.domain()}, transcript_{transcript} {}
+
+  std::string text() {
+    out_ = transcript_header(atlas_, transcript_);
+    for (const auto& session : transcript_.sessions) write(session);
+    ending();
+    return std::move(out_);
+  }
+
+ private:
+  void line(const std::string& text = "") { out_ += text + "\n"; }
+
+  void write(const TranscriptSession& session) {
+    members_ = session.members;
+    if (transcript_.sessions.size() > 1) {
+      line();
+      line(std::string(kTextWidth, '#'));
+      line(fmt::format("Session of member {} alone", session.members.front()));
+    }
+    skipped_until(session, 0,
+                  session.periods.empty() ? session.components.size() : session.periods.front().lesson.component);
+    for (std::size_t i = 0; i < session.periods.size(); ++i) {
+      const bool begins = i > 0 && session.periods[i].lesson.component != session.periods[i - 1].lesson.component;
+      write(session.periods[i], begins);
+      const auto next =
+          i + 1 < session.periods.size() ? session.periods[i + 1].lesson.component : session.components.size();
+      skipped_until(session, session.periods[i].lesson.component + 1, next);
+    }
+    if (transcript_.sessions.size() == 1) return;  // then the end of the transcript says it
+    line();
+    line(summary(session) + ".");
+  }
+
+  [[nodiscard]] static std::string summary(const TranscriptSession& session) {
+    const auto count = [&](ComponentStatus status) {
+      return std::count(session.components.begin(), session.components.end(), status);
+    };
+    const auto skipped = count(ComponentStatus::kSkipped);
+    return fmt::format("{} {}: {} of {} knowledge components learned{}",
+                       session.status == SessionStatus::kComplete ? "Complete after" : "Stopped at the limit of",
+                       counted(session.periods.size(), "period"), count(ComponentStatus::kLearned),
+                       session.components.size(), skipped > 0 ? fmt::format(", {} skipped", skipped) : "");
+  }
+
+  void skipped_until(const TranscriptSession& session, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < std::min(last, session.components.size()); ++i) {
+      if (session.components[i] != ComponentStatus::kSkipped) continue;
+      line();
+      line(fmt::format("Knowledge component {} is skipped: the belief has all of it already.", i + 1));
+    }
+  }
+
+  // `begins`: the first period of a component that is not the first of the session.
+  void write(const TranscriptPeriod& period, bool begins) {
+    const auto& lesson = period.lesson;
+    const auto& component = atlas_.knowledge_components()[lesson.component];
+    line();
+    line(std::string(kTextWidth, '='));
+    line(fmt::format("Period {}: knowledge component {}, {}", lesson.period, lesson.component + 1, component.name));
+    line("  weighs " + weighed(component) +
+         (component.masked.empty() ? "" : ", where there is no " + masked_names(domain_, component)));
+    if (begins) line("  a new component begins: every member's ability is back at its initial value");
+    reason(lesson);
+    for (std::size_t i = 0; i < lesson.demonstrations.size(); ++i) demonstration(i + 1, lesson.demonstrations[i]);
+    taught(lesson);
+    for (std::size_t t = 0; t < lesson.tests.size(); ++t) test(period, t);
+    beliefs(period);
+    conclusion(period);
+  }
+
+  [[nodiscard]] std::string weighed(const KnowledgeComponent& component) const {
+    std::string text;
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
+      if (std::find(component.masked.begin(), component.masked.end(), k) == component.masked.end())
+        names.push_back(domain_.feature_words(k));
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto left = names.size() - i;  // the last stands against the others
+      text += (i == 0 ? "" : left == 1 ? " against " : left == 2 ? " and " : ", ") + names[i];
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string name_of_source(SourceBelief source) const {
+    if (source.kind == SourceBelief::Kind::kCommon) return "the common belief: what all members know";
+    if (source.kind == SourceBelief::Kind::kJoint) return "the joint belief: what somebody knows";
+    return fmt::format("the belief about member {}", members_[source.member]);
+  }
+
+  void reason(const Lesson& lesson) {
+    line("  lesson chosen for " + name_of_source(lesson.source));
+    if (lesson.repeats) {
+      line("  no demonstration would teach anything more: the last lesson of this component is shown again");
+    } else {
+      const auto ways = lesson.counterfactuals.size();
+      line(fmt::format("  imagining {} people who hold that belief: they would act in {}",
+                       transcript_.spec.teaching.counterfactuals,
+                       ways == 1 ? "one way" : fmt::format("{} different ways", ways)));
+    }
+  }
+
+  [[nodiscard]] std::string start_text(DemoId id) const {
+    auto text = fmt::format("MDP {}, start {}", id.mdp.value(), id.start.value());
+    if (!domain_.has_map()) return text + ": " + domain_.state_name(id.mdp, id.start);
+    const auto state = domain_.state(id.mdp, id.start);
+    const auto items = domain_.items_in(id.mdp);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (state.carried[i]) {
+        text += ", carrying " + domain_.item_names()[items[i]];
+      } else if (state.items[i] == state.robot) {
+        text += ", standing on " + domain_.item_names()[items[i]];
+      }
+    }
+    return text;
+  }
+
+  void demonstration(std::size_t number, const Demonstration& shown) {
+    const auto id = atlas_.id(shown.demo);
+    const auto path = atlas_.trajectory(shown.demo);
+    const auto& counts = atlas_.feature_counts(shown.demo);
+    line();
+    line(fmt::format("  Demonstration {}: {}", number, start_text(id)));
+    out_ += start_and_path(domain_, id, path, 4);
+    line("    " + actions_text(domain_, path.actions));
+    line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), return_of(domain_, counts)));
+    line("    conveys to them:");
+    for (const auto& half_space : shown.half_spaces) line("      " + described(domain_, half_space));
+    line(fmt::format("    chosen because it adds the fewest new constraints: {}{}", shown.num_new,
+                     shown.half_spaces.size() > shown.num_new ? " (the rest is implied or known)" : ""));
+    line(
+        fmt::format("    and, of those that do, shrinks the region of what was learned before plus this lesson so far "
+                    "most: to 1/{:.3f}",
+                    shown.gain));
+  }
+
+  void taught(const Lesson& lesson) {
+    line();
+    line("  The lesson as a whole:");
+    for (const auto& half_space : lesson.taught) line("    " + described(domain_, half_space));
+    line(fmt::format("    area {:.4f} sr; with the components learned before {:.4f} sr; gain (log) {:.4f}",
+                     lesson.area_sr, lesson.running_area_sr, lesson.gain));
+    if (lesson.untested > 0) line(fmt::format("    constraints that cannot be tested: {}", lesson.untested));
+  }
+
+  void test(const TranscriptPeriod& period, std::size_t t) {
+    const auto& asked = period.lesson.tests[t];
+    const auto id = atlas_.id(asked.demo);
+    const auto path = atlas_.trajectory(asked.demo);
+    line();
+    line(fmt::format("  Test {}: {}; what would the robot do?", t + 1, start_text(id)));
+    out_ += start_and_path(domain_, id, path, 4);
+    line("    the robot: " + actions_text(domain_, path.actions) + " (" +
+         counts_text(domain_, atlas_.feature_counts(asked.demo)) + ")");
+    for (const auto& half_space : asked.covered) {
+      line("    tests " + described(domain_, half_space) + (asked.exact ? "" : " (the nearest that can be asked)"));
+    }
+    for (std::size_t i = 0; i < members_.size(); ++i) answer(period, t, i);
+  }
+
+  void answer(const TranscriptPeriod& period, std::size_t t, std::size_t i) {
+    const auto& verdict = period.feedback.verdicts[i][t];
+    const auto& response = period.responses[i];
+    if (t >= response.answers.size() || !response.answers[t]) {
+      line(fmt::format("    member {}: no answer", members_[i]));
+      return;
+    }
+    const auto& counts = *response.answers[t];
+    const auto demo = period.lesson.tests[t].demo;
+    const auto path = response.weights ? path_of_answer(atlas_, demo, counts, *response.weights) : std::nullopt;
+    const auto described_path = path ? actions_text(domain_, path->actions) + " (" + counts_text(domain_, counts) + ")"
+                                     : counts_text(domain_, counts);
+    line(fmt::format("    member {}: {}: {}", members_[i],
+                     verdict.correct ? "correct" : fmt::format("wrong (regret {:.4f})", verdict.regret),
+                     described_path));
+    const std::string shows =
+        verdict.correct ? "shows the teacher that they know " : "suggests to the teacher that they think ";
+    for (const auto& half_space : verdict.half_spaces) line("      " + shows + described(domain_, half_space));
+  }
+
+  void beliefs(const TranscriptPeriod& period) {
+    line();
+    line("  Beliefs: mass in the policy's class, mass in the lesson's region, effective sample size");
+    line(fmt::format("    {:<22} {:>17} {:>17} {:>15}", "", "class", "lesson", "sample size"));
+    for (std::size_t i = 0; i < period.before.own.size(); ++i)
+      belief_row("own, ", period.before.own[i], period.after.own[i]);
+    for (std::size_t i = 0; i < period.before.teacher.size(); ++i) {
+      belief_row("teacher's, ", period.before.teacher[i], period.after.teacher[i]);
+    }
+  }
+
+  void belief_row(const std::string& kind, const BeliefFigures& before, const BeliefFigures& after) {
+    line(fmt::format("    {:<22} {:>7.4f} -> {:.4f}  {:>7.4f} -> {:.4f} {:>6.0f} -> {:<6.0f}", kind + before.whose,
+                     before.p_bec, after.p_bec, before.p_taught, after.p_taught, before.ess, after.ess));
+    out_.erase(out_.find_last_not_of(" \n") + 1);
+    line();
+  }
+
+  void conclusion(const TranscriptPeriod& period) {
+    line();
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      line(fmt::format("  Member {}: ability {:.4f} -> {:.4f} ({})", members_[i], period.before.abilities[i],
+                       period.after.abilities[i],
+                       period.feedback.all_correct[i] ? "all answers correct" : "corrected"));
+    }
+    for (const auto member : period.feedback.excluded) {
+      line(fmt::format("  Member {} is left out of the common belief this time: the answers conflict",
+                       members_[member]));
+    }
+    const bool all = std::all_of(period.feedback.all_correct.begin(), period.feedback.all_correct.end(),
+                                 [](bool right) { return right; });
+    const auto& name = atlas_.knowledge_components()[period.lesson.component].name;
+    if (period.feedback.component_learned) {
+      line("  Learned: " + name + ", since everybody answered everything correctly");
+    } else {
+      line("  " + name + " is not learned yet" +
+           (all ? ": it takes more periods in a row with all answers correct" : ""));
+    }
+  }
+
+  void ending() {
+    const auto& record = transcript_.record;
+    line();
+    line(std::string(kTextWidth, '='));
+    const auto shown = counted(record.demonstrations, "demonstration") + " and " + counted(record.tests, "test");
+    if (transcript_.sessions.size() == 1) {
+      line(summary(transcript_.sessions.front()) + ", with " + shown);
+    } else {
+      line("In all sessions " + counted(record.periods, "period") + ", " + shown);
+    }
+    for (const auto& learner : record.learners) {
+      line(fmt::format("  member {}: final belief {:.4f} in the policy's class, {} of {} answers correct",
+                       learner.member, learner.p_bec, learner.correct, learner.tests));
+    }
+    if (record.learners.size() > 1) line(fmt::format("  mean of the members: {:.4f}", record.knowledge));
+  }
+
+  const Atlas& atlas_;
+  const Domain& domain_;
+  const Transcript& transcript_;
+  std::vector<std::size_t> members_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string to_text(const Atlas& atlas, const Transcript& transcript) {
+  return TranscriptWriter{atlas, transcript}.text();
+}
+
+}  // namespace kith
