@@ -327,6 +327,25 @@ std::string counted(std::size_t n, const std::string& noun) {
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
+std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  const auto& mdp = domain.mdp(world);
+  double chance = 1.0;
+  for (std::size_t t = 0; t < path.actions.size(); ++t) {
+    const auto choices = mdp.choices(path.states[t]);
+    const auto choice = std::ranges::find(choices, path.actions[t], &Choice::action);
+    if (choice == choices.end()) return "";
+    double step = 0.0;
+    for (const auto& outcome : mdp.outcomes(*choice)) {
+      if (outcome.next == path.states[t + 1]) step += outcome.probability;
+    }
+    chance *= step;
+  }
+  constexpr double kCertain = 1.0 - 1e-9;
+  constexpr double kSmall = 0.01;
+  if (chance > kCertain) return "";
+  return "likeliest path, chance " + (chance < kSmall ? "below 1" : fixed(100.0 * chance, 0)) + " %";
+}
+
 std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions) {
   std::string text;
   for (std::size_t i = 0; i < actions.size();) {

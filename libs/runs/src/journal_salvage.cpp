@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "journal_file.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/sqlite.hpp"
 #include "kith/runs/team_codec.hpp"

@@ -42,6 +42,8 @@ namespace kith {
 [[nodiscard]] double return_of(const Domain& domain, const IntegerVector& counts);
 /// "1 team", "6 teams".
 [[nodiscard]] std::string counted(std::size_t n, const std::string& noun);
+/// "likeliest path, chance 12 %" for a path that other outcomes could change, else nothing.
+[[nodiscard]] std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajectory& path);
 /// Actions with repetitions counted: "up, right x3".
 [[nodiscard]] std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions);
 /// "a", "a and b", "a, b and c".
