@@ -137,13 +137,12 @@ Prepared unit(Workbench& bench) {
   const auto interaction = std::make_shared<const Interaction>(bench.atlas());
   const auto cache = std::make_shared<TeachingCache>(bench.atlas());
   Prepared prepared;
+  const auto taught = bench.atlas().constraints().half_spaces(bench.atlas().knowledge_components()[0].constraints);
   prepared.work = [=, n = std::uint64_t{0}](std::size_t rounds) mutable {
     const auto& atlas = interaction->atlas;
     for (; rounds > 0; --rounds, ++n) {
-      VisitedDemos visited{atlas.num_demos()};
-      keep(select_demonstrations(atlas, *cache, interaction->belief, atlas.knowledge_components()[1],
-                                 atlas.knowledge_components()[0].constraints, visited, interaction->options,
-                                 turn(n % 64)));
+      keep(select_demonstrations(*cache, interaction->belief, atlas.knowledge_components()[1], taught,
+                                 VisitedDemos{atlas.num_demos()}, interaction->options, turn(n % 64)));
     }
   };
   return prepared;

@@ -136,7 +136,7 @@ void add_find(CLI::App& app, Options& options) {
 void add_teach(CLI::App& app, Options& options) {
   auto& teach = options.teach;
   std::vector<std::string> names;
-  for (const auto& entry : strategies()) names.emplace_back(entry.name);
+  for (const auto& kind : strategy_kinds()) names.emplace_back(kind.name);
   auto& command = *app.add_subcommand("teach", "Teach one simulated team and print a transcript");
   auto* domain = command.add_option("domain", teach.domain, "Built-in domain or file")->type_name("DOMAIN");
   auto* group =

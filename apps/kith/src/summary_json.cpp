@@ -12,7 +12,7 @@ Json mean_sd_json(const MeanSd& value) { return {{"mean", value.mean}, {"sd", va
 Json group_json(const CellSummary& cell, const Study& study) {
   Json json = Json::object();
   if (cell.strategy) {
-    json["strategy"] = name_of(*cell.strategy);
+    json["strategy"] = *cell.strategy;
     json["composition"] = cell.composition;
     for (const auto& factor : study.variants.at(cell.variant).factors) json["factors"][factor.key] = factor.value;
   }
@@ -44,7 +44,7 @@ void print_summary(const Study& study, const StudySummary& summary, std::size_t 
 void print_plan(const Study& study, std::size_t teams, Console& console) {
   const auto& spec = study.variants.front();
   Json strategies = Json::array();
-  for (const auto strategy : spec.strategies) strategies.push_back(name_of(strategy));
+  for (const auto& strategy : spec.strategies) strategies.push_back(strategy.name);
   console.print_json(Json{{"schema", "kith.study-plan/1"},
                           {"id", spec.id},
                           {"domain", spec.domain},

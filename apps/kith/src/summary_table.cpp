@@ -40,7 +40,7 @@ std::string summary_table(const Study& study, const StudySummary& summary, const
   for (const auto* name : {"teams", "completed", "periods", "knowledge", "area/sr"}) header.emplace_back(name);
   table.add(header);
   for (const auto& cell : summary.cells) {
-    std::vector<std::string> keys{std::string{name_of(*cell.strategy)}, cell.composition};
+    std::vector<std::string> keys{*cell.strategy, cell.composition};
     for (const auto& factor : study.variants[cell.variant].factors) keys.push_back(factor.value);
     add_row(table, keys, cell);
   }

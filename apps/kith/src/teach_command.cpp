@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -48,14 +49,16 @@ Assignment from_options(const TeachOptions& options) {
   }
   constexpr std::size_t kMaxTeamSize = 30;
   if (options.group.size() > kMaxTeamSize) refuse("a group has at most 30 members");
-  const auto strategy = find_strategy(options.strategy).value();
+  const auto is_there = std::any_of(spec.strategies.begin(), spec.strategies.end(),
+                                    [&](const auto& one) { return one.name == options.strategy; });
+  if (!is_there) spec.strategies.push_back(strategy_named(options.strategy));
   spec.domain = options.domain;
   spec.seed = options.seed;
   spec.factors.clear();
   auto domain = load_domain(options.domain);
   spec.num_features = domain.num_features();
   spec.count_scale = domain.count_scale();
-  return {std::move(domain), spec, {0, strategy, options.group, 1, 1}};
+  return {std::move(domain), spec, {0, options.strategy, options.group, 1, 1}};
 }
 
 }  // namespace

@@ -36,8 +36,10 @@ ConstraintSet Behaviours::Conveyed::set(DemoClassIndex c) const {
   return result;
 }
 
-Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells)
+Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells, std::size_t max_row_bytes)
     : atlas_{&atlas}, max_cells_{std::max<std::size_t>(max_cells, 1)}, constraints_{atlas.constraints()} {
+  const std::size_t row_bytes = atlas.num_demo_classes() * atlas.words_per_set() * sizeof(std::uint64_t);
+  max_cells_with_rows_ = std::max<std::size_t>(max_row_bytes / std::max<std::size_t>(row_bytes, 1), 1);
   const Domain& domain = atlas.domain();
   for (const std::int64_t w : domain.weights().integer) robot_weights_.push_back(static_cast<double>(w));
   if (atlas.is_tabulated()) return;
@@ -146,13 +148,45 @@ Behaviours::Conveyed Behaviours::conveyed_by_class(const KnowledgeComponent& com
   return atlas_->is_tabulated() ? tabulated(cells) : planned(component, cells);
 }
 
+// Makes room for the rows of a cell; those kept for longest give way.
+const std::vector<std::uint64_t>& Behaviours::rows_of(PolicyCellIndex cell) {
+  auto& rows = rows_by_cell_[cell.value()];
+  if (!rows.empty()) return rows;
+  if (cells_with_rows_.size() < max_cells_with_rows_) {
+    cells_with_rows_.push_back(cell);
+  } else {
+    std::vector<std::uint64_t>{}.swap(rows_by_cell_[cells_with_rows_[oldest_rows_].value()]);
+    cells_with_rows_[oldest_rows_] = cell;
+    oldest_rows_ = (oldest_rows_ + 1) % max_cells_with_rows_;
+  }
+  return rows = atlas_->conveyed_by_class({&cell, 1});
+}
+
+ConstraintSet Behaviours::numbers_of(std::span<const HalfSpace> half_spaces) {
+  ConstraintSet numbers{constraints_.size()};
+  for (const HalfSpace& half_space : half_spaces) numbers.insert(constraints_.add(half_space));
+  return numbers;
+}
+
+// Hash tables keep a node of about two pointers and a bucket beside each entry.
+std::size_t Behaviours::memory() const noexcept {
+  constexpr std::size_t kNode = 3 * sizeof(void*);
+  const std::size_t per_constraint = 2 * sizeof(HalfSpace) + kNode;
+  const std::size_t row = atlas_->num_demo_classes() * atlas_->words_per_set() * sizeof(std::uint64_t);
+  std::size_t bytes = constraints_.size() * per_constraint + cells_with_rows_.size() * row;
+  bytes += cells_.size() * (sizeof(Cell) + sizeof(Direction) + kNode);
+  bytes += losses_.size() * (2 * sizeof(Loss) + kNode);
+  std::size_t states = 0;
+  for (const auto& list : states_on_paths_) states += list.size();
+  return bytes + remembered_.size() * (states * sizeof(LossIndex) + states_on_paths_.size() * sizeof(Plan));
+}
+
 // Each cell's rows are computed once; several are their union.
 Behaviours::Conveyed Behaviours::tabulated(std::span<const PolicyCellIndex> cells) {
   rows_by_cell_.resize(atlas_->cells().size());
   rows_.assign(atlas_->num_demo_classes() * atlas_->words_per_set(), 0);
   for (const auto cell : cells) {
-    auto& rows = rows_by_cell_[cell.value()];
-    if (rows.empty()) rows = atlas_->conveyed_by_class({&cell, 1});
+    const auto& rows = rows_of(cell);
     const std::uint64_t* const from = rows.data();  // unchecked, for speed
     std::uint64_t* const to = rows_.data();
     for (std::size_t i = 0; i < rows.size(); ++i) to[i] |= from[i];

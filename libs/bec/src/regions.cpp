@@ -25,6 +25,15 @@ std::size_t num_common(std::span<const Cloud::Mask* const> masks, const Cloud::M
 
 }  // namespace
 
+// Two sets of constraints and a node of a hash table per region; the points that were compared last beside them.
+std::size_t Regions::memory() const noexcept {
+  const std::size_t words = (table_->size() / 64 + 1) * sizeof(std::uint64_t);
+  const std::size_t per_region = sizeof(ConstraintSet) + sizeof(Region) + 2 * words + 8 * sizeof(void*);
+  std::size_t bytes = (known_.size() + minimal_.size()) * per_region;
+  if (comparison_) bytes += comparison_->masks.size() * kCloudPoints / 8;
+  return bytes;
+}
+
 std::optional<Cone> Regions::cone_of(const ConstraintSet& set) const {
   const auto half_spaces = table_->half_spaces(set);
   if (half_spaces.empty()) return Cone{table_->dimension()};

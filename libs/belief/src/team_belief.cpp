@@ -3,39 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 
-#include "kith/belief/consistency.hpp"
-
 namespace kith {
-namespace {
-
-// A number for a set of addresses, whatever their order.
-std::uint64_t hash_of(std::vector<std::uint64_t> addresses) {
-  std::sort(addresses.begin(), addresses.end());
-  RandomStream hash{addresses.size()};
-  for (const std::uint64_t address : addresses) hash = hash.split(address);
-  return hash.address();
-}
-
-// The half-spaces of the subset's members, one list after another.
-std::vector<HalfSpace> concatenated(std::span<const std::vector<HalfSpace>> lists,
-                                    std::span<const std::size_t> subset) {
-  std::vector<HalfSpace> all;
-  for (const std::size_t i : subset) all.insert(all.end(), lists[i].begin(), lists[i].end());
-  return all;
-}
-
-std::vector<std::size_t> complement(std::span<const std::size_t> subset, std::size_t size) {
-  std::vector<std::size_t> rest;
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!std::binary_search(subset.begin(), subset.end(), i)) rest.push_back(i);
-  }
-  return rest;
-}
-
-}  // namespace
 
 TeamBelief::TeamBelief(const Cone& prior, const Options& options, const std::vector<RandomStream>& persons,
                        RandomStream shared)
@@ -49,13 +21,17 @@ TeamBelief::TeamBelief(const PriorCover& cover, const Options& options, const st
     throw std::invalid_argument("TeamBelief: response_noise must be finite and not negative");
   }
   for (const RandomStream& person : persons) addresses_.push_back(person.address());
+  present_.assign(persons.size(), true);
   const ParticleBelief start{cover, options.filter};
-  if (options.parts.members || is_single()) {
+  if (options.members || is_single()) {
     for (const RandomStream& person : persons) members_.push_back({start, person.split("belief")});
   }
-  if (is_single()) return;
-  if (options.parts.common) common_ = Part{start, shared.split("common belief")};
-  if (options.parts.joint) joint_ = Part{start, shared.split("joint belief")};
+  for (auto rule = options.rules.begin(); rule != options.rules.end(); ++rule) {
+    if (std::any_of(options.rules.begin(), rule, [&](const auto& other) { return other.name == rule->name; })) {
+      throw std::invalid_argument("TeamBelief: there are two rules named '" + std::string{rule->name} + "'");
+    }
+    if (!is_single()) aggregates_.push_back({start, shared.split(std::string{rule->name} + " belief")});
+  }
 }
 
 const ParticleBelief& TeamBelief::member(std::size_t i) const {
@@ -63,23 +39,27 @@ const ParticleBelief& TeamBelief::member(std::size_t i) const {
   return members_.at(i).belief;
 }
 
-const ParticleBelief& TeamBelief::common() const {
+const ParticleBelief& TeamBelief::aggregate(std::string_view rule) const {
   if (is_single()) return members_.front().belief;
-  if (!common_) throw std::logic_error("TeamBelief::common: the common belief is not kept");
-  return common_->belief;
+  for (std::size_t i = 0; i < aggregates_.size(); ++i) {
+    if (options_.rules[i].name == rule) return aggregates_[i].belief;
+  }
+  throw std::logic_error("TeamBelief::aggregate: the belief '" + std::string{rule} + "' is not kept");
 }
 
-const ParticleBelief& TeamBelief::joint() const {
-  if (is_single()) return members_.front().belief;
-  if (!joint_) throw std::logic_error("TeamBelief::joint: the joint belief is not kept");
-  return joint_->belief;
+void TeamBelief::set_present(std::vector<bool> present) {
+  if (present.size() != num_members() || std::find(present.begin(), present.end(), true) == present.end()) {
+    throw std::invalid_argument("TeamBelief::set_present: one entry per member, and at least one member present");
+  }
+  present_ = std::move(present);
 }
 
 template <typename Action>
 void TeamBelief::for_each_part(Action action) {
-  for (Part& part : members_) action(part);
-  if (common_) action(*common_);
-  if (joint_) action(*joint_);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (present_[i]) action(members_[i]);
+  }
+  for (Part& part : aggregates_) action(part);
 }
 
 // Only a hard likelihood can refuse an update. Then it is tried on a copy, so
@@ -98,7 +78,7 @@ auto TeamBelief::all_or_nothing(Action action) {
   }
 }
 
-// The joint belief gets one copy per member of the same set, the largest of which is the set itself.
+// Everybody present has the same evidence, so every rule would update with just that.
 void TeamBelief::observe_all(std::span<const HalfSpace> half_spaces, std::uint64_t period, std::string_view event) {
   all_or_nothing([&](TeamBelief& team) {
     team.for_each_part([&](Part& part) {
@@ -126,47 +106,45 @@ std::vector<std::size_t> TeamBelief::observe_responses(std::span<const std::vect
 std::vector<std::size_t> TeamBelief::apply_responses(std::span<const std::vector<HalfSpace>> responses,
                                                      std::uint64_t period) {
   const auto stream_of = [&](const Part& part) { return part.random.split(period).split("response"); };
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    members_[i].belief.observe(responses[i], options_.likelihood, stream_of(members_[i]));
+  std::vector<std::size_t> seats;
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (present_[i]) seats.push_back(i);
+  }
+  if (!members_.empty()) {
+    for (const auto i : seats) {
+      members_[i].belief.observe(responses[i], options_.likelihood, stream_of(members_[i]));
+    }
   }
   std::vector<std::size_t> excluded;
-  if (common_) excluded = observe_common(responses, stream_of(*common_));
-  if (joint_) joint_->belief.observe_any(responses, options_.likelihood, stream_of(*joint_));
+  if (!aggregates_.empty()) {
+    const bool everybody = seats.size() == num_members();
+    std::vector<std::vector<HalfSpace>> some_lists;
+    std::vector<std::uint64_t> addresses;
+    std::vector<const ParticleBelief*> beliefs;
+    for (const auto i : seats) {
+      if (!everybody) some_lists.push_back(responses[i]);
+      addresses.push_back(addresses_[i]);
+      if (!members_.empty()) beliefs.push_back(&members_[i].belief);
+    }
+    const TeamResponses seen{.lists = everybody ? responses : std::span<const std::vector<HalfSpace>>{some_lists},
+                             .addresses = addresses,
+                             .members = beliefs,
+                             .prior = prior_,
+                             .likelihood = options_.likelihood,
+                             .reduce_before_update = options_.reduce_before_update};
+    for (std::size_t k = 0; k < aggregates_.size(); ++k) {
+      auto& part = aggregates_[k];
+      for (const auto position : options_.rules[k].observe(part.belief, seen, stream_of(part))) {
+        excluded.push_back(seats[position]);
+      }
+    }
+    std::sort(excluded.begin(), excluded.end());
+    excluded.erase(std::unique(excluded.begin(), excluded.end()), excluded.end());
+  }
   for_each_part([&](Part& part) {
     part.belief.diffuse(options_.response_noise, part.random.split(period).split("response noise"));
   });
   return excluded;
-}
-
-std::vector<std::size_t> TeamBelief::observe_common(std::span<const std::vector<HalfSpace>> responses,
-                                                    const RandomStream& random) {
-  const ConsistentSubsets candidates = largest_consistent_subsets(responses, prior_);
-  const std::vector<std::size_t>* best = nullptr;
-  std::vector<HalfSpace> best_product;
-  double best_evidence = 0.0;
-  std::uint64_t best_hash = 0;
-  for (const auto& subset : candidates.subsets) {
-    std::vector<HalfSpace> product = concatenated(candidates.reduced_lists, subset);
-    double evidence = 0.0;
-    std::uint64_t hash = 0;
-    if (candidates.subsets.size() > 1) {
-      // Relative to the near side, so that a longer list is no less likely for its length.
-      evidence = common_->belief.log_evidence(product, options_.likelihood) -
-                 static_cast<double>(product.size()) * options_.likelihood.log_density(0.0);
-      std::vector<std::uint64_t> addresses;
-      addresses.reserve(subset.size());
-      for (const std::size_t i : subset) addresses.push_back(addresses_[i]);
-      hash = hash_of(std::move(addresses));
-    }
-    if (best != nullptr && !(evidence > best_evidence || (evidence == best_evidence && hash < best_hash))) continue;
-    best = &subset;
-    best_product = std::move(product);
-    best_evidence = evidence;
-    best_hash = hash;
-  }
-  if (options_.reduce_before_update) best_product = minimal_set(best_product).value_or(best_product);
-  common_->belief.observe(best_product, options_.likelihood, random);
-  return complement(*best, num_members());
 }
 
 }  // namespace kith

@@ -182,13 +182,14 @@ TEST(TeamBelief, DoesNotChangeAPartByLeavingOutOthers) {
   TeamBelief full{lower_hemisphere(), {}, persons(3), RandomStream{7}};
   (void)teach(full, course, {0, 1, 2});
   TeamBelief::Options options;
-  options.parts = {.members = false, .common = true, .joint = false};
+  options.members = false;
+  options.rules = {*find_aggregation_rule("common")};
   TeamBelief common{lower_hemisphere(), options, persons(3), RandomStream{7}};
   (void)teach(common, course, {0, 1, 2});
   EXPECT_EQ(common.common(), full.common());
   EXPECT_THROW((void)common.joint(), std::logic_error);
   EXPECT_THROW((void)common.member(0), std::logic_error);
-  options.parts = {.members = false, .common = false, .joint = true};
+  options.rules = {*find_aggregation_rule("joint")};
   TeamBelief joint{lower_hemisphere(), options, persons(3), RandomStream{7}};
   EXPECT_TRUE(teach(joint, course, {0, 1, 2})[0].empty());
   EXPECT_EQ(joint.joint(), full.joint());

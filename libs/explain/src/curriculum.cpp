@@ -59,12 +59,12 @@ class CurriculumMaker {
   Curriculum make() {
     const RandomStream root{options_.seed};
     Session session{
-        atlas_, cache_, options_.teaching, Strategy::kBaseline, {root.split("person")}, root.split("teacher")};
+        cache_, options_.teaching, strategy_named(kBaseline), {root.split("person")}, root.split("teacher")};
     std::size_t next = 0;
-    while (!session.finished()) {
-      const auto& lesson = session.lesson();
+    while (session.propose(cache_)) {
+      const auto lesson = session.lesson();
       for (; next < lesson.component; ++next) skip(next);
-      const auto before = cache_.constraints().half_spaces(session.taught_region());
+      const auto before = session.taught_region();
       if (curriculum_.components.empty() || curriculum_.components.back().component != lesson.component) {
         curriculum_.components.push_back(component(lesson, before));
       }
@@ -111,11 +111,19 @@ class CurriculumMaker {
     auto conveys = without(shown.half_spaces, atlas_.domain().prior());
     KITH_ASSERT(!conveys.empty());  // else it would have had no gain
     const auto main = most_telling(conveys, known);
-    auto contrast = contrast_for(cache_.behaviours(), shown.demo, main, shown.counterfactuals);
+    auto contrast = contrast_for(cache_.behaviours(), shown.demo, main, cells_of(shown.counterfactuals));
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
     auto sentence = reason(atlas_.domain(), *contrast);
     auto flip = nearest_flip(atlas_, *contrast);
     return {shown.demo, std::move(conveys), main, *std::move(contrast), std::move(sentence), std::move(flip)};
+  }
+
+  // In the order of the tables, where there are some.
+  [[nodiscard]] std::vector<PolicyCellIndex> cells_of(const std::vector<Direction>& weights) {
+    std::vector<PolicyCellIndex> cells;
+    for (const auto& w : weights) cells.push_back(cache_.behaviours().locate(w));
+    if (atlas_.is_tabulated()) std::sort(cells.begin(), cells.end());
+    return cells;
   }
 
   // The constraint that leaves the least of what was known before; among equals the first.

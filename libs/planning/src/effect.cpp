@@ -39,8 +39,8 @@ bool is_product(const std::string& word) { return word == "x" || word == "*" || 
 
 // The number of group strategies and of compositions decides what can be tested.
 std::optional<std::string> untestable(const Effect& effect, const StudySpec& spec) {
-  const auto groups = static_cast<std::size_t>(std::count_if(spec.strategies.begin(), spec.strategies.end(),
-                                                             [](Strategy one) { return one != Strategy::kBaseline; }));
+  const auto groups = static_cast<std::size_t>(std::count_if(
+      spec.strategies.begin(), spec.strategies.end(), [](const StrategyChoice& one) { return !one.is_baseline(); }));
   const bool needs_strategies = effect.kind != Effect::Kind::kContrast && effect.kind != Effect::Kind::kComposition;
   if (needs_strategies && groups < 2) return "the study has fewer than two group strategies";
   if (effect.kind == Effect::Kind::kComposition && groups < 1) return "the study has no group strategy";

@@ -33,12 +33,12 @@ double value_of(const TeamRecord& team, Quantity quantity) noexcept {
 }
 
 bool TeamSelection::contains(const TeamAddress& address) const {
-  const bool right_strategy = strategy ? address.strategy == *strategy : address.strategy != Strategy::kBaseline;
+  const bool right_strategy = strategy ? address.strategy == *strategy : address.strategy != kBaseline;
   return right_strategy && (composition.empty() || composition == address.composition);
 }
 
 std::string to_string(const TeamSelection& selection) {
-  std::string text{selection.strategy ? name_of(*selection.strategy) : "group"};
+  std::string text = selection.strategy.value_or("group");
   if (!selection.composition.empty()) text += "/" + selection.composition;
   return text;
 }
@@ -48,13 +48,12 @@ std::optional<TeamSelection> parse_selection(std::string_view text, const StudyS
   TeamSelection selection;
   const auto who = text.substr(0, slash);
   if (who == "group") {
-    const auto is_group = [](Strategy strategy) { return strategy != Strategy::kBaseline; };
+    const auto is_group = [](const StrategyChoice& strategy) { return !strategy.is_baseline(); };
     if (std::none_of(spec.strategies.begin(), spec.strategies.end(), is_group)) return std::nullopt;
   } else {
-    selection.strategy = find_strategy(who);
-    if (!selection.strategy) return std::nullopt;
     const auto& all = spec.strategies;
-    if (std::find(all.begin(), all.end(), *selection.strategy) == all.end()) return std::nullopt;
+    if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.name == who; })) return std::nullopt;
+    selection.strategy = std::string{who};
   }
   if (slash == std::string_view::npos) return selection;
   selection.composition = text.substr(slash + 1);
@@ -65,7 +64,7 @@ std::optional<TeamSelection> parse_selection(std::string_view text, const StudyS
 
 std::string selections_of(const StudySpec& spec) {
   std::string text = "group";
-  for (const auto strategy : spec.strategies) text += ", " + std::string{name_of(strategy)};
+  for (const auto& strategy : spec.strategies) text += ", " + strategy.name;
   text += "; each may be followed by a composition, such as group/" + spec.compositions.front();
   return text;
 }

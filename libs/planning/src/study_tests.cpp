@@ -15,7 +15,7 @@ namespace {
 std::vector<std::size_t> group_positions(const TeamPool& pool) {
   std::vector<std::size_t> groups;
   for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
-    if (pool.strategies()[s] != Strategy::kBaseline) groups.push_back(s);
+    if (pool.strategies()[s] != kBaseline) groups.push_back(s);
   }
   return groups;
 }
@@ -169,7 +169,7 @@ void EffectData::impose(const TeamPool& pool, const Effect& effect) {
 StudyTests::StudyTests(const TeamPool& pool, std::size_t teams, bool paired)
     : pool_{pool}, teams_{teams}, paired_{paired}, groups_{group_positions(pool)} {
   Factor strategy{"strategy", {}, {}}, composition{"composition", {}, {}};
-  for (const auto s : groups_) strategy.levels.emplace_back(name_of(pool.strategies()[s]));
+  for (const auto s : groups_) strategy.levels.emplace_back(pool.strategies()[s]);
   composition.levels = pool.compositions();
   within_ = {"strategy", strategy.levels, {}};
   for (std::size_t i = 0; i < groups_.size(); ++i) {

@@ -10,12 +10,13 @@ constexpr std::size_t kNumQuantities = 4;
 }  // namespace
 
 TeamPool::TeamPool(const StudySpec& spec, std::span<const TeamRecord> teams)
-    : strategies_{spec.strategies}, compositions_{spec.compositions}, replicates_{spec.replicates} {
+    : compositions_{spec.compositions}, replicates_{spec.replicates} {
+  for (const auto& strategy : spec.strategies) strategies_.push_back(strategy.name);
   if (teams.size() != strategies_.size() * compositions_.size() * replicates_)
     throw std::invalid_argument{"TeamPool: not all teams of the study"};
   values_.assign(kNumQuantities, {});
   std::size_t i = 0;
-  for (const auto strategy : strategies_) {
+  for (const auto& strategy : strategies_) {
     for (const auto& composition : compositions_) {
       for (std::size_t r = 1; r <= replicates_; ++r, ++i) {
         const auto& address = teams[i].address;
@@ -28,7 +29,7 @@ TeamPool::TeamPool(const StudySpec& spec, std::span<const TeamRecord> teams)
   }
 }
 
-TeamPool::TeamPool(std::vector<Strategy> strategies, std::vector<std::string> compositions,
+TeamPool::TeamPool(std::vector<std::string> strategies, std::vector<std::string> compositions,
                    std::vector<std::vector<std::vector<double>>> values)
     : strategies_{std::move(strategies)}, compositions_{std::move(compositions)} {
   if (values.size() != strategies_.size() || values.empty() || values.front().empty())

@@ -55,8 +55,9 @@ class Recorder : public TeamObserver {
       state.abilities.push_back(learners[i].ability());
     }
     if (learners.size() > 1) {
-      state.teacher.push_back(figures("common", session.belief().common(), lesson));
-      state.teacher.push_back(figures("joint", session.belief().joint(), lesson));
+      for (const auto& rule : session.belief().options().rules) {
+        state.teacher.push_back(figures(std::string{rule.name}, session.belief().aggregate(rule.name), lesson));
+      }
     }
     return state;
   }

@@ -25,7 +25,7 @@ class HeaderWriter {
   void header() {
     const auto& address = transcript_.address;
     const auto& spec = transcript_.spec;
-    line(fmt::format("{}: teaching {} by strategy {}", domain_.id(), address.composition, name_of(address.strategy)));
+    line(fmt::format("{}: teaching {} by strategy {}", domain_.id(), address.composition, address.strategy));
     line(fmt::format("study {}, seed address {}", spec.id, transcript_.record.seed_address));
     for (const auto& factor : spec.factors) line("  " + factor.key + " = " + factor.value);
     reward();

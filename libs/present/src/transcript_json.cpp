@@ -22,7 +22,7 @@ class Converter {
     return {{"schema", "kith.teach/1"},
             {"domain", domain_.id()},
             {"study", transcript_.spec.id},
-            {"strategy", name_of(transcript_.address.strategy)},
+            {"strategy", transcript_.address.strategy},
             {"composition", transcript_.address.composition},
             {"replicate", transcript_.address.replicate},
             {"seed_address", record.seed_address},
@@ -94,7 +94,7 @@ class Converter {
             {"kc", lesson.component + 1},
             {"kc_name", component.name},
             {"source", source_name(lesson.source)},
-            {"counterfactuals", lesson.counterfactuals.size()},
+            {"counterfactuals", lesson.demonstrations.front().counterfactuals.size()},
             {"repeats", lesson.repeats},
             {"demonstrations", demonstrations},
             {"taught", kith::to_json(lesson.taught, d_)},
@@ -141,8 +141,7 @@ class Converter {
   }
 
   [[nodiscard]] std::string source_name(SourceBelief source) const {
-    if (source.kind == SourceBelief::Kind::kCommon) return "common";
-    if (source.kind == SourceBelief::Kind::kJoint) return "joint";
+    if (!source.is_member()) return source.rule;
     return "member " + std::to_string(members_[source.member]);
   }
 

@@ -99,8 +99,10 @@ class TranscriptWriter {
   }
 
   [[nodiscard]] std::string name_of_source(SourceBelief source) const {
-    if (source.kind == SourceBelief::Kind::kCommon) return "the common belief (what all members know)";
-    if (source.kind == SourceBelief::Kind::kJoint) return "the joint belief (what at least one member knows)";
+    if (!source.is_member()) {
+      const auto* rule = find_aggregation_rule(source.rule);
+      return "the " + source.rule + " belief" + (rule != nullptr ? ": " + std::string{rule->description} : "");
+    }
     return fmt::format("the belief about member {}", members_[source.member]);
   }
 
@@ -109,7 +111,7 @@ class TranscriptWriter {
     if (lesson.repeats) {
       line("  no demonstration would teach anything new: the last lesson is repeated");
     } else {
-      const auto ways = lesson.counterfactuals.size();
+      const auto ways = lesson.demonstrations.front().counterfactuals.size();
       line(fmt::format("  {} simulated people with that belief would act in {}",
                        transcript_.spec.teaching.counterfactuals,
                        ways == 1 ? "one way" : fmt::format("{} different ways", ways)));

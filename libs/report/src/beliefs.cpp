@@ -28,9 +28,10 @@ class Camera : public TeamObserver {
   Camera(const Atlas& atlas, std::size_t team_size, std::size_t particles, RandomStream random)
       : atlas_{atlas}, team_size_{team_size}, particles_{particles}, random_{random} {}
 
-  void on_session(const Session&, std::size_t member) override {
+  void on_session(const Session& session, std::size_t member) override {
     alone_ = member;
-    const std::size_t slots = team_size_ + (member == 0 && team_size_ > 1 ? 2 : 0);
+    const std::size_t slots =
+        team_size_ + (member == 0 && team_size_ > 1 ? session.belief().options().rules.size() : 0);
     if (frames_.empty()) frames_.emplace_back(slots, kUnknown);
   }
   void on_lesson(const Session& session, const Lesson&, const std::vector<SimulatedLearner>& learners) override {
@@ -76,8 +77,8 @@ class Camera : public TeamObserver {
   void for_each_belief(const Session& session, const std::vector<SimulatedLearner>& learners, Action action) {
     for (std::size_t i = 0; i < learners.size(); ++i) action(alone_ == 0 ? i : alone_ - 1, learners[i].belief());
     if (num_slots() == team_size_) return;
-    action(team_size_, session.belief().common());
-    action(team_size_ + 1, session.belief().joint());
+    const auto& rules = session.belief().options().rules;
+    for (std::size_t k = 0; k < rules.size(); ++k) action(team_size_ + k, session.belief().aggregate(rules[k].name));
   }
 
   // What a belief was before its session holds for all frames before it.
@@ -157,8 +158,10 @@ Json belief_names(const RunFiles& run, const std::string& composition, std::size
     names.push_back({{"name", "member " + std::to_string(i + 1) + " (" + type + ")"}, {"kind", "own"}});
   }
   if (slots > composition.size()) {
-    names.push_back({{"name", "teacher: common belief"}, {"kind", "common"}});
-    names.push_back({{"name", "teacher: joint belief"}, {"kind", "joint"}});
+    for (const auto& rule : run.spec().teaching.rules) {
+      const std::string name{rule.name};
+      names.push_back({{"name", "teacher: " + name + " belief"}, {"kind", name}});
+    }
   }
   return names;
 }

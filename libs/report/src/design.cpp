@@ -14,11 +14,7 @@ std::string settings_text(const std::vector<FactorSetting>& settings) {
 
 ReportDesign::Series series_of(const RunFiles& run, const TeamAddress& address) {
   const auto settings = settings_text(run.study.variants[address.variant].factors);
-  ReportDesign::Series series{std::string{name_of(address.strategy)},
-                              label_of(name_of(address.strategy)),
-                              address.strategy,
-                              address.variant,
-                              {}};
+  ReportDesign::Series series{address.strategy, label_of(address.strategy), address.strategy, address.variant, {}};
   if (settings.empty()) return series;
   series.code += " [" + settings + "]";
   series.label += ", " + settings;

@@ -14,7 +14,7 @@ struct ReportDesign {
   struct Series {
     std::string code;   // "joint", or "joint [teacher.process_noise=0.5]"
     std::string label;  // "Joint"
-    Strategy strategy = Strategy::kCommon;
+    std::string strategy = "common";
     std::size_t variant = 0;
     std::map<char, std::size_t> people;  // by type
   };

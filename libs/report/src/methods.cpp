@@ -90,7 +90,7 @@ class Paragraph {
     if (sizes.size() > 1) members += " to " + std::to_string(*sizes.rbegin());
     std::vector<std::string> names;
     std::string types;
-    for (const auto strategy : spec_.strategies) names.emplace_back(name_of(strategy));
+    for (const auto& strategy : spec_.strategies) names.push_back(strategy.name);
     for (const auto& type : spec_.learner_types) {
       if (type.population.label.empty()) continue;
       types += (types.empty() ? "" : ", ") + std::string{type.letter} + ": " + type.population.label;
@@ -224,7 +224,7 @@ class Paragraph {
   }
 
   void measures() {
-    const auto is_baseline = [](const auto& series) { return series.strategy == Strategy::kBaseline; };
+    const auto is_baseline = [](const auto& series) { return series.strategy == kBaseline; };
     const bool baseline = std::any_of(design_.series.begin(), design_.series.end(), is_baseline);
     say("Periods are the interaction periods of a team" +
         std::string{baseline ? ", for the baseline summed over its members" : ""} +

@@ -73,7 +73,7 @@ Json headlines(const ReportDesign& design, const RunData& data) {
     Values values;
     for (std::size_t i = 0; i < data.teams.size(); ++i) {
       const auto& series = design.series[design.cells[design.cell_of_team[i]].series];
-      if ((series.strategy == Strategy::kBaseline) == baseline) values.push_back(data.teams[i].*quantity);
+      if ((series.strategy == kBaseline) == baseline) values.push_back(data.teams[i].*quantity);
     }
     if (!values.empty()) result.push_back(headline(label + (baseline ? ", baseline" : ", group strategies"), values));
   };

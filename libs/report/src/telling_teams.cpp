@@ -21,7 +21,7 @@ class Choice {
  public:
   Choice(const ReportDesign& design, const RunData& data) : design_{design}, data_{data} {
     for (std::size_t i = 0; i < data.teams.size(); ++i) {
-      if (strategy_of(i) != Strategy::kBaseline) candidates_.push_back(i);
+      if (strategy_of(i) != kBaseline) candidates_.push_back(i);
     }
     together_ = !candidates_.empty();
     if (!together_) {
@@ -41,7 +41,7 @@ class Choice {
   }
 
  private:
-  [[nodiscard]] Strategy strategy_of(std::size_t team) const {
+  [[nodiscard]] const std::string& strategy_of(std::size_t team) const {
     return design_.series[design_.cells[design_.cell_of_team[team]].series].strategy;
   }
 

@@ -98,17 +98,17 @@ TEST(Outline, OfTheWholeSphereIsEmpty) { EXPECT_TRUE(outline(Cone{}).empty()); }
 TEST(TellingTeams, AreOfDifferentStrategiesWherePossible) {
   ReportDesign design;
   RunData data;
-  const auto add = [&](Strategy strategy, double periods, double knowledge) {
-    design.series.push_back({std::string{name_of(strategy)}, "", strategy, 0, {}});
+  const auto add = [&](const std::string& strategy, double periods, double knowledge) {
+    design.series.push_back({strategy, "", strategy, 0, {}});
     design.cells.push_back({design.series.size() - 1, "NP", 1});
     design.cell_of_team.push_back(design.cells.size() - 1);
     data.teams.push_back({true, periods, knowledge, 1.0});
   };
-  add(Strategy::kBaseline, 30.0, 0.01);  // not taught together
-  add(Strategy::kCommon, 9.0, 0.1);      // the lowest knowledge, and the slowest
-  add(Strategy::kJoint, 8.0, 0.5);       // the slowest of the others
-  add(Strategy::kIndividualLow, 7.0, 0.6);
-  add(Strategy::kIndividualLow, 2.0, 0.9);
+  add("baseline", 30.0, 0.01);  // not taught together
+  add("common", 9.0, 0.1);      // the lowest knowledge, and the slowest
+  add("joint", 8.0, 0.5);       // the slowest of the others
+  add("individual-low", 7.0, 0.6);
+  add("individual-low", 2.0, 0.9);
   const auto teams = telling_teams(design, data);
   ASSERT_EQ(teams.size(), 3u);
   EXPECT_EQ(teams[0].team, 3u);
@@ -120,7 +120,7 @@ TEST(TellingTeams, AreOfDifferentStrategiesWherePossible) {
 }
 
 TEST(TellingTeams, AreTheOnlyTeamIfThereIsOne) {
-  ReportDesign design{{{"baseline", "Baseline", Strategy::kBaseline, 0, {}}}, {{0, "N", 1}}, {0}, 1};
+  ReportDesign design{{{"baseline", "Baseline", "baseline", 0, {}}}, {{0, "N", 1}}, {0}, 1};
   RunData data;
   data.teams = {{true, 3.0, 0.5, 1.0}};
   EXPECT_EQ(telling_teams(design, data).size(), 1u);

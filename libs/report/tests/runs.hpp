@@ -84,7 +84,7 @@ inline std::vector<TeamRecord> invented_teams() {
     const bool goes_on = !known.empty() && known.back().member == member;
     const auto period = goes_on ? known.back().period + 1 : 1;
     team.period_records.push_back(
-        {.period = period, .member = member, .component = component, .source = "common", .area_sr = area});
+        {.period = period, .member = member, .component = component, .source = "common", .area_sr = area, .p_bec = {}});
   };
   // The baseline: member 1 has two periods of component 1, member 2 one of it.
   teach(teams[0], 1, 1, 9.0);

@@ -58,8 +58,7 @@ void code(Coder& coder, X& x) {
   coder.count(x.excluded);
   coder.count(x.untested);
   coder.real(x.gain);
-  coder.real(x.p_bec_common);
-  coder.real(x.p_bec_joint);
+  coder.reals(x.p_bec);
 }
 
 template <typename Coder, Is<BeliefSnapshot> X>

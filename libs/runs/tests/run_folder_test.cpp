@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // One team with a value of every kind.
 TeamRecord team() {
   TeamRecord record;
-  record.address = {0, Strategy::kJoint, "NP", 2, 4};
+  record.address = {0, "joint", "NP", 2, 4};
   record.seed_address = "7/NP/2";
   record.completed = true;
   record.periods = 3;
@@ -49,8 +49,7 @@ TeamRecord team() {
                             .running_area_sr = 0.25,
                             .tests = 1,
                             .gain = 1.5,
-                            .p_bec_common = 0.1,
-                            .p_bec_joint = 0.2}};
+                            .p_bec = {0.1, 0.2}}};
   ResponseRecord wrong;
   wrong.period = 1;
   wrong.component = 1;

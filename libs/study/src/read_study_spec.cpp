@@ -94,16 +94,17 @@ class SpecReader {
     const auto* list = word_list(design, "strategies");
     if (list == nullptr) return;
     std::vector<std::string> names;
-    for (const auto& entry : strategies()) names.emplace_back(entry.name);
+    for (const auto& kind : strategy_kinds()) names.emplace_back(kind.name);
     for (const auto& element : *list) {
       const auto& name = *element.string();
-      const auto strategy = find_strategy(name);
-      if (!strategy) {
+      const auto* kind = find_strategy_kind(name);
+      if (kind == nullptr) {
         report_.error("E0402", element.place(), "there is no strategy '" + name + "'", suggestion(name, names));
-      } else if (std::find(spec_.strategies.begin(), spec_.strategies.end(), *strategy) != spec_.strategies.end()) {
+      } else if (std::any_of(spec_.strategies.begin(), spec_.strategies.end(),
+                             [&](const auto& other) { return other.name == name; })) {
         report_.error("E0403", element.place(), "strategy '" + name + "' is listed twice");
       } else {
-        spec_.strategies.push_back(*strategy);
+        spec_.strategies.push_back(strategy_named(name));
       }
     }
   }

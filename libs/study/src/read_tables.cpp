@@ -105,7 +105,7 @@ class TeamKeys {
 TeamRegister register_teams(const Study& study) {
   TeamRegister result{team_addresses(study), {}};
   result.strategies.reserve(result.addresses.size());
-  for (const auto& address : result.addresses) result.strategies.emplace_back(name_of(address.strategy));
+  for (const auto& address : result.addresses) result.strategies.emplace_back(address.strategy);
   return result;
 }
 

@@ -68,7 +68,7 @@ TeamAddress team_address(const Study& study, std::size_t team) {
       continue;
     }
     const auto cell = i / spec.replicates;
-    return {variant, spec.strategies[cell / spec.compositions.size()],
+    return {variant, spec.strategies[cell / spec.compositions.size()].name,
             spec.compositions[cell % spec.compositions.size()], i % spec.replicates + 1, team};
   }
   throw std::invalid_argument{"team_address: the study has no team " + std::to_string(team)};
@@ -83,8 +83,7 @@ std::vector<TeamAddress> team_addresses(const Study& study) {
 }
 
 std::string describe_team(const Study& study, const TeamAddress& address) {
-  std::string text = "team " + std::to_string(address.team) + " (" + std::string{name_of(address.strategy)} + ", " +
-                     address.composition;
+  std::string text = "team " + std::to_string(address.team) + " (" + address.strategy + ", " + address.composition;
   for (const auto& factor : study.variants.at(address.variant).factors) text += ", " + factor.key + "=" + factor.value;
   return text + ", replicate " + std::to_string(address.replicate) + ")";
 }

@@ -5,6 +5,15 @@
 
 namespace kith {
 
+const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name) {
+  const auto found = std::find_if(spec.strategies.begin(), spec.strategies.end(),
+                                  [&](const StrategyChoice& candidate) { return candidate.name == name; });
+  if (found == spec.strategies.end()) {
+    throw std::invalid_argument{"strategy_of: the study has no strategy '" + std::string{name} + "'"};
+  }
+  return *found;
+}
+
 const LearnerType& learner_type(const StudySpec& spec, char letter) {
   const auto type = std::find_if(spec.learner_types.begin(), spec.learner_types.end(),
                                  [&](const LearnerType& candidate) { return candidate.letter == letter; });

@@ -92,7 +92,7 @@ StudySummary StudySummarizer::summary() const {
     one.strategy = cell.cell.strategy;
     one.composition = cell.cell.composition;
     summary.cells.push_back(std::move(one));
-    (cell.cell.strategy == Strategy::kBaseline ? baseline : group).push_back(&cell);
+    (cell.cell.strategy == kBaseline ? baseline : group).push_back(&cell);
   }
   summary.group = pooled(group);
   summary.baseline = pooled(baseline);

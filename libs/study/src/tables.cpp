@@ -67,25 +67,31 @@ Columns learner_columns() {
           column("correct", kInteger, "Tests answered correctly.")};
 }
 
-Columns period_columns() {
-  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
-          column("kc", kInteger, "Number of the knowledge component, from 1."),
-          column("source", kText, "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."),
-          column("demonstrations", kInteger, "Demonstrations shown."),
-          column("area_sr", kReal, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"),
-          column("running_area_sr", kReal,
-                 "The same together with the components learned before; what earlier lessons of this component taught "
-                 "does not count.",
-                 "sr"),
-          column("tests", kInteger, "Tests asked of every member."),
-          column("all_correct", kBoolean, "Whether every member answered every test correctly."),
-          column("excluded", kInteger, "Members left out of the common belief because their answers conflict."),
-          column("untested", kInteger, "Taught constraints that nothing can test."),
-          column("gain", kReal,
-                 "Logarithm of the area of what was learned before (the prior and the components learned) over "
-                 "running_area_sr; 0 if a lesson is shown again."),
-          column("p_bec_common", kReal, "Mass of the teacher's common belief in the policy's class, afterwards."),
-          column("p_bec_joint", kReal, "Mass of the teacher's joint belief in the policy's class, afterwards.")};
+Columns period_columns(const Study& study) {
+  Columns columns{
+      column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
+      column("kc", kInteger, "Number of the knowledge component, from 1."),
+      column("source", kText, "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."),
+      column("demonstrations", kInteger, "Demonstrations shown."),
+      column("area_sr", kReal, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"),
+      column("running_area_sr", kReal,
+             "The same together with the components learned before; what earlier lessons of this component taught "
+             "does not count.",
+             "sr"),
+      column("tests", kInteger, "Tests asked of every member."),
+      column("all_correct", kBoolean, "Whether every member answered every test correctly."),
+      column("excluded", kInteger, "Members left out of the common belief because their answers conflict."),
+      column("untested", kInteger, "Taught constraints that nothing can test."),
+      column("gain", kReal,
+             "Logarithm of the area of what was learned before (the prior and the components learned) over "
+             "running_area_sr; 0 if a lesson is shown again."),
+  };
+  for (const auto& rule : study.variants.front().teaching.rules) {
+    const std::string name{rule.name};
+    columns.push_back(
+        column("p_bec_" + name, kReal, "Mass of the teacher's " + name + " belief in the policy's class, afterwards."));
+  }
+  return columns;
 }
 
 Columns response_columns() {
@@ -159,7 +165,7 @@ std::vector<TableDescription> study_tables(const Study& study) {
   std::vector<TableDescription> tables{
       {"teams.csv", "One row per team.", keys + team_columns()},
       {"learners.csv", "One row per member of a team.", keys + learner_columns()},
-      {"periods.csv", "One row per interaction period; none if only teams are recorded.", keys + period_columns()},
+      {"periods.csv", "One row per interaction period; none if only teams are recorded.", keys + period_columns(study)},
       {"responses.csv", "One row per member and test; none if only teams are recorded.", keys + response_columns()},
       {"demonstrations.csv", "One row per demonstration shown; none if only teams are recorded.",
        keys + demonstration_columns()},
@@ -226,7 +232,7 @@ class Tables {
  private:
   CsvWriter& begin_row(std::size_t table, const TeamAddress& address) {
     auto& writer = writers_[table];
-    writer.text(name_of(address.strategy)).text(std::string_view{address.composition});
+    writer.text(address.strategy).text(std::string_view{address.composition});
     for (const auto& factor : study_.variants.at(address.variant).factors) writer.text(std::string_view{factor.value});
     return writer.integer(count(address.replicate)).integer(count(address.team));
   }
@@ -262,8 +268,8 @@ class Tables {
   }
 
   void add_period(const TeamRecord& team, const PeriodRecord& period) {
-    begin_row(2, team.address)
-        .integer(count(period.period))
+    auto& writer = begin_row(2, team.address);
+    writer.integer(count(period.period))
         .integer(count(period.component))
         .text(std::string_view{period.source})
         .integer(count(period.demonstrations))
@@ -273,10 +279,9 @@ class Tables {
         .boolean(period.all_correct)
         .integer(count(period.excluded))
         .integer(count(period.untested))
-        .real(period.gain)
-        .real(period.p_bec_common)
-        .real(period.p_bec_joint)
-        .end_row();
+        .real(period.gain);
+    for (const double p_bec : period.p_bec) writer.real(p_bec);
+    writer.end_row();
   }
 
   void add_response(const TeamRecord& team, const ResponseRecord& response) {

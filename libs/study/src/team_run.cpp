@@ -31,16 +31,15 @@ class TeamRun {
     options_ = spec.teaching;
     const bool everything = observer != nullptr || spec.record == RecordLevel::kParticles;
     const bool periods = everything || spec.record != RecordLevel::kTeam;
-    options_.also_record.members |= everything;
-    options_.also_record.common |= periods;
-    options_.also_record.joint |= periods;
+    options_.keep_members |= everything;
+    options_.keep_rules |= periods;
     draw_people();
   }
 
   // Nothing if it was stopped.
   std::optional<TeamRecord> run() {
     record_.completed = true;
-    if (record_.address.strategy == Strategy::kBaseline) {
+    if (record_.address.strategy == kBaseline) {
       for (const auto& person : people_) run_session({person}, person.stream.split("alone"), person.member);
     } else {
       run_session(people_, stream_.split("teacher"), 0);
@@ -53,13 +52,13 @@ class TeamRun {
  private:
   static RandomStream team_stream(const StudySpec& spec, const TeamAddress& address) {
     RandomStream root{spec.seed};
-    if (spec.pairing == Pairing::kNone) root = root.split(name_of(address.strategy));
+    if (spec.pairing == Pairing::kNone) root = root.split(address.strategy);
     return root.split(address.composition).split(address.replicate);
   }
 
   static std::string readable_address(const StudySpec& spec, const TeamAddress& address) {
     std::string text = std::to_string(spec.seed) + "/";
-    if (spec.pairing == Pairing::kNone) text += std::string{name_of(address.strategy)} + "/";
+    if (spec.pairing == Pairing::kNone) text += address.strategy + "/";
     return text + address.composition + "/" + std::to_string(address.replicate);
   }
 
@@ -92,7 +91,7 @@ class TeamRun {
       streams.push_back(person.stream.split("teacher belief"));
       learners.push_back(learner(person));
     }
-    Session session{atlas_, cache_, options_, record_.address.strategy, streams, teacher};
+    Session session{cache_, options_, strategy_of(spec_, record_.address.strategy), streams, teacher};
     std::vector<LearnerRecord> rows;
     rows.reserve(people.size());
     for (const auto& person : people) {
@@ -100,7 +99,7 @@ class TeamRun {
     }
     if (observer_ != nullptr) observer_->on_session(session, member);
     std::optional<std::size_t> component;
-    while (!session.finished()) {
+    while (session.propose(cache_)) {
       was_stopped_ = was_stopped_ || (stopped_ && stopped_());
       if (was_stopped_) return;
       if (component != session.lesson().component) {
@@ -136,7 +135,7 @@ class TeamRun {
       responses.push_back(one.answer(cache_.behaviours(), tests, lesson.period));
       answers.push_back(responses.back().answers);
     }
-    const auto feedback = session.submit(answers);
+    const auto& feedback = session.submit(answers);
     std::vector<double> abilities;
     for (const auto& one : learners) abilities.push_back(one.ability());
     for (std::size_t i = 0; i < learners.size(); ++i) {
@@ -180,7 +179,10 @@ class TeamRun {
   }
 
   void write_period(const Session& session, const Lesson& lesson, const Feedback& feedback, std::size_t member) {
-    const auto& bec = atlas_.policy_bec_half_spaces();
+    std::vector<double> p_bec;
+    for (const auto& rule : spec_.teaching.rules) {
+      p_bec.push_back(session.belief().aggregate(rule.name).mass_in(atlas_.policy_bec_half_spaces()));
+    }
     record_.period_records.push_back(
         {.period = lesson.period,
          .member = member,
@@ -195,8 +197,7 @@ class TeamRun {
          .excluded = feedback.excluded.size(),
          .untested = lesson.untested,
          .gain = lesson.gain,
-         .p_bec_common = session.belief().common().mass_in(bec),
-         .p_bec_joint = session.belief().joint().mass_in(bec)});
+         .p_bec = std::move(p_bec)});
   }
 
   void write_demonstrations(const Lesson& lesson, std::size_t member) {
@@ -263,21 +264,13 @@ class TeamRun {
       keep("own " + std::to_string(rows[i].member), learners[i].belief());
       keep("teacher " + std::to_string(rows[i].member), session.belief().member(i));
     }
-    keep("common", session.belief().common());
-    keep("joint", session.belief().joint());
+    for (const auto& rule : spec_.teaching.rules) keep(std::string{rule.name}, session.belief().aggregate(rule.name));
   }
 
   // In the baseline the only member's seat is 0, whoever sits there.
-  [[nodiscard]] static std::string source_name(SourceBelief source, std::size_t alone) {
-    switch (source.kind) {
-      case SourceBelief::Kind::kCommon:
-        return "common";
-      case SourceBelief::Kind::kJoint:
-        return "joint";
-      case SourceBelief::Kind::kMember:
-        return "member " + std::to_string(alone != 0 ? alone : source.member + 1);
-    }
-    return {};
+  [[nodiscard]] static std::string source_name(const SourceBelief& source, std::size_t alone) {
+    if (!source.is_member()) return source.rule;
+    return "member " + std::to_string(alone != 0 ? alone : source.member + 1);
   }
 
   void summarize() {

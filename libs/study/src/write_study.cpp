@@ -53,7 +53,7 @@ TableWriter design(const Study& study) {
   const auto& spec = study.variants.front();
   TableWriter table;
   std::vector<std::string> names;
-  for (const auto strategy : spec.strategies) names.emplace_back(name_of(strategy));
+  for (const auto& strategy : spec.strategies) names.push_back(strategy.name);
   table.add("strategies", TomlValue{strings(names)});
   table.add("compositions", TomlValue{strings(spec.compositions)});
   table.add("pairing", kPairingWords[static_cast<std::size_t>(spec.pairing)]);

@@ -76,7 +76,9 @@ Study study_for(const Domain& domain) {
   spec.replicates = 2;
   spec.num_features = domain.num_features();
   spec.count_scale = domain.count_scale();
-  spec.strategies = {Strategy::kBaseline, Strategy::kIndividualLow, Strategy::kCommon, Strategy::kJoint};
+  for (const auto* name : {"baseline", "individual-low", "common", "joint"}) {
+    spec.strategies.push_back(strategy_named(name));
+  }
   spec.compositions = {"NP"};
   spec.learner_types = {learner('N', 0.703, 0.034, 0.033, 0.056), learner('P', 0.809, 0.025, 0.022, 0.052)};
   spec.teaching.filter.particles = 300;

@@ -4,11 +4,13 @@
 
 namespace kith {
 
+std::size_t TeachingCache::memory() const noexcept { return known_->behaviours.memory() + known_->regions.memory(); }
+
 void TeachingCache::trim() {
-  constexpr std::size_t kMuch = 50'000;
+  if (memory() <= max_bytes_) return;
   const Atlas& atlas = known_->behaviours.atlas();
-  if (atlas.is_tabulated() || constraints().size() + regions().size() + behaviours().num_cells() < kMuch) return;
-  known_ = std::make_unique<Known>(atlas);
+  known_.reset();  // first, so that both are never held
+  known_ = std::make_unique<Known>(atlas, max_bytes_);
 }
 
 const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points) {

@@ -59,10 +59,10 @@ class Effects {
 
 class Selection {
  public:
-  Selection(const Atlas& atlas, TeachingCache& cache, const KnowledgeComponent& component, VisitedDemos& visited)
-      : atlas_{atlas}, cache_{cache}, component_{component}, visited_{visited} {
-    for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
-      if (atlas.belongs_to(c, component)) classes_.push_back(c);
+  Selection(TeachingCache& cache, const KnowledgeComponent& component, const VisitedDemos& visited)
+      : atlas_{cache.atlas()}, cache_{cache}, component_{component}, visited_{visited} {
+    for (DemoClassIndex c{0}; c.value() < atlas_.num_demo_classes(); ++c) {
+      if (atlas_.belongs_to(c, component)) classes_.push_back(c);
     }
   }
 
@@ -123,8 +123,8 @@ class Selection {
         best.num_new = prospect.num_new;
       }
     }
-    best.constraints = cache_.regions().minimal(conveyed_.set(atlas_.demo_class(best.demo)));
-    best.half_spaces = cache_.constraints().half_spaces(best.constraints);
+    best.half_spaces =
+        cache_.constraints().half_spaces(cache_.regions().minimal(conveyed_.set(atlas_.demo_class(best.demo))));
     return best;
   }
 
@@ -137,7 +137,7 @@ class Selection {
   const Atlas& atlas_;
   TeachingCache& cache_;
   const KnowledgeComponent& component_;
-  VisitedDemos& visited_;
+  const VisitedDemos& visited_;
   std::vector<DemoClassIndex> classes_;  // those of the component
   Behaviours::Conveyed conveyed_;
   Effects effects_;
@@ -160,32 +160,52 @@ std::vector<std::size_t> sampled_particles(const ParticleBelief& belief, const S
 }  // namespace
 
 std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, const ParticleBelief& belief,
-                                                    const SelectionOptions& options, RandomStream random) {
+                                                    const SelectionOptions& options, RandomStream random,
+                                                    std::vector<Direction>* weights) {
   std::vector<PolicyCellIndex> cells;
-  for (const auto i : sampled_particles(belief, options, random)) cells.push_back(behaviours.locate(belief.point(i)));
+  for (const auto i : sampled_particles(belief, options, random)) {
+    const Direction point = belief.point(i);
+    const auto cell = behaviours.locate(point);
+    if (std::find(cells.begin(), cells.end(), cell) != cells.end()) continue;
+    cells.push_back(cell);
+    if (weights != nullptr) weights->push_back(point);
+  }
   std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
 }
 
-Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBelief belief,
-                           const KnowledgeComponent& component, ConstraintSet taught_region, VisitedDemos& visited,
+Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const KnowledgeComponent& component,
+                           std::span<const HalfSpace> taught_region, VisitedDemos visited,
                            const SelectionOptions& options, RandomStream random) {
   Unit unit;
-  unit.taught_region = std::move(taught_region);
-  Selection selection{atlas, cache, component, visited};
+  ConstraintSet taught = cache.numbers_of(taught_region);
+  Selection selection{cache, component, visited};
   for (std::uint64_t step = 0;; ++step) {
     const auto here = random.split(step);
-    const auto cells = sample_counterfactuals(cache.behaviours(), belief, options, here.split("counterfactuals"));
-    auto next = selection.next(cells, unit.taught_region, unit.demonstrations, here.split("looks"));
-    if (!next) return unit;
-    if (unit.demonstrations.empty()) unit.counterfactuals = cells;
-    next->counterfactuals = cells;
+    std::vector<Direction> weights;
+    const auto cells =
+        sample_counterfactuals(cache.behaviours(), belief, options, here.split("counterfactuals"), &weights);
+    auto next = selection.next(cells, taught, unit.demonstrations, here.split("looks"));
+    if (!next) break;
+    next->counterfactuals = std::move(weights);
     visited.insert(next->demo);
-    unit.taught_region = cache.regions().minimal(unit.taught_region | next->constraints);
+    taught = cache.regions().minimal(taught | cache.numbers_of(next->half_spaces));
     belief.observe(next->half_spaces, options.likelihood, here.split("copy"));
     unit.demonstrations.push_back(std::move(*next));
   }
+  unit.taught_region = cache.constraints().half_spaces(taught);
+  return unit;
+}
+
+Unit UnitSelector::for_belief(const ParticleBelief& belief, RandomStream random) {
+  const auto& component = view_->atlas.knowledge_components()[view_->component];
+  auto unit = select_demonstrations(*cache_, belief, component, view_->taught_region, view_->visited, options_,
+                                    random.split("new"));
+  if (unit.demonstrations.empty() && view_->last_of_component != nullptr) {
+    unit = select_demonstrations(*cache_, belief, component, view_->taught_region,
+                                 VisitedDemos{view_->atlas.num_demos()}, options_, random.split("again"));
+  }
+  return unit;
 }
 
 }  // namespace kith

@@ -4,156 +4,263 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "kith/bec/comparison.hpp"
+#include "kith/core/assert.hpp"
+#include "kith/core/error.hpp"
 #include "kith/teaching/test_selection.hpp"
 
 namespace kith {
 namespace {
 
 constexpr std::size_t kMaxMembers = 30;
+// An ability of 1 would exclude every particle when a person contradicts what was taught.
+constexpr double kSurest = 1.0 - 1e-9;
+// Returns that differ by less than this, relative to the robot's, are equal where they are expectations.
+constexpr double kReturnTolerance = 1e-6;
 
 void require(bool holds, const std::string& rule) {
   if (!holds) throw std::invalid_argument{"Session: " + rule};
 }
 
-// Returns that differ by less than this, relative to the robot's, are equal where they are expectations.
-constexpr double kReturnTolerance = 1e-6;
+[[noreturn]] void refuse(const std::string& message) { throw Error{ErrorKind::kInvalidInput, message}; }
 
-TeamBelief::Options belief_options(const TeachingOptions& options, Strategy strategy, std::size_t dimension) {
-  auto parts = entry_of(strategy).reads;
-  parts.members = parts.members || options.also_record.members;
-  parts.common = parts.common || options.also_record.common;
-  parts.joint = parts.joint || options.also_record.joint;
+TeamBelief::Options belief_options(const TeachingOptions& options, const StrategyChoice& choice,
+                                   std::size_t dimension) {
+  const auto needs = choice.kind.needs(choice.parameters);
+  const auto is_needed = [&](const AggregationRule& rule) {
+    return options.keep_rules || std::find(needs.rules.begin(), needs.rules.end(), rule.name) != needs.rules.end();
+  };
+  std::vector<AggregationRule> rules;
+  std::copy_if(options.rules.begin(), options.rules.end(), std::back_inserter(rules), is_needed);
+  for (const auto& name : needs.rules) {
+    const bool is_there = std::any_of(rules.begin(), rules.end(), [&](const auto& rule) { return rule.name == name; });
+    require(is_there, "the strategy '" + choice.name + "' needs the belief '" + name + "'");
+  }
   return {.filter = options.filter,
-          .likelihood = HalfSpaceLikelihood{options.assumed_ability, options.likelihood, dimension},
+          .likelihood = HalfSpaceLikelihood{std::min(options.assumed_ability, kSurest), options.likelihood, dimension},
           .response_noise = options.response_noise,
           .reduce_before_update = options.reduce_before_update,
-          .parts = parts};
+          .members = options.keep_members || needs.members,
+          .rules = std::move(rules)};
+}
+
+// Updates the belief with these members present; if that throws, nothing has changed.
+template <typename Update>
+void update_with(TeamBelief& belief, const std::vector<bool>& present, Update update) {
+  if (belief.present() == present) return update(belief);
+  TeamBelief trial = belief;
+  trial.set_present(present);
+  update(trial);
+  belief = std::move(trial);
+}
+
+// So that the next push_back() cannot fail.
+template <typename T>
+void make_room(std::vector<T>& list) {
+  if (list.size() == list.capacity()) list.reserve(2 * list.size() + 8);
+}
+
+bool nobody(const std::vector<bool>& present) {
+  return std::find(present.begin(), present.end(), true) == present.end();
+}
+
+std::string_view name_of(SessionPhase phase) {
+  switch (phase) {
+    case SessionPhase::kProposal:
+      return "no lesson has been chosen yet";
+    case SessionPhase::kLesson:
+      return "the lesson has not been shown yet";
+    case SessionPhase::kTests:
+      return "the tests are open";
+    case SessionPhase::kFeedback:
+      return "the feedback has not been given yet";
+    case SessionPhase::kFinished:
+      return "the session is finished";
+  }
+  return {};
 }
 
 }  // namespace
 
-Session::Session(const Atlas& atlas, TeachingCache& cache, const TeachingOptions& options, Strategy strategy,
+std::string_view name_of(const SessionEvent& event) noexcept {
+  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown", "tests-answered", "tests-closed",
+                                         "feedback-given",  "member-left",  "member-returned"};
+  static_assert(std::size(kNames) == std::variant_size_v<SessionEvent>);
+  return kNames[event.index()];
+}
+
+Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice strategy,
                  std::vector<RandomStream> persons, RandomStream teacher)
-    : atlas_{&atlas},
-      cache_{&cache},
-      options_{options},
-      strategy_{strategy},
+    : atlas_{&cache.atlas()},
+      options_{std::move(options)},
+      choice_{std::move(strategy)},
+      strategy_{choice_.kind.make(choice_.parameters)},
       persons_{std::move(persons)},
       teacher_{teacher},
-      belief_{cache.cover(atlas.prior_cone(), options.filter.particles),
-              belief_options(options, strategy, atlas.domain().num_features()), persons_, teacher.split("team belief")},
-      components_(atlas.knowledge_components().size(), ComponentStatus::kOpen),
-      visited_{atlas.num_demos()},
-      taught_before_{cache.regions().minimal(atlas.prior())},
-      taught_with_unit_{taught_before_} {
+      belief_{cache.cover(atlas_->prior_cone(), options_.filter.particles),
+              belief_options(options_, choice_, atlas_->domain().num_features()), persons_,
+              teacher.split("team belief")},
+      components_(atlas_->knowledge_components().size(), ComponentStatus::kOpen),
+      seats_(persons_.size(), Seat::kPresent),
+      visited_{atlas_->num_demos()},
+      pending_(persons_.size()) {
   require(persons_.size() <= kMaxMembers, "a team has at most 30 members");
-  require(strategy_ != Strategy::kBaseline || persons_.size() == 1, "the baseline teaches one person per session");
-  require(options.counterfactuals >= 1, "counterfactuals must be at least 1");
-  require(options.max_periods >= 1, "max_periods must be at least 1");
-  require(options.consecutive_correct >= 1, "consecutive_correct must be at least 1");
-  require(options.duplicate_sets >= 1, "duplicate_sets must be at least 1");
+  require(!choice_.is_baseline() || persons_.size() == 1, "the baseline teaches one person per session");
+  require(options_.counterfactuals >= 1, "counterfactuals must be at least 1");
+  require(options_.max_periods >= 1, "max_periods must be at least 1");
+  require(options_.consecutive_correct >= 1, "consecutive_correct must be at least 1");
+  require(options_.duplicate_sets >= 1, "duplicate_sets must be at least 1");
+  taught_before_ = cache.constraints().half_spaces(cache.regions().minimal(atlas_->prior()));
+  taught_with_unit_ = taught_before_;
   for (const auto& person : persons_) tie_breaks_.push_back(person.address());
-  prepare_lesson();
+}
+
+void Session::require_phase(SessionPhase phase, std::string_view what) const {
+  if (phase_ == phase) return;
+  throw Error{ErrorKind::kUsage, std::string{what} + " is not possible now: " + std::string{name_of(phase_)}};
+}
+
+void Session::require_seat(std::size_t member) const {
+  if (member < num_members()) return;
+  refuse("there is no member " + std::to_string(member + 1) + ": the team has " + std::to_string(num_members()));
 }
 
 const Lesson& Session::lesson() const {
-  if (finished()) throw std::logic_error{"Session::lesson: the session is finished"};
+  if (phase_ == SessionPhase::kProposal || phase_ == SessionPhase::kFinished) {
+    throw Error{ErrorKind::kUsage, "there is no lesson now: " + std::string{name_of(phase_)}};
+  }
   return lesson_;
 }
 
-// The next lesson of the current component, or of the first later one that has anything to teach.
-void Session::prepare_lesson() {
-  lesson_ = Lesson{};
-  lesson_.period = periods_ + 1;
-  for (; component_ < components_.size(); ++component_) {
-    const auto random = teacher_.split("lesson").split(periods_).split(component_);
-    lesson_.component = component_;
-    lesson_.source = choose_source();
-    auto unit = choose_unit(lesson_.source, random.split("demonstrations"));
-    if (unit) {
-      lesson_.demonstrations = std::move(unit->demonstrations);
-      lesson_.counterfactuals = std::move(unit->counterfactuals);
-      describe_lesson(unit->taught_region);
-    } else if (last_of_component_) {
-      const auto period = lesson_.period;
-      const auto source = lesson_.source;
-      lesson_ = *last_of_component_;
-      lesson_.period = period;
-      lesson_.source = source;
-      lesson_.repeats = true;
-      lesson_.gain = 0.0;
-    } else {
-      components_[component_] = ComponentStatus::kSkipped;
-      continue;
-    }
-    choose_tests(random.split("tests"));
-    return;
+// --- the lesson ----------------------------------------------------------------------------------------------------
+
+struct Session::Prepared {
+  Lesson lesson;
+  std::shared_ptr<const Strategy> strategy;
+  VisitedDemos visited;
+  std::vector<HalfSpace> taught_with_unit;
+};
+
+bool Session::propose(TeachingCache& cache) {
+  if (finished()) return false;
+  require_phase(SessionPhase::kProposal, "choosing a lesson");
+  require(&cache.atlas() == atlas_, "the cache is of another atlas");
+  std::vector<bool> present;
+  for (const Seat seat : seats_) present.push_back(seat != Seat::kAway);
+  if (nobody(present)) throw Error{ErrorKind::kUsage, "no lesson can be chosen: everybody is away"};
+  cache.trim();
+
+  std::optional<TeamBelief> others;  // if other members take part than before
+  if (belief_.present() != present) others.emplace(belief_).set_present(present);
+  std::optional<Prepared> prepared;
+  auto component = component_;
+  for (; component < components_.size(); ++component) {
+    prepared = prepare(cache, component, others ? *others : belief_);
+    if (prepared) break;
   }
-  status_ = SessionStatus::kComplete;
-}
+  events_.emplace_back(LessonProposed{});
 
-// Demonstrations not shown before; if none has gain and the component is under way, any.
-std::optional<Unit> Session::choose_unit(SourceBelief source, const RandomStream& random) {
-  const auto& component = atlas_->knowledge_components()[component_];
-  const SelectionOptions selection{.counterfactuals = options_.counterfactuals,
-                                   .sampling = options_.sampling,
-                                   .likelihood = belief_.options().likelihood};
-  auto unit = select_demonstrations(*atlas_, *cache_, belief_of(source), component, taught_before_, visited_, selection,
-                                    random.split("new"));
-  if (unit.demonstrations.empty() && last_of_component_) {
-    VisitedDemos nothing_visited{atlas_->num_demos()};
-    unit = select_demonstrations(*atlas_, *cache_, belief_of(source), component, taught_before_, nothing_visited,
-                                 selection, random.split("again"));
-    for (const auto& chosen : unit.demonstrations) visited_.insert(chosen.demo);
+  // From here on nothing fails.
+  if (others) belief_ = *std::move(others);
+  for (Seat& seat : seats_) seat = seat == Seat::kReturning ? Seat::kPresent : seat;
+  for (; component_ < component; ++component_) components_[component_] = ComponentStatus::kSkipped;
+  if (!prepared) {
+    status_ = SessionStatus::kComplete;
+    phase_ = SessionPhase::kFinished;
+    return false;
   }
-  if (unit.demonstrations.empty()) return std::nullopt;
-  return unit;
+  lesson_ = std::move(prepared->lesson);
+  strategy_ = std::move(prepared->strategy);
+  visited_ = std::move(prepared->visited);
+  taught_with_unit_ = std::move(prepared->taught_with_unit);
+  phase_ = SessionPhase::kLesson;
+  return true;
 }
 
-SourceBelief Session::choose_source() const {
-  const auto& entry = entry_of(strategy_);
-  std::vector<double> knowledge;
-  if (entry.reads.members) {
-    // The region of the component as last taught; before its first unit, the policy's.
-    auto region = last_of_component_ ? last_of_component_->taught : atlas_->policy_bec_half_spaces();
-    for (std::size_t i = 0; i < persons_.size(); ++i) knowledge.push_back(belief_.member(i).mass_in(region));
+const Lesson* Session::last_of_component(std::size_t component) const {
+  if (history_.empty() || history_.back().lesson.component != component) return nullptr;
+  return &history_.back().lesson;
+}
+
+// The lesson of one component; nothing if there is nothing to teach.
+std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::size_t component,
+                                                  const TeamBelief& belief) const {
+  const auto random = teacher_.split("lesson").split(periods()).split(component);
+  const auto* last = last_of_component(component);
+  Prepared next{{}, {}, visited_, taught_with_unit_};
+  const TeachingView view{.atlas = *atlas_,
+                          .options = options_,
+                          .belief = belief,
+                          .history = history_,
+                          .last_of_component = last,
+                          .taught_region = taught_before_,
+                          .visited = visited_,
+                          .tie_breaks = tie_breaks_,
+                          .period = periods() + 1,
+                          .component = component};
+  UnitSelector select{cache,
+                      view,
+                      {.counterfactuals = options_.counterfactuals,
+                       .sampling = options_.sampling,
+                       .likelihood = belief.options().likelihood}};
+  auto strategy = strategy_->clone();
+  auto proposal = strategy->propose(view, select, random.split("demonstrations"));
+  next.strategy = std::move(strategy);
+
+  Lesson& lesson = next.lesson;
+  if (!proposal.unit.demonstrations.empty()) {
+    for (const auto& shown : proposal.unit.demonstrations) next.visited.insert(shown.demo);
+    describe(lesson, proposal.unit, cache);
+    lesson.demonstrations = std::move(proposal.unit.demonstrations);
+    next.taught_with_unit = std::move(proposal.unit.taught_region);
+  } else if (last != nullptr) {
+    lesson = *last;
+    lesson.repeats = true;
+    lesson.gain = 0.0;
+  } else {
+    return std::nullopt;
   }
-  return entry.choose({knowledge, tie_breaks_});
-}
-
-const ParticleBelief& Session::belief_of(SourceBelief source) const {
-  switch (source.kind) {
-    case SourceBelief::Kind::kMember:
-      return belief_.member(source.member);
-    case SourceBelief::Kind::kCommon:
-      return belief_.common();
-    case SourceBelief::Kind::kJoint:
-      return belief_.joint();
-  }
-  throw std::logic_error{"Session: unknown source"};
-}
-
-void Session::describe_lesson(const ConstraintSet& taught_region) {
-  auto conveyed = atlas_->prior();
-  for (const auto& shown : lesson_.demonstrations) conveyed |= shown.constraints;
-  const auto& region = cache_->regions().of(conveyed);
-  lesson_.taught = cache_->constraints().half_spaces(region.minimal.without(atlas_->prior()));
-  lesson_.area_sr = region.area_sr;
-  lesson_.running_area_sr = cache_->regions().of(taught_region).area_sr;
-  lesson_.gain = std::log(cache_->regions().of(taught_before_).area_sr / lesson_.running_area_sr);
-  taught_with_unit_ = taught_region;
-}
-
-void Session::choose_tests(const RandomStream& random) {
-  const auto& component = atlas_->knowledge_components()[component_];
-  lesson_.tests.clear();
+  lesson.period = periods() + 1;
+  lesson.component = component;
+  lesson.source = std::move(proposal.source);
+  lesson.tests.clear();
   for (std::size_t set = 0; set < options_.duplicate_sets; ++set) {
-    auto choice = select_tests(*atlas_, component, lesson_.demonstrations, lesson_.taught, visited_, random.split(set));
-    lesson_.untested = choice.untested;
-    lesson_.tests.insert(lesson_.tests.end(), choice.tests.begin(), choice.tests.end());
+    auto choice = select_tests(*atlas_, atlas_->knowledge_components()[component], lesson.demonstrations, lesson.taught,
+                               next.visited, random.split("tests").split(set));
+    lesson.untested = choice.untested;
+    lesson.tests.insert(lesson.tests.end(), choice.tests.begin(), choice.tests.end());
   }
+  return next;
+}
+
+// What the unit teaches, and how much that is.
+void Session::describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) const {
+  auto conveyed = atlas_->prior();
+  for (const auto& shown : unit.demonstrations) conveyed |= cache.numbers_of(shown.half_spaces);
+  const auto& region = cache.regions().of(conveyed);
+  lesson.taught = cache.constraints().half_spaces(region.minimal.without(atlas_->prior()));
+  lesson.area_sr = region.area_sr;
+  lesson.running_area_sr = cache.regions().of(cache.numbers_of(unit.taught_region)).area_sr;
+  lesson.gain = std::log(cache.regions().of(cache.numbers_of(taught_before_)).area_sr / lesson.running_area_sr);
+}
+
+// --- the period ----------------------------------------------------------------------------------------------------
+
+void Session::show() {
+  require_phase(SessionPhase::kLesson, "showing a lesson");
+  std::vector<bool> present;
+  for (const Seat seat : seats_) present.push_back(seat == Seat::kPresent);
+  if (nobody(present)) throw Error{ErrorKind::kUsage, "the lesson cannot be shown: everybody is away"};
+  std::vector<HalfSpace> conveyed;
+  for (const auto& shown : lesson_.demonstrations) {
+    conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
+  }
+  make_room(events_);
+  update_with(belief_, present, [&](TeamBelief& belief) { belief.observe_demonstrations(conveyed, lesson_.period); });
+  events_.emplace_back(LessonShown{});
+  phase_ = SessionPhase::kTests;
 }
 
 Verdict Session::judge(const Test& test, const Answer& answer) const {
@@ -161,14 +268,18 @@ Verdict Session::judge(const Test& test, const Answer& answer) const {
   verdict.answered = answer.has_value();
   if (!answer) return verdict;
   const auto& domain = atlas_->domain();
-  const auto scale = static_cast<double>(domain.count_scale());
   const auto& robot = atlas_->feature_counts(test.demo);
+  if (answer->size() != robot.size()) {
+    refuse("an answer has " + std::to_string(answer->size()) + " feature counts instead of " +
+           std::to_string(robot.size()));
+  }
+  const auto scale = static_cast<double>(domain.count_scale());
   const auto loss = robot - *answer;
   const double regret = domain.weights().return_of(loss) / scale;
   const double tolerance =
       domain.is_exact() ? 0.0 : kReturnTolerance * std::max(1.0, std::abs(domain.weights().return_of(robot)) / scale);
   const int sign = std::abs(regret) <= tolerance ? 0 : sign_of_dot(domain.weights().integer, loss);
-  if (sign < 0) throw std::invalid_argument{"Session::submit: an answer earns more than the robot's optimal behaviour"};
+  if (sign < 0) refuse("an answer earns more than the robot's optimal behaviour, which no path can");
   verdict.correct = sign == 0;
   verdict.regret = verdict.correct ? 0.0 : regret;
   if (verdict.correct) {
@@ -179,60 +290,170 @@ Verdict Session::judge(const Test& test, const Answer& answer) const {
   return verdict;
 }
 
-Feedback Session::submit(std::span<const std::vector<Answer>> answers) {
-  if (finished()) throw std::logic_error{"Session::submit: the session is finished"};
-  require(answers.size() == persons_.size(), "submit needs one list of answers per member");
-  for (const auto& list : answers) require(list.size() == lesson_.tests.size(), "submit needs one answer per test");
-
-  Feedback feedback;
-  std::vector<std::vector<HalfSpace>> shown(persons_.size());
-  for (std::size_t i = 0; i < persons_.size(); ++i) {
-    auto& verdicts = feedback.verdicts.emplace_back();
-    for (std::size_t t = 0; t < lesson_.tests.size(); ++t) {
-      verdicts.push_back(judge(lesson_.tests[t], answers[i][t]));
-      shown[i].insert(shown[i].end(), verdicts.back().half_spaces.begin(), verdicts.back().half_spaces.end());
-    }
-    feedback.all_correct.push_back(
-        std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.correct; }));
+Session::Given Session::judged(std::size_t member, std::vector<Answer> answers) const {
+  require_phase(SessionPhase::kTests, "answering");
+  require_seat(member);
+  const auto who = "member " + std::to_string(member + 1);
+  if (!takes_part(member)) refuse(who + " is away");
+  if (has_answered(member)) refuse(who + " has already answered");
+  if (answers.size() != lesson_.tests.size()) {
+    refuse(who + " gave " + std::to_string(answers.size()) + " answers to " + std::to_string(lesson_.tests.size()) +
+           " tests");
   }
+  Given given{std::move(answers), {}};
+  for (std::size_t t = 0; t < lesson_.tests.size(); ++t) {
+    given.verdicts.push_back(judge(lesson_.tests[t], given.answers[t]));
+  }
+  return given;
+}
+
+void Session::answer(std::size_t member, std::vector<Answer> answers) {
+  auto given = judged(member, std::move(answers));
+  events_.emplace_back(TestsAnswered{member, given.answers});
+  pending_[member] = std::move(given);
+}
+
+const Feedback& Session::close_tests() {
+  require_phase(SessionPhase::kTests, "closing the tests");
+  Feedback feedback;
+  Verdict unanswered;
+  unanswered.answered = false;
+  std::vector<bool> counts;  // who takes part or had answered before leaving
+  std::vector<std::vector<HalfSpace>> shown(num_members());
+  bool everybody = true;
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    counts.push_back(takes_part(i) || has_answered(i));
+    auto& verdicts = feedback.verdicts.emplace_back();
+    if (counts[i] && !has_answered(i)) verdicts.assign(lesson_.tests.size(), unanswered);
+    if (has_answered(i)) verdicts = pending_[i]->verdicts;
+    for (const auto& verdict : verdicts) {
+      shown[i].insert(shown[i].end(), verdict.half_spaces.begin(), verdict.half_spaces.end());
+    }
+    const bool all =
+        counts[i] && std::all_of(verdicts.begin(), verdicts.end(), [](const auto& v) { return v.correct; });
+    feedback.all_correct.push_back(all);
+    everybody = everybody && (all || !counts[i]);
+  }
+  if (nobody(counts)) throw Error{ErrorKind::kUsage, "the tests cannot be closed: everybody is away"};
   for (const auto& test : lesson_.tests) {
     feedback.half_spaces.insert(feedback.half_spaces.end(), test.covered.begin(), test.covered.end());
   }
-
-  std::vector<HalfSpace> conveyed;
-  for (const auto& demo : lesson_.demonstrations)
-    conveyed.insert(conveyed.end(), demo.half_spaces.begin(), demo.half_spaces.end());
-  belief_.observe_demonstrations(conveyed, lesson_.period);
-  feedback.excluded = belief_.observe_responses(shown, lesson_.period);
-  belief_.observe_feedback(feedback.half_spaces, lesson_.period);
-
-  const bool everybody =
-      std::all_of(feedback.all_correct.begin(), feedback.all_correct.end(), [](bool correct) { return correct; });
-  const auto component = component_;
-  conclude_period(everybody);
-  feedback.component_learned = components_[component] == ComponentStatus::kLearned;
-  return feedback;
+  feedback.component_learned = everybody && correct_in_a_row_ + 1 >= options_.consecutive_correct;
+  make_room(events_);
+  update_with(belief_, counts,
+              [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
+  events_.emplace_back(TestsClosed{});
+  feedback_ = std::move(feedback);
+  correct_in_a_row_ = everybody ? correct_in_a_row_ + 1 : 0;
+  phase_ = SessionPhase::kFeedback;
+  return feedback_;
 }
 
-void Session::conclude_period(bool all_correct) {
-  ++periods_;
-  correct_in_a_row_ = all_correct ? correct_in_a_row_ + 1 : 0;
-  last_of_component_ = std::move(lesson_);
-  if (correct_in_a_row_ >= options_.consecutive_correct) {
+const Feedback& Session::give_feedback() {
+  require_phase(SessionPhase::kFeedback, "giving feedback");
+  std::vector<bool> present;
+  for (const Seat seat : seats_) present.push_back(seat == Seat::kPresent);
+  if (nobody(present)) throw Error{ErrorKind::kUsage, "feedback cannot be given: everybody is away"};
+  std::vector<std::vector<Answer>> answers;
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    auto& list = answers.emplace_back();
+    if (has_answered(i)) {
+      list = pending_[i]->answers;
+    } else if (!feedback_.verdicts[i].empty()) {
+      list.resize(lesson_.tests.size());
+    }
+  }
+  make_room(events_);
+  make_room(history_);
+  update_with(belief_, present,
+              [&](TeamBelief& belief) { belief.observe_feedback(feedback_.half_spaces, lesson_.period); });
+  events_.emplace_back(FeedbackGiven{});
+  history_.push_back({std::move(lesson_), std::move(answers), std::move(feedback_)});
+  lesson_ = {};
+  feedback_ = {};
+  for (auto& given : pending_) given.reset();
+  conclude_period(history_.back().feedback.component_learned);
+  return history_.back().feedback;
+}
+
+void Session::conclude_period(bool learned) {
+  if (learned) {
     components_[component_] = ComponentStatus::kLearned;
     taught_before_ = taught_with_unit_;
-    last_of_component_.reset();
     correct_in_a_row_ = 0;
     ++component_;
   }
-  const bool more = std::any_of(components_.begin(), components_.end(),
-                                [](ComponentStatus status) { return status == ComponentStatus::kOpen; });
-  if (more && periods_ >= options_.max_periods) {
+  const bool more = std::find(components_.begin(), components_.end(), ComponentStatus::kOpen) != components_.end();
+  phase_ = SessionPhase::kProposal;
+  if (more && periods() >= options_.max_periods) {
     status_ = SessionStatus::kMaxPeriods;
-    lesson_ = Lesson{};
-    return;
+    phase_ = SessionPhase::kFinished;
   }
-  prepare_lesson();
+}
+
+const Feedback& Session::submit(std::span<const std::vector<Answer>> answers) {
+  require_phase(SessionPhase::kLesson, "submitting answers");
+  if (answers.size() != num_members()) {
+    refuse("there are answers of " + std::to_string(answers.size()) + " members instead of " +
+           std::to_string(num_members()));
+  }
+  phase_ = SessionPhase::kTests;  // so that answers can be judged before anything happens
+  try {
+    for (std::size_t i = 0; i < num_members(); ++i) {
+      if (takes_part(i)) static_cast<void>(judged(i, answers[i]));
+    }
+  } catch (...) {
+    phase_ = SessionPhase::kLesson;
+    throw;
+  }
+  phase_ = SessionPhase::kLesson;
+  show();
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (takes_part(i)) answer(i, answers[i]);
+  }
+  close_tests();
+  return give_feedback();
+}
+
+// --- members and replay --------------------------------------------------------------------------------------------
+
+void Session::leave(std::size_t member) {
+  require_seat(member);
+  if (finished()) throw Error{ErrorKind::kUsage, "nobody can leave: the session is finished"};
+  if (seats_[member] == Seat::kAway) refuse("member " + std::to_string(member + 1) + " is away already");
+  events_.emplace_back(MemberLeft{member});
+  seats_[member] = Seat::kAway;
+}
+
+void Session::come_back(std::size_t member) {
+  require_seat(member);
+  if (finished()) throw Error{ErrorKind::kUsage, "nobody can return: the session is finished"};
+  if (seats_[member] != Seat::kAway) refuse("member " + std::to_string(member + 1) + " is not away");
+  events_.emplace_back(MemberReturned{member});
+  seats_[member] = Seat::kReturning;
+}
+
+void Session::apply(const SessionEvent& event, TeachingCache& cache) {
+  struct Visitor {
+    Session& session;
+    TeachingCache& cache;
+    void operator()(const LessonProposed&) const { session.propose(cache); }
+    void operator()(const LessonShown&) const { session.show(); }
+    void operator()(const TestsAnswered& e) const { session.answer(e.member, e.answers); }
+    void operator()(const TestsClosed&) const { session.close_tests(); }
+    void operator()(const FeedbackGiven&) const { session.give_feedback(); }
+    void operator()(const MemberLeft& e) const { session.leave(e.member); }
+    void operator()(const MemberReturned& e) const { session.come_back(e.member); }
+  };
+  std::visit(Visitor{*this, cache}, event);
+}
+
+bool operator==(const Session& a, const Session& b) {
+  return a.status_ == b.status_ && a.phase_ == b.phase_ && a.component_ == b.component_ &&
+         a.correct_in_a_row_ == b.correct_in_a_row_ && a.components_ == b.components_ && a.seats_ == b.seats_ &&
+         a.visited_ == b.visited_ && a.taught_before_ == b.taught_before_ &&
+         a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ && a.pending_ == b.pending_ &&
+         a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ && a.belief_ == b.belief_;
 }
 
 }  // namespace kith

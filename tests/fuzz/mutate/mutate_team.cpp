@@ -80,7 +80,8 @@ Places places_of(TeamRecord& r) {
     p.letters.push_back(&x.type);
   }
   for (auto& x : r.period_records) {
-    p.reals.insert(p.reals.end(), {&x.area_sr, &x.running_area_sr, &x.gain, &x.p_bec_common, &x.p_bec_joint});
+    p.reals.insert(p.reals.end(), {&x.area_sr, &x.running_area_sr, &x.gain});
+    for (auto& number : x.p_bec) p.reals.push_back(&number);
     p.counts.insert(p.counts.end(), {&x.period, &x.member, &x.component, &x.tests, &x.excluded, &x.untested});
     p.texts.push_back(&x.source);
   }

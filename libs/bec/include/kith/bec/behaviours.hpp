@@ -20,11 +20,18 @@ namespace kith {
 /// `max_cells` cells are kept the oldest are forgotten and, if asked for again, planned again: memory stays below
 /// max_cells * 4 bytes * states on candidates' paths, plus the distinct losses.
 ///
+/// With tables, one row of what is conveyed is kept per policy cell and demonstration class; when they take more than
+/// `max_row_bytes` the oldest are forgotten and, if asked for again, computed again.
+///
 /// A cache in front of pure functions: results never depend on what was asked
 /// before. Not thread-safe; give each thread its own. The atlas must outlive it.
 class Behaviours {
  public:
-  explicit Behaviours(const Atlas& atlas, std::size_t max_cells = 256);
+  static constexpr std::size_t kDefaultCells = 256;
+  static constexpr std::size_t kDefaultRowBytes = std::size_t{32} << 20u;
+
+  explicit Behaviours(const Atlas& atlas, std::size_t max_cells = kDefaultCells,
+                      std::size_t max_row_bytes = kDefaultRowBytes);
   Behaviours(const Behaviours&) = delete;
   Behaviours& operator=(const Behaviours&) = delete;
   ~Behaviours() = default;
@@ -32,6 +39,11 @@ class Behaviours {
   [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
   /// The atlas's constraints and, after them, those met on the way. It grows; references to it stay valid.
   [[nodiscard]] const ConstraintTable& constraints() const noexcept { return constraints_; }
+
+  /// The half-spaces as a set of constraints(); those met for the first time are added.
+  [[nodiscard]] ConstraintSet numbers_of(std::span<const HalfSpace> half_spaces);
+  /// About how much is remembered, in bytes.
+  [[nodiscard]] std::size_t memory() const noexcept;
 
   /// Weights met so far, where behaviours are not tabulated.
   [[nodiscard]] std::size_t num_cells() const noexcept { return cells_.size(); }
@@ -87,6 +99,7 @@ class Behaviours {
   Conveyed tabulated(std::span<const PolicyCellIndex> cells);
   Conveyed planned(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells);
   const Plan& plan_of(PolicyCellIndex cell, MdpIndex m);
+  const std::vector<std::uint64_t>& rows_of(PolicyCellIndex cell);
   void remember(PolicyCellIndex cell);
   void plan(const Direction& weights, MdpIndex m, Plan& result);
   LossIndex number_of(const IntegerVector& loss);
@@ -98,7 +111,10 @@ class Behaviours {
   ConstraintTable constraints_;
 
   // Tabulated: rows per cell, and their union.
-  std::vector<std::vector<std::uint64_t>> rows_by_cell_;  // empty where not asked for yet
+  std::vector<std::vector<std::uint64_t>> rows_by_cell_;  // empty where not asked for yet, or forgotten
+  std::vector<PolicyCellIndex> cells_with_rows_;          // a ring of max_cells_with_rows_
+  std::size_t max_cells_with_rows_ = 1;
+  std::size_t oldest_rows_ = 0;
   std::vector<std::uint64_t> rows_;
 
   // On demand.

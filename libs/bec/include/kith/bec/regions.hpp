@@ -45,6 +45,8 @@ class Regions {
   RegionEffect effect(const ConstraintSet& taught, const ConstraintSet& added);
 
   [[nodiscard]] std::size_t size() const noexcept { return known_.size(); }
+  /// About how much is remembered, in bytes.
+  [[nodiscard]] std::size_t memory() const noexcept;
 
  private:
   // What `added` does is asked of one taught region many times over.

@@ -21,17 +21,17 @@ class TeamPool {
   TeamPool(const StudySpec& spec, std::span<const TeamRecord> teams);
   /// A pool of given outcomes of one quantity, the same for every quantity.
   /// @param values  shape [strategies][compositions][replicates].
-  TeamPool(std::vector<Strategy> strategies, std::vector<std::string> compositions,
+  TeamPool(std::vector<std::string> strategies, std::vector<std::string> compositions,
            std::vector<std::vector<std::vector<double>>> values);
 
-  [[nodiscard]] const std::vector<Strategy>& strategies() const noexcept { return strategies_; }
+  [[nodiscard]] const std::vector<std::string>& strategies() const noexcept { return strategies_; }
   [[nodiscard]] const std::vector<std::string>& compositions() const noexcept { return compositions_; }
   [[nodiscard]] std::size_t replicates() const noexcept { return replicates_; }
   /// Outcomes of one cell, shape [replicates].
   [[nodiscard]] std::span<const double> cell(Quantity quantity, std::size_t strategy, std::size_t composition) const;
 
  private:
-  std::vector<Strategy> strategies_;
+  std::vector<std::string> strategies_;
   std::vector<std::string> compositions_;
   std::size_t replicates_ = 0;
   std::vector<std::vector<double>> values_;  // [quantities][cells * replicates]

@@ -24,8 +24,8 @@ enum class Quantity {
 
 /// Some of the teams of a study, pooled.
 struct TeamSelection {
-  std::optional<Strategy> strategy;  ///< Missing: every strategy but the baseline.
-  std::string composition;           ///< Empty: all.
+  std::optional<std::string> strategy;  ///< Missing: every strategy but the baseline.
+  std::string composition;              ///< Empty: all.
   [[nodiscard]] bool contains(const TeamAddress& address) const;
   friend bool operator==(const TeamSelection&, const TeamSelection&) = default;
 };

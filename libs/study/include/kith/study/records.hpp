@@ -13,7 +13,7 @@ namespace kith {
 /// Where a team stands in a study's design.
 struct TeamAddress {
   std::size_t variant = 0;  ///< Setting of the varied factors; 0 without any.
-  Strategy strategy = Strategy::kCommon;
+  std::string strategy = "common";
   std::string composition;
   std::size_t replicate = 1;  ///< 1, 2, ...
   std::size_t team = 1;       ///< 1, 2, ... over the whole study, in the order of the tables.
@@ -70,8 +70,7 @@ struct PeriodRecord {
   std::size_t excluded = 0;
   std::size_t untested = 0;
   double gain = 0.0;
-  double p_bec_common = 0.0;
-  double p_bec_joint = 0.0;
+  std::vector<double> p_bec;  ///< Mass in the policy's BEC, in the order of StudySpec::teaching.rules.
 };
 
 /// One belief at the end of a period: the rows of particles.csv.

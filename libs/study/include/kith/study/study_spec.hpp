@@ -48,9 +48,9 @@ struct StudySpec {
   std::size_t num_features = 3;          ///< d of the domain.
   std::int64_t count_scale = 1;          ///< Domain::count_scale(): feature counts are in units of 1 / count_scale.
   std::uint64_t seed = 1;
-  std::size_t replicates = 15;  ///< Teams per cell, >= 1.
-  std::vector<Strategy> strategies;
-  std::vector<std::string> compositions;  ///< Such as "NNP": 1 to 30 letters of learner types.
+  std::size_t replicates = 15;             ///< Teams per cell, >= 1.
+  std::vector<StrategyChoice> strategies;  ///< No two with the same name.
+  std::vector<std::string> compositions;   ///< Such as "NNP": 1 to 30 letters of learner types.
   Pairing pairing = Pairing::kReplicate;
   std::vector<LearnerType> learner_types;
   TeachingOptions teaching;
@@ -58,6 +58,9 @@ struct StudySpec {
   RecordLevel record = RecordLevel::kPeriod;
   std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
 };
+
+/// The strategy with this name. @throws std::invalid_argument if there is none.
+[[nodiscard]] const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name);
 
 /// The type with this letter. @throws std::invalid_argument if there is none.
 [[nodiscard]] const LearnerType& learner_type(const StudySpec& spec, char letter);

@@ -19,8 +19,8 @@ struct MeanSd {
 /// What the teams of one cell, or of several pooled, came to.
 struct CellSummary {
   std::size_t variant = 0;
-  std::optional<Strategy> strategy;  ///< Missing when pooled.
-  std::string composition;           ///< Empty when pooled.
+  std::optional<std::string> strategy;  ///< Missing when pooled.
+  std::string composition;              ///< Empty when pooled.
   std::size_t teams = 0;
   std::size_t completed = 0;
   MeanSd periods;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <list>
 #include <memory>
+#include <span>
 
 #include "kith/bec/behaviours.hpp"
 #include "kith/belief/prior_cover.hpp"
@@ -10,22 +11,34 @@
 
 namespace kith {
 
-/// What sessions over one domain compute again and again: regions of constraint
-/// sets, what people do and what demonstrations tell them, and the initial points of beliefs.
+/// What sessions over one domain compute again and again: regions of constraint sets, what people do and what
+/// demonstrations tell them, and the initial points of beliefs.
 ///
-/// Caches in front of pure functions: results never depend on what was asked
-/// before. Not thread-safe; give each thread its own. The atlas must outlive it.
-/// Sets of constraints are numbered by this cache: do not mix those of several.
+/// A cache in front of pure functions: results never depend on what was asked before, nor on which sessions it served.
+/// Sessions keep nothing that refers to it, so it can be trimmed, replaced or destroyed while they live. Not
+/// thread-safe; give each thread its own, or hand one on. The atlas must outlive it.
+///
+/// Numbers of constraints and of policy cells are those of this cache and valid until trim().
 class TeachingCache {
  public:
-  explicit TeachingCache(const Atlas& atlas) : known_{std::make_unique<Known>(atlas)} {}
+  /// Memory that is kept when sessions propose lessons, in bytes; while a lesson is chosen it may be more.
+  static constexpr std::size_t kDefaultBytes = std::size_t{24} << 20u;
 
+  explicit TeachingCache(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes)
+      : max_bytes_{max_bytes}, known_{std::make_unique<Known>(atlas, max_bytes)} {}
+
+  [[nodiscard]] const Atlas& atlas() const noexcept { return known_->behaviours.atlas(); }
   [[nodiscard]] Behaviours& behaviours() noexcept { return known_->behaviours; }
   [[nodiscard]] Regions& regions() noexcept { return known_->regions; }
   [[nodiscard]] const ConstraintTable& constraints() const noexcept { return known_->behaviours.constraints(); }
+  /// The half-spaces as a set of constraints; those met for the first time are added.
+  [[nodiscard]] ConstraintSet numbers_of(std::span<const HalfSpace> half_spaces) {
+    return known_->behaviours.numbers_of(half_spaces);
+  }
 
-  /// Forgets what was remembered if it has become much, as where behaviours are planned on demand every team meets new
-  /// weights. Between sessions: none that uses this cache may go on afterwards.
+  /// About how much is remembered, in bytes, without the covers.
+  [[nodiscard]] std::size_t memory() const noexcept;
+  /// Forgets everything but the covers if it takes more than `max_bytes`. Sessions do this before each lesson.
   void trim();
 
   /// The cover of `prior` by `num_points` points. The reference stays valid as long as this object.
@@ -33,10 +46,12 @@ class TeachingCache {
 
  private:
   struct Known {
-    explicit Known(const Atlas& atlas) : behaviours{atlas}, regions{behaviours.constraints()} {}
+    Known(const Atlas& atlas, std::size_t max_bytes)
+        : behaviours{atlas, Behaviours::kDefaultCells, max_bytes / 2}, regions{behaviours.constraints()} {}
     Behaviours behaviours;
     Regions regions;
   };
+  std::size_t max_bytes_;
   std::unique_ptr<Known> known_;
   std::list<PriorCover> covers_;  // few: one per prior and filter size of a study
 };

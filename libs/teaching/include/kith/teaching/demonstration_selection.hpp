@@ -5,7 +5,7 @@
 
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/lesson.hpp"
-#include "kith/teaching/visited_demos.hpp"
+#include "kith/teaching/strategy.hpp"
 
 namespace kith {
 
@@ -21,16 +21,11 @@ struct SelectionOptions {
   HalfSpaceLikelihood likelihood{0.8};  ///< How the copy of the belief learns from the unit's demonstrations.
 };
 
-/// A unit: demonstrations that are shown together.
-struct Unit {
-  std::vector<Demonstration> demonstrations;
-  std::vector<PolicyCellIndex> counterfactuals;  ///< Of the first selection.
-  ConstraintSet taught_region;                   ///< R_n after the unit, minimal.
-};
-
 /// The policy cells of N beliefs drawn from `belief`; ascending, each once.
+/// @param weights  if not null, gets the first weight drawn of each cell, in the order of the draws.
 [[nodiscard]] std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, const ParticleBelief& belief,
-                                                                  const SelectionOptions& options, RandomStream random);
+                                                                  const SelectionOptions& options, RandomStream random,
+                                                                  std::vector<Direction>* weights = nullptr);
 
 /// Chooses demonstrations for a belief until none adds knowledge.
 ///
@@ -41,12 +36,35 @@ struct Unit {
 /// facts at once), then the largest gain, then the simplest and most similar
 /// pictures, then chance [jayaraman2024, section III-D].
 ///
-/// @param cache  of this atlas; it influences nothing.
+/// @param cache  makes it faster and changes no result.
 /// @param belief  a copy, which learns along.
 /// @param taught_region  R_n, minimal, with the prior.
-/// @param visited  chosen ones are added.
-[[nodiscard]] Unit select_demonstrations(const Atlas& atlas, TeachingCache& cache, ParticleBelief belief,
-                                         const KnowledgeComponent& component, ConstraintSet taught_region,
-                                         VisitedDemos& visited, const SelectionOptions& options, RandomStream random);
+/// @param visited  what may not be chosen.
+/// @return the unit; without demonstrations if none has gain.
+[[nodiscard]] Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief,
+                                         const KnowledgeComponent& component, std::span<const HalfSpace> taught_region,
+                                         VisitedDemos visited, const SelectionOptions& options, RandomStream random);
+
+/// What a strategy chooses demonstrations with: select_demonstrations() with the options, the component, the region
+/// and the history of a session.
+class UnitSelector {
+ public:
+  UnitSelector(TeachingCache& cache, const TeachingView& view, const SelectionOptions& options)
+      : cache_{&cache}, view_{&view}, options_{options} {}
+
+  /// The best unit for a belief among what was not shown before; if none of that has gain and the component is under
+  /// way, among everything. Without demonstrations if none has gain. Each call within a proposal needs a stream of its
+  /// own.
+  [[nodiscard]] Unit for_belief(const ParticleBelief& belief, RandomStream random);
+
+  /// For strategies that choose by a rule of their own: what people would do, and regions of constraints.
+  [[nodiscard]] TeachingCache& cache() noexcept { return *cache_; }
+  [[nodiscard]] const SelectionOptions& options() const noexcept { return options_; }
+
+ private:
+  TeachingCache* cache_;
+  const TeachingView* view_;
+  SelectionOptions options_;
+};
 
 }  // namespace kith

@@ -1,37 +1,57 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
-#include "kith/teaching/strategy.hpp"
 
 namespace kith {
+
+/// The belief that a lesson was chosen for.
+struct SourceBelief {
+  std::string rule;        ///< Name of the rule of aggregation, such as "common"; empty: a member's belief.
+  std::size_t member = 0;  ///< Seat, if it is a member's belief.
+
+  [[nodiscard]] static SourceBelief of_member(std::size_t seat) { return {{}, seat}; }
+  [[nodiscard]] static SourceBelief of_team(std::string_view rule) { return {std::string{rule}, 0}; }
+  [[nodiscard]] bool is_member() const noexcept { return rule.empty(); }
+  friend bool operator==(const SourceBelief&, const SourceBelief&) = default;
+};
 
 /// A trajectory of the robot that is shown, and what it conveys.
 struct Demonstration {
   DemoIndex demo;
-  ConstraintSet constraints;                     ///< D: minimal set of what it conveys to the sampled counterfactuals.
-  std::vector<HalfSpace> half_spaces;            ///< The same, sorted.
-  double gain = 1.0;                             ///< area of the taught region before / after, > 1 when chosen for it.
-  std::size_t num_new = 0;                       ///< New facets of the taught region.
-  std::vector<PolicyCellIndex> counterfactuals;  ///< Cells of the beliefs it was chosen for, ascending.
+  std::vector<HalfSpace> half_spaces;      ///< D: minimal set of what it conveys to the counterfactuals; sorted.
+  double gain = 1.0;                       ///< Area of the taught region before / after, > 1 when chosen for it.
+  std::size_t num_new = 0;                 ///< New facets of the taught region.
+  std::vector<Direction> counterfactuals;  ///< The beliefs it was chosen for: one weight per distinct behaviour, in the
+                                           ///< order of the draws.
+  friend bool operator==(const Demonstration&, const Demonstration&) = default;
+};
+
+/// Demonstrations that are shown together.
+struct Unit {
+  std::vector<Demonstration> demonstrations;
+  std::vector<HalfSpace> taught_region;  ///< R_n after the unit: minimal, with the prior; sorted.
 };
 
 /// A start state for which people are asked what the robot would do.
 struct Test {
   DemoIndex demo;
-  std::vector<HalfSpace> covered;  ///< The taught constraints that a right answer shows and that its feedback teaches.
-  bool exact = true;               ///< False: no start tests the constraint itself; this one tests the nearest.
+  std::vector<HalfSpace>
+      covered;        ///< The taught constraints that the robot's path shows and that its feedback teaches.
+  bool exact = true;  ///< False: no start tests the constraint itself; this one tests the nearest.
+  friend bool operator==(const Test&, const Test&) = default;
 };
 
-/// The demonstrations of one interaction period with the tests that follow.
+/// The demonstrations of one interaction period with the tests that follow. A value: it means the same whatever cache
+/// it was made with.
 struct Lesson {
   std::size_t period = 0;     ///< 1, 2, ...
   std::size_t component = 0;  ///< Index into Atlas::knowledge_components().
   SourceBelief source;
-  std::vector<PolicyCellIndex> counterfactuals;  ///< Cells of the first demonstration's sampled beliefs, ascending.
   std::vector<Demonstration> demonstrations;
   std::vector<HalfSpace> taught;  ///< T: minimal set of the prior and all D, without the prior's own; sorted.
   std::vector<Test> tests;
@@ -40,6 +60,7 @@ struct Lesson {
   double area_sr = 0.0;          ///< Solid angle of T with the prior.
   double running_area_sr = 0.0;  ///< Solid angle of the taught region after the unit.
   double gain = 0.0;             ///< log(area of the taught region before / after the unit); 0 for a repeated unit.
+  friend bool operator==(const Lesson&, const Lesson&) = default;
 };
 
 /// One person's answer to one test: feature counts of the path, or nothing if
@@ -52,17 +73,18 @@ struct Verdict {
   double regret = 0.0;   ///< Return of the robot's path minus that of the answer, >= 0; weights at length 1. NaN never:
                          ///< 0 without answer.
   bool answered = true;
-  std::vector<HalfSpace>
-      half_spaces;  ///< Evidence: the test's constraints if correct, else the half-space in which the answer wins.
+  std::vector<HalfSpace> half_spaces;  ///< Evidence about what the person believes; see Session.
+  friend bool operator==(const Verdict&, const Verdict&) = default;
 };
 
 /// What the team hears after its answers.
 struct Feedback {
-  std::vector<std::vector<Verdict>> verdicts;  ///< Per member, per test.
-  std::vector<bool> all_correct;               ///< Per member.
+  std::vector<std::vector<Verdict>> verdicts;  ///< Per member, per test; empty for a member who was away.
+  std::vector<bool> all_correct;               ///< Per member; false for a member who was away.
   std::vector<HalfSpace> half_spaces;  ///< The true constraints of all tests, in test order: what feedback teaches.
-  std::vector<std::size_t> excluded;   ///< Members left out of the common belief; empty if that is not kept.
+  std::vector<std::size_t> excluded;   ///< Members whom a rule of aggregation left out, such as the common belief's.
   bool component_learned = false;
+  friend bool operator==(const Feedback&, const Feedback&) = default;
 };
 
 }  // namespace kith

@@ -1,14 +1,18 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kith/belief/team_belief.hpp"
 #include "kith/teaching/cache.hpp"
 #include "kith/teaching/demonstration_selection.hpp"
 #include "kith/teaching/lesson.hpp"
+#include "kith/teaching/session_event.hpp"
+#include "kith/teaching/strategy.hpp"
 
 namespace kith {
 
@@ -17,92 +21,166 @@ struct TeachingOptions {
   FilterOptions filter{};           ///< particles, eta, resampling threshold of the teacher's beliefs
   std::size_t counterfactuals = 8;  ///< N
   CounterfactualSampling sampling = CounterfactualSampling::kSystematic;
-  double assumed_ability = 0.80;  ///< the beta that the teacher ascribes to everybody
+  double assumed_ability = 0.80;  ///< the beta that the teacher ascribes to everybody; 1 is taken as 1 - 1e-9
   LikelihoodForm likelihood = LikelihoodForm::kDiscontinuous;
   double response_noise = 0.05;  ///< nu, radians
   bool reduce_before_update = false;
   std::size_t max_periods = 50;         ///< >= 1
   std::size_t consecutive_correct = 1;  ///< periods in a row that everybody must answer all right, >= 1
   std::size_t duplicate_sets = 1;       ///< test sets per period, >= 1
-  TeamBeliefParts also_record{
-      .members = false, .common = false, .joint = false};  ///< beliefs kept though the strategy does not read them
+  /// The rules of aggregation that there are: their beliefs are kept where the strategy reads them.
+  std::vector<AggregationRule> rules{aggregation_rules().begin(), aggregation_rules().end()};
+  bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
+  bool keep_rules = false;    ///< the same for the beliefs of all rules
 };
 
 /// How a session stands or ended.
 enum class SessionStatus { kRunning, kComplete, kMaxPeriods };
 
+/// What a session waits for.
+enum class SessionPhase {
+  kProposal,  ///< propose()
+  kLesson,    ///< show()
+  kTests,     ///< answer(), close_tests()
+  kFeedback,  ///< give_feedback()
+  kFinished,  ///< nothing
+};
+
 enum class ComponentStatus { kOpen, kLearned, kSkipped };
 
 /// One group being taught: a pure state machine. It does no input or output and
 /// never waits; whoever drives it brings the answers of simulated learners or of
-/// people. Equal streams and answers give equal sessions, bit for bit.
+/// people. An interaction period:
 ///
-/// A period: lesson() tells what to show and ask; submit() takes everybody's
-/// answers, returns the feedback and prepares the next lesson.
+///   while (session.propose(cache)) {                        // chooses the lesson; false: nothing is left to teach
+///     session.show();                                       // lesson().demonstrations were watched
+///     for each member: session.answer(member, answers);     // to lesson().tests
+///     session.close_tests();
+///     session.give_feedback();
+///   }
 ///
-/// Each knowledge component is taught until all members answer all tests of a
+/// Each of these is an event. An event is accepted as a whole or, if it throws, changes nothing: kith::Error
+/// (kInvalidInput) for what people can get wrong, such as an answer of the wrong length, and kith::Error (kUsage) for
+/// an event that the phase does not allow. events() lists what was accepted; apply() repeats it. Equal streams and
+/// events give equal sessions, bit for bit, whatever cache is used and whatever that has served before.
+///
+/// A value: a copy goes on independently, which is how to look ahead. Between calls it may move to another thread. The
+/// atlas must outlive it.
+///
+/// Each knowledge component is taught until all members present answer all tests of a
 /// period correctly; a component for which no demonstration has gain at the outset is
 /// skipped; an unlearned one is never left before max_periods. Seats do not
 /// matter: members are told apart by their streams only.
+///
+/// What an answer tells the teacher. A wrong one: the half-space of weights under which its path is better than the
+/// robot's. A right one with the feature counts of the robot's path: the taught constraints that the test covers. A
+/// right one with other feature counts (the robot is indifferent between the two) may be taken for any reason, so it
+/// tells nothing.
+///
+/// A member who leaves during a period has no more part in it, except that answers already given count; who returns
+/// takes part from the next lesson on. While everybody is away nothing can be proposed.
 class Session {
  public:
-  /// @param atlas, cache  must outlive the session; `cache` influences nothing.
+  /// @param cache  of the session's atlas; only its cover of the prior is used here.
   /// @param persons  one stream per member: the root of what the teacher draws for that person.
   /// @param teacher  the root of all else the teacher draws.
   /// @throws std::invalid_argument if there are no members or more than 30, the strategy is the baseline and
-  /// there are several members, or an option is out of range.
-  Session(const Atlas& atlas, TeachingCache& cache, const TeachingOptions& options, Strategy strategy,
-          std::vector<RandomStream> persons, RandomStream teacher);
+  /// there are several members, an option is out of range, or the strategy needs a rule that is not among the options'.
+  Session(TeachingCache& cache, TeachingOptions options, StrategyChoice strategy, std::vector<RandomStream> persons,
+          RandomStream teacher);
 
+  [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
+  [[nodiscard]] const TeachingOptions& options() const noexcept { return options_; }
   [[nodiscard]] std::size_t num_members() const noexcept { return persons_.size(); }
-  [[nodiscard]] Strategy strategy() const noexcept { return strategy_; }
+  [[nodiscard]] const StrategyChoice& strategy() const noexcept { return choice_; }
   [[nodiscard]] SessionStatus status() const noexcept { return status_; }
-  [[nodiscard]] bool finished() const noexcept { return status_ != SessionStatus::kRunning; }
+  [[nodiscard]] SessionPhase phase() const noexcept { return phase_; }
+  [[nodiscard]] bool finished() const noexcept { return phase_ == SessionPhase::kFinished; }
   /// Completed periods.
-  [[nodiscard]] std::size_t periods() const noexcept { return periods_; }
+  [[nodiscard]] std::size_t periods() const noexcept { return history_.size(); }
+  [[nodiscard]] std::span<const PastPeriod> history() const noexcept { return history_; }
   [[nodiscard]] std::span<const ComponentStatus> components() const noexcept { return components_; }
 
-  /// What to show and ask now. @throws std::logic_error if finished().
+  // --- events ---------------------------------------------------------------
+  /// Chooses the next lesson of the current component, or of the first later one that has anything to teach.
+  /// @param cache  of the same atlas; makes it faster and changes no result.
+  /// @return false: nothing is left to teach; the session is finished. Also if it was finished before.
+  bool propose(TeachingCache& cache);
+  void show();
+  /// @throws kith::Error (kInvalidInput) unless there is one answer per test, the member takes part and has not
+  /// answered yet, and no answer earns more than the robot's optimal behaviour, which no path can.
+  void answer(std::size_t member, std::vector<Answer> answers);
+  /// @return what give_feedback() will tell.
+  const Feedback& close_tests();
+  const Feedback& give_feedback();
+  void leave(std::size_t member);
+  void come_back(std::size_t member);
+  /// Repeats an event.
+  void apply(const SessionEvent& event, TeachingCache& cache);
+  /// What was accepted so far, in order.
+  [[nodiscard]] std::span<const SessionEvent> events() const noexcept { return events_; }
+
+  /// A whole period at once: show(), everybody's answers, close_tests(), give_feedback(). One list per member with one
+  /// answer per test of lesson(), in order; lists of members who are away are ignored.
+  const Feedback& submit(std::span<const std::vector<Answer>> answers);
+
+  // --- state ----------------------------------------------------------------
+  /// What to show and ask now. @throws kith::Error (kUsage) in the phases kProposal and kFinished.
   [[nodiscard]] const Lesson& lesson() const;
-
-  /// Takes the answers, one list per member with one answer per test of lesson(), in order.
-  /// @throws std::invalid_argument if the shape is wrong, std::logic_error if finished().
-  Feedback submit(std::span<const std::vector<Answer>> answers);
-
+  /// Whether a member takes part in the current period.
+  [[nodiscard]] bool takes_part(std::size_t member) const { return seats_.at(member) == Seat::kPresent; }
+  /// Whether a member has answered the current tests.
+  [[nodiscard]] bool has_answered(std::size_t member) const { return pending_.at(member).has_value(); }
   /// What the teacher believes about the team.
   [[nodiscard]] const TeamBelief& belief() const noexcept { return belief_; }
-  /// R_n at the end of the last learned component, minimal, with the prior.
-  [[nodiscard]] const ConstraintSet& taught_region() const noexcept { return taught_before_; }
+  /// R_n at the end of the last learned component: minimal, with the prior; sorted.
+  [[nodiscard]] const std::vector<HalfSpace>& taught_region() const noexcept { return taught_before_; }
+
+  /// The same state, bit for bit, of sessions with the same atlas, options, strategy and streams.
+  friend bool operator==(const Session& a, const Session& b);
 
  private:
-  void prepare_lesson();
-  [[nodiscard]] std::optional<Unit> choose_unit(SourceBelief source, const RandomStream& random);
-  [[nodiscard]] SourceBelief choose_source() const;
-  [[nodiscard]] const ParticleBelief& belief_of(SourceBelief source) const;
-  void describe_lesson(const ConstraintSet& taught_region);
-  void choose_tests(const RandomStream& random);
+  enum class Seat : std::uint8_t { kPresent, kAway, kReturning };
+  struct Given {
+    std::vector<Answer> answers;
+    std::vector<Verdict> verdicts;
+    friend bool operator==(const Given&, const Given&) = default;
+  };
+  struct Prepared;
+
+  void require_phase(SessionPhase phase, std::string_view what) const;
+  void require_seat(std::size_t member) const;
+  [[nodiscard]] Given judged(std::size_t member, std::vector<Answer> answers) const;
   [[nodiscard]] Verdict judge(const Test& test, const Answer& answer) const;
-  void conclude_period(bool all_correct);
+  [[nodiscard]] std::optional<Prepared> prepare(TeachingCache& cache, std::size_t component,
+                                                const TeamBelief& belief) const;
+  void describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) const;
+  [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
+  void conclude_period(bool learned);
 
   const Atlas* atlas_;
-  TeachingCache* cache_;
   TeachingOptions options_;
-  Strategy strategy_;
+  StrategyChoice choice_;
+  std::shared_ptr<const Strategy> strategy_;  // never changed in place, so copies may share it
   std::vector<RandomStream> persons_;
   std::vector<std::uint64_t> tie_breaks_;
   RandomStream teacher_;
   TeamBelief belief_;
 
   SessionStatus status_ = SessionStatus::kRunning;
-  std::size_t periods_ = 0;
+  SessionPhase phase_ = SessionPhase::kProposal;
   std::size_t component_ = 0;
   std::size_t correct_in_a_row_ = 0;
   std::vector<ComponentStatus> components_;
+  std::vector<Seat> seats_;
   VisitedDemos visited_;
-  ConstraintSet taught_before_;              // R_n at the end of the last learned component
-  ConstraintSet taught_with_unit_;           // R_n with the current unit
-  std::optional<Lesson> last_of_component_;  // the last lesson of the current component
+  std::vector<HalfSpace> taught_before_;     // R_n at the end of the last learned component
+  std::vector<HalfSpace> taught_with_unit_;  // R_n with the current unit
   Lesson lesson_;
+  std::vector<std::optional<Given>> pending_;  // answers to the current tests
+  Feedback feedback_;
+  std::vector<PastPeriod> history_;
+  std::vector<SessionEvent> events_;
 };
 
 }  // namespace kith

@@ -1,52 +1,111 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "kith/belief/team_belief.hpp"
+#include "kith/core/parameter.hpp"
+#include "kith/teaching/lesson.hpp"
+#include "kith/teaching/visited_demos.hpp"
 
 namespace kith {
 
-/// How a team is taught: whose belief the demonstrations are chosen for.
-enum class Strategy {
-  kBaseline,        ///< Everybody alone, one after the other: a sequence of one-person sessions.
-  kIndividualLow,   ///< For the member with the lowest knowledge of the current component.
-  kIndividualHigh,  ///< For the member with the highest.
-  kCommon,          ///< For what all members know.
-  kJoint,           ///< For what somebody knows.
+class UnitSelector;
+struct TeachingOptions;
+
+/// A completed interaction period.
+struct PastPeriod {
+  Lesson lesson;
+  std::vector<std::vector<Answer>> answers;  ///< Per member, per test; empty for a member who was away.
+  Feedback feedback;
+  friend bool operator==(const PastPeriod&, const PastPeriod&) = default;
 };
 
-/// The belief that a lesson was chosen for.
-struct SourceBelief {
-  enum class Kind { kMember, kCommon, kJoint };
-  Kind kind = Kind::kCommon;
-  std::size_t member = 0;  ///< Seat, if kind is kMember.
-  friend bool operator==(const SourceBelief&, const SourceBelief&) = default;
+/// What a strategy sees when it proposes a unit. It stays valid during the call only.
+struct TeachingView {
+  const Atlas& atlas;
+  const TeachingOptions& options;
+  const TeamBelief& belief;  ///< With the beliefs that StrategyKind::needs asked for; who is present is in it, too.
+  std::span<const PastPeriod> history;        ///< All completed periods.
+  const Lesson* last_of_component = nullptr;  ///< The last lesson of this component; null before its first.
+  std::span<const HalfSpace> taught_region;   ///< R_n at the end of the last learned component; minimal, sorted.
+  const VisitedDemos& visited;                ///< What was shown or asked before.
+  std::span<const std::uint64_t> tie_breaks;  ///< Per member, a hash of the address of the person's stream.
+  std::size_t period = 1;                     ///< The coming one: 1, 2, ...
+  std::size_t component = 0;                  ///< What is to be taught: index into Atlas::knowledge_components().
 };
 
-/// What a strategy may look at.
-struct TeamView {
-  std::span<const double>
-      knowledge;  ///< Per member: mass of the teacher's belief in the current region, at the end of the last period.
-  std::span<const std::uint64_t> tie_breaks;  ///< Per member: a hash of the person's stream address.
+/// What a strategy proposes to show next.
+struct UnitProposal {
+  SourceBelief source;
+  Unit unit;  ///< Without demonstrations if showing anything would be useless.
 };
 
-/// One row of the registry. Adding a strategy = one function, one row, one golden transcript.
-struct StrategyEntry {
-  Strategy strategy;
-  std::string_view name;  ///< As in files and on the command line.
-  std::string_view description;
-  TeamBeliefParts reads;  ///< The beliefs that choose() may return.
-  SourceBelief (*choose)(const TeamView& team);
+/// How a team is taught: chooses what is shown next. It may have a state of its own and may look ahead.
+///
+/// Laws, which the tests check for every kind in the registry: a proposal depends on nothing but the state, the view
+/// and the random stream, so that a session can be replayed; a clone proposes what the original would; members in other
+/// seats, with their streams, get the same proposals.
+class Strategy {
+ public:
+  Strategy() = default;
+  Strategy(const Strategy&) = default;
+  Strategy& operator=(const Strategy&) = default;
+  virtual ~Strategy() = default;
+
+  [[nodiscard]] virtual std::unique_ptr<Strategy> clone() const = 0;
+
+  /// The next unit for the component. If it is empty the last unit of the component is shown again or, if there was
+  /// none, the component is skipped. Called on a clone, which takes this object's place once the lesson is complete: if
+  /// anything throws, the session and its strategy stay as they were.
+  /// @param select  chooses demonstrations for a belief. @param random  the root of all that the strategy draws here.
+  [[nodiscard]] virtual UnitProposal propose(const TeachingView& view, UnitSelector& select, RandomStream random) = 0;
 };
 
-/// All strategies, in the order of the enumeration.
-[[nodiscard]] std::span<const StrategyEntry> strategies() noexcept;
-[[nodiscard]] const StrategyEntry& entry_of(Strategy strategy);
-[[nodiscard]] std::string_view name_of(Strategy strategy);
-[[nodiscard]] std::optional<Strategy> find_strategy(std::string_view name);
+/// Which beliefs a strategy reads, so that others need not be kept.
+struct TeamBeliefNeeds {
+  bool members = false;
+  std::vector<std::string> rules;  ///< Names of rules of aggregation.
+};
+
+/// A kind of strategy: one row of the registry, one file.
+struct StrategyKind {
+  std::string_view name;         ///< As in files and on the command line.
+  std::string_view description;  ///< What it does: "teach for ...".
+  TeamBeliefNeeds (*needs)(const ParameterValues& parameters);
+  std::unique_ptr<Strategy> (*make)(const ParameterValues& parameters);
+  std::span<const Parameter> parameters{};  ///< Keys of its table in a study file.
+};
+
+/// The built-in kinds, in the order of the documentation. Functions that look a strategy up take a list of kinds, so
+/// that programs can add kinds of their own.
+[[nodiscard]] std::span<const StrategyKind> strategy_kinds() noexcept;
+/// The kind with this name; null if there is none.
+[[nodiscard]] const StrategyKind* find_strategy_kind(std::string_view name,
+                                                     std::span<const StrategyKind> kinds = strategy_kinds()) noexcept;
+
+/// The baseline: everybody is taught alone, one after the other, in sessions of one person each.
+inline constexpr std::string_view kBaseline = "baseline";
+
+/// A strategy with its parameters, as a study or a session uses it.
+struct StrategyChoice {
+  std::string name;  ///< In tables: that of the kind or, with parameters of its own, what the study calls it.
+  StrategyKind kind;
+  ParameterValues parameters;
+
+  [[nodiscard]] bool is_baseline() const noexcept { return kind.name == kBaseline; }
+  /// The same strategy: equal names, kinds and parameters.
+  friend bool operator==(const StrategyChoice& a, const StrategyChoice& b) {
+    return a.name == b.name && a.kind.name == b.kind.name && a.parameters == b.parameters;
+  }
+};
+
+/// A kind with its default parameters. @throws std::invalid_argument if there is no such kind.
+[[nodiscard]] StrategyChoice strategy_named(std::string_view name,
+                                            std::span<const StrategyKind> kinds = strategy_kinds());
 
 }  // namespace kith

@@ -23,6 +23,8 @@ class VisitedDemos {
   /// In the order in which they were met.
   [[nodiscard]] std::span<const DemoIndex> in_order() const noexcept { return in_order_; }
 
+  friend bool operator==(const VisitedDemos&, const VisitedDemos&) = default;
+
  private:
   std::vector<bool> is_visited_;
   std::vector<DemoIndex> in_order_;

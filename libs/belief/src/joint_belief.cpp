@@ -1,0 +1,16 @@
+#include "aggregation_rules.hpp"
+
+namespace kith::detail {
+namespace {
+
+// The best alternative of all members' lists; an empty list fits everywhere.
+std::vector<std::size_t> observe_joint(ParticleBelief& belief, const TeamResponses& responses, RandomStream random) {
+  belief.observe_any(responses.lists, responses.likelihood, random);
+  return {};
+}
+
+}  // namespace
+
+const AggregationRule kJointRule{"joint", "what at least one member knows (union)", observe_joint};
+
+}  // namespace kith::detail

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kith/teaching/lesson.hpp"
+
+namespace kith {
+
+/// The teacher chose the next lesson, or found that there is none.
+struct LessonProposed {
+  friend bool operator==(const LessonProposed&, const LessonProposed&) = default;
+};
+/// Everybody present watched the demonstrations.
+struct LessonShown {
+  friend bool operator==(const LessonShown&, const LessonShown&) = default;
+};
+/// A member answered the tests, one answer per test in order.
+struct TestsAnswered {
+  std::size_t member = 0;  ///< Seat.
+  std::vector<Answer> answers;
+  friend bool operator==(const TestsAnswered&, const TestsAnswered&) = default;
+};
+/// No more answers are taken; who has not answered has no answers.
+struct TestsClosed {
+  friend bool operator==(const TestsClosed&, const TestsClosed&) = default;
+};
+/// Everybody present heard the feedback. The period ends.
+struct FeedbackGiven {
+  friend bool operator==(const FeedbackGiven&, const FeedbackGiven&) = default;
+};
+/// A member leaves.
+struct MemberLeft {
+  std::size_t member = 0;
+  friend bool operator==(const MemberLeft&, const MemberLeft&) = default;
+};
+/// A member who left is back and takes part from the next lesson on.
+struct MemberReturned {
+  std::size_t member = 0;
+  friend bool operator==(const MemberReturned&, const MemberReturned&) = default;
+};
+
+/// Everything that can happen to a session, see Session.
+using SessionEvent =
+    std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft, MemberReturned>;
+
+/// "lesson-proposed", "lesson-shown", "tests-answered", "tests-closed", "feedback-given", "member-left",
+/// "member-returned".
+[[nodiscard]] std::string_view name_of(const SessionEvent& event) noexcept;
+
+}  // namespace kith
