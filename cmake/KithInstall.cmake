@@ -20,7 +20,7 @@ if(TARGET kith)
       -P ${PROJECT_SOURCE_DIR}/cmake/WriteManual.cmake
     DEPENDS kith ${PROJECT_SOURCE_DIR}/cmake/WriteManual.cmake COMMENT "Writing the manual" VERBATIM)
   add_custom_target(kith_manual ALL DEPENDS ${pages})
-  install(FILES ${manual}/kith.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
   install(FILES ${manual}/kith.bash RENAME kith COMPONENT program
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   install(FILES ${manual}/_kith DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)

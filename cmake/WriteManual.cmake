@@ -1,6 +1,6 @@
 # cmake -D KITH=<program> -D OUTPUT_DIR=<folder> -P WriteManual.cmake
 #
-# The man page and the completions, from what the program says of itself, so that
+# The man pages (kith.1 and one per command) and the completions, from what the program says of itself, so that
 # neither can forget a command or an option.
 function(ask out)
   execute_process(COMMAND ${KITH} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
@@ -29,11 +29,31 @@ string(APPEND page ".SH NAME\nkith \\- teach a robot's policy to a group of peop
 foreach(name ${names})
   string(STRIP "${name}" name)
   ask(help help ${name})
-  verbatim(help "${help}")
+  # "usage: ...", a blank line, the summary up to the next blank line, and the rest.
+  if(NOT help MATCHES "^usage: ([^\n]*)\n\n(([^\n]+\n)+)\n(.*)$")
+    message(FATAL_ERROR "kith help ${name} has no usage and summary")
+  endif()
+  set(usage "${CMAKE_MATCH_1}")
+  set(summary "${CMAKE_MATCH_2}")
+  set(rest "${CMAKE_MATCH_4}")
+  string(REGEX REPLACE "[.]?\n+$" "" summary "${summary}")
+  string(REPLACE "\n" " " summary "${summary}")
+  string(REPLACE "-" "\\-" summary "${summary}")
+  verbatim(usage "${usage}\n")
+  verbatim(rest "${rest}")
   string(TOUPPER ${name} heading)
-  string(APPEND page ".SH KITH ${heading}\n${help}")
+  file(WRITE ${OUTPUT_DIR}/kith-${name}.1 ".TH KITH\\-${heading} 1 \"\" \"kith ${version}\" \"User Commands\"
+.SH NAME
+kith\\-${name} \\- ${summary}
+.SH SYNOPSIS
+${usage}.SH DESCRIPTION
+${rest}.SH SEE ALSO
+.BR kith (1)
+")
+  list(APPEND see_also ".BR kith\\-${name} (1)")
 endforeach()
-file(WRITE ${OUTPUT_DIR}/kith.1 "${page}")
+list(JOIN see_also "\n" see_also)
+file(WRITE ${OUTPUT_DIR}/kith.1 "${page}.SH SEE ALSO\n${see_also}\n")
 
 foreach(shell_and_file "bash kith.bash" "zsh _kith" "fish kith.fish")
   separate_arguments(shell_and_file)

@@ -10,6 +10,7 @@ namespace kith::cli {
 
 int run_validate(const ValidateOptions& options, Console& console);
 int run_inspect(const InspectOptions& options, Console& console);
+int run_explain(const ExplainOptions& options, Console& console);
 int run_init(const InitOptions& options, Console& console);
 int run_curriculum(const CurriculumCommandOptions& options, Console& console);
 int run_ask(const AskOptions& options, Console& console);

@@ -55,12 +55,16 @@ class CurriculumText {
     out_ += fmt::format("\n   Demonstration {}: world {}\n", j + 1, world.value());
     line(shown.reason, 3);
     out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
-    const auto parting = contrast.robot.states[contrast.decisive];
-    const auto where = domain_.has_map() ? "at " + cell_text(domain_, domain_.state(world, parting).robot)
-                                         : "in state '" + domain_.state_name(world, parting) + "'";
-    line("the robot: " + actions_text(domain_, contrast.robot.actions), 5);
-    line("expected instead: " + actions_text(domain_, contrast.alternative.actions), 5);
-    line(fmt::format("they part {} with step {}", where, contrast.decisive + 1), 5);
+    line("the robot: " + with_chance(world, contrast.robot), 5);
+    if (contrast.robot.actions == contrast.alternative.actions) {
+      line("someone missing this fact would predict the same likeliest path, with other chances", 5);
+    } else {
+      const auto fork = contrast.robot.states[contrast.decisive];
+      const auto where = domain_.has_map() ? "at " + cell_text(domain_, domain_.state(world, fork).robot)
+                                           : "in state '" + domain_.state_name(world, fork) + "'";
+      line("someone missing this fact would predict: " + with_chance(world, contrast.alternative), 5);
+      line(fmt::format("they differ from step {}, {}", contrast.decisive + 1, where), 5);
+    }
     if (shown.flip) {
       line(fmt::format("world {}: {}", atlas_.id(shown.flip->demo).mdp.value(),
                        flip_in_words(atlas_, contrast, *shown.flip)),
@@ -69,13 +73,18 @@ class CurriculumText {
     }
   }
 
+  [[nodiscard]] std::string with_chance(MdpIndex world, const Trajectory& path) const {
+    const auto chance = chance_in_words(domain_, world, path);
+    return actions_text(domain_, path.actions) + (chance.empty() ? "" : " (" + chance + ")");
+  }
+
   void test(std::size_t j, const CurriculumTest& test) {
     const auto id = atlas_.id(test.demo);
     const auto path = atlas_.trajectory(test.demo);
-    out_ += fmt::format("\n   Test {}: world {}, {} ({:.0f} % would know beforehand)\n", j + 1, id.mdp.value(),
-                        name_of(test.difficulty), 100.0 * test.share_right);
+    out_ += fmt::format("\n   Test {}: world {}, {} (about {:.0f} % would answer correctly before this lesson)\n",
+                        j + 1, id.mdp.value(), name_of(test.difficulty), 100.0 * test.share_right);
     out_ += start_and_path(domain_, id, path, 5);
-    line("answer: " + actions_text(domain_, path.actions), 5);
+    line("answer: " + with_chance(id.mdp, path), 5);
     for (const auto& half_space : test.covers) line("shows that " + in_words(domain_, half_space), 5);
   }
 
@@ -89,13 +98,13 @@ class CurriculumText {
 void write_page(const std::string& out, const Json& document, Console& console) {
   const auto page = render_report(document.dump(-1, ' ', true), detail::kLessonPage);
   if (out == "-") {
-    if (console.json()) throw Error{ErrorKind::kUsage, "--json and -o - would both print to standard output"};
+    if (console.json()) throw Error{ErrorKind::kUsage, "--json and '-o -' would both write to standard output"};
     console.print(page);
     return;
   }
   write_file_atomically(out, page);
   constexpr double kKilobyte = 1e3;
-  console.info(fmt::format("lesson in {} ({:.0f} kB); open it in a browser, it needs no network", out,
+  console.info(fmt::format("lesson in {} ({:.0f} kB); open it in a browser (no network needed)", out,
                            static_cast<double>(page.size()) / kKilobyte));
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "kith/present/wrapped.hpp"
+
 namespace kith::cli {
 namespace {
 
@@ -26,13 +28,16 @@ std::string left_column(const OptionDescription& option) {
 
 std::string right_column(const OptionDescription& option, std::size_t width, bool full) {
   const std::string next = "\n" + std::string(width, ' ');
-  std::string text = option.description;
-  if (!option.choices.empty()) text += next + "one of: " + joined(option.choices, ", ");
+  const auto lines = [&](const std::string& words) {
+    return wrapped(words, kTextWidth - width, std::string(width, ' '));
+  };
+  std::string text = lines(option.description);
+  if (!option.choices.empty()) text += next + lines("one of: " + joined(option.choices, ", "));
   if (!full) return text;
   std::vector<std::string> facts;
   if (!option.default_text.empty()) facts.push_back("default: " + option.default_text);
   if (!option.environment.empty()) facts.push_back("environment: " + option.environment);
-  if (!facts.empty()) text += next + "(" + joined(facts, "; ") + ")";
+  if (!facts.empty()) text += next + lines("(" + joined(facts, "; ") + ")");
   return text;
 }
 
@@ -52,7 +57,7 @@ constexpr const char* kExitCodes =
     "  1 internal error                   6 finished, but some teams failed\n"
     "  2 wrong command line               7 verification mismatch\n"
     "  3 invalid input file               8 another process uses this folder\n"
-    "  4 valid, but nothing can be done   130, 143 interrupted; the same command goes on\n";
+    "  4 valid, but nothing can be done   130, 143 interrupted; rerun to resume\n";
 
 }  // namespace
 
@@ -78,6 +83,7 @@ const std::vector<std::string>& examples_of(const std::string& command) {
       {"report", {"kith report results/paper", "kith report results/paper -o paper.html"}},
       {"fit",
        {"kith fit results/paper -o fit.json", "kith fit trials.csv --types 2", "kith fit results/paper --method grid"}},
+      {"explain", {"kith explain E0207", "kith explain --json"}},
       {"doctor", {"kith doctor", "kith doctor --json"}},
       {"completion",
        {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion zsh)"}},
@@ -109,16 +115,17 @@ std::string help_text(const std::vector<CommandDescription>& commands, bool full
       "  kith teach item-delivery --group NNP --strategy joint\n";
   if (full) {
     text +=
-        "\nEvery option can also be set in the environment, `--threads 2` as KITH_THREADS=2; the command line\n"
-        "wins over the environment, the environment over the study file. NO_COLOR turns colours off.\n\n";
+        "\nEvery option can also be set in the environment, `--threads 2` as KITH_THREADS=2.\n"
+        "The command line takes precedence over the environment, and the environment\n"
+        "over the study file. NO_COLOR turns colours off.\n\n";
     text += kExitCodes;
   }
-  return text + "\n`kith COMMAND -h` for a command's options, `kith COMMAND --help` for all about it.\n";
+  return text + "\n`kith COMMAND -h` for a command's options, `kith COMMAND --help` for details.\n";
 }
 
 std::string help_text(const CommandDescription& command, bool full) {
   constexpr std::size_t kFullWidth = 28;
-  std::string text = usage_line(command) + "\n" + command.summary + ".\n\nexamples:\n";
+  std::string text = usage_line(command) + "\n" + wrapped(command.summary + ".", kTextWidth) + "\n\nexamples:\n";
   for (const auto& example : command.examples) text += "  " + example + "\n";
   text += "\n";
   bool any_positional = false;

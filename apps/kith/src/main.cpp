@@ -64,6 +64,8 @@ int run(const Options& options, Console& console) {
       return run_bench(options.bench, console);
     case Command::kExport:
       return run_export(options.export_model, console);
+    case Command::kExplain:
+      return run_explain(options.explain, console);
     case Command::kPower:
       return run_power(options.power, console);
   }

@@ -57,7 +57,7 @@ void add_common(CLI::App& command, CommonOptions& common) {
   add_mode<ColorMode>(command, "--color", common.color, "Colours on a terminal", "WHEN",
                       {{"auto", ColorMode::kAuto}, {"always", ColorMode::kAlways}, {"never", ColorMode::kNever}});
   command.add_flag("-q,--quiet", common.quiet, "Only results and errors");
-  command.add_flag("-v,--verbose", common.verbosity, "Say more about what is done; twice: even more");
+  command.add_flag("-v,--verbose", common.verbosity, "Print more detail; repeat for more");
   for (auto* option : command.get_options()) {
     if (!option->get_lnames().empty()) option->envname(variable_of(option->get_lnames().front()));
   }
@@ -84,7 +84,7 @@ void add_inspect(CLI::App& app, Options& options) {
   takes_integer(*command.add_option("--mdp", options.inspect.mdp,
                                     "Number of the MDP to show (default: the last, with everything)"),
                 0);
-  command.add_flag("--all", options.inspect.all, "Do not cut long lists short");
+  command.add_flag("--all", options.inspect.all, "Do not shorten long lists");
   command.add_option("--svg", options.inspect.svg, "Write pictures to this folder: map, policy, region, coverage")
       ->type_name("DIR");
   add_common(command, options.common);
@@ -106,14 +106,14 @@ void add_curriculum(CLI::App& app, Options& options) {
   command.add_option("domain", curriculum.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
   command.add_option("-o,--out", curriculum.out, "Write one HTML page for a browser; '-' is standard output")
       ->type_name("FILE");
-  takes_integer(*command.add_option("--seed", curriculum.seed, "Root of all random streams")->capture_default_str(), 0);
+  takes_integer(*command.add_option("--seed", curriculum.seed, "Seed of all random streams")->capture_default_str(), 0);
   add_common(command, options.common);
 }
 
 void add_ask(CLI::App& app, Options& options) {
   auto& command = *app.add_subcommand("ask", "Answer a question about the robot with demonstrations");
   command.add_option("domain", options.ask.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
-  command.add_option("question", options.ask.question, "Begins with when, where, why or what")
+  command.add_option("question", options.ask.question, "Begins with when, where, why, what or how much")
       ->required()
       ->type_name("QUESTION");
   add_common(command, options.common);
@@ -146,7 +146,7 @@ void add_teach(CLI::App& app, Options& options) {
                        ->capture_default_str(),
                   "NAME", names);
   auto* seed =
-      &takes_integer(*command.add_option("--seed", teach.seed, "Root of all random streams")->capture_default_str(), 0);
+      &takes_integer(*command.add_option("--seed", teach.seed, "Seed of all random streams")->capture_default_str(), 0);
   auto* study = command.add_option("--study", teach.study, "Built-in study or file with the learner types")
                     ->capture_default_str()
                     ->type_name("STUDY");
@@ -173,7 +173,7 @@ void add_shard(CLI::App& command, ShardOption& shard) {
   command
       .add_option_function<std::string>(
           "--shard", [&shard](const std::string& text) { shard = *shard_of(text); },
-          "Run part I of N, to be put together by kith merge")
+          "Run part I of N; kith merge combines the parts")
       ->check([](const std::string& text) {
         return shard_of(text) ? "" : "must be I/N, such as 2/7, with I from 1 to N, not '" + text + "'";
       })
@@ -186,7 +186,7 @@ void add_study(CLI::App& app, Options& options) {
   command.add_option("study", study.study, "Built-in study or file; '-' is standard input")
       ->required()
       ->type_name("STUDY");
-  command.add_option("-o,--out", study.out, "Run folder to make or to bring up to date")->type_name("DIR");
+  command.add_option("-o,--out", study.out, "Run folder to create or to update")->type_name("DIR");
   takes_integer(*command.add_option("-j,--threads", study.threads,
                                     "Worker threads (default: one per core); never changes a result"),
                 1, 1024);
@@ -194,14 +194,13 @@ void add_study(CLI::App& app, Options& options) {
   command.add_option("--set", study.set, "Set a key of the study (may be repeated)")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command.add_flag("--dry-run", study.dry_run, "Say what would be run, and run nothing");
+  command.add_flag("--dry-run", study.dry_run, "Print what would be run, and run nothing");
   command.add_flag("--yes", study.yes, "Replace the results of a different study in the run folder");
-  add_mode<ResumeMode>(command, "--resume", study.resume, "Go on with what the run folder holds of the same study",
-                       "WHEN",
+  add_mode<ResumeMode>(command, "--resume", study.resume, "Whether to resume an earlier run", "WHEN",
                        {{"auto", ResumeMode::kAuto}, {"never", ResumeMode::kNever}, {"require", ResumeMode::kRequire}});
   add_shard(command, study.shard);
   auto* keep_going =
-      command.add_flag("--keep-going", study.keep_going, "Go on after a team that fails; exit 6 at the end");
+      command.add_flag("--keep-going", study.keep_going, "Continue after a team fails; exit 6 at the end");
   command.add_flag("--fail-fast")->description("Stop at the first team that fails (the default)")->excludes(keep_going);
   add_mode<ProgressMode>(command, "--progress", study.progress, "How to show progress, on stderr", "HOW",
                          {{"auto", ProgressMode::kAuto},
@@ -307,7 +306,7 @@ void add_fit(CLI::App& app, Options& options) {
   takes_integer(*command.add_option("--replicates", fit.replicates, "Runs of the particle filter per person")
                      ->capture_default_str(),
                 1, 1000);
-  takes_integer(*command.add_option("--seed", fit.seed, "Root of all random streams")->capture_default_str(), 0);
+  takes_integer(*command.add_option("--seed", fit.seed, "Seed of all random streams")->capture_default_str(), 0);
   takes_integer(*command.add_option("-j,--threads", fit.threads,
                                     "Worker threads (default: one per core); never changes a result"),
                 1, 1024);
@@ -389,7 +388,7 @@ void add_merge(CLI::App& app, Options& options) {
   auto& merge = options.merge;
   auto& command = *app.add_subcommand("merge", "Put the shards of a study together and write its tables");
   command.add_option("folders", merge.folders, "Run folders of all shards, in any order")->required()->type_name("DIR");
-  command.add_option("-o,--out", merge.out, "Run folder to make or to bring up to date")->type_name("DIR");
+  command.add_option("-o,--out", merge.out, "Run folder to create or to update")->type_name("DIR");
   command.add_flag("--yes", merge.yes, "Replace the results of a different study in the run folder");
   command.add_flag(
       "--allow-partial", merge.allow_partial,
@@ -408,15 +407,15 @@ void add_export(CLI::App& app, Options& options) {
       .add_option("-o,--out", model.out,
                   "File to write (default: '-', stdout), or with prism what the names of all files begin with")
       ->type_name("FILE");
-  command.add_flag("--yes", model.yes, "Replace files that are there");
+  command.add_flag("--yes", model.yes, "Replace existing files");
   add_common(command, options.common);
 }
 
 void add_bench(CLI::App& app, Options& options) {
   auto& bench = options.bench;
-  auto& command = *app.add_subcommand("bench", "Time kernels and whole studies, against rivals and a saved baseline");
+  auto& command = *app.add_subcommand("bench", "Time kernels and studies, against rivals and a saved baseline");
   command.add_flag("--quick", bench.quick, "A few seconds: fewer samples, every study once");
-  command.add_option("--filter", bench.filter, "Only names that hold this; '*' is any text, '|' means or")
+  command.add_option("--filter", bench.filter, "Only names that contain this; '*' matches any text, '|' means or")
       ->type_name("PATTERN");
   auto* save =
       command.add_option("--save", bench.save, "Write the figures to this file, as a baseline")->type_name("FILE");
@@ -428,9 +427,9 @@ void add_bench(CLI::App& app, Options& options) {
       ->needs(baseline)
       ->check([](const std::string& text) { return wrong_fraction(text); })
       ->type_name("P");
-  auto* growth = command.add_flag("--growth", bench.growth, "How cost grows with the sizes of studies and domains");
+  auto* growth = command.add_flag("--growth", bench.growth, "How cost grows with the size of studies and domains");
   growth->excludes(save)->excludes(baseline);
-  command.add_flag("--list", bench.list, "Say what would be timed and who the rivals are; time nothing");
+  command.add_flag("--list", bench.list, "List the cases and their rivals; time nothing");
   takes_integer(*command.add_option("-j,--threads", bench.threads, "Threads of whole studies (default: one per core)"),
                 1, 1024);
   command.add_flag("--yes", bench.yes, "Replace the file of --save if there is one");
@@ -438,8 +437,14 @@ void add_bench(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_explain(CLI::App& app, Options& options) {
+  auto& command = *app.add_subcommand("explain", "Say what an error or warning id means");
+  command.add_option("id", options.explain.id, "The id, such as E0207; without one, all are listed")->type_name("ID");
+  add_common(command, options.common);
+}
+
 void add_others(CLI::App& app, Options& options) {
-  auto& doctor = *app.add_subcommand("doctor", "Check that this machine runs kith as it should");
+  auto& doctor = *app.add_subcommand("doctor", "Check that this machine can run kith");
   add_common(doctor, options.common);
   auto& completion = *app.add_subcommand("completion", "Print a shell's completion script");
   takes_word(*completion.add_option("shell", options.completion.shell, "The shell")->required(), "SHELL",
@@ -473,6 +478,7 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_fit(*app, options);
   add_bench(*app, options);
   add_export(*app, options);
+  add_explain(*app, options);
   add_others(*app, options);
   return app;
 }
@@ -485,7 +491,8 @@ Command command_of(const std::string& name) {
       {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower},
       {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge},
       {"export", Command::kExport},   {"bench", Command::kBench},         {"curriculum", Command::kCurriculum},
-      {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind}};
+      {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind},
+      {"explain", Command::kExplain}};
   return kCommands.at(name);
 }
 

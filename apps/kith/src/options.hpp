@@ -28,7 +28,8 @@ enum class Command {
   kCurriculum,
   kAsk,
   kFind,
-  kInit
+  kInit,
+  kExplain
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -217,6 +218,10 @@ struct InitOptions {
   std::string template_name = "item-delivery";
 };
 
+struct ExplainOptions {
+  std::string id;  ///< "E0207"; empty: list all.
+};
+
 /// One command line, understood.
 struct Options {
   Command command = Command::kVersion;
@@ -240,6 +245,7 @@ struct Options {
   AskOptions ask;
   FindOptions find;
   InitOptions init;
+  ExplainOptions explain;
 };
 
 /// What `kith inspect --show` can show.

@@ -28,9 +28,27 @@ class RowsReader {
   }
 
  private:
+  // A character outside ASCII is several bytes, so lengths cannot be compared before it is mended.
+  bool has_other_characters(const TomlArray& rows) {
+    constexpr unsigned char kLastAscii = 0x7F;
+    bool found = false;
+    for (const TomlValue& row : rows) {
+      if (row.string() == nullptr) continue;
+      const auto& text = *row.string();
+      const auto other =
+          std::find_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) > kLastAscii; });
+      if (other == text.end()) continue;
+      found = true;
+      report_.error("E0203", report_.document().inside(row, static_cast<std::size_t>(other - text.begin())),
+                    "this row contains a character outside ASCII", "use one ASCII character per cell");
+    }
+    return found;
+  }
+
   bool check_shape(const TomlValue& value, const TomlArray& rows) {
     const std::size_t errors_before = report_.num_errors();
     if (rows.empty()) report_.error("E0201", value.place(), "the map has no rows");
+    if (has_other_characters(rows)) return false;
     for (const TomlValue& row : rows) {
       if (!read_string(row, "a row of the map", report_)) continue;
       const std::size_t width = rows.front().string() == nullptr ? 0 : rows.front().string()->size();

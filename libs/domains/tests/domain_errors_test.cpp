@@ -108,6 +108,12 @@ std::vector<Case> cases() {
       // E02
       {"no_rows", {{"[\"S.rG\"]", "[]"}}, "E0201 6:8"},
       {"empty_row", {{"[\"S.rG\"]", "[\"\"]"}}, "E0201 6:9"},
+      {"beyond_ascii",
+       {{"[\"S.rG\"]",
+         "[\"S.\xC3\xA4"
+         "G\", \"....\"]"}},
+       "E0203 6:12",
+       "one ASCII character per cell"},
       {"ragged", {{"[\"S.rG\"]", "[\"S.rG\", \"...\"]"}}, "E0202 6:17", "one length"},
       {"undeclared", {{"S.rG", "S?rG"}}, "E0203 6:11", "'.'"},
       {"undeclared_twice", {{"S.rG", "S??G"}}, "E0203 6:11, W0201 10:1"},

@@ -66,7 +66,17 @@ std::string reason(const Domain& domain, const Contrast& contrast) {
   if (domain.is_exact()) return reason(domain, contrast.robot_counts, contrast.alternative_counts);
   const auto conveyed = conveyed_by(domain, contrast);
   if (!conveyed) throw std::invalid_argument{"reason: both paths are worth the same"};
-  return in_words(domain, *conveyed);
+  return on_average_in_words(domain, contrast.robot_counts - contrast.alternative_counts) + ": " +
+         in_words(domain, *conveyed);
+}
+
+bool is_detour(const Domain& domain, const Contrast& contrast) {
+  const auto more = contrast.alternative_counts - contrast.robot_counts;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    const bool is_cost = domain.weights().integer[k] < 0;
+    if (is_cost ? more[k] < 0 : more[k] > 0) return false;
+  }
+  return true;
 }
 
 namespace {

@@ -23,7 +23,7 @@ Error nothing_to_teach(const Atlas& atlas, const std::string& why) {
   Diagnostic diagnostic;
   diagnostic.id = "E1101";
   diagnostic.message = "nothing about '" + atlas.domain().id() + "' can be taught: " + why;
-  diagnostic.hint = "give the robot a choice: worlds in which other weights would make it do something else";
+  diagnostic.hint = "add worlds in which other weights would lead to another path";
   diagnostic.infeasible = true;
   return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
 }
@@ -75,7 +75,7 @@ class CurriculumMaker {
     for (; next < atlas_.knowledge_components().size(); ++next) skip(next);
     if (curriculum_.components.empty()) {
       require_something_to_teach(atlas_);
-      throw nothing_to_teach(atlas_, "no demonstration tells people more than they know beforehand");
+      throw nothing_to_teach(atlas_, "no demonstration tells people anything that they do not know beforehand");
     }
     return std::move(curriculum_);
   }
@@ -181,11 +181,11 @@ class CurriculumMaker {
   [[nodiscard]] std::string why_skipped(std::size_t component) const {
     const auto& skipped = atlas_.knowledge_components()[component];
     const bool has_worlds = std::find(skipped.uses_mdp.begin(), skipped.uses_mdp.end(), true) != skipped.uses_mdp.end();
-    if (!has_worlds) return "every world has more than it weighs";
+    if (!has_worlds) return "no world has only the features that it weighs";
     const auto constraints = atlas_.constraints().half_spaces(skipped.constraints);
-    if (implied_by(atlas_.domain().prior(), constraints)) return "all of it is known beforehand";
-    if (implied_by(known_, constraints)) return "what was taught before tells all of it";
-    return "no demonstration tells more about it than those before";
+    if (implied_by(atlas_.domain().prior(), constraints)) return "everybody knows it beforehand";
+    if (implied_by(known_, constraints)) return "already implied by earlier parts";
+    return "no further demonstration adds to the earlier ones";
   }
 
   const Atlas& atlas_;
@@ -202,12 +202,12 @@ void require_something_to_teach(const Atlas& atlas) {
   if (implied_by(domain.prior(), atlas.policy_bec_half_spaces())) {
     std::vector<std::string> known;
     for (const auto& half_space : domain.prior()) known.push_back(in_words(domain, half_space));
-    throw nothing_to_teach(
-        atlas, known.empty() ? "the robot does the same whatever its reward"
-                             : "whoever knows beforehand that " + listed(known) + " expects all that the robot does");
+    throw nothing_to_teach(atlas, known.empty() ? "the robot does the same with any reward"
+                                                : "anybody who knows beforehand that " + listed(known) +
+                                                      " predicts everything that the robot does");
   }
   if (atlas.is_tabulated() && atlas.coverage().max == 1) {
-    throw nothing_to_teach(atlas, "in every world, all who expect the robot to finish expect the same of it");
+    throw nothing_to_teach(atlas, "in every world, everybody who expects the robot to finish predicts the same path");
   }
 }
 
@@ -237,7 +237,7 @@ std::string component_in_words(const Atlas& atlas, std::size_t component) {
     if (std::find(parts.begin(), parts.end(), names[k]) != parts.end()) things.push_back(words);
     if (std::find(all.begin(), all.end(), names[k]) == all.end()) reference = words;
   }
-  return listed(things) + " against " + reference;
+  return listed(things) + " versus " + reference;
 }
 
 Curriculum make_curriculum(const Atlas& atlas, const CurriculumOptions& options) {

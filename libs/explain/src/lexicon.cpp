@@ -43,16 +43,38 @@ std::string stem(std::string word) {
 
 const std::set<std::string>& filler_words() {
   static const std::set<std::string> kWords{
-      "a",       "an",     "the",     "it",    "its",    "he",      "she",    "robot", "does",   "do",
-      "did",     "is",     "are",     "be",    "will",   "would",   "should", "could", "can",    "may",
-      "there",   "then",   "to",      "of",    "in",     "at",      "on",     "from",  "for",    "by",
-      "than",    "go",     "goes",    "going", "move",   "moves",   "take",   "takes", "taking", "make",
-      "makes",   "happen", "happens", "this",  "that",   "one",     "n",      "times", "were",   "was",
-      "if",      "or",     "tell",    "me",    "show",   "please",  "ever",   "here",  "any",    "some",
-      "exactly", "about",  "start",   "cell",  "choose", "chooses", "use",    "uses",  "using",  "have",
-      "has",     "when",   "where",   "why",   "what",   "you",     "i",      "their"};
+      "a",       "an",      "the",    "it",     "its",     "he",     "she",    "robot",   "does",    "do",
+      "did",     "is",      "are",    "be",     "will",    "would",  "should", "could",   "can",     "may",
+      "there",   "then",    "to",     "of",     "in",      "at",     "on",     "from",    "for",     "by",
+      "go",      "goes",    "going",  "move",   "moves",   "take",   "takes",  "taking",  "make",    "makes",
+      "happen",  "happens", "this",   "that",   "one",     "n",      "times",  "were",    "was",     "if",
+      "or",      "tell",    "me",     "show",   "please",  "ever",   "here",   "any",     "some",    "exactly",
+      "about",   "start",   "cell",   "choose", "chooses", "use",    "uses",   "using",   "have",    "has",
+      "when",    "where",   "why",    "what",   "you",     "i",      "their",  "over",    "through", "across",
+      "into",    "onto",    "along",  "toward", "towards", "walk",   "walks",  "drive",   "drives",  "travel",
+      "travels", "turn",    "turns",  "head",   "heads",   "rather", "prefer", "prefers", "moving",  "walking",
+      "driving", "turning", "worlds", "way",    "many",    "how",    "try",    "tries",   "decide",  "decides"};
   return kWords;
 }
+
+namespace {
+
+// Words that people use for each other. Where a domain knows one of a row, it understands the others.
+const std::vector<std::vector<std::string>>& synonyms() {
+  static const std::vector<std::vector<std::string>> kRows{{"recharge", "charge", "charger", "refuel", "battery"},
+                                                           {"up", "north", "upward", "upwards"},
+                                                           {"down", "south", "downward", "downwards"},
+                                                           {"left", "west", "leftward", "leftwards"},
+                                                           {"right", "east", "rightward", "rightwards"},
+                                                           {"pickup", "pick", "collect", "grab", "fetch", "load"},
+                                                           {"dropoff", "drop", "deliver", "unload", "put", "drop-off"},
+                                                           {"exit", "leave", "finish"},
+                                                           {"cross", "traverse", "enter"},
+                                                           {"wait", "stay", "stop", "pause"}};
+  return kRows;
+}
+
+}  // namespace
 
 Lexicon::Lexicon(const Domain& domain) : domain_{domain} {
   const auto d = domain.num_features();
@@ -88,25 +110,45 @@ bool Lexicon::is_item(const std::string& stem_of_word) const {
   return std::any_of(items.begin(), items.end(), [&](const auto& item) { return stem(item) == stem_of_word; });
 }
 
+bool Lexicon::is_only_item(const std::string& word) const {
+  return is_item(stem(word)) && meanings_.count(known_stem(word)) == 0;
+}
+
+bool Lexicon::has_action(const std::string& name) const {
+  const auto& names = domain_.action_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string Lexicon::known_stem(const std::string& word) const {
+  const auto own = stem(word);
+  if (meanings_.count(own) != 0) return own;
+  for (const auto& row : synonyms()) {
+    if (std::none_of(row.begin(), row.end(), [&](const auto& other) { return stem(other) == own; })) continue;
+    for (const auto& other : row) {
+      if (meanings_.count(stem(other)) != 0) return stem(other);
+    }
+  }
+  return own;
+}
+
 bool Lexicon::knows(const std::string& word) const {
-  // "pick up", "puts down" and "drop off" are two words for one action.
-  const auto known = stem(word);
-  if (is_item(known)) return true;
-  return meanings_.count(known) != 0 || known == "pick" || known == "drop" || known == "off" || known == "put";
+  // "drop off" is two words for one action.
+  if (stem(word) == "off" && has_action("dropoff")) return true;
+  return is_item(stem(word)) || meanings_.count(known_stem(word)) != 0;
 }
 
 std::vector<Happening> Lexicon::happenings(const std::vector<std::string>& words) const {
   std::vector<std::string> stems;
-  // "pick up the parcel": what is picked up is clear without saying.
-  for (const auto& word : words) {
-    if (!is_item(stem(word)) || meanings_.count(stem(word)) != 0) stems.push_back(stem(word));
+  for (const auto& word : words) stems.push_back(known_stem(word));
+  // "pick up the parcel", "put it down", "drop the parcel off": what is carried is clear without saying.
+  const bool takes = has_action("pickup") && stems.front() == stem("pickup");
+  const bool leaves = has_action("dropoff") && stems.front() == stem("dropoff");
+  if (takes || leaves) {
+    const auto says_nothing = [&](const std::string& word) {
+      return is_item(word) || (takes && word == "up") || (leaves && (word == "off" || word == "down"));
+    };
+    stems.erase(std::remove_if(stems.begin() + 1, stems.end(), says_nothing), stems.end());
   }
-  const auto says = [&](const char* first, const char* second) {
-    return stems.size() >= 2 && stems[0] == first && stems[1] == second;
-  };
-  if (stems.size() > 1 && (stems.front() == stem("pickup") || stems.front() == stem("dropoff"))) stems.resize(1);
-  if (says("pick", "up")) stems = {stem("pickup")};
-  if (says("drop", "off") || says("put", "down")) stems = {stem("dropoff")};
 
   std::optional<std::set<std::size_t>> common;
   for (const auto& word : stems) {

@@ -13,7 +13,7 @@ namespace kith::detail {
 // The part of a word that its forms share: "recharg" of "recharges" and "recharging".
 [[nodiscard]] std::string stem(std::string word);
 
-// Words that may stand in a question anywhere and say nothing.
+// Words that may stand anywhere in a question and add nothing to it.
 [[nodiscard]] const std::set<std::string>& filler_words();
 
 // What people can name in one domain, in any form of the word.
@@ -22,6 +22,8 @@ class Lexicon {
   explicit Lexicon(const Domain& domain);
 
   [[nodiscard]] bool knows(const std::string& word) const;
+  // Whether a word names something to carry and no action or feature.
+  [[nodiscard]] bool is_only_item(const std::string& word) const;
   // What words together name: what every one of them can mean. A whole name wins over words about it.
   [[nodiscard]] std::vector<Happening> happenings(const std::vector<std::string>& words) const;
   [[nodiscard]] std::string name_of(const Happening& happening) const;
@@ -37,6 +39,9 @@ class Lexicon {
  private:
   [[nodiscard]] bool is_item(const std::string& stem_of_word) const;
   void add_words(const std::string& text, std::size_t feature);
+  [[nodiscard]] bool has_action(const std::string& name) const;
+  // The stem of a word, or of a synonym that the domain has where it does not have the word itself.
+  [[nodiscard]] std::string known_stem(const std::string& word) const;
 
   const Domain& domain_;
   std::map<std::string, std::set<std::size_t>> meanings_;  // by stem; features, then actions

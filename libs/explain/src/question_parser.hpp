@@ -30,9 +30,10 @@ struct WorldCondition {
 };
 
 struct Question {
-  enum class Kind { kWhen, kWhere, kWhy, kWhatIf, kWhat };
+  enum class Kind { kWhen, kWhere, kWhy, kWhatIf, kWhat, kHowMuch };
   Kind kind = Kind::kWhen;
   std::optional<Happening> happening, instead;
+  bool negated = false;  // of kWhen and kWhere: that the happening does not happen
   std::vector<WorldCondition> conditions;
   std::optional<Cell> cell;            // where the robot is, in domains with a map
   std::optional<std::string> state;    // what the robot's state is called, in domains without one

@@ -48,9 +48,12 @@ class Comparison {
       return taken_.costs.empty() ? "it would rather " + verbs(taken_.gains) + " than not"
                                   : "it will " + verbs(taken_.costs) + " to " + verbs(taken_.gains);
     }
-    if (taken_.empty() && spared_.gains.empty()) return "it would rather not " + verbs(spared_.costs);
+    if (taken_.empty() && spared_.gains.empty()) return "it would rather " + neither(spared_.costs);
     if (taken_.empty()) {
       return "it would rather do without " + nouns(spared_.gains) + " than " + verbs(spared_.costs);
+    }
+    if (taken_.costs.empty() && spared_.gains.empty()) {  // better in everything
+      return "it would rather " + verbs(taken_.gains) + ", which also saves " + saved(spared_.costs);
     }
     if (!taken_.costs.empty() && !taken_.gains.empty() && spared_.costs.empty()) {
       return "it will " + verbs(taken_.costs) + " to " + verbs(taken_.gains) + " rather than " + verbs(spared_.gains);
@@ -64,12 +67,30 @@ class Comparison {
                                   : "it accepts " + nouns(taken_.costs) + " for " + nouns(taken_.gains);
     }
     if (taken_.empty() && spared_.gains.empty()) return "it avoids " + nouns(spared_.costs);
+    if (taken_.costs.empty() && spared_.gains.empty()) {
+      return "it chooses " + nouns(taken_.gains) + ", which also saves " + saved(spared_.costs);
+    }
     if (taken_.empty()) return "it does without " + nouns(spared_.gains) + " to avoid " + nouns(spared_.costs);
     if (!taken_.costs.empty() && !taken_.gains.empty() && spared_.costs.empty()) {
       return "it accepts " + nouns(taken_.costs) + " for " + nouns(taken_.gains) + " rather than " +
              nouns(spared_.gains);
     }
     return "it prefers " + joined_nouns(taken_, " with ") + " to " + joined_nouns(spared_, " for ");
+  }
+
+  // "not cross mud", "neither cross mud nor take 2 more steps": "not cross mud and take 2 more steps" could also mean
+  // that it takes them.
+  [[nodiscard]] std::string neither(const std::vector<Surplus>& all) const {
+    if (all.size() == 1) return "not " + verbs(all);
+    const std::vector<Surplus> first{all.begin(), all.end() - 1};
+    std::string text = "neither";
+    for (const auto& one : first) text += (text.size() > 7 ? ", " : " ") + verbs({one});
+    return text + " nor " + verbs({all.back()});
+  }
+  // "2 steps" also where the other path has "2 more steps".
+  [[nodiscard]] std::string saved(std::vector<Surplus> all) const {
+    for (auto& one : all) one.more = false;
+    return nouns(all);
   }
 
   // For either form, behind "may as well": "take 2 more steps", "do without eating a crumb", "accept 2 more steps".

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "deviation.hpp"
 #include "kith/bec/behaviours.hpp"
@@ -75,7 +77,7 @@ DemoIndex Scene::needed_start(MdpIndex world) const {
        "the robot is never " +
            (question_.carried ? "carrying " + domain_.item_names()[*question_.carried] + " " : std::string{}) + "at " +
            cell_text(domain_, *question_.cell) + " in world " + std::to_string(world.value()),
-       "a wall may stand there, or the episode end there");
+       "there may be a wall, or the episode ends there");
 }
 
 bool Scene::is_at(MdpIndex world, StateIndex s, ActionIndex a, const Happening& happening) const {
@@ -106,10 +108,61 @@ std::optional<Contrast> Scene::contrast_to(DemoIndex demo, const Happening& happ
     });
   }
   const auto admits = [&](const Contrast& other) {
-    return step_of(world, other.alternative, happening).has_value() == happens;
+    if (domain_.is_exact() || happening.action)
+      return step_of(world, other.alternative, happening).has_value() == happens;
+    const auto more = other.alternative_counts[happening.feature] - other.robot_counts[happening.feature];
+    return happens ? more > 0 : more < 0;
   };
   if (auto best = best_way(demo, admits)) return best;
-  return happening.action ? std::nullopt : way_of_others(demo, happening, happens);
+  if (!happening.action) {
+    if (auto best = way_of_others(demo, happening, happens)) return best;
+  }
+  return any_best_way(demo, admits);
+}
+
+std::optional<double> Scene::chance_of(DemoIndex demo, const Happening& happening) const {
+  constexpr std::size_t kMostStates = 20'000;
+  constexpr std::size_t kMostSweeps = 10'000;
+  constexpr double kAccuracy = 1e-9;
+  const auto world = atlas_.id(demo).mdp;
+  const auto& mdp = domain_.mdp(world);
+  // What the robot does in each state that it can reach.
+  struct Visit {
+    const Choice* choice = nullptr;
+    double chance = 0.0;
+  };
+  std::map<StateIndex, Visit> visits;
+  std::vector<StateIndex> open{atlas_.id(demo).start};
+  while (!open.empty()) {
+    const auto s = open.back();
+    open.pop_back();
+    if (mdp.is_terminal(s) || visits.count(s) != 0) continue;
+    if (visits.size() == kMostStates) return std::nullopt;
+    const auto action = atlas_.trajectory(atlas_.index({world, s})).actions.front();
+    const auto choices = mdp.choices(s);
+    const auto choice = std::ranges::find(choices, action, &Choice::action);
+    visits[s].choice = &*choice;
+    if (question_.is_about_a_step()) continue;
+    for (const auto& outcome : mdp.outcomes(*choice)) open.push_back(outcome.next);
+  }
+  const auto happens_with = [&](const Choice& choice, const Outcome& outcome) {
+    return happening.action ? *happening.action == choice.action : mdp.features(outcome)[happening.feature] != 0.0;
+  };
+  double change = 1.0;
+  for (std::size_t sweep = 0; sweep < kMostSweeps && change > kAccuracy; ++sweep) {
+    change = 0.0;
+    for (auto& [s, visit] : visits) {
+      double chance = 0.0;
+      for (const auto& outcome : mdp.outcomes(*visit.choice)) {
+        const auto next = visits.find(outcome.next);
+        const double later = next == visits.end() ? 0.0 : next->second.chance;
+        chance += outcome.probability * (happens_with(*visit.choice, outcome) ? 1.0 : later);
+      }
+      change = std::max(change, std::abs(chance - visit.chance));
+      visit.chance = chance;
+    }
+  }
+  return visits.at(atlas_.id(demo).start).chance;
 }
 
 namespace {
@@ -179,11 +232,12 @@ void Scene::check_possible(DemoIndex demo, const Happening& happening) const {
     if (is_at(world, start, choice.action, happening)) return;
   }
   fail(text_, happening.place, "E1107", name_of(happening) + " is not possible " + place_text(demo),
-       "it would change nothing, or is forbidden");
+       "it would change nothing there, or is not allowed");
 }
 
 std::optional<Contrast> Scene::best_step(DemoIndex demo) const {
-  return best_deviation(atlas_, demo, 0, 1, [](const Contrast&) { return true; });
+  auto best = best_deviation(atlas_, demo, 0, 1, [&](const Contrast& other) { return !is_detour(domain_, other); });
+  return best ? best : best_deviation(atlas_, demo, 0, 1, [](const Contrast&) { return true; });
 }
 
 }  // namespace kith::detail

@@ -29,7 +29,11 @@ class Scene {
   // The step of a path at which it happens. With a cell only the first step counts.
   [[nodiscard]] std::optional<std::size_t> step_of(MdpIndex world, const Trajectory& path,
                                                    const Happening& happening) const;
-  // The best path on which it happens, or does not, in contrast to the robot's.
+  // The chance that it happens at all from there on (with a cell: with the next step) under the robot's policy, in [0,
+  // 1]; 0 or 1 where chance has no part in it. Nothing where that takes too long.
+  [[nodiscard]] std::optional<double> chance_of(DemoIndex demo, const Happening& happening) const;
+  // The best path on which it happens, or does not (where chance has a part: on average more or less often), in
+  // contrast to the robot's; one that is no detour if there is any.
   [[nodiscard]] std::optional<Contrast> contrast_to(DemoIndex demo, const Happening& happening, bool happens) const;
   // "world 3", in models with the MDP's name.
   [[nodiscard]] std::string name_of(MdpIndex world) const;
@@ -42,10 +46,15 @@ class Scene {
   // The best other way among those that `admits` accepts: what somebody could expect, or without tables one other step
   // anywhere on the robot's path.
   template <typename Predicate>
-  [[nodiscard]] std::optional<Contrast> best_way(DemoIndex demo, const Predicate& admits) const {
+  [[nodiscard]] std::optional<Contrast> any_best_way(DemoIndex demo, const Predicate& admits) const {
     constexpr auto kAnywhere = std::numeric_limits<std::size_t>::max();
     return atlas_.is_tabulated() ? best_contrast(atlas_, demo, admits)
                                  : best_deviation(atlas_, demo, 0, kAnywhere, admits);
+  }
+  // The same among those that are no detour.
+  template <typename Predicate>
+  [[nodiscard]] std::optional<Contrast> best_way(DemoIndex demo, const Predicate& admits) const {
+    return any_best_way(demo, [&](const Contrast& other) { return !is_detour(domain_, other) && admits(other); });
   }
 
  private:

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <optional>
 #include <utility>
 
 namespace kith {
@@ -176,45 +178,72 @@ std::string in_general(const Wording& wording) {
 
 namespace {
 
-// Normals of expectations are long: to people, one of small numbers that points almost the same way. The smallest entry
-// becomes the first of 1 to 8 with which all entries are within two percent, or the best of them; entries below half a
-// percent of the largest are left out.
-IntegerVector readable(const IntegerVector& normal) {
-  constexpr std::int64_t kLong = 1000;
-  constexpr double kClose = 0.02;
-  constexpr double kNothing = 0.005;
-  double longest = 0.0;
-  for (const auto entry : normal) longest = std::max(longest, std::abs(static_cast<double>(entry)));
-  if (longest <= static_cast<double>(kLong)) return normal;
-  double smallest = longest;
-  for (const auto entry : normal) {
-    const double size = std::abs(static_cast<double>(entry));
-    if (size >= kNothing * longest) smallest = std::min(smallest, size);
+// n * multiple / unit for n >= 0, rounded towards nothing or away from it.
+std::int64_t scaled(std::int64_t n, std::int64_t multiple, std::int64_t unit, bool up) {
+  const Int128 product = Int128{n} * multiple;
+  return static_cast<std::int64_t>((product + (up ? unit - 1 : 0)) / unit);
+}
+
+// A sentence of small numbers that follows from a constraint, and how much weaker it is: the share of what both sides
+// weigh to the robot.
+struct Rounding {
+  IntegerVector normal;
+  double slack = 0.0;
+};
+
+// Numbers in units of `unit` / `multiple`. What stands on the heavier side of the inequality is rounded up and what
+// stands on the lighter side down, so that whoever agrees with the robot on what is a cost and what a gain, and with
+// the constraint, agrees with the result.
+Rounding rounded(const Domain& domain, const IntegerVector& normal, std::int64_t multiple, std::int64_t unit) {
+  const auto& robot = domain.weights().unit;
+  Rounding result{IntegerVector(normal.size()), 0.0};
+  const double scale = static_cast<double>(multiple) / static_cast<double>(unit);
+  double gap = 0.0, weight = 0.0;
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    if (normal[k] == 0) continue;
+    const bool is_cost = domain.weights().integer[k] < 0;
+    const bool heavier = is_cost == (normal[k] < 0);
+    const auto size = scaled(normal[k] < 0 ? -normal[k] : normal[k], multiple, unit, heavier);
+    result.normal[k] = normal[k] < 0 ? -size : size;
+    const double own = std::abs(robot[static_cast<Eigen::Index>(k)]);
+    const double exact = scale * std::abs(static_cast<double>(normal[k]));
+    gap += own * std::abs(static_cast<double>(size) - exact);
+    weight += own * exact;
   }
-  IntegerVector best(normal.size());
-  double least = 2.0;
-  for (int multiple = 1; multiple <= 8 && least > kClose; ++multiple) {
-    IntegerVector rounded(normal.size());
-    double error = 0.0;
-    for (std::size_t k = 0; k < normal.size(); ++k) {
-      const double scaled = static_cast<double>(multiple) * static_cast<double>(normal[k]) / smallest;
-      if (std::abs(static_cast<double>(normal[k])) < kNothing * longest) continue;
-      rounded[k] = std::llround(scaled);
-      error = std::max(error, std::abs(static_cast<double>(rounded[k]) - scaled) / std::abs(scaled));
-    }
-    if (error >= least) continue;
-    least = error;
-    best = rounded;
-  }
-  return primitive(best);
+  result.slack = weight > 0.0 ? gap / weight : 0.0;
+  return result;
 }
 
 }  // namespace
 
+HalfSpace in_small_numbers(const Domain& domain, const HalfSpace& half_space) {
+  constexpr std::int64_t kLong = 1000;
+  constexpr std::int64_t kMultiples = 4;
+  constexpr double kClose = 0.1;
+  const auto& normal = half_space.normal();
+  std::vector<std::int64_t> sizes;
+  for (const auto entry : normal) {
+    if (entry != 0) sizes.push_back(entry < 0 ? -entry : entry);
+  }
+  std::sort(sizes.begin(), sizes.end(), std::greater<>{});
+  if (sizes.front() <= kLong) return half_space;
+  // The coarsest that is close enough, else the closest.
+  std::optional<Rounding> best;
+  for (std::int64_t multiple = 1; multiple <= kMultiples; ++multiple) {
+    for (const auto unit : sizes) {
+      auto candidate = rounded(domain, normal, multiple, unit);
+      if (best && candidate.slack >= best->slack) continue;
+      best = std::move(candidate);
+      if (best->slack <= kClose) return HalfSpace{best->normal};
+    }
+  }
+  return best ? HalfSpace{best->normal} : half_space;
+}
+
 std::string in_words(const Domain& domain, const HalfSpace& half_space) {
   Side more, less;
   Int128 value = 0;
-  const auto normal = readable(half_space.normal());
+  const auto normal = in_small_numbers(domain, half_space).normal();
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const auto entry = normal[k];
     if (entry == 0) continue;
@@ -239,16 +268,47 @@ std::string described(const Domain& domain, const HalfSpace& half_space) {
 
 namespace {
 
+std::string fixed(double value, int digits) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, digits).ptr;
+  return {text.data(), end};
+}
+
 // A count in units of 1 / scale, with three decimals where it is an expectation.
 std::string count_text(std::int64_t count, std::int64_t scale) {
-  if (scale == 1) return std::to_string(count);
-  std::array<char, 32> digits{};
-  const double value = static_cast<double>(count) / static_cast<double>(scale);
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, 3).ptr;
-  return {digits.data(), end};
+  return scale == 1 ? std::to_string(count) : fixed(static_cast<double>(count) / static_cast<double>(scale), 3);
 }
 
 }  // namespace
+
+namespace {
+
+// "35.2 steps", "falling into a hole 0.31 times".
+std::string times_on_average(const Wording& wording, const std::string& number) {
+  const bool counts = wording.many.find(kNumber) != std::string::npos;
+  return with_number(counts ? wording.many : wording.many + " {n} times", number);
+}
+
+}  // namespace
+
+std::string on_average_in_words(const Domain& domain, const IntegerVector& difference) {
+  constexpr double kNothing = 0.005;
+  constexpr double kMany = 10.0;
+  std::vector<std::string> saves, gains, costs, forgoes;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    const double n = static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
+    if (std::abs(n) < kNothing) continue;
+    const bool is_cost = domain.weights().integer[k] < 0;
+    auto& side = is_cost ? (n < 0 ? saves : costs) : (n < 0 ? forgoes : gains);
+    side.push_back(times_on_average(domain.wording(k), fixed(std::abs(n), std::abs(n) < kMany ? 2 : 1)));
+  }
+  std::vector<std::string> parts;
+  if (!saves.empty()) parts.push_back("saves " + listed(saves));
+  if (!gains.empty()) parts.push_back("gains " + listed(gains));
+  if (!costs.empty()) parts.push_back("costs " + listed(costs));
+  if (!forgoes.empty()) parts.push_back("forgoes " + listed(forgoes));
+  return parts.empty() ? "on average its choice makes almost no difference" : "on average its choice " + listed(parts);
+}
 
 std::string counts_text(const Domain& domain, const IntegerVector& counts) {
   std::string text;
@@ -265,6 +325,25 @@ double return_of(const Domain& domain, const IntegerVector& counts) {
 
 std::string counted(std::size_t n, const std::string& noun) {
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
+std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  const auto& mdp = domain.mdp(world);
+  double chance = 1.0;
+  for (std::size_t t = 0; t < path.actions.size(); ++t) {
+    const auto choices = mdp.choices(path.states[t]);
+    const auto choice = std::ranges::find(choices, path.actions[t], &Choice::action);
+    if (choice == choices.end()) return "";
+    double step = 0.0;
+    for (const auto& outcome : mdp.outcomes(*choice)) {
+      if (outcome.next == path.states[t + 1]) step += outcome.probability;
+    }
+    chance *= step;
+  }
+  constexpr double kCertain = 1.0 - 1e-9;
+  constexpr double kSmall = 0.01;
+  if (chance > kCertain) return "";
+  return "likeliest path, chance " + (chance < kSmall ? "below 1" : fixed(100.0 * chance, 0)) + " %";
 }
 
 std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions) {
@@ -291,6 +370,16 @@ std::string action_words(const std::string& action) {
   if (action == "dropoff") return "puts it down";
   if (action == "exit") return "leaves";
   return "does '" + action + "'";
+}
+
+std::string action_infinitive(const std::string& action) {
+  for (const char* move : {"up", "down", "left", "right"}) {
+    if (action == move) return "go " + action;
+  }
+  if (action == "pickup") return "pick it up";
+  if (action == "dropoff") return "put it down";
+  if (action == "exit") return "leave";
+  return "do '" + action + "'";
 }
 
 }  // namespace kith

@@ -98,10 +98,10 @@ TEST(Curriculum, IsTheSameAgainAndAnotherWithAnotherSeed) {
 
 TEST(Curriculum, NamesComponentsInWords) {
   const auto& atlas = atlas_of("item-delivery");
-  EXPECT_EQ(component_in_words(atlas, 0), "crossing rubble against steps");
-  EXPECT_EQ(component_in_words(atlas, 2), "crossing rubble and stopping at the charger against steps");
+  EXPECT_EQ(component_in_words(atlas, 0), "crossing rubble versus steps");
+  EXPECT_EQ(component_in_words(atlas, 2), "crossing rubble and stopping at the charger versus steps");
   EXPECT_EQ(component_in_words(atlas_of("cookie-crumb"), atlas_of("cookie-crumb").knowledge_components().size() - 1),
-            "reaching the jar and eating crumbs against steps");
+            "reaching the jar and eating crumbs versus steps");
 }
 
 TEST(Curriculum, SharesAgreeWithAnIndependentCount) {
@@ -137,13 +137,13 @@ std::string why_nothing(const std::string& text) {
 
 TEST(Curriculum, SaysWhenAndWhyNothingCanBeTaught) {
   EXPECT_EQ(why_nothing(testing::kOneRoad),
-            "nothing about 'one-road' can be taught: in every world, all who expect the robot to finish expect the "
-            "same of it");
+            "nothing about 'one-road' can be taught: in every world, everybody who expects the robot to finish "
+            "predicts the same path");
   auto without_rubble = testing::kOneRoad;
   without_rubble.replace(without_rubble.find("S.r.G"), 5, "S...G");
   EXPECT_EQ(why_nothing(without_rubble),
-            "nothing about 'one-road' can be taught: whoever knows beforehand that a step costs something expects all "
-            "that the robot does");
+            "nothing about 'one-road' can be taught: anybody who knows beforehand that a step costs something "
+            "predicts everything that the robot does");
 }
 
 TEST(Curriculum, RefusesToMeasureWithoutBeliefs) {

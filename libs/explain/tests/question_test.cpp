@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "atlases.hpp"
 #include "kith/core/error.hpp"
+#include "kith/explain/contrast.hpp"
 
 namespace kith {
 namespace {
@@ -42,7 +45,7 @@ TEST(AskWhen, CountsWorldsAndShowsPairsThatDifferInOneThing) {
     with += atlas.feature_counts(atlas.index({m, atlas.domain().initial_state(m)}))[1] != 0 ? 1U : 0U;
   }
   EXPECT_EQ(reply.text, "Stopping at the charger happens in " + std::to_string(with) +
-                            " of 64 worlds, counting from the map's start.");
+                            " of 64 worlds on the way from the map's start.");
   ASSERT_GE(reply.examples.size(), 2u);
   ASSERT_EQ(reply.examples.size() % 2, 0u);
   for (std::size_t i = 0; i < reply.examples.size(); i += 2) {
@@ -61,19 +64,20 @@ TEST(AskWhen, UnderstandsTheSameQuestionInManyForms) {
   const auto first = ask("when does it recharge?");
   for (const auto* question :
        {"when recharge", "When does the robot recharge", "when is it recharging?", "when does it stop at the charger?",
-        "when does it not recharge", "tell me when it recharges"}) {
+        "does it ever recharge?", "how often does it charge?", "will the robot go to the charger",
+        "tell me when it recharges"}) {
     const auto reply = ask(question);
-    EXPECT_EQ(reply.question, "when: stopping at the charger") << question;
+    EXPECT_EQ(reply.question, "When does it stop at the charger?") << question;
     EXPECT_EQ(reply.text, first.text) << question;
   }
   EXPECT_EQ(ask("when does it pick up the parcel?").question, ask("when pickup").question);
-  EXPECT_EQ(ask("when does it go up").question, "when: 'up'");
+  EXPECT_EQ(ask("when does it go up").question, "When does it go up?");
 }
 
 TEST(AskWhen, LooksAtTheNextStepWhereACellIsNamed) {
   const auto& atlas = atlas_of("item-delivery");
   const auto reply = ask("when up at (4,3) carrying the parcel");
-  EXPECT_EQ(reply.question, "when: 'up' at (4,3) carrying parcel");
+  EXPECT_EQ(reply.question, "When does it go up at (4,3) carrying parcel?");
   ASSERT_GE(reply.examples.size(), 2u);
   EXPECT_EQ(atlas.domain().action_names()[reply.examples[0].path.actions[0].value()], "up");
   EXPECT_NE(atlas.domain().action_names()[reply.examples[1].path.actions[0].value()], "up");
@@ -84,9 +88,9 @@ TEST(AskWhen, LooksAtTheNextStepWhereACellIsNamed) {
 
 TEST(AskWhen, SaysSoWhereItIsTheSameEverywhere) {
   const auto reply = ask("when pickup");
-  EXPECT_EQ(reply.text, "'pickup' happens in 64 of 64 worlds, counting from the map's start.");
+  EXPECT_EQ(reply.text, "'pickup' happens in 64 of 64 worlds on the way from the map's start.");
   ASSERT_EQ(reply.examples.size(), 1u);
-  EXPECT_THAT(reply.examples[0].text, HasSubstr("world 63, it does: no way round it is best for anybody"));
+  EXPECT_THAT(reply.examples[0].text, HasSubstr("world 63, it does: every sensible path has it"));
 }
 
 TEST(AskWhere, ListsCellsWithAPathForEach) {
@@ -104,7 +108,7 @@ TEST(AskWhere, ListsCellsWithAPathForEach) {
 
 TEST(AskWhy, ComparesTheStepWithTheOneInstead) {
   const auto reply = ask("why left, not up, at (4,3) in world 0?");
-  EXPECT_EQ(reply.question, "why: 'left' and not 'up' at (4,3) in world 0");
+  EXPECT_EQ(reply.question, "Why does it go left and not go up at (4,3) in world 0?");
   ASSERT_EQ(reply.examples.size(), 1u);
   ASSERT_TRUE(reply.examples[0].alternative.has_value());
 }
@@ -126,12 +130,13 @@ TEST(AskWhy, ComparesWholeWaysWithoutACell) {
 TEST(AskWhatIf, ShowsBothWorlds) {
   const auto& atlas = atlas_of("item-delivery");
   const auto reply = ask("what if there is no charger?");
-  EXPECT_EQ(reply.question, "what if: world 63 without the charger at (4,1)");
   ASSERT_EQ(reply.examples.size(), 2u);
-  EXPECT_EQ(atlas.id(reply.examples[0].demo).mdp, MdpIndex{63});
-  EXPECT_EQ(atlas.id(reply.examples[1].demo).mdp, MdpIndex{62});
+  const auto with = atlas.id(reply.examples[0].demo).mdp;
+  const auto without = atlas.id(reply.examples[1].demo).mdp;
+  EXPECT_EQ(reply.question, "What happens in world " + std::to_string(with.value()) + " without the charger at (4,1)?");
+  EXPECT_EQ(toggled_groups(atlas.domain(), with, without).size(), 1u);
   const auto both = ask("what if rubble at (3,3) and charger");
-  EXPECT_EQ(both.question, "what if: world 0 with the rubble at (3,3) and the charger at (4,1)");
+  EXPECT_EQ(both.question, "What happens in world 0 with the rubble at (3,3) and the charger at (4,1)?");
   const auto none = ask("what if no charger and no rubble in world 63");
   EXPECT_EQ(atlas.id(none.examples[1].demo).mdp, MdpIndex{0});
 }
@@ -143,10 +148,11 @@ TEST(AskWhat, TellsTheNextStep) {
 
 TEST(AskErrors, PointIntoTheQuestion) {
   EXPECT_EQ(complaint("").substr(0, 8), "E1102 1:");
-  EXPECT_THAT(complaint("wen recharge"), HasSubstr("E1102 1: a question begins with when, where, why or what | did you "
-                                                   "mean 'when'?"));
-  EXPECT_THAT(complaint("when does it rechrge?"), HasSubstr("E1103 14: nobody knows 'rechrge' here | did you mean "
-                                                            "'recharge'?"));
+  EXPECT_THAT(complaint("wen recharge"),
+              HasSubstr("E1102 1: a question begins with when, where, why, what or how much | "
+                        "did you mean 'when'?"));
+  EXPECT_THAT(complaint("when does it rechrge?"), HasSubstr("E1103 14: kith does not know the word 'rechrge' | did you "
+                                                            "mean 'recharge'?"));
   EXPECT_THAT(complaint("when up 3"), HasSubstr("E1103 9: "));
   EXPECT_THAT(complaint("why up at (9,9)"),
               HasSubstr("E1104 12: the map has no cell (9,9) | it has 4 columns and 3 rows"));
@@ -160,9 +166,10 @@ TEST(AskErrors, PointIntoTheQuestion) {
   EXPECT_THAT(complaint("what does it do"), HasSubstr("E1106 1: what does it do where?"));
   EXPECT_THAT(complaint("when up and down"), HasSubstr("E1106 13: one thing at a time"));
   EXPECT_THAT(complaint("why down at (4,3)"), HasSubstr("E1107 5: 'down' is not possible at (4,3) in world 63"));
-  EXPECT_THAT(complaint("what if no parcel"), HasSubstr("E1108 12: 'parcel' is nothing that worlds may have or lack | "
-                                                        "these may be there or not: rubble and charger"));
-  EXPECT_THAT(complaint("what if charger in world 63"), HasSubstr("E1108 9: world 63 has charger anyway"));
+  EXPECT_THAT(complaint("what if no parcel"),
+              HasSubstr("E1108 12: 'parcel' is not something that only some worlds have | "
+                        "optional in this domain: rubble and charger"));
+  EXPECT_THAT(complaint("what if charger in world 63"), HasSubstr("E1108 9: world 63 already has charger"));
   EXPECT_THAT(complaint("what if charger at (1,2)"), HasSubstr("E1108 9: no world has charger at (1,2)"));
   EXPECT_THAT(complaint("what at (2,3) carrying a goat"), HasSubstr("E1103 26: carrying what? | it can carry parcel"));
 }
@@ -187,13 +194,13 @@ TEST(AskOnDemand, ComparesWithThoseToWhomAFeatureMeansMore) {
             "cost more than going through smoke.");
   const auto& mdp = atlas.domain().mdp(MdpIndex{8});
   EXPECT_TRUE(mdp.is_terminal(reply.examples.at(0).alternative->states.back()));
-  EXPECT_THAT(ask("why recharge in world 15", "rescue-floor").text, HasSubstr("; there is no way round it."));
+  EXPECT_THAT(ask("why recharge in world 15", "rescue-floor").text, HasSubstr("; every sensible path has it."));
   EXPECT_THAT(ask("why not rubble in world 0", "rescue-floor").text, HasSubstr("; there is none."));
 }
 
 TEST(AskOnDemand, ShowsWorldsThatDifferAsLittleAsAnyDo) {
   const auto reply = ask("when rubble", "rescue-floor");
-  EXPECT_EQ(reply.text, "Crossing rubble happens in 6 of 16 worlds, counting from the map's start.");
+  EXPECT_EQ(reply.text, "Crossing rubble happens in 6 of 16 worlds on the way from the map's start.");
   ASSERT_GE(reply.examples.size(), 2u);
   EXPECT_THAT(reply.examples[0].text, HasSubstr(", it does: "));
   EXPECT_THAT(reply.examples[1].text, HasSubstr(", it does not: "));
@@ -203,22 +210,156 @@ TEST(AskOfAModel, ComparesExpectations) {
   const std::string pond = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
   EXPECT_EQ(
       ask("why not water", pond).text,
-      "Falling into the water does not happen in world 2 (glaze); 2 steps cost less than falling into the water 11 "
-      "times plus what coming home 11 times is worth.");
+      "Falling into the water does not happen in world 2 (glaze); on average its choice saves falling into the water "
+      "0.48 times, gains coming home 0.47 times and costs 0.09 steps: coming home is better than falling into the "
+      "water.");
   EXPECT_THAT(ask("where water", pond).text,
-              HasSubstr("Falling into the water may happen in state 'on the ice at c1' "));
-  EXPECT_EQ(ask("what at 'a1'", pond).question, "what in state 'on the bank at a1'");
+              HasSubstr("Falling into the water can happen in state 'on the ice at c1' "));
+  EXPECT_EQ(ask("what at 'a1'", pond).question, "What does it do in state 'on the bank at a1'?");
   EXPECT_EQ(ask("what at \"on the bank at a1\" in world 0", pond).text,
             "In state 'on the bank at a1' in world 0 (firm ice) it goes right.");
+}
+
+TEST(AskOfAModel, GivesChances) {
+  const std::string pond = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
+  const auto reply = ask("when does it fall into the water?", pond);
+  EXPECT_THAT(reply.text,
+              HasSubstr("Falling into the water can happen in 1 of 3 worlds on the way from the first state, "
+                        "with a chance of "));
+  for (const auto& example : reply.examples) {
+    EXPECT_THAT(example.text, ::testing::AnyOf(HasSubstr(", it may with a chance of "), HasSubstr(", it does not: ")));
+    EXPECT_THAT(example.text, ::testing::Not(HasSubstr("a single other step")));
+  }
+  const auto world = std::to_string(atlas_of(pond).id(reply.examples.at(0).demo).mdp.value());
+  EXPECT_THAT(ask("when water in world " + world, pond).text, HasSubstr("can happen there, with a chance of "));
+}
+
+TEST(AskOfAModel, TakesNamesOfStatesWithoutQuotes) {
+  const std::string pond = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
+  const auto quoted = ask("what at 'on the bank at a1' in world 0", pond);
+  EXPECT_EQ(ask("what in state on the bank at a1 in world 0", pond).text, quoted.text);
+  EXPECT_EQ(ask("what does it do in state a1 in world 0", pond).text, quoted.text);
+  const std::string cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
+  EXPECT_EQ(ask("what in state 36", cliff).question, ask("what in state '36'", cliff).question);
+  EXPECT_THAT(complaint("what in state", pond), HasSubstr("E1104 9: which state?"));
 }
 
 TEST(AskOfAModel, NeedsTheNamesOfItsStates) {
   const std::string pond = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml";
   EXPECT_THAT(complaint("what at 'hill'", pond), HasSubstr("E1104 10: there is no state 'hill'"));
   EXPECT_THAT(complaint("what at 'ice'", pond), HasSubstr("E1104 10: 'ice' could be "));
-  EXPECT_THAT(complaint("what at (1,1)", pond), HasSubstr("E1104 10: this robot has no map"));
+  EXPECT_THAT(complaint("what at (1,1)", pond), HasSubstr("E1104 10: this domain has no map"));
   EXPECT_THAT(complaint("what if no ice", pond), HasSubstr("E1108 12: "));
-  EXPECT_THAT(complaint("what at 'a1'"), HasSubstr("E1104 10: this robot has a map"));
+  EXPECT_THAT(complaint("what at 'a1'"), HasSubstr("E1104 10: states have no names in a domain with a map"));
+}
+
+TEST(AskWhen, AnswersTheNegatedQuestion) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto yes = ask("when does it recharge?");
+  for (const auto* question :
+       {"when does it NOT recharge?", "when doesn't it recharge", "when does it avoid the charger?",
+        "does it never recharge", "when does it go without stopping at the charger"}) {
+    const auto reply = ask(question);
+    EXPECT_EQ(reply.question, "When does it not stop at the charger?") << question;
+    EXPECT_EQ(reply.text,
+              "Stopping at the charger does not happen in 61 of 64 worlds on the way from the map's start.");
+    ASSERT_EQ(reply.examples.size(), yes.examples.size());
+    EXPECT_FALSE(counts(atlas, reply.examples[0], 1)) << "what was asked about comes first";
+    EXPECT_TRUE(counts(atlas, reply.examples[1], 1));
+  }
+  EXPECT_THAT(yes.text, HasSubstr(" happens in 3 of 64 "));
+  EXPECT_EQ(ask("when does it not avoid the charger").text, yes.text) << "denied twice";
+  EXPECT_EQ(ask("when does it not ever avoid the charger").text, yes.text);
+}
+
+TEST(AskWhere, AnswersTheNegatedQuestion) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto up = ask("where does it go left in world 63");
+  const auto not_up = ask("where does it not go left in world 63?");
+  EXPECT_EQ(not_up.question, "Where does it not go left in world 63?");
+  EXPECT_THAT(up.text, HasSubstr("'left' happens at "));
+  EXPECT_THAT(not_up.text, HasSubstr("'left' does not happen at "));
+  for (const auto& example : not_up.examples) {
+    const auto action = example.path.actions.at(example.decisive.value());
+    EXPECT_NE(atlas.domain().action_names()[action.value()], "left") << example.text;
+  }
+  EXPECT_THAT(ask("where does it not go up?").text, HasSubstr(" worlds that lead there"));
+}
+
+TEST(AskWhy, UnderstandsAvoiding) {
+  const auto expected = ask("why does it not cross rubble in world 31?");
+  EXPECT_EQ(expected.question, "Why does it not cross rubble in world 31?");
+  for (const auto* question :
+       {"why does it avoid rubble in world 31", "why does it go around the rubble in world 31?",
+        "why does it step around rubble in world 31", "why does it skip the rubble in world 31"}) {
+    EXPECT_EQ(ask(question).text, expected.text) << question;
+  }
+  EXPECT_EQ(ask("why does it go left rather than up at (4,3) in world 0").question,
+            "Why does it go left and not go up at (4,3) in world 0?");
+}
+
+TEST(Ask, UnderstandsSynonyms) {
+  for (const auto& [said, meant] :
+       std::map<std::string, std::string>{{"when does it deliver the parcel", "when dropoff"},
+                                          {"when does it drop it off", "when dropoff"},
+                                          {"when does it put the parcel down", "when dropoff"},
+                                          {"when does it drop the parcel?", "when dropoff"},
+                                          {"when does it collect the parcel", "when pickup"},
+                                          {"when does it pick the parcel up", "when pickup"},
+                                          {"when does it go north", "when up"},
+                                          {"where does it turn left", "where left"},
+                                          {"when does it drive over rubble", "when rubble"}}) {
+    EXPECT_EQ(ask(said).text, ask(meant).text) << said;
+  }
+}
+
+TEST(AskErrors, NameEveryWordThatIsNotKnown) {
+  EXPECT_THAT(complaint("when does it quickly recharge"), HasSubstr("E1103 14: kith does not know the word 'quickly'"));
+  EXPECT_THAT(complaint("when does it recharge happily"), HasSubstr("E1103 23: kith does not know the word 'happily'"));
+  EXPECT_THAT(complaint("when up at (4,3) slowly"), HasSubstr("E1103 18: kith does not know the word 'slowly'"));
+  EXPECT_THAT(complaint("what if there is no purple charger"),
+              HasSubstr("E1103 21: kith does not know the word 'purple'"));
+  EXPECT_THAT(complaint("when does it recharge the parcel"), HasSubstr("E1103 "));
+  EXPECT_THAT(complaint("when pickup rubble"), HasSubstr("E1103 6: 'pickup rubble' is no action"));
+  EXPECT_THAT(complaint("when does it \xC3\xA9viter recharge"), HasSubstr("E1103 14: kith does not know the word"));
+  EXPECT_THAT(complaint("when banana"), HasSubstr("it knows up, down, left, right, pickup, dropoff"));
+}
+
+TEST(AskErrors, RefuseToAnswerHalfAQuestion) {
+  EXPECT_THAT(complaint("when up, not left"), HasSubstr("E1106 14: 'when' and 'where' take one thing"));
+  EXPECT_THAT(complaint("when recharge where"), HasSubstr("E1106 15: one question at a time"));
+  EXPECT_THAT(complaint("what recharge at (2,3)"), HasSubstr("E1106 6: 'what' asks for the next step"));
+  EXPECT_THAT(complaint("what if no charger rubble"), HasSubstr("E1106 20: two things in one"));
+  EXPECT_THAT(complaint("how many worlds"), HasSubstr("E1102 1: a question with 'how'"));
+  EXPECT_THAT(complaint("how much up"), HasSubstr("E1106 10: how much does which feature count?"));
+  EXPECT_THAT(complaint("how much rubble at (2,3)"), HasSubstr("E1106 1: 'how much' takes a feature only"));
+}
+
+// In world 63 nothing changes without the charger; elsewhere it does.
+TEST(AskWhatIf, LooksForAWorldWhereItMatters) {
+  const auto& atlas = atlas_of("item-delivery");
+  for (const auto* question : {"what if there is no charger?", "what happens if there is no charger anywhere",
+                               "what would it do without the charger"}) {
+    const auto reply = ask(question);
+    ASSERT_EQ(reply.examples.size(), 2u);
+    EXPECT_NE(reply.examples[0].path.actions, reply.examples[1].path.actions) << question;
+    EXPECT_TRUE(counts(atlas, reply.examples[0], 1));
+    EXPECT_THAT(reply.text, HasSubstr("(it changes the path in 3 of 32 worlds)"));
+  }
+  EXPECT_THAT(ask("what if no charger in world 63").text, HasSubstr(" nothing changes in world 63."));
+  EXPECT_EQ(ask("what happens if everywhere is rubble").question, ask("what if rubble").question);
+}
+
+TEST(AskHowMuch, ListsWhatItsBehaviourTells) {
+  const auto reply = ask("how much does rubble cost?");
+  EXPECT_EQ(reply.question, "How much does crossing rubble cost?");
+  EXPECT_EQ(
+      reply.text,
+      "From what it does you can conclude: crossing rubble costs more than 2 steps; stopping at the charger is worth "
+      "more than crossing rubble costs.");
+  EXPECT_EQ(reply.examples.size(), 2u);
+  for (const auto& example : reply.examples) EXPECT_TRUE(example.alternative.has_value()) << example.text;
+  EXPECT_EQ(ask("how much is the charger worth").question, "How much is stopping at the charger worth?");
 }
 
 TEST(AskErrors, NameWhatWordsCouldMean) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/reason.hpp"
+#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {
@@ -92,6 +96,55 @@ TEST(InWords, SaysAtLeastWhereTheRobotIsIndifferent) {
   EXPECT_EQ(in_words(domain, HalfSpace{{0, 1, 3}}), "stopping at the dock is worth at least as much as 3 steps cost");
 }
 
+// Weights that the constraint admits, with the robot's signs: what is said holds for all of them.
+TEST(InSmallNumbers, SaysOnlyWhatFollows) {
+  const auto domain = domain_with("{ mud = -3, dock = 10, step = -0.01 }",
+                                  "mud = \"crossing mud\"\nstep = \"a step\"\ndock = \"stopping at the dock\"\n");
+  RandomStream random{7};
+  std::size_t tried = 0;
+  for (int i = 0; i < 400; ++i) {
+    IntegerVector normal(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double size = std::pow(10.0, 6.0 * uniform01(random));
+      normal[k] = std::llround(uniform01(random) < 0.5 ? size : -size);
+    }
+    if (sign_of_dot(normal, domain.weights().integer) < 0) normal = -normal;
+    const auto said = in_small_numbers(domain, HalfSpace{normal}).normal();
+    for (int j = 0; j < 50; ++j) {
+      const auto magnitude = [&] { return std::pow(10.0, 4.0 * uniform01(random) - 2.0); };
+      const std::array<double, 3> w{-magnitude(), magnitude(), -magnitude()};
+      double before = 0.0, after = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        before += static_cast<double>(normal[k]) * w[k];
+        after += static_cast<double>(said[k]) * w[k];
+      }
+      if (before < 0.0) continue;
+      ++tried;
+      EXPECT_GE(after, 0.0) << normal_text(domain, HalfSpace{normal}) << ": " << in_words(domain, HalfSpace{normal});
+    }
+  }
+  EXPECT_GT(tried, 5000u);
+}
+
+// It became "191 steps cost more than crossing mud", which (-3, 10, -0.01) refutes although the constraint admits it.
+TEST(InSmallNumbers, LeavesOutNoTermThatMatters) {
+  const auto domain = domain_with("{ mud = -3, dock = 10, step = -0.01 }",
+                                  "mud = \"crossing mud\"\nstep = \"a step\"\ndock = \"stopping at the dock\"\n");
+  EXPECT_EQ(in_words(domain, HalfSpace{{5483, 5109, -1048549}}),
+            "crossing mud costs less than 192 steps plus what stopping at the dock is worth");
+  EXPECT_EQ(in_small_numbers(domain, HalfSpace{{-1, 0, 2}}), (HalfSpace{{-1, 0, 2}}));
+}
+
+TEST(OnAverage, TellsWhatIsSavedGainedAndPaid) {
+  const auto domain = domain_with("{ mud = -2, dock = 3, step = -1 }",
+                                  "mud = \"crossing mud\"\nstep = \"a step\"\ndock = \"stopping at the dock\"\n");
+  EXPECT_EQ(on_average_in_words(domain, {-1, 0, 2}),
+            "on average its choice saves crossing mud 1.00 times and costs 2.00 steps");
+  EXPECT_EQ(on_average_in_words(domain, {0, -2, -12}),
+            "on average its choice saves 12.0 steps and forgoes stopping at the dock 2.00 times");
+  EXPECT_EQ(on_average_in_words(domain, {0, 0, 0}), "on average its choice makes almost no difference");
+}
+
 TEST(InWords, AvoidsTheVerbWhereWordsDoNotTellTheirNumber) {
   const auto domain =
       domain_with("{ mud = -2, dock = 2.5, step = -1 }", "mud = \"mud crossings\"\nstep = \"a step\"\n");
@@ -145,6 +198,12 @@ TEST(Reason, HasAFormForEveryMixtureOfCostsAndGains) {
             "it would rather take one more step than cross rubble twice to stop at the charger");
 }
 
+// "It would rather not cross rubble and take 2 more steps" could be read as taking them.
+TEST(Reason, CannotBeReadTheOtherWay) {
+  EXPECT_EQ(choice({0, 0, 5}, {1, 0, 7}), "it would rather neither cross rubble nor take 2 more steps");
+  EXPECT_EQ(choice({0, 1, 5}, {0, 0, 7}), "it would rather stop at the charger, which also saves 2 steps");
+}
+
 TEST(Reason, ComparesTwoGains) {
   const auto goals = load_domain("two-goals");
   EXPECT_EQ(choice_in_words(goals, {0, 1, 8}, {1, 0, 6}),
@@ -161,6 +220,7 @@ TEST(Reason, UsesNounsWhereAVerbIsMissing) {
   EXPECT_EQ(choice_in_words(domain, {0, 0, 5}, {0, 1, 8}),
             "it does without stopping at the dock to avoid 3 more steps");
   EXPECT_EQ(choice_in_words(domain, {0, 0, 5}, {1, 0, 5}), "it avoids crossing mud");
+  EXPECT_EQ(choice_in_words(domain, {0, 1, 5}, {0, 0, 7}), "it chooses stopping at the dock, which also saves 2 steps");
   EXPECT_EQ(choice_in_words(domain, {0, 1, 5}, {0, 0, 5}), "it chooses stopping at the dock");
 }
 

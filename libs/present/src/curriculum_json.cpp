@@ -58,7 +58,7 @@ Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint
   for (const auto& one : curriculum.skipped) skipped.push_back({{"name", one.name}, {"why", one.why}});
   const auto& domain = atlas.domain();
   return {{"schema", "kith.curriculum/1"},
-          {"title", domain.title().empty() ? domain.id() : domain.title()},
+          {"title", "What will the robot do?"},  // the domain's own title may tell
           {"program", program},
           {"seed", seed},
           {"domain", board_domain_json(atlas.domain())},

@@ -38,19 +38,31 @@ Json components_to_json(const Atlas& atlas) {
   return components;
 }
 
+// The map of every MDP, rows from the top; null where that would be too long.
+Json maps_to_json(const Domain& domain) {
+  constexpr std::size_t kMostCells = 1'000'000;
+  const auto cells = static_cast<std::size_t>(domain.width()) * static_cast<std::size_t>(domain.height());
+  if (cells * domain.num_mdps() > kMostCells) return nullptr;
+  Json maps = Json::array();
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) maps.push_back(domain.draw(m, std::nullopt));
+  return maps;
+}
+
 }  // namespace
 
 Json inspection_json(const Domain& domain) {
   const auto d = domain.num_features();
-  return {{"schema", "kith.inspect/1"},
-          {"id", domain.id()},
-          {"title", domain.title()},
-          {"mdps", domain.num_mdps()},
-          {"demonstrations", domain.num_starts()},
-          {"features", domain.feature_names()},
-          {"actions", domain.action_names()},
-          {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit)}}},
-          {"prior", to_json(domain.prior(), d)}};
+  Json document{{"schema", "kith.inspect/1"},
+                {"id", domain.id()},
+                {"title", domain.title()},
+                {"mdps", domain.num_mdps()},
+                {"demonstrations", domain.num_starts()},
+                {"features", domain.feature_names()},
+                {"actions", domain.action_names()},
+                {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit)}}},
+                {"prior", to_json(domain.prior(), d)}};
+  if (domain.has_map()) document["maps"] = maps_to_json(domain);
+  return document;
 }
 
 Json inspection_json(const Atlas& atlas, const InspectionContent& content) {

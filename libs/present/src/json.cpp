@@ -5,7 +5,10 @@
 namespace kith {
 namespace {
 
-Json position_json(const Cell& cell) { return Json::array({cell.x, cell.y}); }
+// Column and row, row 1 on top.
+Json position_json(const Domain& domain, const Cell& cell) {
+  return Json::array({cell.x, domain.height() + 1 - cell.y});
+}
 
 }  // namespace
 
@@ -59,14 +62,26 @@ Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension) {
 
 Json start_to_json(const Domain& domain, DemoId id) {
   if (!domain.has_map()) {
-    return {{"state", id.start.value()}, {"name", domain.state_name(id.mdp, id.start)}, {"mdp", id.mdp.value()}};
+    return {{"state", id.start.value()},
+            {"name", domain.state_name(id.mdp, id.start)},
+            {"mdp", id.mdp.value()},
+            {"start", id.start.value()}};
   }
   const auto& state = domain.state(id.mdp, id.start);
+  const auto names = domain.items_in(id.mdp);
   Json items = Json::array();
   Json stations = Json::array();
-  for (const auto& item : state.items) items.push_back(position_json(item));
-  for (const auto& station : state.stations) stations.push_back(position_json(station));
-  return {{"robot", position_json(state.robot)}, {"items", items}, {"stations", stations}, {"mdp", id.mdp.value()}};
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    items.push_back({{"name", domain.item_names()[names[i]]},
+                     {"cell", position_json(domain, state.items[i])},
+                     {"carried", bool{state.carried[i]}}});
+  }
+  for (const auto& station : state.stations) stations.push_back(position_json(domain, station));
+  return {{"robot", position_json(domain, state.robot)},
+          {"items", items},
+          {"stations", stations},
+          {"mdp", id.mdp.value()},
+          {"start", id.start.value()}};
 }
 
 }  // namespace kith

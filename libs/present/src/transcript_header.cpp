@@ -3,6 +3,7 @@
 #include "kith/explain/words.hpp"
 #include "kith/present/legend.hpp"
 #include "kith/present/transcript.hpp"
+#include "kith/present/wrapped.hpp"
 
 namespace kith {
 namespace {
@@ -19,7 +20,7 @@ class HeaderWriter {
   }
 
  private:
-  void line(const std::string& text = "") { out_ += text + "\n"; }
+  void line(const std::string& text = "") { out_ += wrapped_line(text) + "\n"; }
 
   void header() {
     const auto& address = transcript_.address;
@@ -34,30 +35,35 @@ class HeaderWriter {
 
   void reward() {
     line();
-    line("What the robot is paid (all returns and regrets are at length 1):");
-    line(fmt::format("  {:<10} {:>6} {:>12}", "", "raw", "at length 1"));
+    line("The robot's reward (all values use unit-length weights):");
+    line(fmt::format("  {:<10} {:>6} {:>12}", "", "raw", "unit length"));
     for (std::size_t k = 0; k < domain_.num_features(); ++k) {
       IntegerVector once(domain_.num_features());
       once[k] = 1;
       line(fmt::format("  {:<10} {:>6} {:>12.4f} for {}", domain_.feature_names()[k], domain_.weights().raw[k],
                        domain_.weights().return_of(once), domain_.feature_words(k)));
     }
-    line("What makes its policy, and is to be learned:");
+    line("What determines its policy, and is to be learned:");
     for (const auto& half_space : atlas_.policy_bec_half_spaces()) line("  " + described(domain_, half_space));
-    for (const auto& half_space : domain_.prior()) line("  " + described(domain_, half_space) + " (known to all)");
+    for (const auto& half_space : domain_.prior())
+      line("  " + described(domain_, half_space) + " (known to everybody)");
   }
 
   void pictures() {
     line();
     if (!domain_.has_map()) {
-      line("MDP n is one of the model's MDPs; start m is one of its states. Paths are told in words.");
+      line("MDP n is one of the model's MDPs; start m is one of its states. Paths are lists of actions and states.");
       return;
     }
-    line("How to read the pictures, from left to right: the bare map; the start; the path, one picture per leg (a leg");
-    line("ends where the robot does something without moving).");
+    line(
+        "Pictures from left to right: the bare map; the start; the path, one picture per leg (a leg ends where the "
+        "robot "
+        "acts without moving).");
     out_ += legend(domain_, 2);
-    line("  MDP n is a variant of the map (n tells which optional things are there); start m is one of its states:");
-    line("  where the robot, the items and the stations are.");
+    line(
+        "  MDP n is a variant of the map (n says which optional things are there); start m is one of its states: where "
+        "the "
+        "robot, the items and the stations are.");
   }
 
   void learners() {
@@ -70,7 +76,7 @@ class HeaderWriter {
                        describe_person(*type.model, type.parameters, learner.traits)));
     }
     line(fmt::format(
-        "The teacher takes everybody's ability to be {}, and imagines {} people when it chooses a demonstration.",
+        "The teacher assumes that everybody's ability is {} and simulates {} people to choose a demonstration.",
         spec.teaching.assumed_ability, spec.teaching.counterfactuals));
   }
 

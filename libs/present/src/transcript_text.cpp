@@ -24,7 +24,7 @@ class TranscriptWriter {
   }
 
  private:
-  void line(const std::string& text = "") { out_ += text + "\n"; }
+  void line(const std::string& text = "") { out_ += wrapped_line(text) + "\n"; }
 
   void write(const TranscriptSession& session) {
     members_ = session.members;
@@ -62,7 +62,7 @@ class TranscriptWriter {
     for (std::size_t i = first; i < std::min(last, session.components.size()); ++i) {
       if (session.components[i] != ComponentStatus::kSkipped) continue;
       line();
-      line(fmt::format("Knowledge component {} is skipped: the belief has all of it already.", i + 1));
+      line(fmt::format("Knowledge component {} is skipped: nothing left to teach.", i + 1));
     }
   }
 
@@ -75,7 +75,7 @@ class TranscriptWriter {
     line(fmt::format("Period {}: knowledge component {}, {}", lesson.period, lesson.component + 1, component.name));
     line("  weighs " + weighed(component) +
          (component.masked.empty() ? "" : ", where there is no " + masked_names(domain_, component)));
-    if (begins) line("  a new component begins: every member's ability is back at its initial value");
+    if (begins) line("  new component: every member's ability is reset to its initial value");
     reason(lesson);
     for (std::size_t i = 0; i < lesson.demonstrations.size(); ++i) demonstration(i + 1, lesson.demonstrations[i]);
     taught(lesson);
@@ -109,10 +109,10 @@ class TranscriptWriter {
   void reason(const Lesson& lesson) {
     line("  lesson chosen for " + name_of_source(lesson.source));
     if (lesson.repeats) {
-      line("  no demonstration would teach anything more: the last lesson of this component is shown again");
+      line("  no demonstration would teach anything new: the last lesson is repeated");
     } else {
       const auto ways = lesson.demonstrations.front().counterfactuals.size();
-      line(fmt::format("  imagining {} people who hold that belief: they would act in {}",
+      line(fmt::format("  {} simulated people with that belief would act in {}",
                        transcript_.spec.teaching.counterfactuals,
                        ways == 1 ? "one way" : fmt::format("{} different ways", ways)));
     }
@@ -127,10 +127,16 @@ class TranscriptWriter {
       if (state.carried[i]) {
         text += ", carrying " + domain_.item_names()[items[i]];
       } else if (state.items[i] == state.robot) {
-        text += ", standing on " + domain_.item_names()[items[i]];
+        text += ", on the same cell as " + domain_.item_names()[items[i]];
       }
     }
     return text;
+  }
+
+  // " (likeliest path, chance 12 %)" where chance has a part.
+  [[nodiscard]] std::string chance(DemoId id, const Trajectory& path) const {
+    const auto words = chance_in_words(domain_, id.mdp, path);
+    return words.empty() ? "" : " (" + words + ")";
   }
 
   void demonstration(std::size_t number, const Demonstration& shown) {
@@ -140,24 +146,21 @@ class TranscriptWriter {
     line();
     line(fmt::format("  Demonstration {}: {}", number, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
-    line("    " + actions_text(domain_, path.actions));
+    line("    " + actions_text(domain_, path.actions) + chance(id, path));
     line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), return_of(domain_, counts)));
-    line("    conveys to them:");
+    line("    conveys:");
     for (const auto& half_space : shown.half_spaces) line("      " + described(domain_, half_space));
     line(fmt::format("    chosen because it adds the fewest new constraints: {}{}", shown.num_new,
-                     shown.half_spaces.size() > shown.num_new ? " (the rest is implied or known)" : ""));
-    line(
-        fmt::format("    and, of those that do, shrinks the region of what was learned before plus this lesson so far "
-                    "most: to 1/{:.3f}",
-                    shown.gain));
+                     shown.half_spaces.size() > shown.num_new ? " (the others are implied or known)" : ""));
+    line(fmt::format("    and among those, narrows what people may believe the most ({:.3g}-fold)", shown.gain));
   }
 
   void taught(const Lesson& lesson) {
     line();
     line("  The lesson as a whole:");
     for (const auto& half_space : lesson.taught) line("    " + described(domain_, half_space));
-    line(fmt::format("    area {:.4f} sr; with the components learned before {:.4f} sr; gain (log) {:.4f}",
-                     lesson.area_sr, lesson.running_area_sr, lesson.gain));
+    line(fmt::format("    area {:.4f} sr; with components learned before {:.4f} sr; log gain {:.4f}", lesson.area_sr,
+                     lesson.running_area_sr, lesson.gain));
     if (lesson.untested > 0) line(fmt::format("    constraints that cannot be tested: {}", lesson.untested));
   }
 
@@ -168,10 +171,10 @@ class TranscriptWriter {
     line();
     line(fmt::format("  Test {}: {}; what would the robot do?", t + 1, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
-    line("    the robot: " + actions_text(domain_, path.actions) + " (" +
+    line("    the robot: " + actions_text(domain_, path.actions) + chance(id, path) + " (" +
          counts_text(domain_, atlas_.feature_counts(asked.demo)) + ")");
     for (const auto& half_space : asked.covered) {
-      line("    tests " + described(domain_, half_space) + (asked.exact ? "" : " (the nearest that can be asked)"));
+      line("    tests " + described(domain_, half_space) + (asked.exact ? "" : " (the closest possible test)"));
     }
     for (std::size_t i = 0; i < members_.size(); ++i) answer(period, t, i);
   }
@@ -191,14 +194,13 @@ class TranscriptWriter {
     line(fmt::format("    member {}: {}: {}", members_[i],
                      verdict.correct ? "correct" : fmt::format("wrong (regret {:.4f})", verdict.regret),
                      described_path));
-    const std::string shows =
-        verdict.correct ? "shows the teacher that they know " : "suggests to the teacher that they think ";
+    const std::string shows = verdict.correct ? "evidence that they know " : "evidence that they believe ";
     for (const auto& half_space : verdict.half_spaces) line("      " + shows + described(domain_, half_space));
   }
 
   void beliefs(const TranscriptPeriod& period) {
     line();
-    line("  Beliefs: mass in the policy's class, mass in the lesson's region, effective sample size");
+    line("  Beliefs: probability of the policy's class and of the lesson's region, effective sample size");
     line(fmt::format("    {:<22} {:>17} {:>17} {:>15}", "", "class", "lesson", "sample size"));
     for (std::size_t i = 0; i < period.before.own.size(); ++i)
       belief_row("own, ", period.before.own[i], period.after.own[i]);
@@ -227,17 +229,17 @@ class TranscriptWriter {
                : fmt::format("  Member {}: {}", members_[i], verdict));
     }
     for (const auto member : period.feedback.excluded) {
-      line(fmt::format("  Member {} is left out of the common belief this time: the answers conflict",
+      line(fmt::format("  Member {} is left out of the common belief in this period: the answers conflict",
                        members_[member]));
     }
     const bool all = std::all_of(period.feedback.all_correct.begin(), period.feedback.all_correct.end(),
                                  [](bool right) { return right; });
     const auto& name = atlas_.knowledge_components()[period.lesson.component].name;
     if (period.feedback.component_learned) {
-      line("  Learned: " + name + ", since everybody answered everything correctly");
+      line("  Learned: " + name + " (all members answered all tests correctly)");
     } else {
       line("  " + name + " is not learned yet" +
-           (all ? ": it takes more periods in a row with all answers correct" : ""));
+           (all ? ": more periods in a row with all answers correct are required" : ""));
     }
   }
 
@@ -252,7 +254,7 @@ class TranscriptWriter {
       line("In all sessions " + counted(record.periods, "period") + ", " + shown);
     }
     for (const auto& learner : record.learners) {
-      line(fmt::format("  member {}: final belief {:.4f} in the policy's class, {} of {} answers correct",
+      line(fmt::format("  member {}: final belief in the policy's class {:.4f}, {} of {} answers correct",
                        learner.member, learner.p_bec, learner.correct, learner.tests));
     }
     if (record.learners.size() > 1) line(fmt::format("  mean of the members: {:.4f}", record.knowledge));

@@ -1,5 +1,7 @@
 #include "kith/present/wrapped.hpp"
 
+#include <algorithm>
+
 namespace kith {
 
 std::string wrapped(std::string_view text, std::size_t width, std::string_view indent) {
@@ -20,6 +22,13 @@ std::string wrapped(std::string_view text, std::size_t width, std::string_view i
     column += word.size();
   }
   return result;
+}
+
+std::string wrapped_line(std::string_view line) {
+  if (line.size() <= kTextWidth) return std::string{line};
+  const auto begin = std::min(line.find_first_not_of(' '), line.size());
+  const std::string blank(begin, ' ');
+  return blank + wrapped(line.substr(begin), kTextWidth - begin, blank + "  ");
 }
 
 }  // namespace kith

@@ -32,8 +32,12 @@ struct Contrast {
 /// Nothing if both are worth the same.
 [[nodiscard]] std::optional<HalfSpace> conveyed_by(const Domain& domain, const Contrast& contrast);
 
-/// What the robot does, rather than what, because of what: reason() of both counts. Where counts are expectations only
-/// why, in_words() of what is conveyed: nobody takes three tenths of a step.
+/// Whether the other path has nothing in its favour: no cost is less and no gain is more than on the robot's. It tells
+/// nothing about what the robot prefers to what.
+[[nodiscard]] bool is_detour(const Domain& domain, const Contrast& contrast);
+
+/// What the robot does, rather than what, because of what: reason() of both counts. Where counts are expectations,
+/// on_average_in_words() and in_words() of what is conveyed.
 /// @throws std::invalid_argument if both paths count the same, or the alternative is worth more to the robot.
 [[nodiscard]] std::string reason(const Domain& domain, const Contrast& contrast);
 

@@ -14,29 +14,32 @@ struct Example {
   Trajectory path;                        ///< The robot's.
   std::string text;                       ///< One sentence: what it shows, and why.
   std::optional<Trajectory> alternative;  ///< The path that the sentence compares with.
-  std::optional<std::size_t> decisive;    ///< The step at which both part, or at which it happens.
+  std::optional<std::size_t> decisive;    ///< The step from which both differ, or at which it happens.
 };
 
 /// What the robot replies to a question.
 struct Reply {
-  std::string question;           ///< As it was understood: "when: stopping at the charger".
+  std::string question;           ///< As it was understood: "When does it stop at the charger?".
   std::string text;               ///< The answer in a sentence or two.
   std::vector<Example> examples;  ///< Pairs where it does and where it does not stand together.
 };
 
 /// Answers a question about the robot's behaviour with demonstrations that show it.
 ///
-///   when HAPPENING [at CELL] [carrying ITEM] [in world N]   worlds that differ in little: it does here, not there
-///   where HAPPENING [in world N]                             cells
-///   why [HAPPENING] [not HAPPENING] [at CELL] [...]          the comparison that decides
-///   what if [no] THING [at CELL] [and ...] [in world N]      what changes
+///   when [not] HAPPENING [at CELL] [carrying ITEM] [in world N]   worlds that differ in little: it does here, not
+///   there where [not] HAPPENING [in world N]                       cells why [HAPPENING] [not HAPPENING] [at CELL]
+///   [...]          the comparison that decides what if [no] THING [at CELL] [and ...] [in world N]      what changes
 ///   what at CELL [carrying ITEM] [in world N]                what it does there
+///   how much FEATURE                                         what its behaviour tells about the feature's weight
 ///
-/// A HAPPENING is an action or a feature: its name, or words of [words] in any form ("recharges", "crossing rubble").
-/// A CELL is "(2,1)" or "2,1": column and row from the top left; in models without a map the name of a state in quotes,
-/// or a part of it that no other has. Words such as "does it" may be left out or put in.
-/// Without tables (Atlas::is_tabulated()) the robot's way is compared with those that differ in one step, and with
-/// those of people to whom the feature means more or less; where chance has a part, paths are the likeliest ones.
+/// "Does it HAPPENING" and "how often HAPPENING" ask as "when" does; "avoid" and "around" as "not" does. Synonyms such
+/// as "north", "charge", "deliver" stand for the domain's own word. Any other word that is not known is an error. A
+/// HAPPENING is an action or a feature: its name, or words of [words] in any form ("recharges", "crossing rubble"). A
+/// CELL is "(2,1)" or "2,1": column and row from the top left; in models without a map the name of a state in quotes or
+/// behind the word "state", or a part of it that no other has. Words such as "does it" may be left out or put in.
+/// Without tables (Atlas::is_tabulated()) the robot's path is compared with those that differ in one step, and with
+/// those of people to whom the feature means more or less; in stochastic domains paths are the likeliest ones, and
+/// chances and expectations are given.
 /// Without a cell questions are about the path from the map's start; without a world about all of them, or the one with
 /// everything (`why`, `what`).
 /// @throws kith::Error (kInvalidInput) with diagnostics E1102 to E1108 that point into the question.

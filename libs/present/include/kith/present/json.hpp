@@ -25,7 +25,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json counts_to_json(const Domain& domain, const IntegerVector& counts);
 /// Normals, shape [n, d]: entries beyond the domain's features are left out.
 [[nodiscard]] Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension);
-/// {"robot": [x, y], "items": [...], "stations": [...], "mdp": n}
+/// {"robot": CELL, "items": [{"name", "cell", "carried"}], "stations": [CELL, ...], "mdp": m, "start": n}; a CELL is
+/// [column, row] from the top left, from 1. Without a map {"state": n, "name", "mdp": m, "start": n}.
 [[nodiscard]] Json start_to_json(const Domain& domain, DemoId id);
 
 }  // namespace kith
