@@ -32,7 +32,7 @@ ParameterValue another_value(const Parameter& parameter) {
 Study study_of(const LearnerModel& model, const ParameterValues& values) {
   StudySpec spec;
   spec.id = "one";
-  spec.strategies = {Strategy::kCommon};
+  spec.strategies = {strategy_named("common")};
   spec.compositions = {"XX"};
   spec.replicates = 2;
   spec.learner_types = {{.letter = 'X', .label = "x", .model = &model, .parameters = values}};
