@@ -53,12 +53,12 @@ struct Answered {
 
 class RunImport {
  public:
-  RunImport(const fs::path& folder, AnswerDetail detail, LearnerModels models)
+  RunImport(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds)
       : tables_{folder / "tables"},
         folder_{folder},
         detail_{detail},
         run_{published(folder)},
-        study_{study_of(folder, models)},
+        study_{study_of(folder, kinds)},
         atlas_{*study_.domain} {}
 
   ResponseLogs run() {
@@ -92,8 +92,8 @@ class RunImport {
     return PublishedRun::open(folder);
   }
 
-  static StudyReading study_of(const fs::path& folder, LearnerModels models) {
-    auto reading = read_run_folder(folder, models);
+  static StudyReading study_of(const fs::path& folder, const StudyKinds& kinds) {
+    auto reading = read_run_folder(folder, kinds);
     detail::throw_if_errors(reading.diagnostics);
     return reading;
   }
@@ -356,8 +356,8 @@ class RunImport {
 
 }  // namespace
 
-ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail, LearnerModels models) {
-  return RunImport{folder, detail, models}.run();
+ResponseLogs import_run_folder(const fs::path& folder, AnswerDetail detail, const StudyKinds& kinds) {
+  return RunImport{folder, detail, kinds}.run();
 }
 
 }  // namespace kith

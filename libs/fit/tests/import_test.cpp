@@ -177,9 +177,9 @@ TEST(RunImport, RefusesLearnersOfOtherModels) {
   other.kind = "other";
   const std::array<const LearnerModel*, 1> models{&other};
   const testing::TemporaryFolder folder;
-  testing::run_into(folder.path() / "run", testing::study_text("N", 2, kTypes), models);
+  testing::run_into(folder.path() / "run", testing::study_text("N", 2, kTypes), {.learners = models});
   try {
-    (void)import_run_folder(folder.path() / "run", AnswerDetail::kPath, models);
+    (void)import_run_folder(folder.path() / "run", AnswerDetail::kPath, {.learners = models});
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     ASSERT_EQ(error.diagnostics().size(), 1u);

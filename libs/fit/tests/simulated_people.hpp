@@ -35,9 +35,8 @@ inline std::string study_text(const std::string& composition, std::size_t teams,
 }
 
 /// Runs a study into a folder.
-inline RunResult run_into(const std::filesystem::path& folder, const std::string& text,
-                          LearnerModels models = learner_models()) {
-  const auto reading = parse_study(text, "study.toml", {.learner_models = models});
+inline RunResult run_into(const std::filesystem::path& folder, const std::string& text, const StudyKinds& kinds = {}) {
+  const auto reading = parse_study(text, "study.toml", {.kinds = kinds});
   if (!reading.study) throw Error{reading.diagnostics};
   const Atlas atlas{*reading.domain};
   auto result = run_teams(atlas, *reading.study, team_addresses(*reading.study));
@@ -50,7 +49,8 @@ inline SimulatedPeople simulate(const std::string& text, AnswerDetail detail = A
   const auto run = run_into(folder.path() / "run", text);
   SimulatedPeople people{import_run_folder(folder.path() / "run", detail), {}};
   for (const auto& team : run.teams) {
-    for (const auto& learner : team.learners) people.truth.push_back({learner.traits[0], learner.traits[1], learner.traits[2]});
+    for (const auto& learner : team.learners)
+      people.truth.push_back({learner.traits[0], learner.traits[1], learner.traits[2]});
   }
   return people;
 }

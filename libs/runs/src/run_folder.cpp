@@ -250,14 +250,14 @@ std::optional<std::string> published_fact(const fs::path& folder, const std::str
 
 std::optional<std::string> published_digest(const fs::path& folder) { return published_fact(folder, "run"); }
 
-StudyReading read_run_folder(const fs::path& path, LearnerModels models) {
+StudyReading read_run_folder(const fs::path& path, const StudyKinds& kinds) {
   settle_for_reading(path);
   const auto file = path / "inputs" / "study.toml";
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {  // a named pipe would keep us waiting
     throw Error{ErrorKind::kIo, path.string() + " is not a run folder: it has no inputs/study.toml"};
   }
-  auto reading = load_study(file.string(), {}, models);
+  auto reading = load_study(file.string(), {}, kinds);
   if (!reading.study || !reading.domain) return reading;
   const auto expected = run_digest(path);
   if (expected && *expected != freeze(reading).digest()) {

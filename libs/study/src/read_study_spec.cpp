@@ -26,11 +26,8 @@ void set_if(Target& target, const std::optional<Value>& value) {
 
 class SpecReader {
  public:
-  SpecReader(const TomlDocument& document, const Domain* domain, LearnerModels models, TomlReport& report)
-      : root_{document.root, TomlPlace{}, "the study file", report},
-        domain_{domain},
-        models_{models},
-        report_{report} {}
+  SpecReader(const TomlDocument& document, const Domain* domain, const StudyKinds& kinds, TomlReport& report)
+      : root_{document.root, TomlPlace{}, "the study file", report}, domain_{domain}, kinds_{kinds}, report_{report} {}
 
   StudySpec read() {
     if (domain_ != nullptr) {
@@ -39,6 +36,7 @@ class SpecReader {
     }
     read_top();
     read_learner_types();
+    read_strategy_tables();
     if (auto design = root_.table("design", Presence::kRequired)) read_design(*design);
     if (auto teacher = root_.table("teacher", Presence::kOptional)) read_teacher(*teacher);
     if (auto stop = root_.table("stop", Presence::kOptional)) read_stop(*stop);
@@ -94,21 +92,93 @@ class SpecReader {
     return list;
   }
 
+  // Strategies with parameters of their own: [strategy.NAME] with a kind, unless NAME is one.
+  void read_strategy_tables() {
+    auto tables = root_.table("strategy", Presence::kOptional);
+    if (!tables) return;
+    std::vector<std::string> kinds;
+    for (const auto& kind : kinds_.strategies) kinds.emplace_back(kind.name);
+    for (const auto& entry : tables->content().entries()) {
+      tables->know(entry.key);
+      auto table = tables->table(entry.key, Presence::kRequired);
+      if (!table) continue;
+      const bool is_kind = find_strategy_kind(entry.key, kinds_.strategies) != nullptr;
+      const auto word = table->word("kind", is_kind ? Presence::kOptional : Presence::kRequired, kinds);
+      if (!is_kind && !word) continue;
+      const auto* kind = find_strategy_kind(word ? kinds[*word] : entry.key, kinds_.strategies);
+      if (kind->name == kBaseline && entry.key != kBaseline) {
+        report_.error("E0418", entry.place, "strategy '" + entry.key + "' cannot be of the kind 'baseline'",
+                      "list \"baseline\" itself in design.strategies");
+      }
+      own_strategies_.push_back({entry.key, *kind, read_parameters(*table, kind->parameters)});
+      own_places_.push_back(entry.place);
+      table->finish();
+    }
+  }
+
+  [[nodiscard]] std::optional<StrategyChoice> strategy_called(const std::string& name) const {
+    const auto own =
+        std::find_if(own_strategies_.begin(), own_strategies_.end(), [&](const auto& one) { return one.name == name; });
+    if (own != own_strategies_.end()) return *own;
+    if (find_strategy_kind(name, kinds_.strategies) == nullptr) return std::nullopt;
+    return strategy_named(name, kinds_.strategies);
+  }
+
   void read_strategies(TomlReader& design) {
     const auto* list = word_list(design, "strategies");
     if (list == nullptr) return;
     std::vector<std::string> names;
-    for (const auto& kind : strategy_kinds()) names.emplace_back(kind.name);
+    for (const auto& kind : kinds_.strategies) names.emplace_back(kind.name);
+    for (const auto& own : own_strategies_) names.push_back(own.name);
     for (const auto& element : *list) {
       const auto& name = *element.string();
-      const auto* kind = find_strategy_kind(name);
-      if (kind == nullptr) {
+      auto strategy = strategy_called(name);
+      if (!strategy) {
         report_.error("E0402", element.place(), "there is no strategy '" + name + "'", suggestion(name, names));
-      } else if (std::any_of(spec_.strategies.begin(), spec_.strategies.end(),
-                             [&](const auto& other) { return other.name == name; })) {
+      } else if (is_listed(name)) {
         report_.error("E0403", element.place(), "strategy '" + name + "' is listed twice");
       } else {
-        spec_.strategies.push_back(strategy_named(name));
+        spec_.strategies.push_back(*std::move(strategy));
+      }
+    }
+    for (std::size_t i = 0; i < own_strategies_.size(); ++i) {
+      if (is_listed(own_strategies_[i].name)) continue;
+      report_.warning("W0404", own_places_[i],
+                      "strategy '" + own_strategies_[i].name + "' is not listed in design.strategies");
+    }
+  }
+
+  [[nodiscard]] bool is_listed(const std::string& name) const {
+    return std::any_of(spec_.strategies.begin(), spec_.strategies.end(),
+                       [&](const auto& other) { return other.name == name; });
+  }
+
+  // The rules of aggregation whose beliefs are kept.
+  void read_beliefs(TomlReader& teacher) {
+    auto& rules = spec_.teaching.rules;
+    const auto* list = teacher.array("beliefs", Presence::kOptional);
+    if (list == nullptr || !teacher.strings("beliefs", Presence::kOptional)) return;
+    rules.clear();
+    std::vector<std::string> names;
+    for (const auto& rule : kinds_.rules) names.emplace_back(rule.name);
+    for (const auto& element : *list) {
+      const auto& name = *element.string();
+      const auto rule =
+          std::find_if(kinds_.rules.begin(), kinds_.rules.end(), [&](const auto& r) { return r.name == name; });
+      if (rule == kinds_.rules.end()) {
+        report_.error("E0419", element.place(), "there is no belief about a team called '" + name + "'",
+                      suggestion(name, names));
+      } else if (std::any_of(rules.begin(), rules.end(), [&](const auto& other) { return other.name == name; })) {
+        report_.error("E0403", element.place(), "belief '" + name + "' is listed twice");
+      } else {
+        rules.push_back(*rule);
+      }
+    }
+    for (const auto& strategy : spec_.strategies) {
+      for (const auto& need : strategy.kind.needs(strategy.parameters).rules) {
+        if (std::any_of(rules.begin(), rules.end(), [&](const auto& rule) { return rule.name == need; })) continue;
+        report_.error("E0419", teacher.value("beliefs", Presence::kOptional)->place(),
+                      "strategy '" + strategy.name + "' needs the belief '" + need + "'", "add it to the list");
       }
     }
   }
@@ -181,7 +251,7 @@ class SpecReader {
     set_if(type.label, table.string("label", Presence::kOptional));
     type.model = read_kind(table);
     if (type.model == nullptr) {  // then it is not known which keys there are
-      type.model = models_.front();
+      type.model = kinds_.learners.front();
       return type;
     }
     type.parameters = read_parameters(table, type.model->parameters);
@@ -197,11 +267,11 @@ class SpecReader {
   // Null after reporting that there is no such kind.
   [[nodiscard]] const LearnerModel* read_kind(TomlReader& table) {
     const auto kind = table.string("kind", Presence::kOptional);
-    if (!kind) return table.has("kind") ? nullptr : models_.front();
-    const auto* model = find_learner_model(*kind, models_);
+    if (!kind) return table.has("kind") ? nullptr : kinds_.learners.front();
+    const auto* model = find_learner_model(*kind, kinds_.learners);
     if (model == nullptr) {
       std::vector<std::string> kinds;
-      for (const auto* known : models_) kinds.emplace_back(known->kind);
+      for (const auto* known : kinds_.learners) kinds.emplace_back(known->kind);
       report_.error("E0417", table.value("kind", Presence::kOptional)->place(),
                     "there is no learner model '" + *kind + "'", suggestion(*kind, kinds));
     }
@@ -244,6 +314,7 @@ class SpecReader {
     if (const auto whose = teacher.word("learner_counterfactuals", Presence::kOptional, kCounterfactualWords)) {
       spec_.learner_counterfactuals_self = *whose == 1;
     }
+    read_beliefs(teacher);
     teacher.finish();
   }
 
@@ -277,16 +348,18 @@ class SpecReader {
 
   TomlReader root_;
   const Domain* domain_;
-  LearnerModels models_;
+  StudyKinds kinds_;
   TomlReport& report_;
   StudySpec spec_;
+  std::vector<StrategyChoice> own_strategies_;  // of [strategy.NAME]
+  std::vector<TomlPlace> own_places_;
 };
 
 }  // namespace
 
-StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, LearnerModels models,
+StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, const StudyKinds& kinds,
                           TomlReport& report) {
-  return SpecReader{document, domain, models, report}.read();
+  return SpecReader{document, domain, kinds, report}.read();
 }
 
 }  // namespace kith

@@ -19,7 +19,7 @@ inline constexpr const char* kConflictRule = "largest-consistent";
 /// to the report, and its key keeps its default. `design.vary` is left alone.
 /// @param domain  may be null, if it could not be read; then priors are not resolved.
 /// @param models  what `learner.X.kind` may name; the first is the default.
-[[nodiscard]] StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, LearnerModels models,
+[[nodiscard]] StudySpec read_study_spec(const TomlDocument& document, const Domain* domain, const StudyKinds& kinds,
                                         TomlReport& report);
 
 }  // namespace kith

@@ -42,7 +42,7 @@ class StudyParser {
 
   StudyReading parse() {
     read_domain_of_study();
-    const auto base = read_study_spec(document_, domain(), options_.learner_models, report_);
+    const auto base = read_study_spec(document_, domain(), options_.kinds, report_);
     const auto factors = read_factors();
     if (!report_.has_errors()) check_size(base, factors);
     if (!report_.has_errors()) expand(base, factors);
@@ -215,7 +215,7 @@ class StudyParser {
       set(document.root, split(factors[i].key), value);
     }
     TomlReport report{document};
-    auto spec = read_study_spec(document, domain(), options_.learner_models, report);
+    auto spec = read_study_spec(document, domain(), options_.kinds, report);
     spec.factors = std::move(settings);
     for (auto& diagnostic : report.diagnostics()) {
       auto& all = reading_.diagnostics;
@@ -293,11 +293,11 @@ StudyReading parse_study(std::string_view text, const std::string& name, const S
 }
 
 StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides,
-                        LearnerModels models) {
+                        const StudyKinds& kinds) {
   const auto& known = built_in_studies();
   const auto built_in =
       std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name_or_path; });
-  if (built_in != known.end()) return parse_study(built_in->text, name_or_path, {overrides, {}, models});
+  if (built_in != known.end()) return parse_study(built_in->text, name_or_path, {overrides, {}, kinds});
   const std::filesystem::path path{name_or_path};
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) {
@@ -312,7 +312,7 @@ StudyReading load_study(const std::string& name_or_path, const std::vector<std::
   }
   const auto text = text_of(path);
   if (!text) throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "'"};
-  return parse_study(*text, name_or_path, {overrides, path.parent_path(), models});
+  return parse_study(*text, name_or_path, {overrides, path.parent_path(), kinds});
 }
 
 }  // namespace kith

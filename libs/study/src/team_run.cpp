@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kith/core/assert.hpp"
+#include "kith/learners/run_period.hpp"
 
 namespace kith {
 namespace {
@@ -100,15 +101,10 @@ class TeamRun {
       rows.push_back({.member = person.member, .type = person.type, .traits = person.traits});
     }
     if (observer_ != nullptr) observer_->on_session(session, member);
-    std::optional<std::size_t> component;
     while (session.propose(cache_)) {
       was_stopped_ = was_stopped_ || (stopped_ && stopped_());
       if (was_stopped_) return;
-      if (component != session.lesson().component) {
-        component = session.lesson().component;
-        for (auto& one : learners) one->begin_component();
-      }
-      run_period(session, learners, rows, member);
+      teach_period(session, learners, rows, member);
     }
     if (observer_ != nullptr) observer_->on_end(session, learners);
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -124,24 +120,14 @@ class TeamRun {
     }
   }
 
-  void run_period(Session& session, Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member) {
-    const Lesson lesson = session.lesson();
-    if (observer_ != nullptr) observer_->on_lesson(session, lesson, learners);
-    watch(lesson, learners);
-    std::vector<DemoIndex> tests;
-    for (const auto& test : lesson.tests) tests.push_back(test.demo);
-    std::vector<Learner::Response> responses;
-    std::vector<std::vector<Answer>> answers;
-    for (const auto& one : learners) {
-      responses.push_back(one->answer(cache_.behaviours(), tests, lesson.period));
-      answers.push_back(responses.back().answers);
-    }
-    const auto& feedback = session.submit(answers);
-    std::vector<std::optional<double>> abilities;
-    for (const auto& one : learners) abilities.push_back(one->ability());
+  void teach_period(Session& session, Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member) {
+    if (observer_ != nullptr) observer_->on_lesson(session, session.lesson(), learners);
+    const auto period =
+        run_period(session, cache_, learners,
+                   {.own_counterfactuals = spec_.learner_counterfactuals_self ? spec_.teaching.counterfactuals : 0});
+    const auto& [lesson, answers, feedback] = session.history().back();
     for (std::size_t i = 0; i < learners.size(); ++i) {
-      learners[i]->hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
-      rows[i].tests += tests.size();
+      rows[i].tests += lesson.tests.size();
       for (const auto& verdict : feedback.verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
     }
     add_up(lesson);
@@ -149,30 +135,10 @@ class TeamRun {
       write_period(session, lesson, feedback, member);
       write_demonstrations(lesson, member);
       write_responses(lesson, answers, feedback, rows);
-      write_progress(lesson, learners, abilities, feedback, rows);
+      write_progress(lesson, learners, period.abilities, feedback, rows);
     }
     if (spec_.record == RecordLevel::kParticles) write_beliefs(session, lesson.period, learners, rows);
-    if (observer_ != nullptr) observer_->on_feedback(session, lesson, responses, feedback, learners);
-  }
-
-  void watch(const Lesson& lesson, Learners& learners) {
-    std::vector<HalfSpace> conveyed;
-    std::vector<DemoIndex> demos;
-    for (const auto& shown : lesson.demonstrations) {
-      conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
-      demos.push_back(shown.demo);
-    }
-    for (auto& one : learners) {
-      std::vector<Direction> expected;
-      if (spec_.learner_counterfactuals_self) {
-        expected = one->imagined_weights(spec_.teaching.counterfactuals, lesson.period);
-      }
-      if (expected.empty()) {
-        one->watch(conveyed, lesson.period);
-      } else {
-        one->watch(conveyed_to(cache_.behaviours(), cache_.regions(), demos, expected), lesson.period);
-      }
-    }
+    if (observer_ != nullptr) observer_->on_feedback(session, lesson, period.responses, feedback, learners);
   }
 
   void add_up(const Lesson& lesson) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "kith/study/study_file.hpp"
 #include "kith/toml/document.hpp"
@@ -85,6 +86,20 @@ TomlTable learner(const LearnerType& type, const Domain& domain) {
   return result;
 }
 
+// Those that need a table: with parameters, or with a name of their own.
+std::optional<TableWriter> strategies(const StudySpec& spec) {
+  std::optional<TableWriter> tables;
+  for (const auto& strategy : spec.strategies) {
+    if (strategy.name == strategy.kind.name && strategy.kind.parameters.empty()) continue;
+    TomlTable table;
+    table.append({"kind", {}, TomlValue{std::string{strategy.kind.name}}});
+    write_parameters(strategy.parameters, table);
+    if (!tables) tables.emplace();
+    tables->add(strategy.name, TomlValue{std::move(table)});
+  }
+  return tables;
+}
+
 TableWriter teacher(const StudySpec& spec) {
   const auto& options = spec.teaching;
   TableWriter table;
@@ -98,6 +113,9 @@ TableWriter teacher(const StudySpec& spec) {
   table.add("resample_below", options.filter.resample_below);
   table.add("conflict", std::string{kConflictRule});
   table.add("reduce_before_update", options.reduce_before_update);
+  std::vector<std::string> beliefs;
+  for (const auto& rule : options.rules) beliefs.emplace_back(rule.name);
+  table.add("beliefs", TomlValue{strings(beliefs)});
   table.add("learner_counterfactuals", kCounterfactualWords[spec.learner_counterfactuals_self ? 1 : 0]);
   return table;
 }
@@ -114,6 +132,7 @@ std::string to_toml(const Study& study, const Domain& domain) {
   root.add_count("seed", spec.seed);
   root.add_count("replicates", spec.replicates);
   root.add("design", design(study));
+  if (auto tables = strategies(spec)) root.add("strategy", *std::move(tables));
   auto types = spec.learner_types;  // their order means nothing, so it is always the same one
   std::sort(types.begin(), types.end(), [](const LearnerType& a, const LearnerType& b) { return a.letter < b.letter; });
   for (const auto& type : types) learners.add(std::string{type.letter}, TomlValue{learner(type, domain)});

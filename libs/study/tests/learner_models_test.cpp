@@ -146,7 +146,7 @@ level = "particles"
 
 TEST(OwnLearnerModels, AreTaughtBesideBuiltInOnesAndHaveColumnsOfTheirOwn) {
   const std::array models{&bayesian_model(), &kOracle};
-  const auto reading = parse_study(kMixed, "study.toml", {.learner_models = models});
+  const auto reading = parse_study(kMixed, "study.toml", {.kinds = {.learners = models}});
   ASSERT_TRUE(reading.study) << reading.diagnostics.front().message;
   const Atlas atlas{*reading.domain};
   const auto teams = run_teams(atlas, *reading.study, team_addresses(*reading.study)).teams;

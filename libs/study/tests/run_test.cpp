@@ -8,6 +8,7 @@
 
 #include "item_delivery.hpp"
 #include "kith/learners/bayesian_learner.hpp"
+#include "kith/learners/run_period.hpp"
 #include "kith/study/study.hpp"
 #include "kith/study/summary.hpp"
 #include "kith/study/team_run.hpp"
@@ -152,7 +153,7 @@ TEST(Teams, PermutingTheMembersPermutesTheirResults) {
   const auto teach = [&](std::string_view strategy, const std::vector<std::uint64_t>& seats) {
     TeachingCache cache{atlas};
     std::vector<RandomStream> streams;
-    std::vector<BayesianLearner> learners;
+    Learners learners;
     for (const auto person : seats) {
       const auto stream = RandomStream{11}.split(person);
       const BayesianPerson parameters{.ability = 0.65 + 0.05 * static_cast<double>(person),
@@ -161,25 +162,12 @@ TEST(Teams, PermutingTheMembersPermutesTheirResults) {
                                       .ability_max = 0.95,
                                       .ability_scale = 1.0};
       streams.push_back(stream.split("teacher belief"));
-      learners.emplace_back(ParticleBelief{atlas.prior_cone(), {}}, parameters, LikelihoodForm::kDiscontinuous,
-                            stream.split("learner"));
+      learners.push_back(std::make_unique<BayesianLearner>(ParticleBelief{atlas.prior_cone(), {}}, parameters,
+                                                           LikelihoodForm::kDiscontinuous, stream.split("learner")));
     }
     Session session{
         cache, {.keep_members = true, .keep_rules = true}, strategy_named(strategy), streams, RandomStream{12}};
-    for (int period = 0; period < 8 && session.propose(cache); ++period) {
-      const auto lesson = session.lesson();
-      std::vector<DemoIndex> tests;
-      for (const auto& test : lesson.tests) tests.push_back(test.demo);
-      std::vector<std::vector<Answer>> answers;
-      for (auto& learner : learners) {
-        for (const auto& shown : lesson.demonstrations) learner.watch(shown.half_spaces, lesson.period);
-        answers.push_back(learner.answer(cache.behaviours(), tests, lesson.period).answers);
-      }
-      const auto& feedback = session.submit(answers);
-      for (std::size_t i = 0; i < learners.size(); ++i) {
-        learners[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
-      }
-    }
+    for (int period = 0; period < 8 && session.propose(cache); ++period) run_period(session, cache, learners);
     return std::pair{std::move(session), std::move(learners)};
   };
   for (const auto& kind : strategy_kinds()) {
@@ -192,7 +180,7 @@ TEST(Teams, PermutingTheMembersPermutesTheirResults) {
     EXPECT_EQ(session.belief().common(), other.belief().common());
     EXPECT_EQ(session.belief().joint(), other.belief().joint());
     for (std::size_t seat = 0; seat < order.size(); ++seat) {
-      EXPECT_EQ(*learners[permuted[seat]].belief(), *others[seat].belief());
+      EXPECT_EQ(*learners[permuted[seat]]->belief(), *others[seat]->belief());
       EXPECT_EQ(session.belief().member(permuted[seat]), other.belief().member(seat));
     }
   }

@@ -74,8 +74,8 @@ Places places_of(TeamRecord& r) {
   p.counts = {&r.periods, &r.demonstrations, &r.tests, &r.components_learned, &r.components_skipped};
   p.texts = {&r.seed_address};
   for (auto& x : r.learners) {
-    auto& own = x.parameters;
-    p.reals.insert(p.reals.end(), {&own.ability, &own.confirm_gain, &own.correct_gain, &own.ability_max, &x.p_bec});
+    for (auto& trait : x.traits) p.reals.push_back(&trait);
+    p.reals.push_back(&x.p_bec);
     p.counts.insert(p.counts.end(), {&x.member, &x.periods, &x.tests, &x.correct});
     p.letters.push_back(&x.type);
   }
@@ -93,7 +93,8 @@ Places places_of(TeamRecord& r) {
   for (auto& x : r.demonstration_records) p.counts.insert(p.counts.end(), {&x.period, &x.mdp, &x.start});
   for (auto& x : r.responses) p.counts.insert(p.counts.end(), {&x.period, &x.test, &x.mdp, &x.start});
   for (auto& x : r.progress) {
-    p.reals.insert(p.reals.end(), {&x.ability, &x.p_bec});
+    if (x.ability) p.reals.push_back(&*x.ability);
+    p.reals.push_back(&x.p_bec);
     p.letters.push_back(&x.type);
   }
   return p;

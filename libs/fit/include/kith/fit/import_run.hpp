@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "kith/fit/person_log.hpp"
+#include "kith/study/study_spec.hpp"
 
 namespace kith {
 
@@ -15,8 +16,8 @@ namespace kith {
 /// E0708), the run has no answers because of its record level (E0705), it is not finished (E0704), or learners imagine
 /// counterfactuals of their own, so that the tables do not say what they learned (E0706), or there are learners of
 /// another model than "bayesian" (E0712).
-/// @param models  the learner models that the run may name.
+/// @param kinds  what the frozen study may name.
 [[nodiscard]] ResponseLogs import_run_folder(const std::filesystem::path& folder, AnswerDetail detail,
-                                             LearnerModels models = learner_models());
+                                             const StudyKinds& kinds = {});
 
 }  // namespace kith

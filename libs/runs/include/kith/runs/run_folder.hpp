@@ -134,6 +134,6 @@ inline constexpr const char* kJournalFile = "study.sqlite";
 /// The study of a run, from its frozen inputs, which must be those that its manifest, or its journal if the run is not
 /// finished, is about.
 /// @throws kith::Error kIo if the folder is no run folder, kMismatch if the inputs are not those of the run.
-[[nodiscard]] StudyReading read_run_folder(const std::filesystem::path& path, LearnerModels models = learner_models());
+[[nodiscard]] StudyReading read_run_folder(const std::filesystem::path& path, const StudyKinds& kinds = {});
 
 }  // namespace kith

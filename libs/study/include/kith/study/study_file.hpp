@@ -30,8 +30,7 @@ struct StudyReadOptions {
   /// Where a domain file named by the study is looked for; one named by an override is relative to the working
   /// directory.
   std::filesystem::path folder{};
-  /// What `learner.X.kind` may name; the first is the default. They have to stay as long as the study does.
-  LearnerModels learner_models = kith::learner_models();
+  StudyKinds kinds{};
 };
 
 /// Parses and checks a study file (schema kith.study/1, see docs/formats.md) with the overrides applied, reads
@@ -50,7 +49,7 @@ struct BuiltInStudy {
 /// A built-in study by name, or the study file at that path.
 /// @throws kith::Error (kInvalidInput, E0116) if there is neither; kIo if the file cannot be read.
 [[nodiscard]] StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides = {},
-                                      LearnerModels models = learner_models());
+                                      const StudyKinds& kinds = {});
 
 /// The study as a study file with every key written out; reading it gives the same study again.
 /// @param domain  the study's domain, for the names of features.

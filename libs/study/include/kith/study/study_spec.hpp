@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,14 @@ struct FactorSetting {
   std::string key;
   std::string value;
   friend bool operator==(const FactorSetting&, const FactorSetting&) = default;
+};
+
+/// What study files can name. A program that brings kinds of its own lists them here beside the built-in ones; all of
+/// them have to stay as long as studies that use them.
+struct StudyKinds {
+  LearnerModels learners = learner_models();                     ///< `learner.X.kind`; the first is the default.
+  std::span<const StrategyKind> strategies = strategy_kinds();   ///< `design.strategies` and `strategy.X.kind`.
+  std::span<const AggregationRule> rules = aggregation_rules();  ///< `teacher.beliefs`.
 };
 
 /// A study as it will be run: every key of a study file, resolved, for one

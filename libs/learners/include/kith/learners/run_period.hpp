@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "kith/learners/learner.hpp"
+#include "kith/teaching/session.hpp"
+
+namespace kith {
+
+/// How simulated learners take part in a session.
+struct PeriodOptions {
+  /// If positive, learners work out for themselves what a demonstration conveys, from so many weights that they take
+  /// the robot's to be, instead of learning what it conveys to the teacher's counterfactuals.
+  std::size_t own_counterfactuals = 0;
+};
+
+/// What learners did in a period; lesson, answers and feedback are in Session::history().back().
+struct PeriodOfLearners {
+  std::vector<Learner::Response> responses;      ///< Per member; empty for who was away.
+  std::vector<std::optional<double>> abilities;  ///< Per member, while watching.
+};
+
+/// One interaction period of simulated learners: the loop that studies, transcripts, calibration, power and tests
+/// share. The learners watch the lesson that Session::propose() chose, answer its tests and hear the feedback. Members
+/// who are away do nothing.
+///
+///   while (session.propose(cache)) run_period(session, cache, learners);
+///
+/// @param cache  of the session's atlas; changes no result.
+/// @param learners  one per seat.
+/// @throws std::invalid_argument unless there is one learner per seat; kith::Error as the events of Session.
+PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& learners,
+                            const PeriodOptions& options = {});
+
+}  // namespace kith

@@ -1,0 +1,63 @@
+#include "kith/learners/run_period.hpp"
+
+#include <stdexcept>
+
+namespace kith {
+namespace {
+
+// A component begins with its first lesson.
+bool begins_component(const Session& session) {
+  const auto history = session.history();
+  return history.empty() || history.back().lesson.component != session.lesson().component;
+}
+
+void watch(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options) {
+  std::vector<Direction> expected;
+  if (options.own_counterfactuals > 0) {
+    expected = learner.imagined_weights(options.own_counterfactuals, lesson.period);
+  }
+  if (expected.empty()) {
+    std::vector<HalfSpace> conveyed;
+    for (const auto& shown : lesson.demonstrations) {
+      conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
+    }
+    learner.watch(conveyed, lesson.period);
+  } else {
+    std::vector<DemoIndex> demos;
+    for (const auto& shown : lesson.demonstrations) demos.push_back(shown.demo);
+    learner.watch(conveyed_to(cache.behaviours(), cache.regions(), demos, expected), lesson.period);
+  }
+}
+
+}  // namespace
+
+PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& learners, const PeriodOptions& options) {
+  if (learners.size() != session.num_members()) {
+    throw std::invalid_argument{"run_period: there must be one learner per seat"};
+  }
+  const Lesson& lesson = session.lesson();
+  const bool begins = begins_component(session);
+  std::vector<DemoIndex> tests;
+  for (const auto& test : lesson.tests) tests.push_back(test.demo);
+  session.show();
+  PeriodOfLearners period;
+  period.responses.resize(learners.size());
+  period.abilities.resize(learners.size());
+  for (std::size_t i = 0; i < learners.size(); ++i) {
+    if (begins) learners[i]->begin_component();
+    if (!session.takes_part(i)) continue;
+    watch(*learners[i], lesson, cache, options);
+    period.responses[i] = learners[i]->answer(cache.behaviours(), tests, lesson.period);
+    period.abilities[i] = learners[i]->ability();
+    session.answer(i, period.responses[i].answers);
+  }
+  session.close_tests();
+  const auto& feedback = session.give_feedback();
+  for (std::size_t i = 0; i < learners.size(); ++i) {
+    if (!session.takes_part(i)) continue;
+    learners[i]->hear_feedback(feedback.all_correct[i], feedback.half_spaces, session.history().back().lesson.period);
+  }
+  return period;
+}
+
+}  // namespace kith
