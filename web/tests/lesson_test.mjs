@@ -79,10 +79,14 @@ describe('a lesson', () => {
     ]) {
       it(`of ${name} at ${width} px ${dark ? 'dark' : 'light'}: no overflow, no serious axe violation`, async () => {
         await withLesson(name, { width, dark }, async (page) => {
-          await page.evaluate(() => document.querySelectorAll('.test details').forEach((box) => (box.open = true)));
-          await page.waitForSelector('.test .answer');
           if (values.screenshots) {
             mkdirSync(values.screenshots, { recursive: true });
+            await page.screenshot({ path: join(values.screenshots, `${name}-${width}-closed.png`), fullPage: true });
+          }
+          await page.evaluate(() => document.querySelectorAll('.test details, .why').forEach((box) => (box.open = true)));
+          await page.waitForSelector('.test .answer');
+          await page.waitForSelector('.why .reason');
+          if (values.screenshots) {
             await page.screenshot({ path: join(values.screenshots, `${name}-${width}.png`), fullPage: true });
           }
           assert.deepEqual(await violations(page), []);
@@ -107,6 +111,10 @@ describe('a lesson', () => {
       const labels = await page.$$eval('.board svg', (all) => all.map((svg) => svg.getAttribute('aria-label') ?? ''));
       assert.ok(labels.length > 0 && labels.every((label) => label.length > 40), `labels: ${labels}`);
       const reason = sample.components[0].demonstrations[0].reason;
+      assert.equal(await page.locator('.reason').count(), 0);
+      await page.click('.why summary');
+      await page.waitForSelector('.reason');
+      assert.equal((await page.textContent('.why summary')).trim(), 'Hide the reason');
       assert.match((await page.textContent('.reason')).toLowerCase(), new RegExp(reason.slice(3, 30)));
       const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));
       levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
@@ -114,6 +122,39 @@ describe('a lesson', () => {
         all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)),
       );
       assert.deepEqual(lost, []);
+    });
+  });
+
+  it('gives nothing away before the robot moves, and uses no terms of ours', async () => {
+    await withLesson('sample', { width: 1280, dark: false }, async (page) => {
+      const visible = await page.evaluate(() => document.body.innerText);
+      for (const component of sample.components) {
+        const told = [component.name, ...component.sentences.map(({ text }) => text)];
+        for (const { reason, flip } of component.demonstrations) told.push(reason, ...(flip ? [flip.text] : []));
+        for (const text of told) assert.ok(!visible.toLowerCase().includes(text.toLowerCase()), text);
+      }
+      assert.doesNotMatch(visible, /it (goes|picks|puts|leaves)/);
+      assert.ok(!visible.includes(sample.domain.title) && !(await page.title()).includes(sample.domain.title));
+      await page.evaluate(() => document.querySelectorAll('.test details, .why').forEach((box) => (box.open = true)));
+      await page.waitForSelector('.why .reason');
+      const opened = await page.evaluate(() => document.body.innerText);
+      assert.doesNotMatch(opened, /\(\d+,\d+\)|\bworld \d|\bMDP\b|half-space|not been taught/i);
+      assert.match(opened, /From this you can conclude:|Before this lesson, about/);
+    });
+  });
+
+  it('draws the path only as far as the robot has gone', async () => {
+    await withLesson('sample', { width: 1280, dark: false }, async (page) => {
+      const drawn = () =>
+        page.$$eval('.demonstration .way.own .line', (all) => all.slice(0, 1).map((line) => line.getAttribute('points').split(' ').length));
+      assert.deepEqual(await drawn(), []);
+      const step = '.demonstration button[aria-label="One step on"]';
+      const lengths = [];
+      for (let i = 0; i < sample.components[0].demonstrations[0].frames.length - 1; i += 1) {
+        await page.click(step);
+        lengths.push((await drawn())[0] ?? 0);
+      }
+      assert.ok(lengths.every((n, i) => i === 0 || n >= lengths[i - 1]) && lengths[0] < lengths[lengths.length - 1], `${lengths}`);
     });
   });
 
@@ -130,11 +171,11 @@ describe('a lesson', () => {
       assert.equal(await page.textContent('.demonstration .play'), 'Play');
       await page.focus('.demonstration input[type=range]');
       await page.keyboard.press('End');
-      assert.match(await text(), /it ends at/);
+      assert.match(await text(), /The end\.$/);
       await page.keyboard.press('Home');
       assert.deepEqual(await robotOf(page), first);
       await page.keyboard.press('ArrowRight');
-      assert.match(await text(), new RegExp(`^Step 2 of ${frames.length - 1}`));
+      assert.match(await text(), new RegExp(`^Step 1 of ${frames.length - 1}`));
     });
   });
 
@@ -142,7 +183,7 @@ describe('a lesson', () => {
     await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
       assert.equal(await page.locator('.play').count(), 0);
       await page.click('.demonstration button[aria-label="One step on"]');
-      assert.match(await page.textContent('.demonstration .step'), /^Step 2/);
+      assert.match(await page.textContent('.demonstration .step'), /^Step 1/);
       const duration = await page.$eval('.mover', (mover) => getComputedStyle(mover).transitionDuration);
       assert.equal(duration, '0s');
     });
@@ -152,6 +193,10 @@ describe('a lesson', () => {
     await withLesson('sample', { width: 1280, dark: false }, async (page) => {
       assert.equal(await page.locator('.test .way').count(), 0);
       await page.click('.test summary');
+      await page.waitForSelector('.test .answer');
+      assert.equal((await page.textContent('.test summary')).trim(), 'Hide the answer');
+      assert.equal(await page.locator('.test .answer .way').count(), 0, 'drawn before it is walked');
+      await page.click('.test .answer button[aria-label="One step on"]');
       await page.waitForSelector('.test .answer .way');
       assert.ok((await page.textContent('.test .answer .sentences')).length > 10);
     });
@@ -160,7 +205,8 @@ describe('a lesson', () => {
   it('lists states and actions where there is no map', async () => {
     await withLesson('mapless', { width: 1280, dark: false }, async (page) => {
       assert.equal(await page.locator('.board').count(), 0);
-      assert.match(await page.textContent('.steps .parting'), /dock: wait.*here they part/);
+      await page.click('.why summary');
+      assert.match(await page.textContent('.steps .parting'), /dock: wait.*here they separate/);
     });
   });
 });

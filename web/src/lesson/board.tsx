@@ -5,7 +5,7 @@ import { centre, kUnit, lineOf } from './geometry';
 import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
 
-export const kFew = 12; // columns of a map whose every row and column is numbered
+export const kFew = 12; // columns of a map that is drawn in full size
 const kRobotLane = 0.08;
 const kOtherLane = 0.2;
 
@@ -15,51 +15,35 @@ export interface BoardProps {
   board: Board;
   step: number;
   label: string;
-  path?: boolean; // whether the way is drawn
-  other?: Frame[]; // the way that somebody would expect
+  path?: boolean; // whether the path is drawn, as far as it has been walked
+  walked?: number; // steps of the longer path that have been walked; the robot's step if absent
+  other?: Frame[]; // the path that somebody might expect
   decisive?: { frame: number; cell?: Place } | null;
 }
 
 export function BoardView(props: BoardProps): JSX.Element {
   const { domain, board, step, label, path, other, decisive } = props;
+  const walked = props.walked ?? step;
   const columns = domain.width ?? 0;
   const rows = domain.height ?? 0;
   const isLarge = columns > kFew || rows > kFew;
-  const margin = isLarge ? 34 : 20;
-  const [width, height] = [margin + columns * kUnit + 2, margin + rows * kUnit + 2];
+  const margin = 4;
+  const [width, height] = [2 * margin + columns * kUnit, 2 * margin + rows * kUnit];
   const frame = board.frames[step] ?? board.start;
   return (
     <div class={isLarge ? 'board large' : 'board'} style={{ maxWidth: `${isLarge ? width : width * 1.45}px` }}>
       <svg viewBox={`${-margin} ${-margin} ${width} ${height}`} role="img" aria-label={label}>
-        <Numbers columns={columns} rows={rows} every={isLarge ? 5 : 1} margin={margin} />
         <Ground {...props} />
-        {decisive?.cell && <Decisive cell={decisive.cell} />}
-        {other && <Way frames={other} first={decisive?.frame ?? 0} lane={kOtherLane} kind="other" />}
-        {path && <Way frames={board.frames} first={0} lane={kRobotLane} kind="own" />}
+        {decisive?.cell && walked > decisive.frame && <Decisive cell={decisive.cell} />}
+        {other && walked > (decisive?.frame ?? 0) && (
+          <Way frames={other.slice(0, walked + 1)} first={decisive?.frame ?? 0} lane={kOtherLane} kind="other" />
+        )}
+        {path && step > 0 && <Way frames={board.frames.slice(0, step + 1)} first={0} lane={kRobotLane} kind="own" />}
         <Things {...props} frame={frame} />
-        {other && decisive && step > decisive.frame && <Ghost frame={other[Math.min(step, other.length - 1)]} />}
+        {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} />}
         <Mover frame={frame} legend={props.legend} />
       </svg>
     </div>
-  );
-}
-
-function Numbers({ columns, rows, every, margin }: { columns: number; rows: number; every: number; margin: number }) {
-  const shown = (n: number): number[] =>
-    Array.from({ length: n }, (_, i) => i + 1).filter((i) => every === 1 || i === 1 || i % every === 0);
-  return (
-    <g class="numbers" aria-hidden="true">
-      {shown(columns).map((column) => (
-        <text x={(column - 0.5) * kUnit} y={-margin * 0.32} text-anchor="middle">
-          {column}
-        </text>
-      ))}
-      {shown(rows).map((row) => (
-        <text x={-margin * 0.28} y={(row - 0.5) * kUnit} text-anchor="end" dominant-baseline="central">
-          {row}
-        </text>
-      ))}
-    </g>
   );
 }
 

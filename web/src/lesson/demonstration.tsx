@@ -1,7 +1,8 @@
 import type { JSX } from 'preact';
+import { useState } from 'preact/hooks';
 import type { Demonstration, Sentence } from './document';
 import { Scene, type Context } from './scene';
-import { cellText, upperFirst } from './words';
+import { upperFirst, withoutCells } from './words';
 
 export function Sentences({ sentences }: { sentences: Sentence[] }): JSX.Element {
   return (
@@ -13,46 +14,47 @@ export function Sentences({ sentences }: { sentences: Sentence[] }): JSX.Element
   );
 }
 
+// First the robot moves; why it does so, and what it would do elsewhere, is there when the reader asks.
 export function DemonstrationView({ shown, number, ...context }: Context & { shown: Demonstration; number: number }) {
+  const [open, setOpen] = useState(false);
   const { alternative, decisive, flip } = shown;
-  const where = decisive?.cell ? ` at ${cellText(decisive.cell)}` : '';
-  // The board of the other world marks the same place: there the robot decides otherwise.
+  // The board of the other world marks the same place: there the robot decides differently.
   const there = flip && decisive ? { frame: decisive.frame, ...cellThere(flip.frames[decisive.frame]?.robot) } : null;
   return (
     <article class="demonstration">
-      <h3>Demonstration {number}</h3>
-      <p class="reason">{upperFirst(shown.reason)}.</p>
-      <div class={flip ? 'pair' : 'single'}>
-        <Scene
-          {...context}
-          board={shown}
-          title={`World ${shown.world}: what the robot does`}
-          name="the robot's path"
-          {...(alternative ? { other: alternative.frames } : {})}
-          decisive={decisive}
-        >
-          {alternative && decisive
-            ? `${shown.map ? 'The dashed way' : 'The other list'} is what somebody would expect who does not know this yet. They part${where} with step ${decisive.frame + 1}.`
-            : null}
-        </Scene>
-        {flip && (
-          <Scene
-            {...context}
-            board={flip}
-            title={`World ${flip.world}: where it decides otherwise`}
-            name="the robot's path there"
-            decisive={there}
-          >
-            {`The nearest world with another decision: ${flip.text}.`}
-          </Scene>
+      <h3>Example {number}</h3>
+      <p class="question">Where will the robot go? Decide first, then watch.</p>
+      <Scene
+        {...context}
+        board={shown}
+        title="The robot"
+        name="the robot's path"
+        {...(open && alternative ? { other: alternative.frames } : {})}
+        decisive={open ? decisive : null}
+      >
+        {open && alternative && decisive
+          ? `${shown.map ? 'The dashed path' : 'The other list'} is one that you might have expected. They differ from step ${decisive.frame + 1}.`
+          : null}
+      </Scene>
+      <details class="why" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+        <summary>{open ? 'Hide the reason' : 'Why does it do this?'}</summary>
+        {open && (
+          <>
+            <p class="reason">{upperFirst(shown.reason)}.</p>
+            {shown.conveys.length > 1 && (
+              <div class="conveys">
+                <p>From this you can conclude:</p>
+                <Sentences sentences={shown.conveys} />
+              </div>
+            )}
+            {flip && (
+              <Scene {...context} board={flip} title="On another map" name="the robot's path there" decisive={there}>
+                {`${upperFirst(withoutCells(flip.text))}.`}
+              </Scene>
+            )}
+          </>
         )}
-      </div>
-      {shown.conveys.length > 1 && (
-        <div class="conveys">
-          <p>Who watches closely can conclude:</p>
-          <Sentences sentences={shown.conveys} />
-        </div>
-      )}
+      </details>
     </article>
   );
 }

@@ -6,6 +6,8 @@ import { readLesson } from './document';
 import { Page } from './page';
 
 installTheme();
+// The domain's own title may tell what is to be found out.
+document.title = 'What will the robot do?';
 const page = document.getElementById('page');
 if (page) {
   try {

@@ -1,6 +1,6 @@
 // The lesson: what the map's things are, then every component with its demonstrations and tests.
 import type { JSX } from 'preact';
-import { useEffect, useMemo, useRef } from 'preact/hooks';
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { themeToggle } from '../shared/theme';
 import { DemonstrationView, Sentences } from './demonstration';
 import type { Component, Lesson } from './document';
@@ -20,10 +20,10 @@ export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
       <Patterns surfaces={legend.surfaces} />
       <header>
         <div class="masthead">
-          <p class="kicker">kith lesson</p>
+          <p class="kicker">Lesson</p>
           <Adopted make={themeToggle} />
         </div>
-        <h1>{domain.title || domain.id}</h1>
+        <h1>What will the robot do?</h1>
       </header>
       <div class="columns">
         <Contents lesson={lesson} />
@@ -32,7 +32,6 @@ export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
           {lesson.components.map((component) => (
             <ComponentView component={component} {...context} />
           ))}
-          <Skipped lesson={lesson} />
           <Notices lesson={lesson} />
         </main>
       </div>
@@ -52,20 +51,15 @@ function Contents({ lesson }: { lesson: Lesson }): JSX.Element {
     <nav class="contents" aria-label="Contents">
       <ol>
         <li>
-          <a href="#introduction">How to read this</a>
+          <a href="#introduction">How it works</a>
         </li>
-        {lesson.components.map(({ number, name }) => (
+        {lesson.components.map(({ number }) => (
           <li>
             <a href={`#component-${number}`}>
-              {number}. {upperFirst(name)}
+              Part {number}
             </a>
           </li>
         ))}
-        {lesson.skipped.length > 0 && (
-          <li>
-            <a href="#skipped">Not taught</a>
-          </li>
-        )}
       </ol>
     </nav>
   );
@@ -77,10 +71,10 @@ function Introduction({ lesson, legend }: Context & { lesson: Lesson }): JSX.Ele
   const n = lesson.components.length;
   return (
     <section id="introduction" aria-labelledby="introduction-title">
-      <h2 id="introduction-title">How to read this</h2>
+      <h2 id="introduction-title">How it works</h2>
       <p>
-        What this robot prefers, in {counted(n, 'part')}. Each part shows demonstrations, with one reason each, and then
-        asks what the robot would do.
+        This robot always takes the path that is best for it, and you find out what it likes and dislikes. The lesson has{' '}
+        {counted(n, 'part')}. In each part you watch examples, and then you predict what the robot will do.
       </p>
       {hasMap && (
         <ul class="legend" aria-label="What is on the boards">
@@ -92,19 +86,19 @@ function Introduction({ lesson, legend }: Context & { lesson: Lesson }): JSX.Ele
               <PartGlyph part={part} legend={legend} />
             </LegendItem>
           ))}
-          <LegendItem name="the robot's way">
+          <LegendItem name="the robot's path">
             <g class="way own">
               <path class="line" d="M-20 0H20" />
               <path class="arrow" d="M5 0-4 -4.6V4.6Z" />
             </g>
           </LegendItem>
-          <LegendItem name="what somebody could expect">
+          <LegendItem name="a path you might have expected">
             <g class="way other">
               <path class="line" d="M-20 0H20" />
               <path class="arrow" d="M5 0-4 -4.6V4.6Z" />
             </g>
           </LegendItem>
-          <LegendItem name="where both part">
+          <LegendItem name="where the paths separate">
             <rect class="decisive" x={-17} y={-17} width={34} height={34} rx={4} />
           </LegendItem>
         </ul>
@@ -131,12 +125,8 @@ function ComponentView({ component, ...context }: Context & { component: Compone
   return (
     <section id={id} aria-labelledby={`${id}-title`}>
       <h2 id={`${id}-title`}>
-        {component.number}. {upperFirst(component.name)}
+        Part {component.number}
       </h2>
-      <div class="goals">
-        <p>What there is to learn:</p>
-        <Sentences sentences={component.sentences} />
-      </div>
       {component.demonstrations.map((shown, i) => (
         <DemonstrationView shown={shown} number={i + 1} {...context} />
       ))}
@@ -150,23 +140,20 @@ function ComponentView({ component, ...context }: Context & { component: Compone
           </div>
         </>
       )}
+      <Summary component={component} />
     </section>
   );
 }
 
-function Skipped({ lesson }: { lesson: Lesson }): JSX.Element | null {
-  if (lesson.skipped.length === 0) return null;
+function Summary({ component }: { component: Component }): JSX.Element {
+  const [open, setOpen] = useState(false);
   return (
-    <section id="skipped" aria-labelledby="skipped-title">
-      <h2 id="skipped-title">Not taught</h2>
-      <ul>
-        {lesson.skipped.map(({ name, why }) => (
-          <li>
-            {upperFirst(name)}: {why}.
-          </li>
-        ))}
-      </ul>
-    </section>
+    <details class="goals" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>
+        {open ? 'Hide' : 'Show'} the summary of part {component.number}
+      </summary>
+      {open && <Sentences sentences={component.sentences} />}
+    </details>
   );
 }
 

@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { useEffect, useId, useState } from 'preact/hooks';
 import type { Frame } from './document';
-import { actionWords, stepText } from './words';
+import { stepText } from './words';
 
 export interface Playback {
   step: number;
@@ -58,7 +58,6 @@ export function Player({ frames, playback, what }: { frames: Frame[]; playback: 
   const { step, last, playing, show, toggle } = playback;
   const calm = useCalm();
   const id = useId();
-  const action = frames[step]?.action;
   return (
     <div class="player" role="group" aria-label={`Steps of ${what}`}>
       <div class="buttons">
@@ -77,7 +76,7 @@ export function Player({ frames, playback, what }: { frames: Frame[]; playback: 
           type="range"
           aria-label={`Step of ${what}`}
           aria-describedby={id}
-          aria-valuetext={`${step} of ${last}${action ? `, next it ${actionWords(action)}` : ''}`}
+          aria-valuetext={`${step} of ${last}`}
           min={0}
           max={last}
           step={1}

@@ -4,7 +4,7 @@ import { BoardView } from './board';
 import type { Board, Domain, Frame, Place } from './document';
 import type { Legend } from './legend';
 import { Player, usePlayback } from './player';
-import { actionsText, cellText, listed, mapText, placeOf, stepText, upperFirst } from './words';
+import { actionsText, cellText, listed, mapText, placedStepText, placeOf, upperFirst } from './words';
 
 export interface Context {
   domain: Domain;
@@ -13,7 +13,7 @@ export interface Context {
 
 interface SceneProps extends Context {
   board: Board;
-  name: string; // "the robot's path in world 3"
+  name: string; // "the robot's path"
   title: string;
   other?: Frame[];
   decisive?: { frame: number; cell?: Place } | null;
@@ -33,10 +33,10 @@ export function Scene(props: SceneProps): JSX.Element {
 
 function labelOf({ board, name, other, decisive }: SceneProps): string {
   const from = board.start.robot ? ` from ${cellText(board.start.robot)}` : '';
-  const parting = decisive?.cell ? `, parting at ${cellText(decisive.cell)}` : '';
+  const parting = decisive?.cell ? `, separating at ${cellText(decisive.cell)}` : '';
   return (
-    `Map of world ${board.world}, ${name}${from}: ${actionsText(board.frames)}.` +
-    (other ? ` Dashed, what somebody could expect${parting}: ${actionsText(other)}.` : '')
+    `Map with ${name}${from}: ${actionsText(board.frames)}.` +
+    (other ? ` Dashed, the path you might have expected${parting}: ${actionsText(other)}.` : '')
   );
 }
 
@@ -47,13 +47,13 @@ function PlayedBoard(props: SceneProps): JSX.Element {
   const step = Math.min(playback.step, board.frames.length - 1);
   return (
     <>
-      <BoardView {...props} step={Math.min(playback.step, board.frames.length - 1)} label={labelOf(props)} path />
+      <BoardView {...props} step={step} walked={playback.step} label={labelOf(props)} path />
       <Player frames={step < playback.step ? holding(board.frames, longer) : board.frames} playback={playback} what={props.name} />
     </>
   );
 }
 
-// The robot has arrived while the other one still goes on.
+// The robot has arrived while the other one is still moving.
 function holding(frames: Frame[], longer: Frame[]): Frame[] {
   const last = frames[frames.length - 1];
   return longer.map((_, i) => frames[i] ?? last ?? {});
@@ -68,7 +68,7 @@ function Steps({ board, other, decisive, name }: SceneProps): JSX.Element {
           <li class={decisive?.frame === first + i ? 'parting' : undefined}>
             {upperFirst(placeOf(frame))}
             {frame.action ? `: ${frame.action}` : ': the end'}
-            {decisive?.frame === first + i && <span class="mark">here they part</span>}
+            {decisive?.frame === first + i && <span class="mark">here they separate</span>}
           </li>
         ))}
       </ol>
@@ -77,7 +77,7 @@ function Steps({ board, other, decisive, name }: SceneProps): JSX.Element {
   return (
     <div class={other ? 'step-lists two' : 'step-lists'}>
       {list(board.frames, upperFirst(name), 0)}
-      {other && list(other, 'What somebody could expect', decisive?.frame ?? 0)}
+      {other && list(other, 'What you might have expected', decisive?.frame ?? 0)}
     </div>
   );
 }
@@ -87,20 +87,20 @@ function InWords(props: SceneProps): JSX.Element | null {
   if (!board.map) return null;
   const things = (frames: Frame[], first: number): JSX.Element => (
     <ol start={first + 1}>
-      {frames.slice(first, -1).map((_, i) => (
-        <li>{stepText(frames, first + i).replace(/^Step \d+ of \d+: /, '').replace(/^./, (c) => c.toUpperCase())}</li>
+      {frames.slice(first, -1).map((frame) => (
+        <li>{placedStepText(frame)}</li>
       ))}
     </ol>
   );
   return (
     <details class="in-words">
-      <summary>This board in words</summary>
+      <summary>This picture and its path in words</summary>
       {mapText(domain, legend, board).map((text) => (
         <p>{text}</p>
       ))}
       <p>The robot:</p>
       {things(board.frames, 0)}
-      {other && <p>What somebody could expect instead, from step {(decisive?.frame ?? 0) + 1} on:</p>}
+      {other && <p>What you might have expected instead, from step {(decisive?.frame ?? 0) + 1} on:</p>}
       {other && things(other, decisive?.frame ?? 0)}
     </details>
   );
@@ -111,6 +111,6 @@ export function Start({ domain, legend, board }: Context & { board: Board }): JS
   const text = mapText(domain, legend, board);
   if (!board.map) return <p>{listed(text)}</p>;
   return (
-    <BoardView domain={domain} legend={legend} board={board} step={0} label={`Map of world ${board.world}. ${text.join(' ')}`} />
+    <BoardView domain={domain} legend={legend} board={board} step={0} label={`Map before the robot moves. ${text.join(' ')}`} />
   );
 }

@@ -11,22 +11,19 @@ export function TestView({ test, number, ...context }: Context & { test: Test; n
       <h4>
         Test {number} <span class={`badge ${test.difficulty}`}>{test.difficulty}</span>
       </h4>
-      <p class="question">World {test.world}: which way does the robot take?</p>
+      <p class="question">Which path will the robot take?</p>
       {!open && <Start {...context} board={test} />}
       <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
-        <summary>Show the answer</summary>
+        <summary>{open ? 'Hide the answer' : 'Show the answer'}</summary>
         {open && (
           <div class="answer">
             <Scene {...context} board={test} title="The robot's answer" name="the robot's path" />
-            <p>A right answer shows that somebody knows:</p>
+            <p>A correct answer shows that you know:</p>
             <Sentences sentences={test.covers} />
+            <p class="share">Before this lesson, about {Math.round(100 * test.share_right)} % would answer correctly.</p>
           </div>
         )}
       </details>
-      <p class="share">
-        {Math.round(100 * test.share_right)} % of all who have not been taught this would be right by what they already
-        believe.
-      </p>
     </article>
   );
 }

@@ -4,7 +4,13 @@ import type { Legend } from './legend';
 
 export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
-export const cellText = ([column, row]: Place): string => `(${column},${row})`;
+export const cellText = ([column, row]: Place): string => `column ${column}, row ${row}`;
+
+// Sentences for people name things, not cells: "without the rubble at (3,1) it goes left" -> "without the rubble it goes left".
+export const withoutCells = (text: string): string =>
+  text
+    .replace(/ from \(\d+,\d+\) to \(\d+,\d+\)/g, '')
+    .replace(/ at \(\d+,\d+\)(?:(?:, | and )\(\d+,\d+\))*/g, '');
 
 export function listed(things: string[]): string {
   if (things.length < 2) return things.join('');
@@ -28,16 +34,23 @@ export function placeOf(frame: Frame): string {
   return frame.robot ? `at ${cellText(frame.robot)}` : `in ${frame.state ?? 'a state'}`;
 }
 
-// "Step 2 of 7: at (3,1) it goes left."
-export function stepText(frames: Frame[], step: number): string {
-  const frame = frames[step];
-  const steps = frames.length - 1;
-  if (!frame) return '';
+// What a frame's action does, with what the robot carries: "it goes left, carrying the parcel".
+function moveText(frame: Frame): string {
   const carried = (frame.items ?? []).filter((item) => item.carried).map((item) => item.name);
-  const load = carried.length > 0 ? `, carrying ${withArticle(carried)},` : '';
-  if (!frame.action) return `After ${counted(steps, 'step')}: it ends ${placeOf(frame)}.`;
-  return `Step ${step + 1} of ${steps}: ${placeOf(frame)}${load} it ${actionWords(frame.action)}.`;
+  const load = carried.length > 0 && frame.action !== 'dropoff' ? `, carrying ${withArticle(carried)}` : '';
+  return `it ${actionWords(frame.action ?? '')}${load}`;
 }
+
+// The step that has just been made: "Step 2 of 7: it goes left." Nothing is told before the robot moves.
+export function stepText(frames: Frame[], step: number): string {
+  const steps = frames.length - 1;
+  const before = frames[step - 1];
+  if (!before?.action) return step === 0 ? 'The robot has not moved yet.' : `After ${counted(steps, 'step')}: the end.`;
+  return `Step ${step} of ${steps}: ${moveText(before)}.${step === steps ? ' The end.' : ''}`;
+}
+
+// The step that begins with a frame, for those who do not see the board: "At column 3, row 1 it goes left."
+export const placedStepText = (frame: Frame): string => `${upperFirst(placeOf(frame))} ${moveText(frame)}.`;
 
 // "up, left 3 times": actions with repetitions counted.
 export function actionsText(frames: Frame[]): string {
@@ -71,8 +84,8 @@ export function mapText(domain: Domain, legend: Legend, board: Board): string[] 
   const carried = (board.start.items ?? []).filter((item) => item.carried).map((item) => item.name);
   const robot = board.start.robot ? ` at ${cellText(board.start.robot)}` : '';
   return [
-    `The map has ${counted(domain.width ?? 0, 'column')} and ${counted(domain.height ?? 0, 'row')}; cells are (column,row) from the top left.`,
+    `The map has ${counted(domain.width ?? 0, 'column')} and ${counted(domain.height ?? 0, 'row')}; columns are counted from the left, rows from the top.`,
     `The robot starts${robot}${carried.length > 0 ? `, carrying ${withArticle(carried)}` : ''}.`,
-    ...[...places].map(([name, cells]) => `${upperFirst(name)}: ${listed(cells)}.`),
+    ...[...places].map(([name, cells]) => `${upperFirst(name)}: ${cells.join('; ')}.`),
   ];
 }
