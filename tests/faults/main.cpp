@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
     return kith::faults::run_faults(kith::faults::parse_options(argc, argv));
   } catch (const kith::Error& error) {
     (void)std::fprintf(stderr, "kith_faults: %s\n", error.what());
-    return error.exit_code();
+    return 2;
   } catch (const std::exception& error) {
     (void)std::fprintf(stderr, "kith_faults: %s\n", error.what());
     return 1;

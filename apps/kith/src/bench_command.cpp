@@ -10,6 +10,7 @@
 
 #include "bench_report.hpp"
 #include "commands.hpp"
+#include "exit_codes.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
@@ -93,7 +94,7 @@ int verdict(const BenchOutcome& outcome, Console& console) {
     console.warning(fmt::format("slower than the baseline by more than {:.0f} %: {}", 100.0 * outcome.tolerance,
                                 fmt::join(slower, ", ")));
   }
-  return good && slower.empty() ? 0 : static_cast<int>(ErrorKind::kMismatch);
+  return good && slower.empty() ? 0 : exit_code(ErrorKind::kMismatch);
 }
 
 // A comparison of nothing would always succeed.

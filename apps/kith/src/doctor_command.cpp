@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "exit_codes.hpp"
 #include "kith/core/error.hpp"
 #include "kith/present/json.hpp"
 #include "kith/study/study_file.hpp"
@@ -129,7 +130,7 @@ int run_doctor(Console& console) {
     return 0;
   }
   console.print(table.text(console, false));
-  return good ? 0 : static_cast<int>(ErrorKind::kMismatch);
+  return good ? 0 : exit_code(ErrorKind::kMismatch);
 }
 
 }  // namespace kith::cli

@@ -11,16 +11,15 @@
 
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "exit_codes.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/present/json.hpp"
+#include "remedies.hpp"
 #include "standard_streams.hpp"
 
 namespace kith::cli {
 namespace {
-
-constexpr int kInternalError = 1;
-constexpr int kBrokenPipeCode = 141;  // 128 + SIGPIPE
 
 int run(const Options& options, Console& console) {
   switch (options.command) {
@@ -124,7 +123,7 @@ int report(Console& console, std::vector<Diagnostic> diagnostics, int code) try 
   const bool is_known = diagnostics.size() == 1 && diagnostics.front().message == unwritable.what();
   if (!is_known) diagnostics.push_back(diagnostic_of(name_of(unwritable.kind()), unwritable.what()));
   show(console, std::move(diagnostics));
-  return unwritable.exit_code();
+  return exit_code(unwritable.kind());
 }
 
 // Takes no memory of its own.
@@ -137,13 +136,13 @@ int report_out_of_memory(Console& console) {
       "kith: error: out of memory\n"
       "   = help: use fewer threads (-j), a smaller domain or fewer teams, or give the program more memory\n");
   if (console.json()) console.print(kDocument);
-  return static_cast<int>(ErrorKind::kIo);
+  return exit_code(ErrorKind::kIo);
 }
 
 int report(Console& console, const std::filesystem::filesystem_error& error) {
   const auto path = error.path1().empty() ? std::string{"a file"} : error.path1().string();
   const auto message = "cannot access " + path + ": " + error.code().message();
-  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), message)}, static_cast<int>(ErrorKind::kIo));
+  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), message)}, exit_code(ErrorKind::kIo));
 }
 
 int report(Console& console, const UsageError& error) {
@@ -152,13 +151,16 @@ int report(Console& console, const UsageError& error) {
   if (!error.command.empty()) help.append(error.command).append(" ");
   help.append("-h");
   hint += (hint.empty() ? "see `" : " (see `") + help + (hint.empty() ? "`" : "`)");
-  return report(console, {diagnostic_of("usage", error.message, hint)}, static_cast<int>(ErrorKind::kUsage));
+  return report(console, {diagnostic_of("usage", error.message, hint)}, exit_code(ErrorKind::kUsage));
 }
 
 int report(Console& console, const Error& error) {
-  auto diagnostics = error.diagnostics();
-  if (diagnostics.empty()) diagnostics.push_back(diagnostic_of(name_of(error.kind()), error.what()));
-  return report(console, std::move(diagnostics), error.exit_code());
+  auto diagnostics = with_remedies(error.diagnostics());
+  if (diagnostics.empty()) diagnostics.push_back(diagnostic_of({}, error.what()));
+  for (auto& one : diagnostics) {
+    if (one.id.empty()) one.id = name_of(error.kind());
+  }
+  return report(console, std::move(diagnostics), exit_code(error.kind()));
 }
 
 int guarded(const std::vector<std::string>& arguments, Console& console) try {
@@ -179,7 +181,7 @@ int guarded(const std::vector<std::string>& arguments, Console& console) try {
 } catch (const std::filesystem::filesystem_error& error) {
   return report(console, error);
 } catch (const std::system_error& error) {
-  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), error.what())}, static_cast<int>(ErrorKind::kIo));
+  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), error.what())}, exit_code(ErrorKind::kIo));
 } catch (const std::exception& error) {
   const std::string message = std::string{"internal error: "} + error.what();
   return report(console, {diagnostic_of("internal", message, "this is a bug in kith; please report it")},
@@ -207,6 +209,6 @@ int main(int argc, char** argv) {
     return kith::cli::kBrokenPipeCode;
   } catch (...) {
     kith::cli::write_log("kith: error: something failed, and so did saying what: out of memory, or no output\n");
-    return static_cast<int>(kith::ErrorKind::kIo);
+    return kith::cli::exit_code(kith::ErrorKind::kIo);
   }
 }

@@ -1,5 +1,7 @@
 #include "run_outcome.hpp"
 
+#include "exit_codes.hpp"
+
 #include <fmt/format.h>
 
 #include "build_facts.hpp"
@@ -24,7 +26,7 @@ int publish_run(StudyRun& run, RunFacts facts, const RunPlace& place, Console& c
   const bool partial = !facts.missing.empty();
   const auto summary = run.publish(std::move(facts));
   if (!summary) return 0;  // another process does it
-  const int code = run.failures().empty() && !partial ? 0 : static_cast<int>(ErrorKind::kPartial);
+  const int code = run.failures().empty() && !partial ? 0 : exit_code(ErrorKind::kPartial);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - place.begin).count();
   report_failures(run.study(), run.failures(), console);
   if (console.json()) {

@@ -10,6 +10,7 @@
 
 #include "build_facts.hpp"
 #include "commands.hpp"
+#include "exit_codes.hpp"
 #include "failpoint.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
@@ -120,7 +121,7 @@ int finish_shard(const StudyOptions& options, StudyRun& run, RunFacts facts, dou
   if (!console.json() || !run.failures().empty()) report_failures(run.study(), run.failures(), console);
   console.info(fmt::format("shard {}: {} in {:.2f} s; put the shards together with: kith merge DIR... -o DIR", name,
                            counted(run.num_done(), "team"), seconds));
-  return run.failures().empty() ? 0 : static_cast<int>(ErrorKind::kPartial);
+  return run.failures().empty() ? 0 : exit_code(ErrorKind::kPartial);
 }
 
 }  // namespace

@@ -21,7 +21,18 @@ std::string text_of(const std::vector<Diagnostic>& diagnostics) {
 
 }  // namespace
 
+Error::Error(ErrorKind kind, const std::string& message, const Advice& advice)
+    : Error{kind, message,
+            std::vector<Diagnostic>{{.message = message, .hint = advice.hint, .remedy = advice.remedy}}} {}
+
 Error::Error(std::vector<Diagnostic> diagnostics)
     : std::runtime_error{text_of(diagnostics)}, kind_{kind_of(diagnostics)}, diagnostics_{std::move(diagnostics)} {}
+
+Remedy Error::remedy() const noexcept {
+  for (const auto& one : diagnostics_) {
+    if (one.remedy != Remedy::kNone) return one.remedy;
+  }
+  return Remedy::kNone;
+}
 
 }  // namespace kith

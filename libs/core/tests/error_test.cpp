@@ -17,10 +17,19 @@ static_assert(!std::is_convertible_v<std::size_t, AppleIndex>);
 static_assert(!std::is_convertible_v<AppleIndex, std::size_t>);
 static_assert(!std::is_constructible_v<AppleIndex, PearIndex>);
 
-TEST(Error, CarriesTheExitCodeOfItsKind) {
-  EXPECT_EQ((Error{ErrorKind::kIo, "disk full"}).exit_code(), 5);
+TEST(Error, CarriesItsKind) {
+  EXPECT_EQ((Error{ErrorKind::kIo, "disk full"}).kind(), ErrorKind::kIo);
   EXPECT_STREQ((Error{ErrorKind::kIo, "disk full"}).what(), "disk full");
   EXPECT_TRUE((Error{ErrorKind::kBusy, "in use"}).diagnostics().empty());
+}
+
+TEST(Error, KeepsAdviceApartFromItsMessage) {
+  const Error error{ErrorKind::kUsage, "the folder is in use", {"use another one", Remedy::kReplaceContents}};
+  EXPECT_STREQ(error.what(), "the folder is in use");
+  ASSERT_EQ(error.diagnostics().size(), 1u);
+  EXPECT_EQ(error.diagnostics().front().hint, "use another one");
+  EXPECT_EQ(error.remedy(), Remedy::kReplaceContents);
+  EXPECT_EQ((Error{ErrorKind::kUsage, "no"}).remedy(), Remedy::kNone);
 }
 
 TEST(Error, IsInfeasibleOnlyIfEveryErrorIs) {

@@ -14,7 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kMakeOne = "make one with: kith study STUDY -o DIR";
 constexpr const char* kRunAgain = "repeat the command that ran the study";
 constexpr const char* kChecksum = "checksum";
 
@@ -27,24 +26,28 @@ void check_folder(const fs::path& folder) {
   std::error_code error;
   const auto status = fs::status(folder, error);
   if (status.type() == fs::file_type::not_found)
-    refuse_run(ErrorKind::kIo, "E0601", folder, "there is no such folder", kMakeOne);
-  if (error) refuse_run(ErrorKind::kIo, "E0601", folder, "the folder cannot be read: " + error.message(), kMakeOne);
+    refuse_run(ErrorKind::kIo, "E0601", folder, "there is no such folder", Remedy::kRunStudy);
+  if (error)
+    refuse_run(ErrorKind::kIo, "E0601", folder, "the folder cannot be read: " + error.message(), Remedy::kRunStudy);
   if (!fs::is_directory(status))
-    refuse_run(ErrorKind::kIo, "E0601", folder, "this is a file, not the folder of a run", kMakeOne);
+    refuse_run(ErrorKind::kIo, "E0601", folder, "this is a file, not the folder of a run", Remedy::kRunStudy);
   bool empty = true, unfinished = false;
   for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
     const auto name = entry->path().filename().string();
     unfinished = unfinished || is_generation(name) || name == "study.sqlite";
     empty = empty && is_generation(name);
   }
-  if (error) refuse_run(ErrorKind::kIo, "E0601", folder, "the folder cannot be read: " + error.message(), kMakeOne);
-  if (empty && !unfinished) refuse_run(ErrorKind::kInvalidInput, "E0602", folder, "the folder is empty", kMakeOne);
+  if (error)
+    refuse_run(ErrorKind::kIo, "E0601", folder, "the folder cannot be read: " + error.message(), Remedy::kRunStudy);
+  if (empty && !unfinished)
+    refuse_run(ErrorKind::kInvalidInput, "E0602", folder, "the folder is empty", Remedy::kRunStudy);
   if (is_there(folder / kManifestFile)) return;
   if (unfinished || is_there(folder / "inputs")) {
     refuse_run(ErrorKind::kInvalidInput, "E0603", folder, "the study has not finished: it has no manifest.json",
-               "if it was interrupted, repeat the `kith study` command that began it");
+               "if it was interrupted, repeat the command that started it");
   }
-  refuse_run(ErrorKind::kInvalidInput, "E0602", folder, "this is no run folder: it has no manifest.json", kMakeOne);
+  refuse_run(ErrorKind::kInvalidInput, "E0602", folder, "this is no run folder: it has no manifest.json",
+             Remedy::kRunStudy);
 }
 
 // The manifest without its checksum, if that is right.
@@ -69,7 +72,7 @@ void check_finished(const fs::path& folder, const Json& manifest) {
   if (manifest.contains("shard")) {
     refuse_run(ErrorKind::kInvalidInput, "E0603", folder,
                "this is shard " + text_in(manifest, "shard") + " of a study, which has no tables of its own",
-               "put all shards together with: kith merge DIR... -o DIR");
+               Remedy::kMergeShards);
   }
   const auto reason = text_in(manifest, "exit_reason");
   if (reason == "finished" || reason == "partial") return;
@@ -79,8 +82,9 @@ void check_finished(const fs::path& folder, const Json& manifest) {
 }  // namespace
 
 void refuse_run(ErrorKind kind, const std::string& id, const fs::path& file, const std::string& message,
-                const std::string& hint) {
-  const Diagnostic diagnostic{.id = id, .message = message, .file = file.string(), .hint = hint};
+                const Advice& advice) {
+  const Diagnostic diagnostic{
+      .id = id, .message = message, .file = file.string(), .hint = advice.hint, .remedy = advice.remedy};
   auto text = to_text(diagnostic);
   text.pop_back();
   throw Error{kind, text, {diagnostic}};
@@ -146,8 +150,7 @@ std::string PublishedRun::read(const std::string& name) const {
   if (sha256(text) != found->second) {
     refuse_run(ErrorKind::kMismatch, "E0607", file,
                "the file is not the one that the run wrote: its hash is not that in manifest.json",
-               std::string{kRunAgain} +
-                   (is_table ? "; a table of your own is analysed with: kith analyze FILE --model ..." : ""));
+               Advice{kRunAgain, is_table ? Remedy::kAnalyseTable : Remedy::kNone});
   }
   return text;
 }

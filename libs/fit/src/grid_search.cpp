@@ -61,10 +61,12 @@ std::vector<GridSearchGroup> grid_search(const ResponseLogs& logs, const Likelih
     if (logs.people[i].final_tests > 0) groups[logs.people[i].type].push_back(i);
   }
   if (logs.policy.empty() || groups.empty()) {
-    throw Error{{detail::fault("E0709",
+    auto fault = detail::fault("E0709",
                                "the grid search compares the final belief with final tests, and these logs do not have "
                                "both",
-                               "", 0, "use --method likelihood")}};
+                               "", 0);
+    fault.remedy = Remedy::kLikelihoodMethod;
+    throw Error{{std::move(fault)}};
   }
   std::vector<GridSearchGroup> result;
   for (const auto& [name, people] : groups) {

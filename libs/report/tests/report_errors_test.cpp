@@ -16,31 +16,31 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using namespace kith::testing;
 
-// The first complaint: "ID FILE:LINE MESSAGE", and the exit code.
+// The first complaint: "ID FILE:LINE MESSAGE", and the kind.
 struct Complaint {
   std::string text;
-  int code = 0;
+  std::optional<ErrorKind> kind;
 };
 Complaint complaint_about(const fs::path& folder) {
   try {
     static_cast<void>(build_report(folder));
   } catch (const Error& error) {
-    if (error.diagnostics().empty()) return {error.what(), error.exit_code()};
+    if (error.diagnostics().empty()) return {error.what(), error.kind()};
     const auto& first = error.diagnostics().front();
     return {first.id + " " + fs::path{first.file}.filename().string() + ":" + std::to_string(first.line) + " " +
                 first.message,
-            error.exit_code()};
+            error.kind()};
   }
-  return {"no complaint", 0};
+  return {"no complaint", std::nullopt};
 }
 
 class ReportErrors : public ::testing::Test {
  protected:
   ReportErrors() { publish(run_, tiny_study(), invented_teams()); }
-  void expect(const std::string& start, const std::string& part, int code = 3) const {
+  void expect(const std::string& start, const std::string& part, ErrorKind kind = ErrorKind::kInvalidInput) const {
     const auto complaint = complaint_about(run_);
     EXPECT_THAT(complaint.text, AllOf(::testing::StartsWith(start), HasSubstr(part)));
-    EXPECT_EQ(complaint.code, code);
+    EXPECT_EQ(complaint.kind, kind);
   }
   [[nodiscard]] fs::path table(const std::string& name) const { return run_ / "tables" / name; }
 
@@ -50,9 +50,9 @@ class ReportErrors : public ::testing::Test {
 
 TEST_F(ReportErrors, NameAFolderThatIsNotThere) {
   fs::remove_all(run_);
-  expect("E0601 run:0", "there is no such folder", 5);
+  expect("E0601 run:0", "there is no such folder", ErrorKind::kIo);
   std::ofstream{run_} << "a file";
-  expect("E0601 run:0", "this is a file", 5);
+  expect("E0601 run:0", "this is a file", ErrorKind::kIo);
 }
 
 TEST_F(ReportErrors, NameAFolderThatIsNoRun) {
@@ -86,20 +86,20 @@ TEST_F(ReportErrors, NameAMissingTable) {
 
 TEST_F(ReportErrors, NameADamagedManifest) {
   std::ofstream{run_ / "manifest.json"} << "{";
-  expect("E0605 manifest.json:0", "the manifest is damaged", 7);
+  expect("E0605 manifest.json:0", "the manifest is damaged", ErrorKind::kMismatch);
   fs::remove(run_ / "manifest.json");
   testing::reseal(run_);
   edit(run_ / "manifest.json", "\"finished\"", "\"fini5hed\"");
-  expect("E0605 manifest.json:0", "the manifest is damaged", 7);
+  expect("E0605 manifest.json:0", "the manifest is damaged", ErrorKind::kMismatch);
 }
 
 TEST_F(ReportErrors, NameAFileThatIsNotTheOneThatTheRunWrote) {
   const auto sound = read_file(table("teams.csv"));
   edit(table("teams.csv"), ",true,4,", ",true,5,");
-  expect("E0607 teams.csv:0", "its hash is not that in manifest.json", 7);
+  expect("E0607 teams.csv:0", "its hash is not that in manifest.json", ErrorKind::kMismatch);
   std::ofstream{table("teams.csv")} << sound;
   edit(run_ / "inputs/study.toml", "replicates = 2", "replicates = 3");
-  expect("E0607 study.toml:0", "its hash is not that in manifest.json", 7);
+  expect("E0607 study.toml:0", "its hash is not that in manifest.json", ErrorKind::kMismatch);
 }
 
 TEST_F(ReportErrors, NameTeamsThatAreMissingOrTwice) {

@@ -183,9 +183,8 @@ Journal Journal::read(const fs::path& path) {
   auto identity = read_identity(database);
   const auto alone = identify(path);
   if (!identity || alone != identity) {
-    throw Error{ErrorKind::kIo, file.string() +
-                                    " is damaged; repeat the command that ran the study, which recovers what can be "
-                                    "read, or start the study over with --resume never"};
+    throw Error{ErrorKind::kIo, file.string() + " is damaged",
+                Advice{"repeat the command that ran the study, which recovers what can be read", Remedy::kStartOver}};
   }
   return Journal{std::make_unique<State>(std::move(database), *std::move(identity))};
 }

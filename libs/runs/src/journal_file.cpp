@@ -182,9 +182,8 @@ std::optional<fs::path> current_file(const fs::path& path) {
   if (!is_there(file)) return std::nullopt;
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
-    throw Error{ErrorKind::kIo, file.string() +
-                                    " is not a regular file, so it is no journal of a study; remove it, or start the "
-                                    "study over with --resume never"};
+    throw Error{ErrorKind::kIo, file.string() + " is not a regular file, so it is not the journal of a study",
+                Advice{"remove it", Remedy::kStartOver}};
   }
   return file;
 }
@@ -209,8 +208,10 @@ std::optional<JournalIdentity> read_identity(Database& database) try {
   }
   const auto schema = meta_value(database, "schema");
   if (wrong.size() > 1 && is_schema(schema) && schema != kSchema) {
-    throw Error{ErrorKind::kUsage, database.path().string() + " was written by another version of kith (" + schema +
-                                       ", not " + kSchema + "); start the study over with --resume never"};
+    throw Error{
+        ErrorKind::kUsage,
+        database.path().string() + " was written by another version of kith (" + schema + ", not " + kSchema + ")",
+        Remedy::kStartOver};
   }
   if (!wrong.empty() || !makes_sense(identity)) return std::nullopt;
   return identity;

@@ -18,16 +18,16 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostAbsent = 20;  // shards that are named when many are missing
 
-// Everything that stands in the way, with the exit code of the worst.
+// Everything that prevents the merge; the error is of the worst kind (the last in ErrorKind).
 class Complaints {
  public:
-  void add(ErrorKind kind, const char* id, const fs::path& folder, const std::string& message,
-           const std::string& hint) {
-    diagnostics_.push_back({.id = id, .message = message, .file = folder.string(), .hint = hint});
+  void add(ErrorKind kind, const char* id, const fs::path& folder, const std::string& message, const Advice& advice) {
+    diagnostics_.push_back(
+        {.id = id, .message = message, .file = folder.string(), .hint = advice.hint, .remedy = advice.remedy});
     kind_ = std::max(kind_, kind);
   }
-  void add(const char* id, const fs::path& folder, const std::string& message, const std::string& hint) {
-    add(ErrorKind::kInvalidInput, id, folder, message, hint);
+  void add(const char* id, const fs::path& folder, const std::string& message, const Advice& advice) {
+    add(ErrorKind::kInvalidInput, id, folder, message, advice);
   }
   void throw_if_any() const {
     if (diagnostics_.empty()) return;
@@ -119,7 +119,7 @@ void check_complete(const fs::path& folder, Journal& journal, std::vector<std::s
 std::optional<Journal> open_shard(const fs::path& folder, Complaints& complaints) {
   if (!Journal::exists(folder / kJournalFile)) {
     complaints.add("E0630", folder, "there is no shard of a study in this folder: it has no study.sqlite",
-                   "make one with: kith study STUDY --shard I/N -o DIR");
+                   Remedy::kRunShard);
     return std::nullopt;
   }
   settle_for_reading(folder);
@@ -201,7 +201,7 @@ Shards open_shards(std::span<const fs::path> folders, const std::string& program
       missing->push_back(name + " was not given");
     } else {
       complaints.add(ErrorKind::kInfeasible, "E0635", found[0], name + " of the same study is missing",
-                     "run it, and name its folder too; or merge what is there with --allow-partial");
+                     Advice{"run it, and name its folder too", Remedy::kMergePart});
     }
   }
   complaints.throw_if_any();

@@ -168,14 +168,13 @@ void RunFolder::check_content(bool replace) {
   const auto begun = has_journal ? identity_if_any(path_ / kJournalFile) : std::nullopt;
   if (replace || (begun ? begun->inputs == inputs_ : same_inputs)) return;
   if (!study && !has_journal) {
-    throw Error{ErrorKind::kUsage, path_.string() +
-                                       " is not empty and no run folder; choose another folder, or add --yes to "
-                                       "write into it"};
+    throw Error{ErrorKind::kUsage, path_.string() + " is not empty and is not a run folder", Remedy::kReplaceContents};
   }
   if (!study && !begun) return;  // only a journal that cannot be read, which is for whoever opens it to say
-  throw Error{ErrorKind::kUsage, path_.string() + " holds the results of a different study" +
-                                     (study ? " (see its inputs/study.toml)" : ", unfinished") +
-                                     "; choose another folder, or add --yes to replace them"};
+  throw Error{ErrorKind::kUsage,
+              path_.string() + " holds the results of a different study" +
+                  (study ? " (see its inputs/study.toml)" : ", unfinished"),
+              Remedy::kReplaceContents};
 }
 
 void RunFolder::reach(const std::string& instant) const {

@@ -149,9 +149,8 @@ bool StudyRun::State::open_own_journal() {
     return true;
   }
   if (!options.replace && !options.rebuild) {
-    throw Error{ErrorKind::kIo, file.string() +
-                                    " is damaged beyond help: no record of this study can be read from it. Restore the "
-                                    "file from a copy, or start the study over with --resume never"};
+    throw Error{ErrorKind::kIo, file.string() + " is damaged, and no record of this study can be read from it",
+                Advice{"restore the file from a copy", Remedy::kStartOver}};
   }
   notes.push_back(file.string() +
                   " is damaged, and no record of this study can be read from it; the study starts over");
@@ -164,7 +163,8 @@ void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
     throw Error{ErrorKind::kUsage,
                 path.string() + " holds shard " + std::to_string(found.shard.index) + "/" +
                     std::to_string(found.shard.count) + " of this study, not " + std::to_string(identity.shard.index) +
-                    "/" + std::to_string(identity.shard.count) + "; choose another folder, or add --yes to replace it"};
+                    "/" + std::to_string(identity.shard.count),
+                Remedy::kReplaceContents};
   }
   const auto progress = Journal::read(path / kJournalFile).progress();
   const bool same_program = found.program == identity.program;
@@ -172,11 +172,11 @@ void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
                                      ", here " + identity.arithmetic + ")"
                                : "by kith " + found.program + ", and this is " + identity.program;
   if (progress.done < progress.total) {
-    throw Error{ErrorKind::kUsage, path.string() + " holds " + std::to_string(progress.done) + " of " +
-                                       std::to_string(progress.total) + " teams taught " + by +
-                                       ", so results may differ; finish the run " +
-                                       (same_program ? "on a machine like that" : "with that program") +
-                                       ", or start it over with --resume never"};
+    throw Error{ErrorKind::kUsage,
+                path.string() + " holds " + std::to_string(progress.done) + " of " + std::to_string(progress.total) +
+                    " teams taught " + by + ", so results may differ",
+                Advice{std::string{"finish the run "} + (same_program ? "on a machine like that" : "with that program"),
+                       Remedy::kStartOver}};
   }
   notes.push_back("the results in " + path.string() + " were made " + by + "; all teams are taught anew");
 }
@@ -189,7 +189,7 @@ void StudyRun::State::open_journal() {
                     (options.rebuild ? "read" : "taught") + " again");
   }
   if (!there && options.resume == Resume::kRequire) {
-    throw Error{ErrorKind::kUsage, "there is nothing to resume in " + path.string() + " (--resume require)"};
+    throw Error{ErrorKind::kUsage, "there is nothing to resume in " + path.string(), Remedy::kAllowStart};
   }
   if (!there || options.resume == Resume::kNever) return begin_journal();
   std::optional<JournalIdentity> found;
@@ -204,9 +204,10 @@ void StudyRun::State::open_journal() {
     return;
   }
   if (options.resume == Resume::kRequire) {
-    throw Error{ErrorKind::kUsage, path.string() +
-                                       " holds the work of another study, shard, program or machine (kith " +
-                                       found->program + "); there is nothing to resume (--resume require)"};
+    throw Error{ErrorKind::kUsage,
+                path.string() + " holds the work of another study, shard, program or machine (kith " + found->program +
+                    "); there is nothing to resume",
+                Remedy::kAllowStart};
   }
   if (!options.replace && found->inputs == identity.inputs) refuse_other_journal(*found);
   begin_journal();  // RunFolder has asked
@@ -398,9 +399,10 @@ TeamSource teams_of(const Study& study, const Journal& journal) {
     journal.for_each([&](std::size_t team, std::string_view bytes) {
       const auto record = decode_team(team_address(study, team), bytes, journal.key());
       if (!record) {
-        throw Error{ErrorKind::kIo, "the record of " + describe_team(study, team_address(study, team)) + " in " +
-                                        journal.path().string() +
-                                        " cannot be read; start the study over with --resume never"};
+        throw Error{ErrorKind::kIo,
+                    "the record of " + describe_team(study, team_address(study, team)) + " in " +
+                        journal.path().string() + " cannot be read",
+                    Remedy::kStartOver};
       }
       visit(*record);
     });

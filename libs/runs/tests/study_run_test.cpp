@@ -74,16 +74,17 @@ void run_partly(const fs::path& folder, std::size_t teams, StudyRunOptions optio
   EXPECT_EQ(run.num_done(), teams);
 }
 
-ErrorKind kind_of_failure(const std::function<void()>& action, std::string* message = nullptr) {
+Error failure_of(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
-    if (message != nullptr) *message = error.what();
-    return error.kind();
+    return error;
   }
   ADD_FAILURE() << "nothing was thrown";
-  return ErrorKind::kUsage;
+  return Error{ErrorKind::kUsage, ""};
 }
+
+ErrorKind kind_of_failure(const std::function<void()>& action) { return failure_of(action).kind(); }
 
 class StudyRunTest : public ::testing::Test {
  protected:
@@ -147,9 +148,10 @@ TEST_F(StudyRunTest, RefusesUnfinishedWorkOfAnotherProgramAndReplacesFinished) {
   run_partly(folder_, 2);
   auto newer = how();
   newer.program = "kith newer";
-  std::string message;
-  EXPECT_EQ(kind_of_failure([&] { StudyRun{folder_, quick_study(), newer}; }, &message), ErrorKind::kUsage);
-  EXPECT_THAT(message, AllOf(HasSubstr("2 of 6 teams"), HasSubstr("kith test"), HasSubstr("--resume never")));
+  const auto refusal = failure_of([&] { StudyRun{folder_, quick_study(), newer}; });
+  EXPECT_EQ(refusal.kind(), ErrorKind::kUsage);
+  EXPECT_THAT(refusal.what(), AllOf(HasSubstr("2 of 6 teams"), HasSubstr("kith test")));
+  EXPECT_EQ(refusal.remedy(), Remedy::kStartOver);
   EXPECT_EQ(run(folder_), expected());
   {
     StudyRun again{folder_, quick_study(), newer};
@@ -207,9 +209,10 @@ TEST_F(StudyRunTest, TeachesDamagedTeamsAgainAndNamesThem) {
 TEST_F(StudyRunTest, StopsIfItsJournalIsBeyondHelp) {
   run_partly(folder_, 2);
   std::ofstream{folder_ / kJournalFile} << "no database";
-  std::string message;
-  EXPECT_EQ(kind_of_failure([&] { StudyRun{folder_, quick_study(), how()}; }, &message), ErrorKind::kIo);
-  EXPECT_THAT(message, AllOf(HasSubstr(kJournalFile), HasSubstr("--resume never")));
+  const auto refusal = failure_of([&] { StudyRun{folder_, quick_study(), how()}; });
+  EXPECT_EQ(refusal.kind(), ErrorKind::kIo);
+  EXPECT_THAT(refusal.what(), HasSubstr(kJournalFile));
+  EXPECT_EQ(refusal.remedy(), Remedy::kStartOver);
   auto never = how();
   never.resume = Resume::kNever;
   EXPECT_EQ(run(folder_, never), expected());

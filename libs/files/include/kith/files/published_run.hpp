@@ -53,6 +53,6 @@ class PublishedRun {
 
 /// A complaint about a file or folder of a run. @throws kith::Error of that kind, with the diagnostic.
 [[noreturn]] void refuse_run(ErrorKind kind, const std::string& id, const std::filesystem::path& file,
-                             const std::string& message, const std::string& hint);
+                             const std::string& message, const Advice& advice);
 
 }  // namespace kith
