@@ -1,5 +1,6 @@
 #include "kith/random/stream.hpp"
 
+#include <Random123/philox.h>
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Random123/philox.h>
-
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -42,7 +40,7 @@ class RandomStream {
   /// The next 32 random bits.
   result_type operator()() noexcept {
     if (next_ == 4) refill();
-    return block_.v[next_++];
+    return block_[next_++];
   }
 
   /// Identifies the stream's address; equal for equal paths, whatever was drawn.
@@ -52,12 +50,12 @@ class RandomStream {
   static constexpr result_type max() noexcept { return std::numeric_limits<result_type>::max(); }
 
  private:
-  explicit RandomStream(r123::Philox4x32::key_type key) noexcept : key_{key} {}
+  RandomStream(std::uint32_t key0, std::uint32_t key1) noexcept : key_{key0, key1} {}
   void refill() noexcept;
 
-  r123::Philox4x32::key_type key_;
+  std::uint32_t key_[2];
   std::uint64_t counter_ = 0;
-  r123::Philox4x32::ctr_type block_{};
+  std::uint32_t block_[4]{};
   unsigned next_ = 4;
 };
 
