@@ -46,3 +46,10 @@ else()
     -fstack-protector-strong "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
   target_link_options(kith_build INTERFACE LINKER:-z,relro,-z,now)
 endif()
+
+# Eigen with one layout and one way of allocating whatever -march is, in kith and in every program that links it: what
+# suits the widest vectors on the heap, what the baseline has in place (see kith/geometry/eigen.hpp).
+add_library(kith_eigen INTERFACE)
+set_target_properties(kith_eigen PROPERTIES EXPORT_NAME eigen)
+target_link_libraries(kith_eigen INTERFACE Eigen3::Eigen)
+target_compile_definitions(kith_eigen INTERFACE EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=16)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "kith/bec/policy_cells.hpp"
 #include "kith/bec/regions.hpp"
 #include "kith/domains/domain.hpp"
+#include "kith/geometry/eigen.hpp"
 #include "kith/mdp/planner.hpp"
 
 namespace kith {

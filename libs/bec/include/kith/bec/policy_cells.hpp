@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "kith/core/index.hpp"
 #include "kith/core/integer_vector.hpp"
 #include "kith/geometry/cone.hpp"
+#include "kith/geometry/eigen.hpp"
 
 namespace kith {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +8,7 @@
 #include "kith/belief/likelihood.hpp"
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
+#include "kith/geometry/eigen.hpp"
 #include "kith/random/stream.hpp"
 
 namespace kith {

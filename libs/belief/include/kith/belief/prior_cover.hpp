@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "kith/geometry/cone.hpp"
+#include "kith/geometry/eigen.hpp"
 
 namespace kith {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/geometry/eigen.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/mdp/mdp.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "kith/geometry/cone_sampler.hpp"
+#include "kith/geometry/eigen.hpp"
 
 namespace kith {
 

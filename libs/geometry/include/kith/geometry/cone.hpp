@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kith/geometry/eigen.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/random/distributions.hpp"
 

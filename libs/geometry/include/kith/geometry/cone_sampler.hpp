@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "kith/geometry/cone.hpp"
+#include "kith/geometry/eigen.hpp"
 #include "kith/random/distributions.hpp"
 
 namespace kith {

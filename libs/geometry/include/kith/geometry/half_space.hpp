@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 
 #include "kith/core/integer_vector.hpp"
+#include "kith/geometry/eigen.hpp"
 
 namespace kith {
 

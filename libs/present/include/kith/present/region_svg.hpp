@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "kith/geometry/cone.hpp"
+#include "kith/geometry/eigen.hpp"
 #include "kith/present/svg.hpp"
 
 namespace kith {
