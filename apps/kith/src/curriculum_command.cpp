@@ -14,8 +14,8 @@
 #include "kith/present/legend.hpp"
 #include "kith/present/picture.hpp"
 #include "kith/present/wrapped.hpp"
-#include "kith/report/report.hpp"
 #include "lesson_page.hpp"
+#include "page.hpp"
 #include "work_notice.hpp"
 
 namespace kith::cli {
@@ -87,7 +87,7 @@ class CurriculumText {
 };
 
 void write_page(const std::string& out, const Json& document, Console& console) {
-  const auto page = render_report(document.dump(-1, ' ', true), detail::kLessonPage);
+  const auto page = page_with(document.dump(-1, ' ', true), detail::kLessonPage);
   if (out == "-") {
     if (console.json()) throw Error{ErrorKind::kUsage, "--json and -o - would both print to standard output"};
     console.print(page);

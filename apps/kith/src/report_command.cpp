@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/report/report.hpp"
+#include "page.hpp"
 #include "report_page.hpp"
 
 namespace kith::cli {
@@ -40,7 +41,7 @@ int run_report(const ReportCommandOptions& options, Console& console) {
     console.print(document + "\n");
     return 0;
   }
-  const auto page = render_report(document, detail::kReportPage);
+  const auto page = page_with(document, detail::kReportPage);
   if (options.out == "-") {
     console.print(page);
     return 0;
