@@ -7,6 +7,7 @@ find_package(fmt REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(SQLite3 3.40 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(Libcsv REQUIRED)
 if(KITH_BUILD_APPS)
   find_package(CLI11 REQUIRED)
   if(KITH_MPI STREQUAL AUTO)
@@ -32,7 +33,7 @@ endif()
 
 # Header-only or without a CMake package of their own: say early, and by the
 # name of the package, what a compiler would only say as "no such file".
-foreach(header_and_package "Random123/philox.h|librandom123-dev" "toml++/toml.h|libtomlplusplus-dev" "csv.h|libcsv-dev"
+foreach(header_and_package "Random123/philox.h|librandom123-dev" "toml++/toml.h|libtomlplusplus-dev"
     "boost/math/distributions/fisher_f.hpp|libboost-math-dev")
   string(REPLACE "|" ";" header_and_package ${header_and_package})
   list(GET header_and_package 0 header)

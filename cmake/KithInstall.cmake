@@ -2,14 +2,24 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kith)
 
-install(EXPORT kithTargets NAMESPACE kith:: DESTINATION ${package_dir} COMPONENT development)
+# A layer is a component of the package: find_package(kith COMPONENTS geometry) looks for what geometry needs only.
+install(TARGETS kith_eigen EXPORT kith-eigen COMPONENT development)
+install(EXPORT kith-eigen NAMESPACE kith:: DESTINATION ${package_dir} COMPONENT development)
+get_property(KITH_LAYERS GLOBAL PROPERTY KITH_LAYERS)
+set(KITH_LAYER_NEEDS)
+foreach(layer IN LISTS KITH_LAYERS)
+  get_property(needs GLOBAL PROPERTY KITH_NEEDS_${layer})
+  list(JOIN needs " " needs)
+  string(APPEND KITH_LAYER_NEEDS "set(_kith_needs_${layer} ${needs})\n")
+endforeach()
+list(JOIN KITH_LAYERS " " KITH_LAYERS)
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/kithConfig.cmake.in ${PROJECT_BINARY_DIR}/kithConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake
-  DESTINATION ${package_dir} COMPONENT development)
+  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake DESTINATION ${package_dir} COMPONENT development)
 
 if(TARGET kith)
   install(TARGETS kith COMPONENT program)
@@ -44,5 +54,5 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kith)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, librandom123-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev")
+  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev")
 include(CPack)

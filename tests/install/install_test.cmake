@@ -1,5 +1,10 @@
-# Installs a finished build into a fresh folder, builds the consumer against
-# that folder alone and runs it. Leaves WORK_DIR behind for whoever looks.
+# Installs a finished build into a fresh folder, moves it elsewhere, and builds and runs against it alone
+#
+#   components  a program that needs two layers, and none of the packages that other layers need
+#   consumer    a program that needs all, for several instruction sets: all print the same
+#   examples    the programs of examples/, whose output is kept beside them
+#
+# Leaves WORK_DIR behind to look at.
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT RESULT_VARIABLE result)
   if(NOT result EQUAL 0)
@@ -8,13 +13,58 @@ function(run)
   endif()
 endfunction()
 
+function(build source binary)
+  run(${CMAKE_COMMAND} -S ${source} -B ${binary} -G Ninja
+    -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON -D CMAKE_BUILD_TYPE=Release
+    -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} "-DCMAKE_CXX_FLAGS=-Wall -Werror ${ARGN}")
+  run(${CMAKE_COMMAND} --build ${binary})
+endfunction()
+
 file(REMOVE_RECURSE ${WORK_DIR})
-run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
-run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja
-  -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON
-  -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -D CMAKE_CXX_FLAGS=-Werror)
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run(${WORK_DIR}/build/consumer)
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/first)
+file(RENAME ${WORK_DIR}/first ${WORK_DIR}/prefix)
+
+file(GLOB_RECURSE package ${WORK_DIR}/prefix/*/cmake/kith/*.cmake)
+foreach(file IN LISTS package)
+  file(STRINGS ${file} fixed REGEX "${BUILD_DIR}|${SOURCE_DIR}|/usr/|${WORK_DIR}")
+  if(fixed)
+    message(FATAL_ERROR "${file} names places of this machine: ${fixed}")
+  endif()
+endforeach()
+
+build(${SOURCE_DIR}/tests/install/components ${WORK_DIR}/components)
+run(${WORK_DIR}/components/components)
+
+set(levels default)
+cmake_host_system_information(RESULT processor QUERY OS_PLATFORM)
+if(processor MATCHES "^(x86_64|AMD64)$")
+  list(APPEND levels x86-64-v2 x86-64-v3 x86-64-v4)
+endif()
+set(abilities "")
+if(EXISTS /proc/cpuinfo)
+  file(STRINGS /proc/cpuinfo abilities REGEX "^flags" LIMIT_COUNT 1)
+endif()
+foreach(level IN LISTS levels)
+  set(flags -march=${level})
+  if(level STREQUAL default)
+    set(flags)
+  endif()
+  build(${SOURCE_DIR}/tests/install/consumer ${WORK_DIR}/consumer-${level} ${flags})
+  if((level MATCHES v3 AND NOT abilities MATCHES " avx2 ") OR (level MATCHES v4 AND NOT abilities MATCHES " avx512vl "))
+    message(STATUS "compiled for ${level}, which this machine cannot run")
+    continue()
+  endif()
+  execute_process(COMMAND ${WORK_DIR}/consumer-${level}/consumer OUTPUT_VARIABLE printed RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "the consumer for ${level} failed (${result}):\n${printed}")
+  endif()
+  if(NOT DEFINED expected)
+    set(expected "${printed}")
+  elseif(NOT printed STREQUAL expected)
+    message(FATAL_ERROR "the consumer for ${level} prints other numbers:\n${printed}\nthan without -march:\n${expected}")
+  endif()
+endforeach()
+
 if(EXISTS ${BUILD_DIR}/bin/kith)
   run(${WORK_DIR}/prefix/bin/kith --version)
   foreach(file share/man/man1/kith.1 share/bash-completion/completions/kith share/kith/domains/item_delivery.toml)
@@ -23,3 +73,14 @@ if(EXISTS ${BUILD_DIR}/bin/kith)
     endif()
   endforeach()
 endif()
+
+build(${SOURCE_DIR}/examples ${WORK_DIR}/examples)
+file(GLOB examples ${SOURCE_DIR}/examples/*.cpp)
+foreach(example IN LISTS examples)
+  cmake_path(GET example STEM name)
+  execute_process(COMMAND ${WORK_DIR}/examples/${name} OUTPUT_VARIABLE printed RESULT_VARIABLE result)
+  file(READ ${SOURCE_DIR}/examples/${name}.txt expected)
+  if(NOT result EQUAL 0 OR NOT printed STREQUAL expected)
+    message(FATAL_ERROR "examples/${name} (${result}) prints\n${printed}\nand not what is in examples/${name}.txt")
+  endif()
+endforeach()
