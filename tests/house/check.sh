@@ -104,6 +104,23 @@ check_types() {
   done | sort | awk '$1 == last { print $1 " is defined by " where " and by " $2 } { last = $1; where = $2 }' | none
 }
 
+# A block of a document whose first line names a file (```cpp examples/a.cpp) is a part of that file, line by line.
+check_quotes() {
+  files '*.md' | while IFS= read -r page; do
+    awk -v page="$page" '
+      function compare(  text, line, got) {
+        text = "\n"
+        while ((got = (getline line < source)) > 0) text = text line "\n"
+        close(source)
+        if (got < 0 || index(text, "\n" quote) == 0) print page ":" begin ": this is not in " source
+      }
+      /^```[a-z]+ [^ ]+\/[^ ]+\.(cpp|hpp|txt|toml)$/ { source = $2; quote = ""; begin = NR; next }
+      source != "" && /^```$/ { compare(); source = ""; next }
+      source != "" { quote = quote $0 "\n" }
+    ' "$page"
+  done | none
+}
+
 check_format() {  # C++ is as clang-format 14 writes it
   if ! command -v clang-format >/dev/null; then
     echo "clang-format is not installed"

@@ -16,6 +16,7 @@ tidy_tree() {
   printf 'kith_module(high DEPENDS kith::low\n  PRIVATE_DEPENDS z)\n' >libs/high/CMakeLists.txt
   printf '#pragma once\n\n// A claim [known2001, section 2].\nint x();\n' >libs/low/include/x.hpp
   printf '@misc{known2001,\n}\n' >docs/references.bib
+  printf '```cpp libs/low/include/x.hpp\nint x();\n```\n' >docs/quotes.md
   printf 'See [this](docs/references.bib) and [that](https://example.org).\n' >README.md
 }
 
@@ -37,7 +38,7 @@ breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is ap
 }
 
 tidy_tree
-for rule in ascii places pragma layers newline links citations errors types; do expect 0 "$rule" 'a tidy tree'; done
+for rule in ascii places pragma layers newline links quotes citations errors types; do expect 0 "$rule" 'a tidy tree'; done
 expect 2 nonsense 'an unknown rule'
 breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
 breaks places README.md 'see /home''/somebody/kith\n'
@@ -48,6 +49,7 @@ breaks newline README.md 'no end'
 breaks newline libs/low/include/x.hpp 'int y();  \n'
 breaks links README.md '[gone](docs/gone.md)\n'
 breaks citations libs/low/include/x.hpp '// [unknown1999]\n'
+breaks quotes README.md '```cpp libs/low/include/x.hpp\nint y();\n```\n'
 breaks errors docs/errors.md '| E0101 | x | y |\n| E0101 | z | y |\n'
 breaks types libs/low/include/x.hpp 'namespace kith {\nstruct A {};\n}  // namespace kith\nnamespace kith {\nclass A final : B {\n'
 tidy_tree
