@@ -56,7 +56,6 @@ Json curriculum_json(const Atlas& atlas, const Curriculum& curriculum, std::uint
   }
   Json skipped = Json::array();
   for (const auto& one : curriculum.skipped) skipped.push_back({{"name", one.name}, {"why", one.why}});
-  const auto& domain = atlas.domain();
   return {{"schema", "kith.curriculum/1"},
           {"title", "What will the robot do?"},  // the domain's own title may tell
           {"program", program},
