@@ -35,7 +35,9 @@ class OptimumChecker {
       report_.warning(
           "W0302", reward_.weights_place,
           "from " + std::to_string(num_ties_) + " states there are equally good paths that differ in what they count",
-          "the robot is indifferent between them: both are accepted, and neither is taught as the better one");
+          "people may answer with either; the path that the robot takes is taught as at least as good, unless its "
+          "choices "
+          "between equally good paths contradict each other");
     }
     if (longest_ > dynamics_.max_steps) {
       report_.warning("W0303", reward_.weights_place,

@@ -8,9 +8,8 @@ std::size_t TeachingCache::memory() const noexcept { return known_->behaviours.m
 
 void TeachingCache::trim() {
   if (memory() <= max_bytes_) return;
-  const Atlas& atlas = known_->behaviours.atlas();
   known_.reset();  // first, so that both are never held
-  known_ = std::make_unique<Known>(atlas, max_bytes_);
+  known_ = std::make_unique<Known>(*atlas_, max_bytes_);
 }
 
 const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points) {

@@ -93,7 +93,7 @@ std::string_view name_of(const SessionEvent& event) noexcept {
 
 Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice strategy,
                  std::vector<RandomStream> persons, RandomStream teacher)
-    : atlas_{&cache.atlas()},
+    : atlas_{cache.shared_atlas()},
       options_{std::move(options)},
       choice_{std::move(strategy)},
       strategy_{choice_.kind.make(choice_.parameters)},
@@ -146,7 +146,7 @@ struct Session::Prepared {
 bool Session::propose(TeachingCache& cache) {
   if (finished()) return false;
   require_phase(SessionPhase::kProposal, "choosing a lesson");
-  require(&cache.atlas() == atlas_, "the cache is of another atlas");
+  require(&cache.atlas() == atlas_.get(), "the cache is of another atlas");
   std::vector<bool> present;
   for (const Seat seat : seats_) present.push_back(seat != Seat::kAway);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "no lesson can be chosen: everybody is away"};
@@ -282,9 +282,11 @@ Verdict Session::judge(const Test& test, const Answer& answer) const {
   if (sign < 0) refuse("an answer earns more than the robot's optimal behaviour, which no path can");
   verdict.correct = sign == 0;
   verdict.regret = verdict.correct ? 0.0 : regret;
+  auto preferred = preference(-loss, domain.count_scale());  // of the answer to the robot's path
   if (verdict.correct) {
-    verdict.half_spaces = test.covered;
-  } else if (auto preferred = preference(-loss, domain.count_scale())) {
+    // Another path that is as good shows no preference between the two, and nothing about others.
+    if (!preferred) verdict.half_spaces = test.covered;
+  } else if (preferred) {
     verdict.half_spaces.push_back(std::move(*preferred));
   }
   return verdict;

@@ -9,6 +9,7 @@
 
 #include "item_delivery.hpp"
 #include "kith/core/error.hpp"
+#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {
@@ -215,6 +216,48 @@ TEST(Session, AWrongAnswerShowsTheHalfSpaceInWhichItWins) {
   const auto feedback = submit(session, cache, answers);
   ASSERT_EQ(feedback.verdicts[0][0].half_spaces.size(), 1u);
   EXPECT_EQ(feedback.verdicts[0][0].half_spaces[0], HalfSpace{-loss});
+}
+
+// The skateboard's weights lie on the edge: often two paths with different feature counts are equally good. Whoever
+// answers with the other one shows nothing, and never the opposite of it.
+TEST(Session, ARightAnswerByAnotherPathIsNoEvidence) {
+  const Atlas atlas{load_domain("skateboard")};
+  TeachingCache cache{atlas};
+  std::size_t others = 0, same = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Session session{
+        cache, {.max_periods = 8}, strategy_named("common"), {RandomStream{seed}}, RandomStream{seed + 100}};
+    auto random = RandomStream{seed}.split("answers");
+    while (session.propose(cache)) {
+      std::vector<Answer> answers;
+      for (const auto& test : session.lesson().tests) {
+        const auto& paths = atlas.coverage_set(test.demo);
+        answers.emplace_back(paths[uniform_index(paths.size(), random)]);
+        if (session.periods() % 4 == 3) answers.back() = atlas.feature_counts(test.demo);
+        for (const auto& path : atlas.coverage_set(test.demo)) {
+          const auto loss = atlas.feature_counts(test.demo) - path;
+          const bool as_good = sign_of_dot(atlas.domain().weights().integer, loss) == 0;
+          if (as_good && path != atlas.feature_counts(test.demo)) answers.back() = path;
+        }
+      }
+      const auto lesson = session.lesson();
+      const auto feedback = session.submit(std::vector<std::vector<Answer>>{answers});
+      for (std::size_t t = 0; t < answers.size(); ++t) {
+        const auto& verdict = feedback.verdicts[0][t];
+        if (!verdict.correct) continue;
+        const auto difference = *answers[t] - atlas.feature_counts(lesson.tests[t].demo);
+        if (difference == IntegerVector{0, 0, 0}) {
+          EXPECT_EQ(verdict.half_spaces, lesson.tests[t].covered);
+          ++same;
+        } else {
+          EXPECT_TRUE(verdict.half_spaces.empty());
+          ++others;
+        }
+      }
+    }
+  }
+  EXPECT_GT(same, 10u);
+  EXPECT_GT(others, 10u);
 }
 
 TEST(Session, RefusesAnswersOfTheWrongShapeOrBetterThanOptimal) {

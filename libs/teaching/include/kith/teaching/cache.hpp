@@ -4,6 +4,7 @@
 #include <list>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "kith/bec/behaviours.hpp"
 #include "kith/belief/prior_cover.hpp"
@@ -16,7 +17,7 @@ namespace kith {
 ///
 /// A cache in front of pure functions: results never depend on what was asked before, nor on which sessions it served.
 /// Sessions keep nothing that refers to it, so it can be trimmed, replaced or destroyed while they live. Not
-/// thread-safe; give each thread its own, or hand one on. The atlas must outlive it.
+/// thread-safe; give each thread its own, or hand one on.
 ///
 /// Numbers of constraints and of policy cells are those of this cache and valid until trim().
 class TeachingCache {
@@ -24,10 +25,15 @@ class TeachingCache {
   /// Memory that is kept when sessions propose lessons, in bytes; while a lesson is chosen it may be more.
   static constexpr std::size_t kDefaultBytes = std::size_t{24} << 20u;
 
+  /// Keeps the atlas alive, and so do sessions that are made with this cache.
+  explicit TeachingCache(std::shared_ptr<const Atlas> atlas, std::size_t max_bytes = kDefaultBytes)
+      : atlas_{std::move(atlas)}, max_bytes_{max_bytes}, known_{std::make_unique<Known>(*atlas_, max_bytes)} {}
+  /// For an atlas that outlives this cache and all sessions that are made with it.
   explicit TeachingCache(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes)
-      : max_bytes_{max_bytes}, known_{std::make_unique<Known>(atlas, max_bytes)} {}
+      : TeachingCache{std::shared_ptr<const Atlas>{std::shared_ptr<const Atlas>{}, &atlas}, max_bytes} {}
 
-  [[nodiscard]] const Atlas& atlas() const noexcept { return known_->behaviours.atlas(); }
+  [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
+  [[nodiscard]] const std::shared_ptr<const Atlas>& shared_atlas() const noexcept { return atlas_; }
   [[nodiscard]] Behaviours& behaviours() noexcept { return known_->behaviours; }
   [[nodiscard]] Regions& regions() noexcept { return known_->regions; }
   [[nodiscard]] const ConstraintTable& constraints() const noexcept { return known_->behaviours.constraints(); }
@@ -51,6 +57,7 @@ class TeachingCache {
     Behaviours behaviours;
     Regions regions;
   };
+  std::shared_ptr<const Atlas> atlas_;
   std::size_t max_bytes_;
   std::unique_ptr<Known> known_;
   std::list<PriorCover> covers_;  // few: one per prior and filter size of a study

@@ -64,8 +64,8 @@ enum class ComponentStatus { kOpen, kLearned, kSkipped };
 /// an event that the phase does not allow. events() lists what was accepted; apply() repeats it. Equal streams and
 /// events give equal sessions, bit for bit, whatever cache is used and whatever that has served before.
 ///
-/// A value: a copy goes on independently, which is how to look ahead. Between calls it may move to another thread. The
-/// atlas must outlive it.
+/// A value: a copy goes on independently, which is how to look ahead. Between calls it may move to another thread. It
+/// keeps the atlas alive if the cache does.
 ///
 /// Each knowledge component is taught until all members present answer all tests of a
 /// period correctly; a component for which no demonstration has gain at the outset is
@@ -158,7 +158,7 @@ class Session {
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
   void conclude_period(bool learned);
 
-  const Atlas* atlas_;
+  std::shared_ptr<const Atlas> atlas_;
   TeachingOptions options_;
   StrategyChoice choice_;
   std::shared_ptr<const Strategy> strategy_;  // never changed in place, so copies may share it
