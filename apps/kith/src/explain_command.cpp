@@ -10,6 +10,7 @@
 #include "error_pages.hpp"
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
+#include "kith/present/json.hpp"
 #include "kith/present/wrapped.hpp"
 
 namespace kith::cli {

@@ -92,7 +92,7 @@ class Inspection {
   void coverage() {
     if (!atlas_.is_tabulated()) {
       heading("What people could expect the robot to do");
-      out_ += "  planned when it is asked: this domain has no tables of all there could be\n";
+      out_ += "  computed on demand; not precomputed for this domain\n";
       return;
     }
     const auto& coverage = atlas_.coverage();
@@ -141,7 +141,7 @@ class Inspection {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
     }
     if (!atlas_.is_tabulated()) {
-      out_ += "  planned when it is asked: this domain has no tables of all there could be\n";
+      out_ += "  computed on demand; not precomputed for this domain\n";
       return;
     }
     const auto& robot = atlas_.feature_counts(demo);

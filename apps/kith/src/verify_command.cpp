@@ -53,7 +53,7 @@ int run_verify(const VerifyCommandOptions& options, Console& console) {
                             {"program", result.program}});
     return 0;
   }
-  console.print(fmt::format("{} of {} taught again and {} compared: the same bytes\n", result.checked,
+  console.print(fmt::format("reran {} of {}, compared {}: all identical\n", result.checked,
                             counted(result.teams, "team"), counted(result.files, "file")));
   return 0;
 }

@@ -112,7 +112,7 @@ std::vector<Case> cases() {
        {{"[\"S.rG\"]",
          "[\"S.\xC3\xA4"
          "G\", \"....\"]"}},
-       "E0203 6:12",
+       "E0203 6:9",
        "one ASCII character per cell"},
       {"ragged", {{"[\"S.rG\"]", "[\"S.rG\", \"...\"]"}}, "E0202 6:17", "one length"},
       {"undeclared", {{"S.rG", "S?rG"}}, "E0203 6:11", "'.'"},
