@@ -39,23 +39,25 @@ Blocks blocks_of(const RunTeams& teams, const std::vector<double>& values) {
 
 struct Pair {
   std::string name;
-  MeanDifference difference;
-  double d_z = 0.0;  // mean over standard deviation of the differences
   std::size_t n = 0;
+  Estimable<MeanDifference> difference;
+  std::optional<double> d_z = {};  // mean over standard deviation of the differences
 };
 
-std::optional<Pair> compare(const Blocks& blocks, std::size_t a, std::size_t b, double confidence) {
+Pair compare(const Blocks& blocks, std::size_t a, std::size_t b, double confidence) {
   std::vector<double> first, second;
   for (const auto& block : blocks.values) {
     if (!block[a] || !block[b]) continue;
     first.push_back(*block[a]);
     second.push_back(*block[b]);
   }
-  const auto difference = paired_t_test(first, second, confidence);
-  if (!difference) return std::nullopt;
-  const double spread = difference->standard_error * std::sqrt(static_cast<double>(first.size()));
-  return Pair{blocks.strategies[a] + " - " + blocks.strategies[b], *difference, difference->difference / spread,
-              first.size()};
+  Pair pair{blocks.strategies[a] + " - " + blocks.strategies[b], first.size(),
+            paired_t_test(first, second, confidence)};
+  if (pair.difference) {
+    const double spread = pair.difference->standard_error * std::sqrt(static_cast<double>(first.size()));
+    pair.d_z = pair.difference->difference / spread;
+  }
+  return pair;
 }
 
 // Strategy and its interaction with composition, with differences between people taken out.
@@ -111,13 +113,13 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
   std::vector<double> p_values;
   for (std::size_t a = 0; a < blocks.strategies.size(); ++a) {
     for (std::size_t b = a + 1; b < blocks.strategies.size(); ++b) {
-      if (auto pair = compare(blocks, a, b, 1.0 - options.alpha)) {
-        p_values.push_back(pair->difference.test.p);
-        pairs.push_back(std::move(*pair));
+      auto pair = compare(blocks, a, b, 1.0 - options.alpha);
+      if (pair.difference) {
+        p_values.push_back(pair.difference->test.p);
       } else {
-        finding.warnings.push_back(blocks.strategies[a] + " - " + blocks.strategies[b] +
-                                   ": not estimable, because there are too few groups or no differences");
+        finding.warnings.push_back(pair.name + ": not estimable, because " + pair.difference.reason());
       }
+      pairs.push_back(std::move(pair));
     }
   }
   const auto corrected = adjust(p_values, Correction::kHolm);
@@ -132,13 +134,22 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
                      {"p, corrected", Kind::kP}},
                     {}};
   std::string found;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto& [name, difference, d_z, n] = pairs[i];
-    table.rows.push_back({text_cell(name), count_cell(n), difference.difference, difference.low, difference.high, d_z,
-                          difference.test.p, corrected[i]});
-    if (corrected[i] < options.alpha)
+  std::size_t tested = 0;
+  for (const auto& [name, n, difference, d_z] : pairs) {
+    auto& row = table.rows.emplace_back(table.columns.size());
+    row[0] = text_cell(name);
+    row[1] = count_cell(n);
+    if (!difference) continue;
+    const double p = corrected[tested++];
+    row[2] = difference->difference;
+    row[3] = difference->low;
+    row[4] = difference->high;
+    row[5] = *d_z;
+    row[6] = difference->test.p;
+    row[7] = p;
+    if (p < options.alpha)
       found += fmt::format("{}{} {} ({})", found.empty() ? "" : ", ", name,
-                           formatted(difference.difference, Kind::kNumber), p_text(corrected[i]));
+                           formatted(difference->difference, Kind::kNumber), p_text(p));
   }
   finding.sentence = fmt::format(
       "Every strategy taught the same {} groups of simulated people, so differences are taken within "
@@ -188,6 +199,7 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
     row[7] = size->low;
     row[8] = size->high;
   }
+  table.rows.push_back(std::move(row));
   const auto mean_text = [](const std::vector<double>& sample) { return formatted(mean(sample), Kind::kNumber); };
   finding.sentence = fmt::format(
       "{} groups that were taught together came to {} {} on average, {} groups whose members were taught one after "

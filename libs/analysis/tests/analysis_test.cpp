@@ -228,6 +228,30 @@ TEST_F(RunTest, ComparesGroupsWithTeachingAlone) {
                         "were taught one after the other to 17.00; they differ"));
 }
 
+// Eight teams taught alone need twice the periods of their people, sixteen taught together one less or as many: by
+// hand, 17 and 8.
+TEST_F(RunTest, ListsTheComparisonWithTeachingAloneInItsTable) {
+  write("teams.csv", teams());
+  const auto found = finding(analyse(), "periods-baseline");
+  ASSERT_EQ(found.tables.size(), 1u);
+  ASSERT_EQ(found.tables[0].rows.size(), 1u);
+  EXPECT_DOUBLE_EQ(number(found, 0, "groups - alone", "difference"), 8.0 - 17.0);
+  EXPECT_LT(number(found, 0, "groups - alone", "low"), -9.0);
+  EXPECT_GT(number(found, 0, "groups - alone", "high"), -9.0);
+  EXPECT_LT(number(found, 0, "groups - alone", "p"), 0.001);
+  EXPECT_LT(number(found, 0, "groups - alone", "Hedges' g"), -1.0);
+}
+
+TEST_F(RunTest, HasNoTableWithoutRows) {
+  write("teams.csv", teams());
+  for (const auto& found : analyse().findings) {
+    for (const auto& table : found.tables) {
+      EXPECT_FALSE(table.rows.empty()) << found.id << ": " << table.caption;
+      for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.caption;
+    }
+  }
+}
+
 TEST_F(RunTest, AveragesTheAreasOfAComponentWithoutItsFirstPeriod) {
   write("teams.csv", teams());
   std::string periods = "team,period,kc,area_sr\n";
