@@ -1,4 +1,12 @@
 // Synthetic findings, methods and commands in the shape that kith writes them.
+function resultTable(caption, columns, rows) {
+  return {
+    caption,
+    columns: columns.map(([field, name, kind]) => ({ field, name, kind })),
+    rows: rows.map((row) => Object.fromEntries(columns.map(([field], i) => [field, row[i]]))),
+  };
+}
+
 export function sampleTexts() {
   return {
     findings: [
@@ -10,24 +18,37 @@ export function sampleTexts() {
           'A two-way analysis of variance on 240 synthetic teams found an effect of composition, F(3, 224) = 4.67, p = 0.003, and none of strategy, F(3, 224) = 0.42, p = 0.74.',
         warnings: ["The variances of the cells differ (Levene p = 0.02); Welch's test agrees."],
         tables: [
-          {
-            caption: 'Analysis of variance (type II)',
-            columns: ['term', 'df', 'sum_sq', 'mean_sq', 'F', 'p', 'partial_eta_sq'],
-            rows: [
-              ['strategy', 3, 2.9, 0.9667, 0.42, 0.7388, 0.0056],
-              ['composition', 3, 32.21, 10.7367, 4.67, 0.00349, 0.0588],
-              ['strategy:composition', 9, 14.2, 1.5778, 0.6862, 0.7209, 0.0268],
-              ['residual', 224, 515.1, 2.2996, null, null, null],
+          resultTable(
+            'Analysis of variance (type II)',
+            [
+              ['term', 'term', 'text'],
+              ['df', 'df', 'count'],
+              ['sum_of_squares', 'sum of squares', 'number'],
+              ['f', 'F', 'number'],
+              ['p_value', 'p-value', 'p'],
+              ['partial_eta_squared', 'partial eta squared', 'fraction'],
             ],
-          },
-          {
-            caption: 'Tukey HSD of composition',
-            columns: ['pair', 'difference', 'low', 'high', 'p'],
-            rows: [
+            [
+              ['strategy', 3, 2.9, 0.42, 0.7388, 0.0056],
+              ['composition', 3, 32.21, 4.67, 0.00349, 0.0588],
+              ['strategy:composition', 9, 14.2, 0.6862, 0.7209, 0.0268],
+              ['residuals', 224, 515.1],
+            ],
+          ),
+          resultTable(
+            'Pairs of composition (Tukey)',
+            [
+              ['pair', 'pair', 'text'],
+              ['difference', 'difference', 'number'],
+              ['lower_limit', 'lower limit', 'number'],
+              ['upper_limit', 'upper limit', 'number'],
+              ['p_value_adjusted', 'p-value, adjusted', 'p'],
+            ],
+            [
               ['NNN - PPP', 1.8, 1.1, 2.5, 0.0000021],
               ['NNP - PPP', 1.2, 0.5, 1.9, 0.0003],
             ],
-          },
+          ),
         ],
       },
       {

@@ -82,44 +82,8 @@ std::string text_of(const Finding& finding, bool brief, const Console& console) 
   return text;
 }
 
-Json cell_json(const TableCell& cell) {
-  return std::visit(
-      [](const auto& value) -> Json {
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
-          return nullptr;
-        } else {
-          return value;
-        }
-      },
-      cell);
-}
-
-Json table_json(const ResultTable& table) {
-  Json columns = Json::array();
-  for (const auto& column : table.columns) columns.push_back(column.name);
-  Json rows = Json::array();
-  for (const auto& row : table.rows) {
-    Json cells = Json::array();
-    for (const auto& cell : row) cells.push_back(cell_json(cell));
-    rows.push_back(std::move(cells));
-  }
-  return {{"caption", table.caption}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
-}
-
 Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
-  Json findings = Json::array();
-  for (const auto& finding : analysis.findings) {
-    Json tables = Json::array();
-    for (const auto& table : finding.tables) tables.push_back(table_json(table));
-    findings.push_back({{"id", finding.id},
-                        {"title", finding.title},
-                        {"question", finding.question},
-                        {"model", finding.model},
-                        {"sentence", finding.sentence},
-                        {"warnings", finding.warnings},
-                        {"tables", std::move(tables)}});
-  }
-  return {{"schema", "kith.analyze/1"},
+  return {{"schema", "kith.analyze/2"},
           {"subject", analysis.subject},
           {"alpha", options.alpha},
           {"correction", options.correction},
@@ -127,7 +91,7 @@ Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
           {"resamples", options.resamples},
           {"seed", options.seed},
           {"notes", analysis.notes},
-          {"findings", std::move(findings)}};
+          {"findings", Json::parse(findings_json(analysis))}};
 }
 
 }  // namespace

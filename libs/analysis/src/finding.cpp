@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace kith {
 namespace {
@@ -31,6 +32,22 @@ std::string real_text(double value, ResultKind kind) {
   }
 }
 
+// Lower-case letters, digits and what is not ASCII, in words joined by underscores; apostrophes join.
+std::string field_of(const std::string& name) {
+  std::string field;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_upper = c >= 'A' && c <= 'Z';
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || is_upper || byte >= 0x80) {
+      field += is_upper ? static_cast<char>(c - 'A' + 'a') : c;
+    } else if (c != '\'' && !field.empty() && field.back() != '_') {
+      field += '_';
+    }
+  }
+  if (!field.empty() && field.back() == '_') field.pop_back();
+  return field.empty() ? "column" : field;
+}
+
 }  // namespace
 
 std::string formatted(const TableCell& cell, ResultKind kind) {
@@ -49,6 +66,18 @@ std::vector<std::vector<std::string>> formatted_rows(const ResultTable& table) {
     for (std::size_t c = 0; c < row.size(); ++c) texts.push_back(formatted(row[c], table.columns.at(c).kind));
   }
   return rows;
+}
+
+std::vector<std::string> field_names(const ResultTable& table) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const auto& column : table.columns) {
+    const auto wanted = column.field.empty() ? field_of(column.name) : column.field;
+    auto name = wanted;
+    for (int number = 2; !taken.insert(name).second; ++number) name = fmt::format("{}_{}", wanted, number);
+    names.push_back(std::move(name));
+  }
+  return names;
 }
 
 std::string p_text(double p) { return p < kSmallestShownP ? std::string{"p < 0.001"} : fmt::format("p = {:.3f}", p); }

@@ -16,7 +16,7 @@ ResultTable means_table(const ModelData& data, double confidence) {
   ResultTable table{"Means", {}, {}};
   Factor cells = data.factors.front();
   for (std::size_t f = 1; f < data.factors.size(); ++f) cells = interaction(cells, data.factors[f]);
-  for (const auto& factor : data.factors) table.columns.push_back({factor.name, Kind::kText});
+  for (const auto& factor : data.factors) table.columns.push_back({factor.name, Kind::kText, factor.name});
   for (const auto* name : {"mean", "sd", "low", "high"}) table.columns.push_back({name, Kind::kNumber});
   table.columns.insert(table.columns.end() - 4, {"n", Kind::kCount});
   const auto groups = split_by(data.values, cells);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
@@ -68,6 +69,52 @@ TEST(AnalyzeTable, TestsAModelOnAnyTable) {
   EXPECT_NEAR(number(found, 0, "g", "p"), 0.001, 1e-12);  // F = 27: p = (1 + F / 3)^-3
   EXPECT_THAT(found.sentence, HasSubstr("It differs by g, a large effect (F(2, 6) = 27.00, p = 0.001"));
   EXPECT_THAT(found.sentence, HasSubstr("from 2.000 (a) to 8.000 (c)"));
+}
+
+TEST(AnalyzeTable, GivesRowsNamedFieldsInDocuments) {
+  const auto analysis = analyze_table(Dataset::parse(kGroups, "t.csv"), {"y ~ g", {}}, quick());
+  const auto document = nlohmann::json::parse(findings_json(analysis));
+  ASSERT_EQ(document.size(), analysis.findings.size());
+  const auto& table = document.at(0).at("tables").at(0);
+  const auto& effect = table.at("rows").at(0);
+  EXPECT_EQ(effect.at("term"), "g");
+  EXPECT_EQ(effect.at("df"), 2);
+  EXPECT_DOUBLE_EQ(effect.at("f").get<double>(), 27.0);
+  EXPECT_DOUBLE_EQ(effect.at("partial_eta_squared").get<double>(), 0.9);
+  EXPECT_NEAR(effect.at("p").get<double>(), 0.001, 1e-12);
+  const auto& residuals = table.at("rows").at(1);
+  EXPECT_EQ(residuals.at("term"), "residuals");
+  EXPECT_FALSE(residuals.contains("f"));  // does not apply
+  for (const auto& column : table.at("columns")) EXPECT_TRUE(effect.contains(column.at("field"))) << column;
+}
+
+TEST(AnalyzeTable, GivesNullForWhatCannotBeEstimatedInDocuments) {
+  const auto analysis = analyze_table(Dataset::parse("g,y\na,1\nb,2\n", "t.csv"), {"y ~ g", {}}, quick());
+  const auto document = nlohmann::json::parse(findings_json(analysis));
+  EXPECT_TRUE(document.at(0).at("tables").at(0).at("rows").at(0).at("f").is_null());
+}
+
+TEST(FieldNames, AreWordsJoinedByUnderscoresAndAllDifferent) {
+  const ResultTable table{
+      .caption = "",
+      .columns =
+          {{"Hedges' g"}, {"g, low"}, {"p, Kruskal-Wallis"}, {"mean", {}, "Mean"}, {"mean"}, {"mean"}, {"95 %"}, {"+"}},
+      .rows = {}};
+  EXPECT_THAT(field_names(table), ::testing::ElementsAre("hedges_g", "g_low", "p_kruskal_wallis", "Mean", "mean",
+                                                         "mean_2", "95", "column"));
+}
+
+// Factors may have the names that statistics have.
+TEST(FieldNames, KeepFactorsNamedLikeStatisticsApart) {
+  const auto analysis = analyze_table(Dataset::parse("n,y\n1,1\n1,2\n2,3\n2,5\n", "t.csv"), {"y ~ n", {}}, quick());
+  const auto document = nlohmann::json::parse(findings_json(analysis));
+  for (const auto& table : document.at(0).at("tables")) {
+    if (table.at("caption") != "Means") continue;
+    EXPECT_EQ(table.at("rows").at(0).at("n"), "1");
+    EXPECT_EQ(table.at("rows").at(0).at("n_2"), 2);
+    return;
+  }
+  ADD_FAILURE() << "there is no table of means";
 }
 
 TEST(AnalyzeTable, SaysWhatItDoesNotFind) {

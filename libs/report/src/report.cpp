@@ -162,27 +162,6 @@ void note_data(const RunFiles& run, const ReportDesign& design, const RunData& d
   }
 }
 
-Json to_json(const ResultTable& table) {
-  Json columns = Json::array();
-  for (const auto& column : table.columns) columns.push_back(column.name);
-  return {{"caption", table.caption}, {"columns", std::move(columns)}, {"rows", formatted_rows(table)}};
-}
-
-Json findings_of(const Analysis& analysis) {
-  Json findings = Json::array();
-  for (const auto& finding : analysis.findings) {
-    Json tables = Json::array();
-    for (const auto& table : finding.tables) tables.push_back(to_json(table));
-    findings.push_back({{"id", finding.id},
-                        {"title", finding.title},
-                        {"question", finding.question},
-                        {"sentence", finding.sentence},
-                        {"warnings", finding.warnings},
-                        {"tables", std::move(tables)}});
-  }
-  return findings;
-}
-
 // A design in which nothing can be compared has no findings, and that is no error.
 Analysis analyse(const RunFiles& run, std::vector<std::string>& notes) try {
   auto analysis = analyze_run(run.folder, {});
@@ -242,7 +221,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
                 {"overview", overview_of(run, design, data)},
                 {"notes", notes},
                 {"tables", std::move(tables)},
-                {"findings", findings_of(analysis)},
+                {"findings", Json::parse(findings_json(analysis))},
                 {"methods", methods_of(run, design, data, analysis)},
                 {"reproduce", reproduction_of(run)}};
   if (beliefs) document["beliefs"] = *std::move(beliefs);

@@ -8,6 +8,14 @@ export interface Table {
   rows: Cell[][];
 }
 
+// A table of a test: rows have a value for the field of every column.
+export interface ResultTable {
+  caption: string;
+  columns: { field: string; name: string; kind: ResultKind }[];
+  rows: Row[];
+}
+export type ResultKind = 'text' | 'count' | 'number' | 'fraction' | 'p';
+
 export interface Headline {
   label: string;
   value: number | null;
@@ -23,7 +31,7 @@ export interface Finding {
   question?: string;
   sentence: string;
   warnings?: string[];
-  tables?: (Table & { caption: string })[];
+  tables?: ResultTable[];
 }
 
 export interface Reference {

@@ -1,5 +1,5 @@
 // How codes and numbers are written.
-import type { Cell, Report } from './document';
+import type { Cell, Report, ResultKind } from './document';
 
 const kMinus = '\u2212';
 
@@ -19,6 +19,33 @@ export function formatFixed(value: number | null | undefined, digits: number): s
 // Probabilities by name of column, so that a tiny one is not shown as 0.
 function formatP(value: number): string {
   return value < 0.001 ? '< 0.001' : value.toFixed(3);
+}
+
+// A number of a test's table as `kith analyze` prints it: three decimals, or four significant digits if those are fewer.
+function formatStatistic(value: number): string {
+  const size = Math.abs(value);
+  if (size === 0) return '0';
+  if (size < 1e-4 || size >= 1e7) return value.toExponential(2);
+  const magnitude = Math.floor(Math.log10(size));
+  return value.toFixed(magnitude < -2 ? 1 - magnitude : Math.min(3, Math.max(0, 3 - magnitude)));
+}
+
+export function formatResult(value: Cell | undefined, kind: ResultKind): string {
+  if (value === undefined) return ''; // does not apply to this row
+  if (value === null) return 'not estimable';
+  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  if (typeof value === 'string') return value;
+  const text =
+    kind === 'count'
+      ? String(value)
+      : kind === 'p'
+        ? value < 0.0005
+          ? '< 0.001'
+          : value.toFixed(3)
+        : kind === 'fraction'
+          ? value.toFixed(3)
+          : formatStatistic(value);
+  return text.replaceAll('-', kMinus);
 }
 
 const isP = (column: string): boolean => /^p(\b|_)|_p$/i.test(column);

@@ -1,10 +1,10 @@
 import type { Finding } from '../document';
 import { el } from '../../shared/dom';
 import type { Study } from '../study';
-import { tableView } from '../table_view';
+import { resultTableView } from '../table_view';
 import type { Section } from './section';
 
-function finding(one: Finding, study: Study): HTMLElement {
+function finding(one: Finding): HTMLElement {
   const tables = one.tables ?? [];
   return el(
     'article',
@@ -18,7 +18,7 @@ function finding(one: Finding, study: Study): HTMLElement {
           'details',
           {},
           el('summary', {}, `Tests: ${one.title}`),
-          ...tables.map((table) => tableView(table, table.caption, study.words)),
+          ...tables.map(resultTableView),
         )
       : null,
   );
@@ -27,5 +27,5 @@ function finding(one: Finding, study: Study): HTMLElement {
 export function findingsSection(study: Study): Section | null {
   const findings = study.report.findings ?? [];
   if (findings.length === 0) return null;
-  return { id: 'findings', title: 'Findings', content: findings.map((one) => finding(one, study)) };
+  return { id: 'findings', title: 'Findings', content: findings.map(finding) };
 }

@@ -19,6 +19,7 @@ enum class ResultKind {
 struct ResultColumn {
   std::string name;
   ResultKind kind = ResultKind::kNumber;
+  std::string field{};  ///< Its name in documents; empty: made from `name`, see field_names().
 };
 
 /// A table of results. A missing number is one that cannot be estimated; the finding's notes say why.
@@ -32,6 +33,9 @@ struct ResultTable {
 [[nodiscard]] std::string formatted(const TableCell& cell, ResultKind kind);
 /// All cells of a table, as people read them.
 [[nodiscard]] std::vector<std::vector<std::string>> formatted_rows(const ResultTable& table);
+/// The name of every column in documents, no two alike: its `field`, or its name in lower case with underscores ("p,
+/// corrected" is p_corrected, "Hedges' g" is hedges_g). A name that an earlier column has gets a number: mean, mean_2.
+[[nodiscard]] std::vector<std::string> field_names(const ResultTable& table);
 /// "p = 0.032", "p < 0.001".
 [[nodiscard]] std::string p_text(double p);
 
@@ -52,5 +56,11 @@ struct Analysis {
   std::vector<std::string> notes;  ///< What holds for all findings.
   std::vector<Finding> findings;
 };
+
+/// The findings as a JSON array, on one line: {"id", "title", "question", "model", "sentence", "warnings", "tables"}
+/// each. A table is {"caption", "columns": [{"field", "name", "kind"}], "rows": [{FIELD: value}]}; kinds are "text",
+/// "count", "number", "fraction" and "p". Values have all digits; null is what cannot be estimated, and a field that
+/// does not apply to a row (the F of residuals) is absent.
+[[nodiscard]] std::string findings_json(const Analysis& analysis);
 
 }  // namespace kith
