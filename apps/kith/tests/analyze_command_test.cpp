@@ -49,11 +49,13 @@ TEST_F(AnalyzeCommand, IsBriefWhenAsked) {
 TEST_F(AnalyzeCommand, PrintsOneDocument) {
   const auto ran = run_kith({"analyze", folder(), "--json"});
   const auto document = Json::parse(ran.out);
-  EXPECT_EQ(document.at("schema"), "kith.analyze/1");
+  EXPECT_EQ(document.at("schema"), "kith.analyze/2");
   EXPECT_EQ(document.at("findings").at(0).at("id"), "periods");
   const auto& table = document.at("findings").at(0).at("tables").at(0);
-  EXPECT_EQ(table.at("columns").at(0), "term");
-  EXPECT_TRUE(table.at("rows").at(0).at(4).is_number());
+  EXPECT_EQ(table.at("columns").at(0), Json::parse(R"({"field": "term", "name": "term", "kind": "text"})"));
+  EXPECT_EQ(table.at("rows").at(0).at("term"), "strategy");
+  EXPECT_EQ(table.at("rows").at(0).at("df"), 3);
+  EXPECT_TRUE(table.at("rows").at(0).at("partial_eta_squared").is_number());
 }
 
 TEST_F(AnalyzeCommand, TestsAModelOnATableOfARun) {
@@ -84,6 +86,19 @@ TEST_F(AnalyzeCommand, NamesFileAndRowOfBadInput) {
   const auto single = run_kith({"analyze", text, "--model", "y ~ g", "--where", "y!=two", "--where", "g=a"});
   EXPECT_EQ(single.code, 4);
   EXPECT_THAT(single.err, HasSubstr("error[E0904]: column 'g' is 'a' in every row"));
+}
+
+TEST_F(AnalyzeCommand, ListsTheValuesWhereNoRowIsLeft) {
+  const auto ran = run_kith({"analyze", folder(), "--model", "knowledge ~ composition", "--where", "strategy=jiont"});
+  EXPECT_EQ(ran.code, 4);
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("error[E0909]: no row has strategy=jiont"), HasSubstr("did you mean 'joint'?")));
+}
+
+TEST_F(AnalyzeCommand, ReadsTablesOfSpreadsheets) {
+  const auto ran = run_kith({"analyze", "-", "--model", "y ~ g"},
+                            {.input = "g;y\nTRUE;1\nTRUE;2\nTRUE;3,0\nFALSE;4\nFALSE;5\nFALSE;6\n"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("13.50"));
 }
 
 TEST_F(AnalyzeCommand, RefusesFoldersWithoutFinishedResults) {

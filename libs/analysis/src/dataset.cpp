@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxDiagnostics = 20;
 constexpr std::size_t kMostListed = 20;      // names of columns in a message
+constexpr std::size_t kMostDistinct = 20;    // values of a column in a message
 constexpr std::size_t kLongestListed = 40;   // bytes of one of them
 constexpr std::uint64_t kBytesPerCell = 60;  // with what vectors keep free; longer texts have their length besides
 
@@ -22,9 +23,9 @@ MemoryGuard guard_of(const std::string& file) {
   return {"keeping the table " + file, "keep only the rows and columns that are needed"};
 }
 
-std::optional<double> number_of(const std::string& text) {
-  if (text == "true") return 1.0;
-  if (text == "false") return 0.0;
+std::optional<double> number_of(const std::string& cell, bool decimal_comma) {
+  if (const auto truth = truth_of(cell)) return *truth ? 1.0 : 0.0;
+  const auto text = decimal_comma ? with_decimal_point(cell) : cell;
   double value = 0.0;
   const auto* const end = text.data() + text.size();
   const auto [stopped, error] = std::from_chars(text.data(), end, value);
@@ -54,7 +55,8 @@ RowFilter parse_row_filter(std::string_view text) {
   const bool differs = sign != std::string_view::npos && sign > 0 && text[sign - 1] == '!';
   const auto column = text.substr(0, differs ? sign - 1 : sign);
   if (sign == std::string_view::npos || column.empty())
-    throw Error{ErrorKind::kUsage, "'" + std::string{text} + "' is no condition; write COLUMN=VALUE or COLUMN!=VALUE"};
+    throw Error{ErrorKind::kUsage,
+                "'" + std::string{text} + "' is not a condition; write COLUMN=VALUE or COLUMN!=VALUE"};
   return {std::string{column}, !differs, std::string{text.substr(sign + 1)}};
 }
 
@@ -73,6 +75,7 @@ Dataset Dataset::parse(std::string_view text, const std::string& file, std::span
   const auto keep = [&](const CsvRow& row) {
     guard.take(row.cells.size() * kBytesPerCell + row.text.size());
     data.lines_.push_back(row.line);
+    data.decimal_comma_ = row.separator == ';';
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       const auto* const value = std::get_if<std::string>(&row.cells[c]);
       const bool missing = value == nullptr || value->empty() || *value == "NA";
@@ -115,7 +118,7 @@ std::vector<std::optional<double>> Dataset::numbers(std::string_view column) con
   std::vector<Diagnostic> diagnostics;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (!texts[i]) continue;
-    values[i] = number_of(*texts[i]);
+    values[i] = number_of(*texts[i], decimal_comma_);
     if (values[i] || diagnostics.size() == kMaxDiagnostics) continue;
     diagnostics.push_back({.id = "E0902",
                            .message = "'" + *texts[i] + "' in column '" + std::string{column} + "' is not a number",
@@ -139,7 +142,7 @@ bool Dataset::is_numeric(std::string_view column) const {
   bool any = false;
   for (const auto& cell : cells(column)) {
     if (!cell) continue;
-    if (*cell == "true" || *cell == "false" || !number_of(*cell)) return false;
+    if (truth_of(*cell) || !number_of(*cell, decimal_comma_)) return false;
     any = true;
   }
   return any;
@@ -174,7 +177,37 @@ Dataset Dataset::where(std::span<const RowFilter> filters) const {
     }
     if (keep) rows.push_back(i);
   }
+  if (rows.empty() && num_rows() > 0) refuse_filters(filters);
   return select(rows);
+}
+
+void Dataset::refuse_filters(std::span<const RowFilter> filters) const {
+  Diagnostic nothing{.id = "E0909", .file = file_, .infeasible = true};
+  for (const auto& filter : filters) {
+    const auto& texts = cells(filter.column);
+    const auto passes = [&](const auto& cell) { return (cell.value_or("") == filter.value) == filter.equal; };
+    if (std::any_of(texts.begin(), texts.end(), passes)) continue;
+    nothing.message = "no row has " + filter.column + (filter.equal ? "=" : "!=") + filter.value;
+    std::vector<std::string> values;
+    bool any_missing = false;
+    for (const auto& cell : texts) {
+      any_missing = any_missing || !cell;
+      if (cell && values.size() <= kMostDistinct && std::find(values.begin(), values.end(), *cell) == values.end())
+        values.push_back(*cell);
+    }
+    const auto nearest = filter.equal ? nearest_word(filter.value, values) : std::string{};
+    const bool many = values.size() > kMostDistinct;
+    if (many) values.resize(kMostDistinct);
+    nothing.hint = values.empty() ? "every cell of column '" + filter.column + "' is empty"
+                                  : "column '" + filter.column + "' has " +
+                                        (values.size() == 1 ? "only the value " : "the values ") + listed(values) +
+                                        (many ? " and others" : "") + (any_missing ? ", and empty cells" : "") +
+                                        (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+    throw Error{{std::move(nothing)}};
+  }
+  nothing.message = "no row satisfies all conditions together";
+  nothing.hint = "leave one of them out";
+  throw Error{{std::move(nothing)}};
 }
 
 Dataset Dataset::complete(std::span<const std::string> columns) const {
@@ -192,6 +225,7 @@ Dataset Dataset::select(const std::vector<std::size_t>& rows) const {
   Dataset part;
   part.file_ = file_;
   part.columns_ = columns_;
+  part.decimal_comma_ = decimal_comma_;
   part.cells_.resize(cells_.size());
   auto guard = guard_of(file_);
   guard.take(cells_.size() * rows.size() * kBytesPerCell);

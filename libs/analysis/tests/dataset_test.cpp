@@ -56,6 +56,43 @@ TEST(Dataset, KeepsTheRowsThatPassEveryFilter) {
   EXPECT_EQ(part.line(0), 2u);
 }
 
+TEST(Dataset, ListsTheValuesOfAColumnThatAFilterDoesNotMatch) {
+  const auto data = Dataset::parse(kText, "people.csv");
+  const auto fault_of = [&](std::initializer_list<const char*> conditions) {
+    std::vector<RowFilter> filters;
+    for (const auto* condition : conditions) filters.push_back(parse_row_filter(condition));
+    return diagnostic_of([&] { (void)data.where(filters); });
+  };
+  const auto typo = fault_of({"team!=1", "strategy=jiont"});
+  EXPECT_EQ(typo.id, "E0909");
+  EXPECT_TRUE(typo.infeasible);
+  EXPECT_EQ(typo.file, "people.csv");
+  EXPECT_EQ(typo.message, "no row has strategy=jiont");
+  EXPECT_EQ(typo.hint, "column 'strategy' has the values joint, low; did you mean 'joint'?");
+  EXPECT_EQ(fault_of({"score=7"}).hint, "column 'score' has the values 0.5, 2, and empty cells");
+  EXPECT_EQ(fault_of({"strategy=low", "team=1"}).message, "no row satisfies all conditions together");
+  EXPECT_EQ(fault_of({"strategy=low"}).id, "");
+  EXPECT_EQ(Dataset::parse("a\n", "t.csv").where(std::vector{parse_row_filter("a=1")}).num_rows(), 0u);
+}
+
+TEST(Dataset, ListsAFewOfManyValues) {
+  std::string text = "a\n";
+  for (int i = 0; i < 1'000; ++i) text += std::to_string(i) + "\n";
+  const auto fault = diagnostic_of(
+      [&] { (void)Dataset::parse(text, "t.csv").where(std::vector{parse_row_filter("a=none of these")}); });
+  EXPECT_THAT(fault.hint, ::testing::EndsWith("18, 19 and others"));
+}
+
+TEST(Dataset, ReadsSemicolonsDecimalCommasAndTruthOfR) {
+  const auto data = Dataset::parse("g;y;done\na;1,5;TRUE\nb;2;FALSE\n", "people.csv");
+  EXPECT_EQ(data.numbers("y"), (std::vector<std::optional<double>>{1.5, 2.0}));
+  EXPECT_EQ(data.numbers("done"), (std::vector<std::optional<double>>{1.0, 0.0}));
+  EXPECT_FALSE(data.is_numeric("done"));
+  EXPECT_EQ(data.where(std::vector{parse_row_filter("g=b")}).numbers("y").front(), 2.0);
+  // Where commas separate the cells, they are no decimal points.
+  EXPECT_EQ(diagnostic_of([] { (void)Dataset::parse("y\n\"1,5\"\n", "t.csv").numbers("y"); }).id, "E0902");
+}
+
 TEST(Dataset, FiltersAreColumnSignValue) {
   EXPECT_EQ(parse_row_filter("a!=b=c").value, "b=c");
   EXPECT_FALSE(parse_row_filter("a!=b").equal);

@@ -93,7 +93,7 @@ Parsed parse_number(const std::string& text, const Column& column, const std::st
   return {.fault = Fault{"E0506", message + "not of type " + std::string{to_string(column.type)}, hint}};
 }
 
-Parsed parse_cell(const std::optional<std::string>& field, const Column& column) {
+Parsed parse_cell(const std::optional<std::string>& field, const Column& column, char separator) {
   if (!field) {
     if (!column.required) return {};
     return {.fault = Fault{"E0507", "column \"" + column.name + "\" needs a value in every row", "fill the cell"}};
@@ -108,9 +108,9 @@ Parsed parse_cell(const std::optional<std::string>& field, const Column& column)
     case ColumnType::kInteger:
       return parse_number<std::int64_t>(*field, column, "42");
     case ColumnType::kReal:
-      return parse_number<double>(*field, column, "0.5");
+      return parse_number<double>(separator == ';' ? with_decimal_point(*field) : *field, column, "0.5");
     case ColumnType::kBoolean:
-      if (*field == "true" || *field == "false") return {.cell = *field == "true"};
+      if (const auto truth = truth_of(*field)) return {.cell = *truth};
       return {.fault = Fault{"E0506", in_quotes(*field) + " in column \"" + column.name + "\" is not of type boolean",
                              "write true or false"}};
   }
@@ -151,7 +151,7 @@ class Reader {
   }
 
   void report(const detail::CsvRecord& record, std::size_t field, const Fault& fault) {
-    const detail::CsvPlace place = detail::locate(record.text, field);
+    const detail::CsvPlace place = detail::locate(record.text, field, record.separator);
     const std::string_view cell = place.line_text.substr(std::min(place.offset, place.line_text.size()), place.length);
     diagnostics_.push_back(
         {.id = fault.id,
@@ -234,19 +234,20 @@ class Reader {
           record, std::min(num_fields_, record.fields.size()),
           {"E0505",
            "the row has " + std::to_string(record.fields.size()) + " cells, the header " + std::to_string(num_fields_),
-           "put text with commas between quotes, and keep the commas around empty cells"});
+           record.separator == ';' ? "put text with semicolons in quotes, and keep the semicolons around empty cells"
+                                   : "put text with commas in quotes, and keep the commas around empty cells"});
       return;
     }
     const std::size_t before = diagnostics_.size();
     for (std::size_t c = 0; c < columns_.size() && diagnostics_.size() < before + kMaxDiagnosticsOfRow; ++c) {
-      Parsed parsed = parse_cell(record.fields[source_[c]], columns_[c]);
+      Parsed parsed = parse_cell(record.fields[source_[c]], columns_[c], record.separator);
       if (parsed.fault) {
         report(record, source_[c], *parsed.fault);
       } else {
         cells_[c] = std::move(parsed.cell);
       }
     }
-    if (diagnostics_.size() == before) on_row_({record.line, cells_, record.text, source_});
+    if (diagnostics_.size() == before) on_row_({record.line, cells_, record.text, source_, record.separator});
   }
 
   const std::string& file_;
@@ -262,11 +263,24 @@ class Reader {
 
 }  // namespace
 
+std::string with_decimal_point(std::string text) {
+  const auto comma = text.find(',');
+  if (comma == text.find_first_of(",.") && comma == text.find_last_of(",.") && comma != std::string::npos)
+    text[comma] = '.';
+  return text;
+}
+
+std::optional<bool> truth_of(std::string_view text) {
+  if (text == "true" || text == "TRUE" || text == "True") return true;
+  if (text == "false" || text == "FALSE" || text == "False") return false;
+  return std::nullopt;
+}
+
 std::string_view CsvRow::written(std::size_t column) const {
   if (column >= fields.size()) throw std::out_of_range{"CsvRow::written: there is no such column"};
-  const detail::CsvPlace place = detail::locate(text, fields[column]);
+  const detail::CsvPlace place = detail::locate(text, fields[column], separator);
   const auto begin = static_cast<std::size_t>(place.line_text.data() - text.data()) + place.offset;
-  const bool empty = begin >= text.size() || text[begin] == ',' || text[begin] == '\r' || text[begin] == '\n';
+  const bool empty = begin >= text.size() || text[begin] == separator || text[begin] == '\r' || text[begin] == '\n';
   return text.substr(begin, empty ? 0 : place.length);
 }
 

@@ -12,7 +12,7 @@ int never_space(unsigned char) { return 0; }
 // libcsv fed line by line, so that the places of records are known.
 class Splitter {
  public:
-  Splitter() { open(); }
+  explicit Splitter(char separator) : separator_{separator} { open(); }
   ~Splitter() { csv_free(&parser_); }
   Splitter(const Splitter&) = delete;
   Splitter& operator=(const Splitter&) = delete;
@@ -37,6 +37,7 @@ class Splitter {
   void open() {
     if (csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI | CSV_EMPTY_IS_NULL) != 0) throw std::bad_alloc{};
     csv_set_space_func(&parser_, never_space);  // blanks belong to the fields
+    csv_set_delim(&parser_, static_cast<unsigned char>(separator_));
   }
 
   // Forgets the rest of the record; the next line begins a new one.
@@ -60,6 +61,7 @@ class Splitter {
   }
   static void on_end(int, void* self) { static_cast<Splitter*>(self)->ended_ = true; }
 
+  char separator_;
   csv_parser parser_{};
   CsvRecord* record_ = nullptr;
   bool ended_ = false;
@@ -69,9 +71,23 @@ bool is_blank(std::string_view line) { return line.find_first_not_of("\r\n") == 
 
 }  // namespace
 
+char separator_of(std::string_view text) {
+  const auto begin = std::min(text.find_first_not_of("\r\n"), text.size());
+  bool quoted = false, has_semicolon = false;
+  for (const char c : text.substr(begin)) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == ',') return ',';
+    if (c == '\n' || c == '\r') break;
+    has_semicolon = has_semicolon || c == ';';
+  }
+  return has_semicolon ? ';' : ',';
+}
+
 void for_each_record(std::string_view text, const std::function<bool(const CsvRecord&)>& on_record) {
-  Splitter splitter;
   CsvRecord record;
+  record.separator = separator_of(text);
+  Splitter splitter{record.separator};
   std::size_t record_begin = 0;
   std::size_t line_number = 0;
   bool is_open = false;
@@ -96,7 +112,7 @@ void for_each_record(std::string_view text, const std::function<bool(const CsvRe
   }
 }
 
-CsvPlace locate(std::string_view record, std::size_t field) {
+CsvPlace locate(std::string_view record, std::size_t field, char separator) {
   // The byte at which the field begins and the one at which it ends.
   std::size_t at = 0;
   std::size_t current = 0;
@@ -105,8 +121,8 @@ CsvPlace locate(std::string_view record, std::size_t field) {
   for (; at < record.size(); ++at) {
     const char c = record[at];
     if (c == '"') quoted = !quoted;
-    if (quoted || (c != ',' && c != '\n' && c != '\r')) continue;
-    if (current == field || c != ',') break;
+    if (quoted || (c != separator && c != '\n' && c != '\r')) continue;
+    if (current == field || c != separator) break;
     ++current;
     begin = at + 1;
   }

@@ -17,6 +17,7 @@ struct CsvRecord {
   std::string_view text;                           // all of its lines
   std::vector<std::optional<std::string>> fields;  // nothing for an empty field without quotes
   bool malformed = false;                          // quotes that do not match; no fields then
+  char separator = ',';                            // between fields
 };
 
 // Where a field begins in the text of its record: lines below the first,
@@ -27,7 +28,11 @@ struct CsvPlace {
   std::size_t offset = 0;
   std::size_t length = 1;
 };
-[[nodiscard]] CsvPlace locate(std::string_view record, std::size_t field);
+[[nodiscard]] CsvPlace locate(std::string_view record, std::size_t field, char separator);
+
+// What separates the fields of a text: a semicolon where its first line that is not blank has one outside quotes and
+// no comma, else a comma. Spreadsheets write semicolons where numbers have decimal commas.
+[[nodiscard]] char separator_of(std::string_view text);
 
 // Calls back with every record that is not a blank line; stops when told false.
 void for_each_record(std::string_view text, const std::function<bool(const CsvRecord&)>& on_record);

@@ -349,5 +349,35 @@ TEST(CsvReader, SaysWhereACellIsWritten) {
   }
 }
 
+TEST(ReadCsv, TakesSemicolonsAndDecimalCommasOfSpreadsheets) {
+  const auto result = parsed("\nname;count;\"area_sr\";done\n\"a;b\";42;0,5;true\n1,5;;-1,25e-3;false\n;7;2.5;true\n");
+  EXPECT_TRUE(result.diagnostics.empty());
+  ASSERT_EQ(result.rows.size(), 3u);
+  EXPECT_EQ(result.rows[0], (std::vector<TableCell>{std::string{"a;b"}, std::int64_t{42}, 0.5, true}));
+  EXPECT_EQ(result.rows[1], (std::vector<TableCell>{std::string{"1,5"}, {}, -1.25e-3, false}));
+  EXPECT_EQ(result.rows[2], (std::vector<TableCell>{{}, std::int64_t{7}, 2.5, true}));
+}
+
+TEST(ReadCsv, ReportsPlacesOfTablesWithSemicolons) {
+  const auto result = parsed("name;count;area_sr;done\na;1,5;1,234,5;true\na;1;2\n");
+  EXPECT_EQ(places(result), (std::vector<std::tuple<std::string, std::size_t, std::size_t, std::size_t>>{
+                                {"E0506", 2, 3, 3}, {"E0506", 2, 7, 7}, {"E0505", 3, 5, 1}}));
+  EXPECT_THAT(result.diagnostics.back().hint, HasSubstr("semicolons"));
+}
+
+TEST(ReadCsv, TakesASemicolonForTextWhereCommasSeparate) {
+  const auto result = parsed("name,count,area_sr,done\na;b,1,2,true\n");
+  EXPECT_TRUE(result.diagnostics.empty());
+  EXPECT_EQ(result.rows.at(0).at(0), TableCell{std::string{"a;b"}});
+}
+
+TEST(ReadCsv, TakesTruthAsRAndPythonWriteIt) {
+  const auto result = parsed("name,count,area_sr,done\n,,,TRUE\n,,,FALSE\n,,,True\n,,,False\n,,,yes\n");
+  ASSERT_EQ(result.rows.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(result.rows[i][3], TableCell{i % 2 == 0}) << i;
+  ASSERT_EQ(result.diagnostics.size(), 1u);
+  EXPECT_EQ(result.diagnostics[0].id, "E0506");
+}
+
 }  // namespace
 }  // namespace kith

@@ -48,7 +48,8 @@ class Dataset {
   /// The column as a factor, levels in the order of appearance. @throws also (E0903) for a missing cell.
   [[nodiscard]] Factor factor(std::string_view column) const;
 
-  /// The rows that pass all filters. @throws as cells() does.
+  /// The rows that pass all filters. @throws as cells() does, and kith::Error (kInfeasible, E0909) with the values that
+  /// the column has if no row passes.
   [[nodiscard]] Dataset where(std::span<const RowFilter> filters) const;
   /// The rows in which every one of the columns has a value.
   [[nodiscard]] Dataset complete(std::span<const std::string> columns) const;
@@ -56,11 +57,13 @@ class Dataset {
  private:
   [[nodiscard]] std::size_t index_of(std::string_view column) const;
   [[nodiscard]] Dataset select(const std::vector<std::size_t>& rows) const;
+  [[noreturn]] void refuse_filters(std::span<const RowFilter> filters) const;
 
   std::string file_;
   std::vector<std::string> columns_;
   std::vector<std::vector<std::optional<std::string>>> cells_;  // shape [columns][rows]
   std::vector<std::size_t> lines_;
+  bool decimal_comma_ = false;  // semicolons separate the cells
 };
 
 }  // namespace kith

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ struct CsvRow {
   std::span<const TableCell> cells;     ///< One per column, each missing or of the column's type.
   std::string_view text;                ///< All of the row as written, a part of the text that is read.
   std::span<const std::size_t> fields;  ///< Per column, which cell of the row it is.
+  char separator = ',';                 ///< Between cells: ',' or ';'.
 
   /// The cell of a column as written, quotes included (of several lines the first one): a part of the text that is
   /// read, so it says where the cell is.
@@ -31,13 +33,19 @@ struct CsvRow {
   [[nodiscard]] std::string_view written(std::size_t column) const;
 };
 
+/// true and false as kith and JSON write them, R (TRUE) and Python (True); nothing for any other text.
+[[nodiscard]] std::optional<bool> truth_of(std::string_view text);
+/// The text of a number with its only comma or point made a point, for tables whose cells semicolons separate.
+[[nodiscard]] std::string with_decimal_point(std::string text);
+
 /// What to do with columns of a file that were not asked for.
 enum class OtherColumns { kReject, kIgnore };
 
 /// Reads a CSV text (RFC 4180, UTF-8 with or without byte order mark, lines
 /// ending in LF or CRLF) that begins with a header. The columns may come in any
 /// order. `on_row` gets every row without a fault, in order; blank lines are
-/// skipped.
+/// skipped. Cells are separated by commas, or by semicolons if the header has semicolons and no comma; numbers may
+/// then have a decimal comma, as spreadsheets of many countries and R's write.csv2 write them.
 ///
 /// @param file how diagnostics name the file.
 /// @param columns those that must be there.
