@@ -25,6 +25,13 @@ namespace {
 // The largest |miss| that still counts as met.
 bool is_met(const TargetOutcome& outcome) { return std::abs(outcome.miss) <= 1.0; }
 
+// The standard error of a figure, in the unit of its miss.
+double error_in_tolerances(const Target& target, const TargetOutcome& outcome) {
+  if (!target.is_factor) return outcome.standard_error / target.tolerance;
+  return outcome.model > 0.0 ? outcome.standard_error / outcome.model / std::log(target.tolerance) : 0.0;
+}
+constexpr double kLargeError = 0.5;
+
 // As many digits as tell the figure from its noise.
 std::string figure(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) >= 100.0 ? 0 : std::abs(value) >= 1.0 ? 2 : 3);
@@ -46,7 +53,7 @@ ParameterRange within_limits(ParameterRange range, const FreeParameter& paramete
 
 std::string parameters_table(const TargetSet& set, const Calibration& result, const Console& console) {
   TextTable table{"lrrl"};
-  table.add({"parameter", "study", "calibrated", "as good, the others moving along"});
+  table.add({"parameter", "study", "calibrated", "about as good (others adjusted)"});
   for (std::size_t k = 0; k < set.parameters.size(); ++k) {
     table.add({set.parameters[k].name, fmt::format("{}", set.parameters[k].present),
                fmt::format("{}", result.best.values[k]),
@@ -67,14 +74,14 @@ std::string targets_table(const TargetSet& set, const Calibration& result, const
   }
   return table.text(console) +
          console.dim(
-             "off by: in tolerances; a factor's on the scale of logarithms. se: standard error of the model's\n"
-             "figure by the jackknife over replicates") +
+             "off by: in tolerances (for a factor: on the log scale). se: standard error of the\n"
+             "model's figure (jackknife over replicates)") +
          "\n";
 }
 
 std::string candidates_table(const TargetSet& set, const Calibration& result, const Console& console) {
   TextTable table{"lrr" + std::string(set.parameters.size(), 'r')};
-  std::vector<std::string> header{"confirmed with fresh teams", "discrepancy", "(se)"};
+  std::vector<std::string> header{"confirmed with new teams", "discrepancy", "(se)"};
   for (const auto& parameter : set.parameters) header.push_back(parameter.name);
   table.add(header);
   for (const auto& candidate : result.candidates) {
@@ -100,8 +107,9 @@ std::string sensitivity_table(const TargetSet& set, const Calibration& result, c
   }
   return table.text(console) +
          console.dim(
-             "of the figure over the whole ranges, by a quadratic: each parameter with its interactions; + and -:\n"
-             "the figure rises or falls with it. explained: what the quadratic predicts of settings left out") +
+             "share of the figure's variance over the whole ranges that each parameter explains, with\n"
+             "its interactions, by a quadratic model; + or -: the figure rises or falls with it.\n"
+             "explained: share that the model predicts for settings left out") +
          "\n";
 }
 
@@ -110,14 +118,23 @@ std::string conflict_sentences(const TargetSet& set, const Calibration& result) 
                                     [](const TargetOutcome& outcome) { return !is_met(outcome); });
   std::string text = missed == 0 ? "All targets are met within their tolerances.\n"
                                  : fmt::format("{} of {} targets are missed.\n", missed, set.targets.size());
+  std::size_t uncertain = 0;
+  for (std::size_t t = 0; t < set.targets.size(); ++t)
+    if (error_in_tolerances(set.targets[t], result.best.targets[t]) > kLargeError) ++uncertain;
+  if (uncertain > 0) {
+    text += fmt::format(
+        "For {} of {} targets the standard error is larger than half the tolerance, so whether they are met is\n"
+        "uncertain: simulate more teams (--teams, --confirm).\n",
+        uncertain, set.targets.size());
+  }
   constexpr std::size_t kShown = 4;
   for (std::size_t i = 0; i < std::min(kShown, result.conflicts.size()); ++i) {
     const auto& conflict = result.conflicts[i];
-    text += fmt::format("The {} and the {} can each be met exactly, but not both: {} {:.1f} {}.\n",
-                        to_string(set.targets[conflict.first]), to_string(set.targets[conflict.second]),
-                        conflict.closest > 1.0 ? "no setting brings both within their tolerances; one stays off by"
-                                               : "one stays off by at least",
-                        conflict.closest, "tolerances");
+    text += fmt::format(
+        "The {} and the {} can each be met exactly, but not both: {} {:.1f} {}.\n",
+        to_string(set.targets[conflict.first]), to_string(set.targets[conflict.second]),
+        conflict.closest > 1.0 ? "no setting brings both within tolerance; one misses by" : "one misses by at least",
+        conflict.closest, "tolerances");
   }
   return text;
 }
@@ -141,8 +158,8 @@ std::string frontier_table(const TargetSet& set, const Calibration& result, cons
     for (const double value : one.point.values) row.push_back(fmt::format("{:.3g}", value));
     table.add(row);
   }
-  return "\nThe frontier: settings of which none is better in both.\n" + table.text(console) +
-         console.dim("error: root mean square of the means' misses, in tolerances") + "\n";
+  return "\nTrade-off: no setting is better than another of these in both.\n" + table.text(console) +
+         console.dim("error: root mean square of how far the means miss, in tolerances") + "\n";
 }
 
 std::string report(const TargetSet& set, const Calibration& result, const Console& console) {
@@ -263,6 +280,8 @@ std::string study_file(const CalibrateOptions& options, const StudyText& source,
                        const Calibration& result) {
   auto reading = source.read(overrides_of(set.parameters, result.best.values));
   for (auto& spec : reading.study->variants) {
+    if (spec.id.find("calibrated") == std::string::npos || spec.id.find("uncalibrated") != std::string::npos)
+      spec.id += "-calibrated";  // another study than the one that it began with
     const auto domain = source.folder() / spec.domain;
     std::error_code failure;
     if (spec.domain.find('.') == std::string::npos || !std::filesystem::exists(domain, failure)) continue;
@@ -284,7 +303,7 @@ void check_out(const CalibrateOptions& options) {
       throw Error{ErrorKind::kUsage, "-o must not be the input " + input};
   }
   if (std::filesystem::exists(options.out, failure) && !options.yes)
-    throw Error{ErrorKind::kUsage, options.out + " exists; --yes replaces it"};
+    throw Error{ErrorKind::kUsage, options.out + " exists; use --yes to replace it"};
 }
 
 CalibrationOptions search_options(const CalibrateOptions& options) {
@@ -318,7 +337,7 @@ int run_calibrate(const CalibrateOptions& options, Console& console) {
     Diagnostic nothing;
     nothing.id = "E0811";
     nothing.file = options.targets;
-    nothing.message = set.targets.empty() ? "there is no [[target]] to meet" : "there is no [[parameter]] to move";
+    nothing.message = set.targets.empty() ? "there is no [[target]]" : "there is no [[parameter]]";
     throw Error{{nothing}};
   }
 
@@ -334,6 +353,11 @@ int run_calibrate(const CalibrateOptions& options, Console& console) {
     progress.update(done, total);
     return stop_signal() == 0;
   };
+  if (!console.quiet()) {
+    const auto& spec = reading.study->variants.front();
+    const auto teams = most_teams_per_cell(search) * spec.strategies.size() * spec.compositions.size();
+    console.info("at most: " + work_text(atlas, spec, search.threads, teams));
+  }
   const auto result = calibrate(
       atlas, [&](const auto& overrides) { return source.read(overrides); }, set, search);
   progress.finish();

@@ -213,39 +213,39 @@ void add_study(CLI::App& app, Options& options) {
 
 void add_analyze(CLI::App& app, Options& options) {
   auto& analyze = options.analyze;
-  auto& command = *app.add_subcommand("analyze", "Test what a study found, or a model on any table");
+  auto& command = *app.add_subcommand("analyze", "Analyse the results of a study, or test a model on any table");
   command.add_option("input", analyze.input, "Run folder, CSV file, or '-' for standard input")
       ->required()
       ->type_name("DIR|CSV");
   auto* model =
-      command.add_option("--model", analyze.model, "What explains what, such as 'knowledge ~ strategy*composition'")
+      command.add_option("--model", analyze.model, "Response and factors, such as 'knowledge ~ strategy*composition'")
           ->type_name("FORMULA");
-  takes_word(*command.add_option("--table", analyze.table, "Table of the run folder that the model is about")
+  takes_word(*command.add_option("--table", analyze.table, "Table of the run folder to which the model applies")
                   ->capture_default_str()
                   ->needs(model),
              "NAME", {"teams", "learners", "periods", "responses", "demonstrations", "progress"});
   command.add_option("--where", analyze.where, "Rows to keep, COLUMN=VALUE or COLUMN!=VALUE (may be repeated)")
       ->allow_extra_args(false)
       ->type_name("CONDITION");
-  command.add_option("--observed", analyze.observed, "Column that is false where a count was cut off")
+  command.add_option("--observed", analyze.observed, "Column that is false where a count is censored")
       ->type_name("COLUMN")
       ->needs(model);
-  command.add_flag("--brief", analyze.brief, "Only what was found, in words, without tables");
-  command.add_option("--alpha", analyze.alpha, "Level of tests; intervals have one minus it")
+  command.add_flag("--brief", analyze.brief, "Findings in words only, without tables");
+  command.add_option("--alpha", analyze.alpha, "Significance level; intervals use 1 - alpha")
       ->capture_default_str()
       ->check([](const std::string& text) { return wrong_level(text); })
       ->type_name("P");
-  takes_word(
-      *command.add_option("--correct", analyze.correction, "Correction of families of tests")->capture_default_str(),
-      "HOW", {"bonferroni", "holm", "none"});
-  takes_integer(*command.add_option("--permutations", analyze.permutations, "Shuffles of permutation tests")
+  takes_word(*command.add_option("--correct", analyze.correction, "Correction for multiple tests within compositions")
+                  ->capture_default_str(),
+             "HOW", {"bonferroni", "holm", "none"});
+  takes_integer(*command.add_option("--permutations", analyze.permutations, "Permutations of permutation tests")
                      ->capture_default_str(),
                 99, 1'000'000);
   takes_integer(
       *command.add_option("--resamples", analyze.resamples, "Resamples of bootstrap intervals")->capture_default_str(),
       100, 1'000'000);
-  takes_integer(*command.add_option("--seed", analyze.seed, "Root of shuffles and resamples")->capture_default_str(),
-                0);
+  takes_integer(
+      *command.add_option("--seed", analyze.seed, "Seed of permutations and resamples")->capture_default_str(), 0);
   add_common(command, options.common);
 }
 
@@ -255,21 +255,22 @@ void add_calibrate(CLI::App& app, Options& options) {
   command.add_option("study", calibrate.study, "Built-in study or file; '-' is standard input")
       ->required()
       ->type_name("STUDY");
-  command.add_option("--targets", calibrate.targets, "File with the figures, their tolerances and the free parameters")
+  command
+      .add_option("--targets", calibrate.targets,
+                  "File with the published figures, their tolerances and the free parameters")
       ->type_name("FILE");
   command.add_option("-o,--out", calibrate.out, "Write the calibrated study to this file")->type_name("FILE");
   takes_integer(*command.add_option("-j,--threads", calibrate.threads,
                                     "Worker threads (default: one per core); never changes a result"),
                 1, 1024);
-  takes_integer(*command.add_option("--seed", calibrate.seed, "Root of all random streams of the search (default: 1)"),
-                0);
+  takes_integer(*command.add_option("--seed", calibrate.seed, "Random seed of the search (default: 1)"), 0);
   takes_integer(*command.add_option("--teams", calibrate.teams,
                                     "Teams per cell for each setting of the last design (default: 40)"),
                 2, 100'000);
   takes_integer(*command.add_option("--confirm", calibrate.confirm,
                                     "Teams per cell to confirm the best settings (default: five times --teams)"),
                 2, 1'000'000);
-  command.add_flag("--quick", calibrate.quick, "A coarse search in a tenth of the time");
+  command.add_flag("--quick", calibrate.quick, "Coarse search in about a tenth of the time");
   command.add_option("--set", calibrate.set, "Set a key of the study (may be repeated)")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
@@ -279,9 +280,9 @@ void add_calibrate(CLI::App& app, Options& options) {
 }
 
 void add_report(CLI::App& app, Options& options) {
-  auto& command = *app.add_subcommand("report", "Write a run's figures, tables, findings and methods as one web page");
+  auto& command = *app.add_subcommand("report", "Write a run's figures, tests and methods as one web page");
   command.add_option("folder", options.report.folder, "Run folder")->required()->type_name("DIR");
-  command.add_option("-o,--out", options.report.out, "The page to write (default: report.html in DIR); '-' is stdout")
+  command.add_option("-o,--out", options.report.out, "Page to write (default: report.html in DIR); '-' is stdout")
       ->type_name("FILE");
   add_common(command, options.common);
 }
@@ -322,38 +323,40 @@ void add_fit(CLI::App& app, Options& options) {
 
 void add_power(CLI::App& app, Options& options) {
   auto& power = options.power;
-  auto& command = *app.add_subcommand("power", "Say how many teams a study needs to show an effect");
+  auto& command = *app.add_subcommand("power", "Estimate how many teams a study needs to show an effect");
   command.add_option("study", power.study, "Built-in study or file; '-' is standard input")
       ->required()
       ->type_name("STUDY");
   auto* effects = command
                       .add_option("--effect", power.effects,
-                                  "Such as 'periods: strategy eta2 = 0.02' (may be repeated; default: all tests)")
+                                  "Effect, such as 'periods: strategy eta2 = 0.02' (may be repeated; default: all)")
                       ->allow_extra_args(false)
                       ->type_name("EFFECT");
-  command.add_option("--target", power.target, "Power wanted")->capture_default_str()->type_name("P");
-  command.add_option("--alpha", power.alpha, "Level of the tests")->capture_default_str()->type_name("P");
-  takes_integer(*command.add_option("--teams", power.teams, "Teams per cell, separated by commas")
-                     ->delimiter(',')
-                     ->allow_extra_args(false),
-                2, 100'000);
+  command.add_option("--target", power.target, "Desired power")->capture_default_str()->type_name("P");
+  command.add_option("--alpha", power.alpha, "Significance level")->capture_default_str()->type_name("P");
+  takes_integer(
+      *command
+           .add_option("--teams", power.teams, "Teams per cell, separated by commas (default: 5,10,15,20,30,50,100)")
+           ->delimiter(',')
+           ->allow_extra_args(false),
+      2, 100'000);
   takes_integer(*command.add_option("--pool", power.pool, "Teams per cell to draw studies from (default: 1000)"), 4,
                 1'000'000);
-  takes_integer(*command.add_option("--draws", power.draws, "Studies drawn of each size")->capture_default_str(), 10,
+  takes_integer(*command.add_option("--draws", power.draws, "Studies drawn for each size")->capture_default_str(), 10,
                 1'000'000);
   command.add_flag("--paired", power.paired, "Every strategy teaches the same people");
-  auto* findings = command
-                       .add_option("--findings", power.findings,
-                                   "Repeat the study and say how often the findings of this targets file come out")
-                       ->type_name("FILE");
+  auto* findings =
+      command
+          .add_option("--findings", power.findings,
+                      "Repeat the study and count how often the findings in this targets file are reproduced")
+          ->type_name("FILE");
   findings->excludes(effects);
   takes_integer(*command.add_option("--studies", power.studies, "Repetitions for --findings")->capture_default_str(), 2,
                 100'000);
   takes_integer(*command.add_option("-j,--threads", power.threads,
                                     "Worker threads (default: one per core); never changes a result"),
                 1, 1024);
-  takes_integer(*command.add_option("--seed", power.seed, "Root of all random streams (default: that of the study)"),
-                0);
+  takes_integer(*command.add_option("--seed", power.seed, "Random seed (default: that of the study)"), 0);
   command.add_option("--set", power.set, "Set a key of the study (may be repeated)")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");

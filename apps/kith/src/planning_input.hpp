@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/bec/atlas.hpp"
 #include "kith/planning/targets.hpp"
 #include "kith/study/study_file.hpp"
 
@@ -31,5 +32,13 @@ void check_single_variant(const std::string& name, const Study& study);
 
 /// The targets file, "-" for standard input. @throws kith::Error with all that is wrong.
 [[nodiscard]] TargetSet targets_of(const std::string& file, const StudyText& study);
+
+/// "simulating 6000 teams takes about 12 s", from the time that one team of every cell takes; those are simulated and
+/// forgotten.
+/// @param teams  in all.
+[[nodiscard]] std::string work_text(const Atlas& atlas, const StudySpec& spec, std::size_t threads, std::size_t teams);
+
+/// "less than a second", "12 s", "3 min", "2.5 h".
+[[nodiscard]] std::string duration_text(double seconds);
 
 }  // namespace kith::cli

@@ -55,7 +55,7 @@ std::vector<Effect> default_effects(const StudySpec& spec) {
     if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
   }
   if (!effects.empty()) return effects;
-  throw Error{ErrorKind::kUsage, "nothing can be compared in this study: it has one cell, or only the baseline"};
+  throw Error{ErrorKind::kUsage, "this study has nothing to compare: it has one cell, or only the baseline"};
 }
 
 std::vector<std::size_t> sizes_of(const PowerCommandOptions& options) {
@@ -79,12 +79,12 @@ std::string needed_text(const PowerCurve& curve, const PowerOptions& options) {
   const auto largest = options.teams.back();
   std::string text;
   if (!needed.estimate) {
-    text = fmt::format("power {:g} takes more than {} teams per cell", options.target, largest);
+    text = fmt::format("power {:g} needs more than {} teams per cell", options.target, largest);
     if (needed.low) text += fmt::format(" (at least {:.0f})", std::ceil(*needed.low));
   } else {
     const bool smallest = *needed.estimate <= static_cast<double>(options.teams.front());
-    text = fmt::format("power {:g} {} {:.0f} teams per cell", options.target, smallest ? "with at most" : "from",
-                       std::ceil(*needed.estimate));
+    text = fmt::format("power {:g} {} {:.0f} teams per cell", options.target,
+                       smallest ? "needs at most" : "needs at least", std::ceil(*needed.estimate));
     if (!smallest || !needed.high || *needed.high > *needed.estimate) {
       text += fmt::format(
           " ({:.0f} .. {})", std::ceil(*needed.low),
@@ -136,8 +136,9 @@ std::string replication_text(const std::vector<PublishedFinding>& findings, cons
                      spec.replicates) +
          table.text(console) +
          console.dim(
-             "significant: share of the studies. eta2: partial eta squared of the published F; power: that of\n"
-             "such a study if this were the true effect, by the non-central F, and imposed on simulated teams") +
+             "significant: share of the studies. eta2: partial eta squared of the published F.\n"
+             "power: of such a study if this were the true effect, by the non-central F\n"
+             "distribution and imposed on simulated teams") +
          fmt::format("\n\nAll findings as published: {} of {} studies; on average {:.1f} of {} findings.\n",
                      result.all_agree, result.studies, result.mean_agreement, findings.size());
 }
@@ -191,7 +192,7 @@ Json replication_json(const std::vector<PublishedFinding>& findings, const Repli
 }
 
 int computed_nothing(Console& console) {
-  console.warning("interrupted; nothing was computed");
+  console.warning("interrupted; there is no result");
   return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
 }
 
@@ -216,6 +217,7 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
     throw Error{ErrorKind::kUsage, "--pool must be at least twice the largest of --teams"};
   const Study pool_study{{pool_spec}};
   require_study_memory(pool_study, options.threads, num_teams(pool_study));  // the list of teams is long, too
+  if (!console.quiet()) console.info(work_text(atlas, pool_spec, options.threads, num_teams(pool_study)));
   const auto addresses = team_addresses(pool_study);
   const auto run = run_teams(atlas, pool_study, addresses,
                              {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
@@ -243,8 +245,8 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   std::string text;
   for (const auto& curve : curves) text += curve_text(curve, power, console);
   console.print(text +
-                console.dim(fmt::format("level {:g}; {} studies of each size drawn from {} teams per cell; "
-                                        "intervals hold the error of both",
+                console.dim(fmt::format("significance level {:g}; {} studies of each size, drawn from {} teams per "
+                                        "cell;\nintervals include the error from both",
                                         power.alpha, power.draws, pool_spec.replicates)) +
                 "\n");
   return 0;
@@ -254,14 +256,14 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
                     Progress& progress, Console& console) {
   auto spec = study.variants.front();
   if (options.teams.size() > 1)
-    throw Error{ErrorKind::kUsage, "--findings repeats a study of one size: give --teams one number"};
+    throw Error{ErrorKind::kUsage, "--findings repeats a study of one size, so --teams takes one number"};
   if (!options.teams.empty()) spec.replicates = options.teams.front();
   const auto set = targets_of(options.findings, source);
   if (set.findings.empty()) {
     Diagnostic nothing;
     nothing.id = "E0813";
     nothing.file = options.findings;
-    nothing.message = "there is no [[finding]] to look for";
+    nothing.message = "there is no [[finding]]";
     throw Error{{nothing}};
   }
   ReplicationOptions replication;
@@ -272,6 +274,10 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
     progress.update(done, total);
     return stop_signal() == 0;
   };
+  if (!console.quiet()) {
+    const auto teams = spec.replicates * spec.strategies.size() * spec.compositions.size() * replication.studies;
+    console.info(work_text(atlas, spec, options.threads, teams));
+  }
   const auto result = replicate_findings(atlas, spec, set.findings, replication);
   progress.finish();
   if (!result) return computed_nothing(console);
@@ -292,7 +298,7 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
 
 int run_power(const PowerCommandOptions& options, Console& console) {
   if (!options.findings.empty() && !options.effects.empty())
-    throw Error{ErrorKind::kUsage, "--findings names its own effects: leave out --effect"};
+    throw Error{ErrorKind::kUsage, "the file of --findings names the effects: leave out --effect"};
   const StudyText source{options.study, options.set};
   const auto reading = source.read({});
   if (!console.quiet()) console.show(reading.diagnostics);

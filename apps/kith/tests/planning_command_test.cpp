@@ -43,11 +43,14 @@ TEST(CalibrateCommand, WritesAStudyThatIsValid) {
   const auto ran = run_small(arguments);
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, AllOf(HasSubstr("parameter"), HasSubstr("periods of group, mean")));
-  EXPECT_THAT(text_of(out), AllOf(HasSubstr("# parameter"), HasSubstr("ability_scale = ")));
+  EXPECT_THAT(text_of(out),
+              AllOf(HasSubstr("# parameter"), HasSubstr("ability_scale = "), HasSubstr("id = \"quick-calibrated\"")));
+  // Six periods within 0.5 cannot be confirmed with three teams per cell.
+  EXPECT_THAT(ran.out, HasSubstr("For 1 of 1 targets the standard error is larger than half the tolerance"));
   EXPECT_EQ(run_kith({"validate", out}).code, 0);
   const auto again = run_small(arguments);
   EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("--yes replaces it"));
+  EXPECT_THAT(again.err, HasSubstr("use --yes to replace it"));
 }
 
 TEST(CalibrateCommand, PrintsOneDocumentTheSameOnAnyNumberOfThreads) {
@@ -62,7 +65,9 @@ TEST(CalibrateCommand, PrintsOneDocumentTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(one.out, run_small(more).out);
   const auto document = Json::parse(one.out);
   EXPECT_EQ(document["schema"], "kith.calibration/1");
-  EXPECT_EQ(document["parameters"].size(), 1u);
+  ASSERT_EQ(document["parameters"].size(), 1u);
+  EXPECT_LE(document["parameters"][0]["low"], document["parameters"][0]["value"]);
+  EXPECT_GE(document["parameters"][0]["high"], document["parameters"][0]["value"]);
   EXPECT_EQ(document["targets"].size(), 1u);
   EXPECT_GE(document["candidates"].size(), 2u);
 }
@@ -119,6 +124,28 @@ TEST(PowerCommand, RepeatsAStudy) {
   const auto ran = run_small({"power", "quick", "--findings", findings, "--studies", "3"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, AllOf(HasSubstr("3 study runs"), HasSubstr("All findings as published")));
+}
+
+// Both commands say how much there is to do before they begin; how long it takes is for people only.
+TEST(PlanningCommands, SayHowLongTheyTake) {
+  const auto power = run_small({"power", "quick", "--teams", "3", "--pool", "12", "--draws", "20"});
+  EXPECT_THAT(power.err, HasSubstr("simulating 24 teams takes about "));
+  const Scratch scratch;
+  const auto findings = file_with(scratch, "findings.toml", kFinding);
+  EXPECT_THAT(run_small({"power", "quick", "--findings", findings, "--studies", "3"}).err,
+              HasSubstr("simulating 18 teams takes about "));
+  const auto targets = file_with(scratch, "targets.toml", std::string{kTarget} + kParameter);
+  const std::vector<std::string> calibrate{"calibrate", "quick", "--targets", targets, "--quick",
+                                           "--teams",   "2",     "--confirm", "3"};
+  // Two designs of 36 settings with 2 teams each, 5 candidates with 3, 5 points of the frontier with 2; two cells.
+  EXPECT_THAT(run_small(calibrate).err, HasSubstr("at most: simulating 338 teams takes about "));
+  auto quiet = calibrate;
+  quiet.emplace_back("-q");
+  EXPECT_EQ(run_small(quiet).err, "");
+}
+
+TEST(PowerCommand, NamesTheSizesThatItTriesByDefault) {
+  EXPECT_THAT(run_kith({"power", "--help"}).out, HasSubstr("5,10,15,20,30,50,100"));
 }
 
 TEST(PowerCommand, SaysWhatIsWrong) {

@@ -13,14 +13,17 @@
 namespace kith {
 namespace {
 
+// The last design decides: it gets the teams in full, each one before half as many.
+std::size_t teams_in_round(const CalibrationOptions& options, std::size_t round) {
+  return std::max<std::size_t>(2, options.teams >> (options.rounds - 1 - round));
+}
+
 class Calibrator {
  public:
   Calibrator(const Atlas& atlas, const StudyMaker& make_study, const TargetSet& set, const CalibrationOptions& options)
       : set_{set}, options_{options}, random_{options.seed}, lab_{atlas, make_study, set, options} {
     for (const auto& parameter : set.parameters) present_.push_back(parameter.present);
-    std::size_t search = 0;
-    for (std::size_t round = 0; round < options.rounds; ++round) search += lab_.cost(options.points, teams_in(round));
-    lab_.expect(search + lab_.cost(5, options.confirm_teams) + lab_.cost(options.frontier_points, frontier_teams()));
+    lab_.expect(lab_.cost(1, most_teams_per_cell(options)));
   }
 
   std::optional<Calibration> run() {
@@ -32,16 +35,18 @@ class Calibrator {
       if (round + 1 < options_.rounds) box = smaller(box, round);
     }
     if (!confirm(box) || !explore_frontier()) return std::nullopt;
+    // The answer was confirmed to do as well as the best, whatever the quadratics say of it.
+    for (std::size_t k = 0; k < result_.ranges.size(); ++k) {
+      result_.ranges[k].low = std::min(result_.ranges[k].low, result_.best.values[k]);
+      result_.ranges[k].high = std::max(result_.ranges[k].high, result_.best.values[k]);
+    }
     result_.teams_simulated = lab_.done();
     return std::move(result_);
   }
 
  private:
   [[nodiscard]] std::size_t frontier_teams() const { return std::max<std::size_t>(2, options_.confirm_teams / 2); }
-  // The last design decides: it gets the teams in full, each one before half as many.
-  [[nodiscard]] std::size_t teams_in(std::size_t round) const {
-    return std::max<std::size_t>(2, options_.teams >> (options_.rounds - 1 - round));
-  }
+  [[nodiscard]] std::size_t teams_in(std::size_t round) const { return teams_in_round(options_, round); }
   [[nodiscard]] RandomStream stream(std::string_view purpose, std::size_t number = 0) const {
     return random_.split(purpose).split(number);
   }
@@ -342,6 +347,13 @@ double discrepancy(std::span<const Target> targets, std::span<const double> miss
     sum += weight * (std::max(0.0, std::abs(misses[i]) - 1.0) + 0.01 * misses[i] * misses[i]);
   }
   return sum;
+}
+
+std::size_t most_teams_per_cell(const CalibrationOptions& options) {
+  std::size_t teams = 0;
+  for (std::size_t round = 0; round < options.rounds; ++round) teams += options.points * teams_in_round(options, round);
+  return teams + 5 * options.confirm_teams +
+         options.frontier_points * std::max<std::size_t>(2, options.confirm_teams / 2);
 }
 
 std::optional<Calibration> calibrate(const Atlas& atlas, const StudyMaker& make_study, const TargetSet& targets,

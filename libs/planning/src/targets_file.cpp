@@ -110,7 +110,7 @@ class TargetsParser {
       if (selection) {
         target.teams = *selection;
       } else {
-        report_.error("E0801", place_of(table, "teams"), "'" + *text + "' are no teams of the study",
+        report_.error("E0801", place_of(table, "teams"), "the study has no teams '" + *text + "'",
                       "known: " + selections_of(spec()));
       }
     }
@@ -121,7 +121,7 @@ class TargetsParser {
     if (const auto source = table.string("source", Presence::kOptional)) target.source = *source;
     const auto same = [&](const Target& other) { return to_string(other) == to_string(target); };
     if (std::any_of(set_.targets.begin(), set_.targets.end(), same))
-      report_.error("E0804", table.place(), "there already is a target for the " + to_string(target));
+      report_.error("E0804", table.place(), "there is already a target for the " + to_string(target));
     set_.targets.push_back(std::move(target));
   }
 
@@ -196,7 +196,7 @@ class TargetsParser {
     }
     const auto present = number_at(resolved_, parameter.keys.front());
     if (!present) {
-      report_.error("E0808", place, "'" + parameter.keys.front() + "' is no number of the study");
+      report_.error("E0808", place, "'" + parameter.keys.front() + "' is not a numeric key of the study");
       return;
     }
     parameter.present = *present;

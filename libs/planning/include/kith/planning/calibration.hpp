@@ -93,6 +93,9 @@ struct Calibration {
   std::size_t teams_simulated = 0;
 };
 
+/// The most teams that calibrate() simulates in every cell of the design.
+[[nodiscard]] std::size_t most_teams_per_cell(const CalibrationOptions& options);
+
 /// Fits the free parameters of a study to published figures by simulation.
 ///
 /// A maximin Latin hypercube over the box, simulated with common random numbers, gives a quadratic per target;
