@@ -1,9 +1,12 @@
 // Opens a report as a reader would and checks what a reader needs.
 //
 //   node tests/report_test.mjs REPORT.html [--document FILE] [--screenshots DIR] [--modules DIR] [--chromium FILE]
+//   node tests/report_test.mjs --kith PROGRAM [...]
 //
-// With --document, REPORT.html is the template, and the document is put into a copy of it.
+// With --document, REPORT.html is the template, and the document is put into a copy of it. With --kith, the page is the
+// report that this program makes of a small run of the paper's study.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
@@ -18,20 +21,27 @@ const { values, positionals } = parseArgs({
   allowPositionals: true,
   options: {
     document: { type: 'string' },
+    kith: { type: 'string' },
     screenshots: { type: 'string' },
     modules: { type: 'string', default: join(here, '..') },
     chromium: { type: 'string', default: '/usr/bin/chromium' },
   },
 });
-if (positionals.length !== 1) {
+if (positionals.length !== (values.kith ? 0 : 1)) {
   console.error(
-    'usage: node tests/report_test.mjs REPORT.html [--document FILE] [--screenshots DIR] [--modules DIR] [--chromium FILE]',
+    'usage: node tests/report_test.mjs REPORT.html|--kith PROGRAM [--document FILE] [--screenshots DIR] [--modules DIR] [--chromium FILE]',
   );
   process.exit(2);
 }
-let report = resolve(positionals[0]);
+const folder = mkdtempSync(join(tmpdir(), 'kith-report-'));
+let report = resolve(positionals[0] ?? join(folder, 'run', 'report.html'));
+if (values.kith) {
+  const run = join(folder, 'run');
+  execFileSync(values.kith, ['study', 'paper', '--set', 'replicates=2', '-q', '-o', run], { stdio: 'inherit' });
+  execFileSync(values.kith, ['report', '-q', run], { stdio: 'inherit' });
+}
 if (values.document) {
-  const filled = join(mkdtempSync(join(tmpdir(), 'kith-report-')), 'report.html');
+  const filled = join(folder, 'report.html');
   writeFileSync(filled, fillPage(readFileSync(report, 'utf8'), readFileSync(values.document, 'utf8')));
   report = filled;
 }
@@ -160,6 +170,37 @@ describe('a report', () => {
         names.every((name) => name.length > 20),
         'a chart without a text alternative',
       );
+    });
+  });
+
+  it('plain sentences come first, then figures, then tests, and every table has rows under words', async () => {
+    await withReport({ width: 1280, dark: false }, async ({ page }) => {
+      const sentences = await page.$$eval('#summary .lead', (all) => all.map((one) => one.textContent));
+      assert.equal(sentences.length, 3);
+      for (const sentence of sentences) assert.match(sentence, /^[A-Z].{30,400}[.]$/);
+      const order = await page.$$eval('main section', (all) => all.map(({ id }) => id));
+      assert.equal(order[0], 'summary');
+      assert.ok(order.indexOf('outcomes') < order.indexOf('findings'), order.join(' '));
+      await openDetails(page, { all: true });
+      const tables = await page.$$eval('main table', (all) =>
+        all.map((table) => ({
+          caption: table.caption?.textContent ?? '',
+          heads: [...table.querySelectorAll('thead th')].map((head) => head.textContent),
+          rows: table.querySelectorAll('tbody tr').length,
+        })),
+      );
+      for (const { caption, heads, rows } of tables) {
+        assert.ok(rows > 0, `no rows: ${caption}`);
+        assert.ok(
+          heads.every((head) => /^(F|t|d|n|df|N|sd|[A-Za-z].{2,})$/.test(head) && !/, (low|high)$/.test(head)),
+          `${caption}: ${heads.join(' | ')}`,
+        );
+      }
+      const tests = await page.$$eval('#findings tbody tr', (rows) =>
+        rows.map((row) => [...row.children].map((cell) => cell.textContent)),
+      );
+      assert.ok(tests.length > 0);
+      assert.ok(!tests.flat().some((cell) => /undefined|NaN|\[object/.test(cell)), 'a cell that is no value');
     });
   });
 

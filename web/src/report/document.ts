@@ -83,6 +83,7 @@ export interface Report {
     strategies: string[];
     compositions: string[];
     factors?: (string | { key: string })[];
+    summary?: string[]; // plain sentences
     headlines?: Headline[];
   };
   notes?: string[];

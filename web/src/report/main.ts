@@ -30,8 +30,8 @@ function show(page: HTMLElement): void {
   const sections = [
     summarySection(study),
     notesSection(study),
-    findingsSection(study),
     ...figureSections(study),
+    findingsSection(study),
     parametersSection(study),
     methodsSection(study),
     reproduceSection(study),

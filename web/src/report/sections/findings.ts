@@ -12,14 +12,10 @@ function finding(one: Finding): HTMLElement {
     el('h3', {}, one.title),
     one.question ? el('p', { class: 'question' }, one.question) : null,
     el('p', {}, one.sentence),
-    ...(one.warnings ?? []).map((text) => el('p', { class: 'warning' }, el('strong', {}, 'Warning: '), text)),
-    tables.length > 0
-      ? el(
-          'details',
-          {},
-          el('summary', {}, `Tests: ${one.title}`),
-          ...tables.map(resultTableView),
-        )
+    ...(one.warnings ?? []).map((text) => el('p', { class: 'warning' }, el('strong', {}, 'Note: '), text)),
+    ...tables.slice(0, 1).map(resultTableView),
+    tables.length > 1
+      ? el('details', {}, el('summary', {}, `More tables: ${one.title}`), ...tables.slice(1).map(resultTableView))
       : null,
   );
 }
@@ -27,5 +23,5 @@ function finding(one: Finding): HTMLElement {
 export function findingsSection(study: Study): Section | null {
   const findings = study.report.findings ?? [];
   if (findings.length === 0) return null;
-  return { id: 'findings', title: 'Findings', content: findings.map(finding) };
+  return { id: 'findings', title: 'Statistical tests', content: findings.map(finding) };
 }

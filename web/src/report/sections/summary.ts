@@ -56,6 +56,7 @@ export function summarySection(study: Study): Section {
     id: 'summary',
     title: 'Summary',
     content: [
+      ...(study.report.overview.summary ?? []).map((sentence) => el('p', { class: 'lead' }, sentence)),
       ...(headlines.length > 0 ? [el('dl', { class: 'cards' }, ...headlines.map(card))] : []),
       el(
         'dl',
