@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -48,8 +49,9 @@ Analysis analysis_of(const AnalyzeOptions& options) {
   std::error_code failure;
   const bool is_run = options.input != "-" && !fs::is_regular_file(options.input, failure);
   if (options.model.empty()) {
-    if (!is_run) throw Error{ErrorKind::kUsage, "a table needs --model, such as --model 'knowledge ~ strategy'"};
-    if (!options.where.empty()) throw Error{ErrorKind::kUsage, "--where needs --model"};
+    if (!is_run)
+      throw Error{ErrorKind::kUsage, "to analyse a table, give a model, such as --model 'knowledge ~ strategy'"};
+    if (!options.where.empty()) throw Error{ErrorKind::kUsage, "--where can only be used with --model"};
     return analyze_run(options.input, analysis_options(options));
   }
   std::vector<RowFilter> filters;
@@ -59,17 +61,44 @@ Analysis analysis_of(const AnalyzeOptions& options) {
   return analyze_table(dataset_of(options).where(filters), question, analysis_options(options));
 }
 
+// The words of a head on lines no wider than `width`, where they fit.
+std::vector<std::string> head_lines(const std::string& head, std::size_t width) {
+  std::vector<std::string> lines;
+  const auto text = wrapped(head, width);
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+// A table whose heads are on as many lines as keep its columns narrow.
 std::string text_of(const ResultTable& table, const Console& console) {
+  const auto rows = formatted_rows(table);
   std::string alignment;
-  std::vector<std::string> header;
-  for (const auto& column : table.columns) {
+  std::vector<std::vector<std::string>> heads;
+  std::size_t height = 1;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const auto& column = table.columns[c];
     alignment += column.kind == ResultKind::kText ? 'l' : 'r';
-    header.push_back(column.name);
+    constexpr std::size_t kNarrow = 10;
+    std::size_t width = kNarrow;
+    for (const auto& row : rows) width = std::max(width, row[c].size());
+    heads.push_back(head_lines(column.name, width));
+    height = std::max(height, heads.back().size());
   }
   TextTable text{alignment};
-  text.add(header);
-  for (auto& row : formatted_rows(table)) text.add(std::move(row));
-  return "\n" + console.dim(table.caption) + "\n" + text.text(console);
+  for (std::size_t line = 0; line < height; ++line) {
+    std::vector<std::string> cells;
+    for (const auto& head : heads) {
+      const auto blank = height - head.size();  // heads stand on the rows
+      cells.push_back(line < blank ? "" : head[line - blank]);
+    }
+    text.add(std::move(cells));
+  }
+  for (const auto& row : rows) text.add(row);
+  return "\n" + console.dim(table.caption) + "\n" + text.text(console, height == 1);
 }
 
 std::string text_of(const Finding& finding, bool brief, const Console& console) {
@@ -91,7 +120,8 @@ Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
           {"resamples", options.resamples},
           {"seed", options.seed},
           {"notes", analysis.notes},
-          {"findings", Json::parse(findings_json(analysis))}};
+          {"findings", Json::parse(findings_json(analysis))},
+          {"not_analysed", analysis.not_analysed}};
 }
 
 }  // namespace
@@ -107,6 +137,8 @@ int run_analyze(const AnalyzeOptions& options, Console& console) {
   for (const auto& note : analysis.notes) text += wrapped("Note: " + note + ".", kTextWidth, "      ") + "\n";
   for (const auto& finding : analysis.findings)
     text += (text.empty() ? "" : "\n") + text_of(finding, options.brief, console);
+  if (!analysis.not_analysed.empty()) text += "\n" + console.bold("Not analysed") + "\n";
+  for (const auto& what : analysis.not_analysed) text += wrapped("- " + what, kTextWidth, "  ") + "\n";
   console.print(text);
   return 0;
 }

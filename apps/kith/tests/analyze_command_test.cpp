@@ -35,15 +35,15 @@ Scratch* AnalyzeCommand::scratch_ = nullptr;
 TEST_F(AnalyzeCommand, AnswersTheQuestionsOfAStudyInWordsAndTables) {
   const auto ran = run_kith({"analyze", folder()});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("periods by strategy and composition"), HasSubstr("on 32 teams"),
-                             HasSubstr("p, permutation"), HasSubstr("Kaplan-Meier"), HasSubstr("Manipulation check"),
-                             HasSubstr("Groups against teaching everybody alone: knowledge")));
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("Effects of strategy and composition: periods"), HasSubstr("(32 teams)"),
+                             HasSubstr("Permutation and rank tests"), HasSubstr("Kaplan-Meier"),
+                             HasSubstr("Manipulation check"), HasSubstr("Taught together or alone: knowledge")));
   EXPECT_THAT(ran.out, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
 }
 
 TEST_F(AnalyzeCommand, IsBriefWhenAsked) {
   const auto ran = run_kith({"analyze", folder(), "--brief"});
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("No effect of strategy was found"), Not(HasSubstr("p, permutation"))));
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("No effect of strategy was found"), Not(HasSubstr("p-value"))));
 }
 
 TEST_F(AnalyzeCommand, PrintsOneDocument) {
@@ -62,13 +62,13 @@ TEST_F(AnalyzeCommand, TestsAModelOnATableOfARun) {
   const auto ran = run_kith(
       {"analyze", folder(), "--table", "learners", "--model", "p_bec ~ type", "--where", "strategy!=baseline"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("Analysis of variance of p_bec on 96 rows."));
+  EXPECT_THAT(ran.out, HasSubstr("Analysis of variance of p_bec (96 rows)."));
 }
 
 TEST_F(AnalyzeCommand, TestsAModelOnStandardInput) {
   const auto ran = run_kith({"analyze", "-", "--model", "y ~ g"}, {.input = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\n"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("F(1, 4) = 13.50"));
+  EXPECT_THAT(ran.out, HasSubstr("13.50"));
 }
 
 TEST_F(AnalyzeCommand, NamesFileAndRowOfBadInput) {
@@ -114,7 +114,7 @@ TEST_F(AnalyzeCommand, RefusesFoldersWithoutFinishedResults) {
 TEST_F(AnalyzeCommand, ExplainsOptionsThatDoNotGoTogether) {
   const auto table = run_kith({"analyze", file("t.csv", "g,y\na,1\n")});
   EXPECT_EQ(table.code, 2);
-  EXPECT_THAT(table.err, HasSubstr("a table needs --model"));
+  EXPECT_THAT(table.err, HasSubstr("to analyse a table, give a model"));
   EXPECT_EQ(run_kith({"analyze", folder(), "--where", "a=b"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--model", "y ~ g", "--where", "nonsense"}).code, 2);
   EXPECT_EQ(run_kith({"analyze", folder(), "--alpha", "2"}).code, 2);

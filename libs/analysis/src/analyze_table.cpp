@@ -25,7 +25,7 @@ void check_factor(const Dataset& data, const Factor& factor) {
   Diagnostic diagnostic{.file = data.file(), .line = 1, .column = 1};
   if (factor.levels.size() < 2) {
     diagnostic.id = "E0904";
-    diagnostic.message = fmt::format("column '{}' is '{}' in every row: there is nothing to compare", factor.name,
+    diagnostic.message = fmt::format("column '{}' is '{}' in every row, so there is nothing to compare", factor.name,
                                      factor.levels.front());
     diagnostic.hint = "leave it out of the model";
     diagnostic.infeasible = true;
@@ -33,7 +33,7 @@ void check_factor(const Dataset& data, const Factor& factor) {
     diagnostic.id = "E0907";
     diagnostic.message = fmt::format("column '{}' has {} different values; a factor has at most {}", factor.name,
                                      factor.levels.size(), kMostLevelsOfAFactor);
-    diagnostic.hint = "explain the response by columns with a few levels each";
+    diagnostic.hint = "use columns with few different values as factors";
   } else {
     return;
   }
@@ -44,9 +44,10 @@ void check_factor(const Dataset& data, const Factor& factor) {
 void check_terms(const Formula& formula) {
   if (formula.terms.size() <= kMostTerms) return;
   Diagnostic diagnostic{.id = "E0908", .infeasible = true};
-  diagnostic.message = fmt::format("the model has {} terms; at most {} are analysed, six factors with all interactions",
-                                   formula.terms.size(), kMostTerms);
-  diagnostic.hint = "use + in place of *, or leave factors out";
+  diagnostic.message =
+      fmt::format("the model has {} terms; the limit is {}, as many as six factors with all interactions have",
+                  formula.terms.size(), kMostTerms);
+  diagnostic.hint = "use + instead of *, or leave factors out";
   throw Error{{std::move(diagnostic)}};
 }
 
@@ -69,7 +70,7 @@ Analysis analyze_table(const Dataset& data, const ModelQuestion& question, const
     throw Error{{Diagnostic{.id = "E0905",
                             .message = "no row has a value in every column of the model",
                             .file = data.file(),
-                            .hint = "the model needs " + fmt::format("{}", fmt::join(columns, ", ")),
+                            .hint = "the model uses the columns " + joined(columns),
                             .infeasible = true}}};
   }
   ModelData model{.response = formula.response, .terms = formula.terms};
@@ -79,9 +80,10 @@ Analysis analyze_table(const Dataset& data, const ModelQuestion& question, const
     check_factor(complete, model.factors.back());
   }
   if (question.observed) model.observed = observed_of(complete, *question.observed);
-  Analysis analysis{data.file(), {}, {}};
+  Analysis analysis{data.file(), {}};
   if (const auto dropped = data.num_rows() - complete.num_rows(); dropped > 0)
-    analysis.notes.push_back(fmt::format("{} of {} rows lack a value and were left out", dropped, data.num_rows()));
+    analysis.notes.push_back(
+        fmt::format("{} of {} rows were left out because they lack a value", dropped, data.num_rows()));
   analysis.findings.push_back(analyze_model(model, options, RandomStream{options.seed}.split("model")));
   return analysis;
 }

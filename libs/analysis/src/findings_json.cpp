@@ -69,13 +69,16 @@ std::string findings_json(const Analysis& analysis) {
   for (const auto& finding : analysis.findings) {
     Json tables = Json::array();
     for (const auto& table : finding.tables) tables.push_back(table_json(table));
+    Json methods = Json::array();
+    for (const auto& method : finding.methods) methods.push_back(method.text);
     findings.push_back({{"id", finding.id},
                         {"title", finding.title},
                         {"question", finding.question},
                         {"model", finding.model},
                         {"sentence", finding.sentence},
                         {"warnings", finding.warnings},
-                        {"tables", std::move(tables)}});
+                        {"tables", std::move(tables)},
+                        {"methods", std::move(methods)}});
   }
   return findings.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,5 +1,7 @@
 #include "model.hpp"
 
+#include <algorithm>
+
 #include "kith/stats/formula.hpp"
 #include "kith/stats/resampling.hpp"
 
@@ -62,9 +64,25 @@ Finding analyze_model(const ModelData& data, const AnalysisOptions& options, con
   finding.question = "Does " + data.response + " depend on the factors of the model?";
   finding.sentence = sentence_of(data, result, options.alpha);
   finding.warnings = warnings_of(data, result, options.alpha);
-  finding.tables = anova_tables(data, result, options);
+  add_anova_results(data, result, options, finding);
   add_count_results(data, options, finding);
   return finding;
+}
+
+void add_method(Finding& finding, Method method) {
+  const auto same = [&](const Method& known) { return known.text == method.text; };
+  if (std::none_of(finding.methods.begin(), finding.methods.end(), same)) finding.methods.push_back(std::move(method));
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+std::string counted(std::size_t n, const std::string& noun) {
+  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
 TableCell number_cell(double value) { return TableCell{value}; }

@@ -39,9 +39,10 @@ struct ModelResult {
 // What is doubtful about the model, and what could not be estimated.
 [[nodiscard]] std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha);
 
-// Means, analysis of variance, pairs of levels.
-[[nodiscard]] std::vector<ResultTable> anova_tables(const ModelData& data, const ModelResult& result,
-                                                    const AnalysisOptions& options);
+// Adds tables of the analysis of variance, of its rivals, of means and of pairs of levels, and the methods behind them.
+// Captions begin with `about`.
+void add_anova_results(const ModelData& data, const ModelResult& result, const AnalysisOptions& options,
+                       Finding& finding, const std::string& about = "");
 
 // Counts that may be cut off: rate ratios, survival. Adds to the finding if the response is a count.
 void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
@@ -59,6 +60,13 @@ template <typename T>
   if (value) return number_cell((*value).*part);
   return {};
 }
+// Adds a method unless the finding has it.
+void add_method(Finding& finding, Method method);
+// "a", "a and b", "a, b and c"
+[[nodiscard]] std::string joined(const std::vector<std::string>& words);
+// "1 team", "4 teams"
+[[nodiscard]] std::string counted(std::size_t n, const std::string& noun);
+
 // "F(3, 224) = 0.20, p = 0.898"
 [[nodiscard]] std::string test_text(const TestResult& test);
 

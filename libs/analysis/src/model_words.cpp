@@ -13,7 +13,7 @@ namespace {
 constexpr double kUnequalSpread = 2.0;   // ratio of standard deviations that people should know about
 constexpr double kSkewed = 1.0;          // of residuals
 constexpr double kHeavyTails = 2.0;      // excess kurtosis
-constexpr std::size_t kFewPerCell = 10;  // below it F tests lean on normality
+constexpr std::size_t kFewPerCell = 10;  // below it F tests depend on normal residuals
 
 std::string degrees_text(double df) {
   return df == std::floor(df) ? fmt::format("{:.0f}", df) : fmt::format("{:.1f}", df);
@@ -45,40 +45,41 @@ std::string range_text(const ModelData& data, const Factor& factor) {
                      formatted(mean(groups[high]), ResultKind::kNumber), factor.levels[high]);
 }
 
-std::string evidence_text(const AnovaTerm& term, const Estimable<Interval>& eta) {
-  std::string text = test_text(*term.test);
-  if (!eta) return text;
-  return text + fmt::format(", partial eta squared {:.3f} [{:.3f}, {:.3f}]", eta->estimate, eta->low, eta->high);
-}
-
 // How large an effect is, in the words of [cohen1988, section 8.2].
 std::string size_text(double eta_squared) {
-  if (eta_squared < 0.01) return "a negligible effect";
-  if (eta_squared < 0.06) return "a small effect";
-  return eta_squared < 0.14 ? "a medium effect" : "a large effect";
+  if (eta_squared < 0.01) return "negligible";
+  if (eta_squared < 0.06) return "small";
+  return eta_squared < 0.14 ? "medium" : "large";
 }
 
 // "strategy and composition"
 std::string joined_names(const ModelData& data, std::size_t t) {
-  std::string text;
-  for (std::size_t i = 0; i < data.terms[t].size(); ++i)
-    text += (i == 0 ? "" : i + 1 == data.terms[t].size() ? " and " : ", ") + data.factors[data.terms[t][i]].name;
+  std::vector<std::string> names;
+  for (const auto factor : data.terms[t]) names.push_back(data.factors[factor].name);
+  return joined(names);
+}
+
+// At the start of a sentence. Names of columns that are no words stay as they are.
+std::string at_start(std::string text) {
+  const bool is_word = text.size() > 2 &&
+                       std::all_of(text.begin(), text.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == ' '; });
+  if (is_word) text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
 
 std::string term_sentence(const ModelData& data, const ModelResult& result, std::size_t t, double alpha) {
   const auto& term = result.table.terms[t];
-  if (!term.test) return fmt::format("{}: not estimable, because {}.", term.name, term.test.reason());
-  const auto evidence = evidence_text(term, result.eta_squared[t]);
+  if (!term.test) return fmt::format("The effect of {} cannot be tested: {}.", term.name, term.test.reason());
+  const auto p = p_text(term.test->p);
   const bool found = term.test->p < alpha;
-  const auto size = term.partial_eta_squared ? ", " + size_text(*term.partial_eta_squared) : std::string{};
+  const auto size = term.partial_eta_squared ? size_text(*term.partial_eta_squared) : std::string{};
   if (data.terms[t].size() > 1) {
-    return found
-               ? fmt::format("What one of {} does depends on the other{} ({}).", joined_names(data, t), size, evidence)
-               : fmt::format("No sign that {} depend on each other ({}).", joined_names(data, t), evidence);
+    if (!found) return fmt::format("No interaction of {} was found ({}).", joined_names(data, t), p);
+    return fmt::format("{} interact ({}{}).", at_start(joined_names(data, t)), size.empty() ? "" : size + " effect, ",
+                       p);
   }
-  if (!found) return fmt::format("No effect of {} was found ({}).", term.name, evidence);
-  return fmt::format("It differs by {}{} ({}): {}.", term.name, size, evidence,
+  if (!found) return fmt::format("No effect of {} was found ({}).", term.name, p);
+  return fmt::format("{} has a {}effect ({}): means range {}.", at_start(term.name), size.empty() ? "" : size + " ", p,
                      range_text(data, data.factors[data.terms[t].front()]));
 }
 
@@ -96,20 +97,25 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
     largest = std::max(largest, *standard_deviation(group));
   }
   if (result.table.empty_cells > 0) {
-    warnings.push_back(fmt::format("{} combinations of levels have no {}: type II and III answer different questions",
-                                   result.table.empty_cells, data.observations));
+    warnings.push_back(fmt::format("{} of levels {} no {}, so type II and type III tests have different hypotheses",
+                                   counted(result.table.empty_cells, "combination"),
+                                   result.table.empty_cells == 1 ? "has" : "have", data.observations));
   } else if (least != most) {
-    warnings.push_back(fmt::format("cells have {} to {} {}: the design is not balanced, so type III is shown too",
-                                   least, most, data.observations));
+    warnings.push_back(fmt::format("the design is unbalanced (cells have {} to {} {}){}", least, most,
+                                   data.observations,
+                                   data.factors.size() > 1 ? ": type III tests are shown too, and the pairs compare "
+                                                             "means that are not adjusted for other factors"
+                                                           : ""));
   }
   if (least < kFewPerCell)
-    warnings.push_back(fmt::format(
-        "with {} in the smallest cell, F tests lean on normal residuals; the permutation test does not", least));
+    warnings.push_back(
+        fmt::format("the smallest cell has {}, so F tests depend on normal residuals; permutation tests do not",
+                    counted(least, data.observations.substr(0, data.observations.size() - 1))));
   const auto spread = brown_forsythe(data.values, cells);
   if (spread && spread->p < alpha && largest > kUnequalSpread * smallest) {
     warnings.push_back(fmt::format(
-        "standard deviations differ between cells ({} to {}; Brown-Forsythe {}): prefer the tests by permutation and "
-        "by ranks",
+        "standard deviations differ between cells ({} to {}; Brown-Forsythe {}): prefer the permutation and rank "
+        "tests",
         formatted(smallest, ResultKind::kNumber), formatted(largest, ResultKind::kNumber), test_text(*spread)));
   }
 }
@@ -118,11 +124,11 @@ void add_shape_warnings(const ModelResult& result, double alpha, std::vector<std
   const auto shape = check_normality(result.table.residuals);
   if (!shape || shape->test.p >= alpha) return;
   if (std::abs(shape->skewness) < kSkewed && std::abs(shape->excess_kurtosis) < kHeavyTails) return;
-  warnings.push_back(fmt::format("residuals are not normal (skewness {:.2f}, excess kurtosis {:.2f})", shape->skewness,
-                                 shape->excess_kurtosis));
+  warnings.push_back(fmt::format("residuals are not normally distributed (skewness {:.2f}, excess kurtosis {:.2f})",
+                                 shape->skewness, shape->excess_kurtosis));
 }
 
-// Where tests with weaker assumptions come to another verdict.
+// Where tests with weaker assumptions disagree.
 void add_disagreements(const ModelResult& result, double alpha, std::vector<std::string>& warnings) {
   for (std::size_t t = 0; t < result.table.terms.size(); ++t) {
     const auto& term = result.table.terms[t];
@@ -130,11 +136,11 @@ void add_disagreements(const ModelResult& result, double alpha, std::vector<std:
     const bool found = term.test->p < alpha;
     const auto compare = [&](const Estimable<double>& p, const std::string& name) {
       if (!p || (*p < alpha) == found) return;
-      warnings.push_back(fmt::format("{}: the test by {} disagrees at this level ({} against {})", term.name, name,
+      warnings.push_back(fmt::format("{}: the {} test disagrees with the F test ({} and {})", term.name, name,
                                      p_text(*p), p_text(term.test->p)));
     };
     compare(result.permutation_p[t], "permutation");
-    compare(result.rank_p[t], "ranks");
+    compare(result.rank_p[t], "rank");
   }
 }
 
@@ -149,7 +155,7 @@ std::string test_text(const TestResult& test) {
 
 std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha) {
   std::string text =
-      fmt::format("Analysis of variance of {} on {} {}.", data.response, data.values.size(), data.observations);
+      fmt::format("Analysis of variance of {} ({} {}).", data.response, data.values.size(), data.observations);
   for (std::size_t t = 0; t < data.terms.size(); ++t) text += " " + term_sentence(data, result, t, alpha);
   return text;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -14,17 +15,16 @@ using Kind = ResultKind;
 
 const std::vector<std::string> kColumns{"team", "period", "kc", "area_sr"};
 
-// The strategies from the one that conveys most (the smallest area) to the one that conveys least.
-std::string ranking(const std::vector<double>& values, const Factor& strategy) {
+// "from -2.1 (joint) to -1.8 (common)": from the strategy that conveys most (the smallest area) to the one that conveys
+// least.
+std::string range_of(const std::vector<double>& values, const Factor& strategy) {
   std::vector<std::pair<double, std::string>> means;
   const auto groups = split_by(values, strategy);
   for (std::size_t level = 0; level < groups.size(); ++level) {
     means.emplace_back(mean(groups[level]), strategy.levels[level]);
   }
-  std::sort(means.begin(), means.end());
-  std::string text;
-  for (const auto& [value, name] : means) text += (text.empty() ? "" : ", ") + fmt::format("{} {:.3f}", name, value);
-  return text;
+  const auto [least, most] = std::minmax_element(means.begin(), means.end());
+  return fmt::format("from {:.3f} ({}) to {:.3f} ({})", least->first, least->second, most->first, most->second);
 }
 
 }  // namespace
@@ -69,14 +69,14 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
   const auto as_published = fit_model(model, options, RandomStream{options.seed}.split("area_sr"));
   Finding finding{.id = "demonstrations",
                   .title = "Manipulation check: how much the demonstrations convey",
-                  .question = "Do the strategies choose demonstrations that differ in what they convey?",
+                  .question = "Do the demonstrations that the strategies choose convey different amounts?",
                   .model = formula_text(model)};
-  finding.sentence = "A smaller area means that fewer reward weights fit what was shown. " +
+  finding.sentence = "The smaller the area, the fewer reward weights fit what was shown. " +
                      sentence_of(model, as_published, options.alpha);
-  finding.tables = anova_tables(model, as_published, options);
+  add_anova_results(model, as_published, options, finding);
   const auto areas = read_areas(teams, run);
   if (areas.team.empty()) {
-    finding.warnings.push_back("periods were not recorded, so components cannot be told apart");
+    finding.warnings.push_back("periods were not recorded, so components cannot be analysed separately");
     return finding;
   }
   const auto components = make_factor("kc", areas.component);
@@ -91,20 +91,17 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
     const auto strategy = selected(teams.strategy, part_teams);
     const auto test = one_way_anova(values, strategy);
     if (!test) {
-      finding.warnings.push_back(
-          fmt::format("component {}: not estimable, because {}", components.levels[level], test.reason()));
+      finding.warnings.push_back(fmt::format("component {}: no test: {}", components.levels[level], test.reason()));
       continue;
     }
-    finding.sentence += fmt::format(" Component {}, periods after the first, mean logarithm of the area: {} ({}).",
-                                    components.levels[level], ranking(values, strategy), test_text(*test));
+    finding.sentence += fmt::format(" Component {}: {} ({}); mean log areas range {}.", components.levels[level],
+                                    test->p < options.alpha ? "the strategies differ" : "no difference was found",
+                                    p_text(test->p), range_of(values, strategy));
     ModelData one{
         .response = "log area", .observations = "teams", .values = values, .factors = {strategy}, .terms = {{0}}};
     const auto result = fit_model(one, options, RandomStream{options.seed}.split("log area").split(level));
-    for (auto& table : anova_tables(one, result, options)) {
-      table.caption =
-          "Component " + components.levels[level] + ", mean log area after its first period: " + table.caption;
-      finding.tables.push_back(std::move(table));
-    }
+    add_anova_results(one, result, options, finding,
+                      "Component " + components.levels[level] + ", mean log area without the first period: ");
   }
   return finding;
 }

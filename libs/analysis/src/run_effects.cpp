@@ -18,8 +18,11 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
   const auto model = team_model(teams, group_teams(teams), response, values);
   if (model.terms.empty()) return std::nullopt;
   auto finding = analyze_model(model, options, stream_of(options, response));
-  finding.title = response + " by " + (model.factors.size() > 1 ? "strategy and composition" : model.factors[0].name);
-  finding.question = "Does it matter for " + response + " how a group is taught, and who is in it?";
+  std::vector<std::string> names;
+  for (const auto& factor : model.factors) names.push_back(factor.name);
+  finding.title = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + joined(names) + ": " + response;
+  finding.question = "Do " + response + " depend on how a group is taught and who is in it?";
+  if (response == "knowledge") finding.question.replace(0, 2, "Does");
   return finding;
 }
 
@@ -28,22 +31,25 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
   const auto rows = group_teams(teams);
   const auto compositions = selected(teams.composition, rows);
   if (compositions.levels.size() < 2 || selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
-  const std::string correction{to_string(options.correction)};
+  const bool is_corrected = options.correction != Correction::kNone;
+  const std::string name{to_string(options.correction)};
+  const auto correction = is_corrected ? name + " correction" : std::string{"no correction"};
   Finding finding{.id = response + "-within-composition",
                   .title = "Strategy within each composition: " + response,
-                  .question = "Does the strategy matter for " + response + " in groups of one kind?",
-                  .model = response + " ~ strategy, composition by composition"};
-  ResultTable table{"One-way analyses of variance of strategy, corrected: " + correction,
+                  .question = "Does the strategy affect " + response + " within any single composition?",
+                  .model = response + " ~ strategy, for each composition separately"};
+  ResultTable table{"One-way analyses of variance (" + correction + ")",
                     {{"composition", Kind::kText},
                      {"df", Kind::kText},
                      {"F", Kind::kNumber},
-                     {"p", Kind::kP},
-                     {"p, corrected", Kind::kP},
+                     {"p-value", Kind::kP},
+                     {"corrected p-value", Kind::kP},
                      {"partial eta squared", Kind::kFraction},
-                     {"p, Kruskal-Wallis", Kind::kP}},
+                     {"Kruskal-Wallis p-value", Kind::kP}},
                     {}};
   std::vector<double> p_values;
   std::vector<std::size_t> tested;
+  bool any_ranks = false;
   for (std::size_t level = 0; level < compositions.levels.size(); ++level) {
     std::vector<std::size_t> part;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -58,11 +64,12 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
       p_values.push_back(test->p);
       tested.push_back(level);
       const auto ranks = kruskal_wallis(group_values, strategy);
+      any_ranks = any_ranks || ranks;
       row.insert(row.end(), {text_cell(fmt::format("{:.0f}, {:.0f}", test->df[0], test->df[1])), test->statistic,
                              test->p, TableCell{}, f / (f + test->df[1]), cell_of(ranks, &TestResult::p)});
     } else {
       row.resize(table.columns.size());
-      finding.warnings.push_back(compositions.levels[level] + ": not estimable, because " + test.reason());
+      finding.warnings.push_back(compositions.levels[level] + ": no test: " + test.reason());
     }
     table.rows.push_back(std::move(row));
   }
@@ -73,10 +80,18 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
     if (corrected[i] >= options.alpha) continue;
     found += fmt::format("{}{} ({})", found.empty() ? "" : ", ", compositions.levels[tested[i]], p_text(corrected[i]));
   }
-  finding.sentence =
-      fmt::format("One-way analyses of variance of {} on {} teams, corrected for {} compositions ({}): ", response,
-                  rows.size(), compositions.levels.size(), correction) +
-      (found.empty() ? "the strategy matters in none of them." : "the strategy matters in " + found + ".");
+  finding.sentence = fmt::format("One-way analyses of variance of {} within {} compositions ({} teams, {}): ", response,
+                                 compositions.levels.size(), rows.size(), correction) +
+                     (tested.empty()  ? "no composition could be tested."
+                      : found.empty() ? "no effect of strategy was found in any of them."
+                                      : "strategy has an effect in " + found + ".");
+  if (!tested.empty()) {
+    add_method(finding,
+               {"one-way analyses of variance" +
+                (is_corrected ? fmt::format(" with {} correction for {}", name, counted(tested.size(), "composition"))
+                              : std::string{})});
+  }
+  if (any_ranks) add_method(finding, {"Kruskal-Wallis tests (uncorrected)"});
   finding.tables.push_back(std::move(table));
   return finding;
 }

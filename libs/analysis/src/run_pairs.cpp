@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "kith/stats/moments.hpp"
 #include "run_findings.hpp"
@@ -76,22 +77,22 @@ void add_blocked(const Blocks& blocks, Finding& finding) {
   const auto table = blocked_anova(values, make_factor("strategy", strategy), make_factor("composition", composition),
                                    make_factor("people", block));
   if (!table) {
-    finding.warnings.push_back("analysis within people: not estimable, because " + table.reason());
+    finding.warnings.push_back("no analysis of variance within people: " + table.reason());
     return;
   }
   ResultTable result{"Analysis of variance within people",
                      {{"term", Kind::kText},
                       {"df", Kind::kText},
                       {"F", Kind::kNumber},
-                      {"p", Kind::kP},
+                      {"p-value", Kind::kP},
                       {"partial eta squared", Kind::kFraction}},
                      {}};
   for (const auto& term : table->terms) {
     result.rows.push_back({text_cell(term.name), text_cell(fmt::format("{}, {}", term.df, table->residual_df)),
                            cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p),
                            cell_of(term.partial_eta_squared)});
-    if (term.test) finding.sentence += fmt::format(" {}: {}.", term.name, test_text(*term.test));
   }
+  add_method(finding, {"analysis of variance within people"});
   finding.tables.push_back(std::move(result));
 }
 
@@ -106,8 +107,8 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
   });
   if (!shared) return std::nullopt;
   Finding finding{.id = response + "-paired",
-                  .title = "The same people under different strategies: " + response,
-                  .question = "Which strategy is better for " + response + " of the same group of people?",
+                  .title = "Same people, different strategies: " + response,
+                  .question = "Do strategies differ in " + response + " when they teach the same people?",
                   .model = response + " ~ strategy within people"};
   std::vector<Pair> pairs;
   std::vector<double> p_values;
@@ -117,21 +118,21 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
       if (pair.difference) {
         p_values.push_back(pair.difference->test.p);
       } else {
-        finding.warnings.push_back(pair.name + ": not estimable, because " + pair.difference.reason());
+        finding.warnings.push_back(pair.name + ": no test: " + pair.difference.reason());
       }
       pairs.push_back(std::move(pair));
     }
   }
   const auto corrected = adjust(p_values, Correction::kHolm);
-  ResultTable table{"Differences within groups of the same people (paired t, Holm)",
+  ResultTable table{"Differences within groups of the same people (paired t tests, Holm correction)",
                     {{"pair", Kind::kText},
                      {"n", Kind::kCount},
                      {"difference", Kind::kNumber},
-                     {"low", Kind::kNumber},
-                     {"high", Kind::kNumber},
+                     {"lower limit", Kind::kNumber},
+                     {"upper limit", Kind::kNumber},
                      {"d", Kind::kFraction},
-                     {"p", Kind::kP},
-                     {"p, corrected", Kind::kP}},
+                     {"p-value", Kind::kP},
+                     {"corrected p-value", Kind::kP}},
                     {}};
   std::string found;
   std::size_t tested = 0;
@@ -152,13 +153,85 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
                            formatted(difference->difference, Kind::kNumber), p_text(p));
   }
   finding.sentence = fmt::format(
-      "Every strategy taught the same {} groups of simulated people, so differences are taken within "
-      "groups: {}.",
-      blocks.values.size(), found.empty() ? "no pair of strategies differs" : found);
+      "Every strategy taught the same {} of simulated people, so strategies are compared within groups: {}.",
+      counted(blocks.values.size(), "group"),
+      found.empty() ? "no difference between two strategies was found" : "these differ: " + found);
+  if (tested > 0)
+    add_method(finding, {fmt::format("paired t tests with Holm correction for {}", counted(tested, "pair"))});
   finding.tables.push_back(std::move(table));
   add_blocked(blocks, finding);
   return finding;
 }
+
+namespace {
+
+constexpr std::size_t kFewForBootstrap =
+    10;  // values; intervals from resamples of fewer are far too narrow or too wide
+
+// The means over strategies that taught the same people together, and what the baseline gave for them.
+std::pair<std::vector<double>, std::vector<double>> same_people(const RunTeams& teams,
+                                                                const std::vector<double>& values) {
+  struct Block {
+    double together = 0.0;
+    std::size_t strategies = 0;
+    std::optional<double> alone;
+  };
+  std::map<std::string, Block> blocks;
+  for (std::size_t i = 0; i < teams.size(); ++i) {
+    auto& block = blocks[teams.setting[i] + teams.seed_address[i]];
+    if (teams.is_baseline(i)) {
+      block.alone = values[i];
+    } else {
+      block.together += values[i];
+      ++block.strategies;
+    }
+  }
+  std::pair<std::vector<double>, std::vector<double>> pairs;
+  for (const auto& [people, block] : blocks) {
+    if (!block.alone || block.strategies == 0) continue;
+    pairs.first.push_back(block.together / static_cast<double>(block.strategies));
+    pairs.second.push_back(*block.alone);
+  }
+  return pairs;
+}
+
+// Adds what the same people gain by being taught together, if there are such people.
+void add_same_people(const RunTeams& teams, const std::vector<double>& values, const AnalysisOptions& options,
+                     Finding& finding) {
+  const auto [together, alone] = same_people(teams, values);
+  if (together.empty()) return;
+  const auto test = paired_t_test(together, alone, 1.0 - options.alpha);
+  ResultTable table{"The same people, taught together and alone (paired t test)",
+                    {{"comparison", Kind::kText},
+                     {"n", Kind::kCount},
+                     {"difference", Kind::kNumber},
+                     {"lower limit", Kind::kNumber},
+                     {"upper limit", Kind::kNumber},
+                     {"t", Kind::kNumber},
+                     {"p-value", Kind::kP}},
+                    {}};
+  auto& row = table.rows.emplace_back(table.columns.size());
+  row[0] = text_cell("together - alone");
+  row[1] = count_cell(together.size());
+  if (test) {
+    row[2] = test->difference;
+    row[3] = test->low;
+    row[4] = test->high;
+    row[5] = test->test.statistic;
+    row[6] = test->test.p;
+    finding.sentence += fmt::format(" The same people were taught both ways: {} within {} ({}).",
+                                    test->test.p < options.alpha
+                                        ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
+                                        : "no difference was found",
+                                    counted(together.size(), "group"), p_text(test->test.p));
+    add_method(finding, {"a paired t test of the same people"});
+  } else {
+    finding.warnings.push_back("no paired test of the same people: " + test.reason());
+  }
+  finding.tables.push_back(std::move(table));
+}
+
+}  // namespace
 
 std::optional<Finding> against_baseline(const RunTeams& teams, const std::string& response,
                                         const std::vector<double>& values, const AnalysisOptions& options) {
@@ -166,53 +239,68 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
   for (std::size_t i = 0; i < teams.size(); ++i) (teams.is_baseline(i) ? alone : group).push_back(values[i]);
   if (group.empty() || alone.empty()) return std::nullopt;
   Finding finding{.id = response + "-baseline",
-                  .title = "Groups against teaching everybody alone: " + response,
-                  .question = "Does teaching people together change " + response + "?",
-                  .model = response + " ~ together or alone"};
+                  .title = "Taught together or alone: " + response,
+                  .question = response == "periods" ? "Does teaching together change how many periods are needed?"
+                                                    : "Does teaching together change final " + response + "?",
+                  .model = response + " ~ taught together or alone"};
   const auto test = welch_t_test(group, alone, 1.0 - options.alpha);
-  const auto size = bootstrap_hedges_g(group, alone, {options.resamples, 1.0 - options.alpha},
-                                       RandomStream{options.seed}.split(finding.id));
-  ResultTable table{"Group strategies against the baseline (Welch)",
+  ResultTable table{"Group strategies and the baseline (Welch's t test)",
                     {{"comparison", Kind::kText},
                      {"difference", Kind::kNumber},
-                     {"low", Kind::kNumber},
-                     {"high", Kind::kNumber},
+                     {"lower limit", Kind::kNumber},
+                     {"upper limit", Kind::kNumber},
                      {"t", Kind::kNumber},
-                     {"p", Kind::kP},
-                     {"Hedges' g", Kind::kNumber},
-                     {"g, low", Kind::kNumber},
-                     {"g, high", Kind::kNumber}},
+                     {"df", Kind::kNumber},
+                     {"p-value", Kind::kP}},
                     {}};
-  std::vector<TableCell> row(table.columns.size());
-  row[0] = text_cell("groups - alone");
+  ResultTable effect{"Effect size (Hedges' g)",
+                     {{"comparison", Kind::kText},
+                      {"Hedges' g", Kind::kNumber},
+                      {"lower limit", Kind::kNumber},
+                      {"upper limit", Kind::kNumber}},
+                     {}};
+  auto& row = table.rows.emplace_back(table.columns.size());
+  row[0] = text_cell("together - alone");
+  finding.sentence = fmt::format(
+      "Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other", response,
+      response == "periods" ? "were" : "was", formatted(mean(group), Kind::kNumber), counted(group.size(), "group"),
+      formatted(mean(alone), Kind::kNumber), counted(alone.size(), "group"));
   if (test) {
     row[1] = test->difference;
     row[2] = test->low;
     row[3] = test->high;
     row[4] = test->test.statistic;
-    row[5] = test->test.p;
-  } else {
-    finding.warnings.push_back("not estimable, because " + test.reason());
-  }
-  if (size) {
-    row[6] = size->estimate;
-    row[7] = size->low;
-    row[8] = size->high;
-  }
-  table.rows.push_back(std::move(row));
-  const auto mean_text = [](const std::vector<double>& sample) { return formatted(mean(sample), Kind::kNumber); };
-  finding.sentence = fmt::format(
-      "{} groups that were taught together came to {} {} on average, {} groups whose members were taught one after "
-      "the other to {}",
-      group.size(), mean_text(group), response, alone.size(), mean_text(alone));
-  if (test) {
+    row[5] = test->test.df.front();
+    row[6] = test->test.p;
     finding.sentence += fmt::format(
-        "; {} ({}{}).", test->test.p < options.alpha ? "they differ" : "no difference was found", test_text(test->test),
-        size ? fmt::format(", Hedges' g {:.2f} [{:.2f}, {:.2f}]", size->estimate, size->low, size->high) : "");
+        "; {} ({}).",
+        test->test.p < options.alpha ? "the difference is statistically significant" : "no difference was found",
+        p_text(test->test.p));
+    add_method(finding, {"Welch's t test"});
   } else {
+    finding.warnings.push_back("no Welch's t test: " + test.reason());
     finding.sentence += ".";
   }
   finding.tables.push_back(std::move(table));
+  if (const auto size = hedges_g(group, alone)) {
+    auto& sizes = effect.rows.emplace_back(effect.columns.size());
+    sizes[0] = text_cell("together - alone");
+    sizes[1] = *size;
+    const bool is_few = std::min(group.size(), alone.size()) < kFewForBootstrap;
+    if (is_few) {
+      finding.warnings.push_back(fmt::format(
+          "no interval of Hedges' g: the bootstrap needs at least {} groups of either kind", kFewForBootstrap));
+    } else if (const auto interval = bootstrap_hedges_g(group, alone, {options.resamples, 1.0 - options.alpha},
+                                                        RandomStream{options.seed}.split(finding.id))) {
+      sizes[2] = interval->low;
+      sizes[3] = interval->high;
+    }
+    add_method(finding, {is_few ? "Hedges' g"
+                                : fmt::format("Hedges' g with a bootstrap interval ({} resamples)", options.resamples),
+                         "hedges1981"});
+    finding.tables.push_back(std::move(effect));
+  }
+  add_same_people(teams, values, options, finding);
   return finding;
 }
 

@@ -34,6 +34,7 @@ class Citations {
 
   // "(Jayaraman et al., 2024)"; nothing for a key that references.bib does not have.
   std::string operator()(const std::string& key) {
+    if (key.empty()) return "";
     const auto text = inside(key);
     return text.empty() ? "" : " (" + text + ")";
   }
@@ -96,8 +97,8 @@ class Paragraph {
       types += (types.empty() ? "" : ", ") + std::string{type.letter} + ": " + type.population.label;
     }
     say("We simulated " + counted(data_.teams.size(), "team") + " of " + members +
-        (sizes == std::set<std::size_t>{1} ? " learner" : " learners") + " with " + program() +
-        " and the random seed " + std::to_string(spec_.seed) + ".");
+        (sizes == std::set<std::size_t>{1} ? " learner" : " learners") + " with " + program() + " and random seed " +
+        std::to_string(spec_.seed) + ".");
     say("The design crossed " + counted(names.size(), "teaching strategy", "teaching strategies") +
         cite_("jayaraman2024") + ", " + listed(names) + ", with " +
         counted(spec_.compositions.size(), "team composition") + ", " + listed(spec_.compositions) +
@@ -106,8 +107,8 @@ class Paragraph {
     say(spec_.pairing == Pairing::kReplicate
             ? "The same simulated people were taught with every strategy (common random numbers; " +
                   cite_.inside("salmon2011") + ")."
-            : "Every cell had simulated people of its own, drawn from counter-based random streams" +
-                  cite_("salmon2011") + ".");
+            : "Every cell had its own simulated people, drawn from counter-based random streams" + cite_("salmon2011") +
+                  ".");
   }
 
   [[nodiscard]] std::string variation() const {
@@ -128,10 +129,10 @@ class Paragraph {
     for (std::size_t k = 0; k < run_.domain.num_features(); ++k) {
       features.push_back(run_.domain.feature_names()[k] + " (" + shortest(run_.domain.weights().raw[k]) + ")");
     }
-    say("The robot's policy to be taught was optimal for a reward that is linear in the features " + listed(features) +
+    say("The robot's policy was optimal for a reward that is linear in the features " + listed(features) +
         " of the domain " + run_.domain.id() + ", which has " + counted(run_.domain.num_mdps(), "world") + " with " +
         std::to_string(run_.domain.num_starts()) +
-        " start states; a lesson showed the robot's paths from some of them.");
+        " start states; lessons showed the robot's paths from some of them.");
   }
 
   // What holds for every learner type of the design: said once where it is the same for all, else type by type.
@@ -150,29 +151,27 @@ class Paragraph {
   }
 
   void learners() {
-    say("People's initial abilities were drawn from normal distributions with mean " +
+    say("The learners' initial abilities were drawn from normal distributions with mean " +
         per_type([](const auto& type) { return shortest(type.population.ability_mean); }) + " and standard deviation " +
-        per_type([](const auto& type) { return shortest(type.population.ability_sd); }) +
-        ", again unless they were above " +
-        per_type([](const auto& type) { return shortest(type.population.ability_min); }) + " and below " +
+        per_type([](const auto& type) { return shortest(type.population.ability_sd); }) + ", redrawn until between " +
+        per_type([](const auto& type) { return shortest(type.population.ability_min); }) + " and " +
         per_type([](const auto& type) { return shortest(type.population.ability_max); }) + ".");
-    say("Their gains of ability by confirmation were " +
-        per_type([](const auto& type) { return gain(type.population.confirm_gain); }) + ", those by correction " +
-        per_type([](const auto& type) { return gain(type.population.correct_gain); }) +
-        ", both drawn again unless they were " + per_type([](const auto& type) {
+    say("Ability gains after confirmation were " +
+        per_type([](const auto& type) { return gain(type.population.confirm_gain); }) + ", gains after correction " +
+        per_type([](const auto& type) { return gain(type.population.correct_gain); }) + ", both redrawn until " +
+        per_type([](const auto& type) {
           return "below " + shortest(type.population.gain_max) +
                  (type.population.ordered_gains ? " and the first smaller than the second" : "");
         }) +
         ".");
-    say("The ability rose by the first gain after a period with all answers right and by the second one after any "
-        "other, up to " +
+    say("Ability rose by the first gain after a period in which all answers were right and by the second after any "
+        "other period, up to " +
         per_type([](const auto& type) { return shortest(type.population.ability_max); }) +
-        ", and returned to its initial value with every knowledge component.");
+        ", and returned to its initial value at the start of every knowledge component.");
     const auto scale = per_type([](const auto& type) { return shortest(type.population.ability_scale); });
-    if (scale != "1")
-      say("The log-odds of the ability were multiplied by " + scale + " whenever something was learned.");
+    if (scale != "1") say("The log-odds of ability were multiplied by " + scale + " at every learning step.");
     for (const auto& type : spec_.learner_types) {
-      if (type.prior) say("Learners of the type '" + type.population.label + "' started from a prior of their own.");
+      if (type.prior) say("Learners of the type '" + type.population.label + "' started from their own prior.");
     }
   }
 
@@ -189,38 +188,39 @@ class Paragraph {
       return counted(type.filter.particles, "particle") + " and " + shortest(type.filter.process_noise);
     });
     const auto own = teachers == peoples ? "" : "; those of the learners themselves had " + peoples;
-    say("Beliefs about the reward weights were particle filters on the unit sphere with " +
+    say("Beliefs about the reward weights were represented by particle filters on the unit sphere with " +
         counted(options.filter.particles, "particle") + ", the " +
         (options.likelihood == LikelihoodForm::kDiscontinuous ? "discontinuous" : "continuous") +
-        " likelihood of a half-space, systematic resampling" + cite_("kitagawa1996") +
+        " half-space likelihood, systematic resampling" + cite_("kitagawa1996") +
         " when the effective sample size fell below " + shortest(options.filter.resample_below) +
         " of that number, and a process noise (bandwidth factor) of " + shortest(options.filter.process_noise) + own +
         ".");
-    say("The teacher ascribed the ability " + shortest(options.assumed_ability) +
-        " to everybody and blurred its beliefs by " + shortest(options.response_noise) +
-        " rad after test answers; its common belief followed the largest set of members whose answers were consistent" +
+    say("The teacher assumed an ability of " + shortest(options.assumed_ability) +
+        " for every learner and added noise of " + shortest(options.response_noise) +
+        " rad to its beliefs after test answers; its common belief followed the largest set of members whose answers "
+        "were consistent" +
         (options.reduce_before_update ? ", reduced to the minimal set of their half-spaces." : "."));
   }
 
   void teaching() {
     const auto& options = spec_.teaching;
-    say("Demonstrations were chosen by what they convey" + cite_("brown2019machine") + " to " +
+    say("Demonstrations were chosen by the information that they convey" + cite_("brown2019machine") + " to " +
         counted(options.counterfactuals, "counterfactual learner") + " drawn " +
         (options.sampling == CounterfactualSampling::kSystematic ? "systematically" : "far from each other") +
         " from the belief of the strategy" +
-        (spec_.learner_counterfactuals_self ? "; people learned from them what they convey to weights of their own."
+        (spec_.learner_counterfactuals_self ? "; learners interpreted them with counterfactuals from their own beliefs."
                                             : "."));
-    say("A knowledge component was taught until every member answered all tests right in " +
+    say("A knowledge component was taught until every member answered all tests correctly in " +
         (options.consecutive_correct == 1 ? "a period"
                                           : std::to_string(options.consecutive_correct) + " periods in a row") +
         (options.duplicate_sets == 1 ? ""
                                      : ", with " + std::to_string(options.duplicate_sets) + " sets of tests each") +
-        "; teaching ended after " + counted(options.max_periods, "period") + " at the latest.");
+        "; teaching ended after at most " + counted(options.max_periods, "period") + ".");
     const auto missed = static_cast<std::size_t>(
         std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed; }));
     say(missed == 0 ? "All teams learned every component."
-                    : counted(missed, "team") + " reached this limit and " + (missed == 1 ? "counts" : "count") +
-                          " as censored.");
+                    : counted(missed, "team") + " reached this limit and " + (missed == 1 ? "was" : "were") +
+                          " treated as censored.");
   }
 
   void measures() {
@@ -228,36 +228,65 @@ class Paragraph {
     const bool baseline = std::any_of(design_.series.begin(), design_.series.end(), is_baseline);
     say("Periods are the interaction periods of a team" +
         std::string{baseline ? ", for the baseline summed over its members" : ""} +
-        "; knowledge is the mass of a person's final belief in the behaviour equivalence class of the policy, averaged "
-        "over the team.");
+        "; knowledge is the probability mass that a person's final belief gives to the behaviour equivalence class of "
+        "the policy, averaged over the team.");
   }
 
   void statistics() {
-    say("Means are given with 95 % intervals by Student's t distribution over teams (over people, where people are "
-        "shown), shares of right answers with Wilson's score intervals" +
-        cite_("wilson1927") + ", and completion as one minus the Kaplan-Meier estimate" + cite_("kaplan1958") +
+    say("Means have 95 % confidence intervals from Student's t distribution over teams (over people where people are "
+        "shown), proportions of correct answers have Wilson score intervals" +
+        cite_("wilson1927") + ", and completion is one minus the Kaplan-Meier estimate" + cite_("kaplan1958") +
         " with Greenwood's variance on the log scale.");
     if (analysis_.findings.empty()) return;
-    const AnalysisOptions options;
-    say("Tests were made at the level " + shortest(options.alpha) + ", families of them with the correction of " +
-        (options.correction == Correction::kHolm ? "Holm" : "Bonferroni") + ": " + questions() + ".");
+    say("Tests used the significance level " + shortest(AnalysisOptions{}.alpha) + ".");
+    for (const auto& topic : topics()) say(tested(topic));
   }
 
-  // The findings' titles; those that differ in what is measured only ("...: periods") are one.
-  [[nodiscard]] std::string questions() const {
-    std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  // Findings that differ in the response only ("...: periods", "...: knowledge").
+  struct Topic {
+    std::string title;
+    std::vector<std::pair<std::string, const Finding*>> findings;  // by response, "" where the title names none
+  };
+  [[nodiscard]] std::vector<Topic> topics() const {
+    std::vector<Topic> topics;
     for (const auto& finding : analysis_.findings) {
+      if (finding.methods.empty()) continue;
       const auto colon = finding.title.rfind(": ");
       auto title = finding.title.substr(0, colon);
       title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
-      if (groups.empty() || groups.back().first != title) groups.push_back({title, {}});
-      if (colon != std::string::npos) groups.back().second.push_back(finding.title.substr(colon + 2));
+      if (topics.empty() || topics.back().title != title) topics.push_back({title, {}});
+      topics.back().findings.emplace_back(colon == std::string::npos ? "" : finding.title.substr(colon + 2), &finding);
     }
-    std::string text;
-    for (const auto& [title, quantities] : groups) {
-      text += (text.empty() ? "" : "; ") + title + (quantities.empty() ? "" : " (" + listed(quantities) + ")");
+    return topics;
+  }
+
+  // "Effects of strategy and composition (periods and knowledge): ..., ... and ...; for periods also ...".
+  std::string tested(const Topic& topic) {
+    const auto has = [](const Finding& finding, const Method& method) {
+      return std::any_of(finding.methods.begin(), finding.methods.end(),
+                         [&](const auto& one) { return one.text == method.text; });
+    };
+    const auto in_all = [&](const Method& method) {
+      return std::all_of(topic.findings.begin(), topic.findings.end(),
+                         [&](const auto& one) { return has(*one.second, method); });
+    };
+    std::vector<std::string> responses, common;
+    for (const auto& [response, finding] : topic.findings) {
+      if (!response.empty()) responses.push_back(response);
     }
-    return text;
+    for (const auto& method : topic.findings.front().second->methods) {
+      if (in_all(method)) common.push_back(method.text + cite_(method.source));
+    }
+    auto text = topic.title + (responses.empty() ? "" : " (" + listed(responses) + ")") + ": " + listed(common);
+    for (const auto& [response, finding] : topic.findings) {
+      std::vector<std::string> own;
+      for (const auto& method : finding->methods) {
+        if (!in_all(method)) own.push_back(method.text + cite_(method.source));
+      }
+      if (!own.empty()) text += "; for " + response + (common.empty() ? " " : " also ") + listed(own);
+    }
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text + ".";
   }
 
   const RunFiles& run_;

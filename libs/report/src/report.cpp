@@ -8,6 +8,7 @@
 #include "methods.hpp"
 #include "parameters.hpp"
 #include "people_tables.hpp"
+#include "plain_summary.hpp"
 #include "team_tables.hpp"
 
 namespace kith {
@@ -68,7 +69,7 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
   return {{"strategies", std::move(strategies)}, {"types", std::move(types)}, {"columns", columns}};
 }
 
-Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData& data) {
+Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData& data, const Analysis& analysis) {
   Json strategies = Json::array(), factors = Json::array();
   for (const auto& series : design.series) strategies.push_back(series.code);
   for (const auto& factor : run.spec().factors) factors.push_back(factor.key);
@@ -82,6 +83,7 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
           {"strategies", std::move(strategies)},
           {"compositions", run.spec().compositions},
           {"factors", std::move(factors)},
+          {"summary", plain_summary(run, design, data, analysis)},
           {"headlines", headlines(design, data)}};
 }
 
@@ -90,7 +92,7 @@ std::optional<Json> timings_table(const RunFiles& run, std::vector<std::string>&
   const auto file = run.folder / "timings.csv";
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
-    notes.emplace_back("timings.csv is missing, so it is not known how long the run took.");
+    notes.emplace_back("timings.csv is missing, so the duration of the run is unknown.");
     return std::nullopt;
   }
   const std::vector<Column> columns{{"phase", ColumnType::kText, "", "", true},
@@ -137,36 +139,37 @@ Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& d
 void note_data(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points,
                std::vector<std::string>& notes) {
   for (const auto& what : run.published.missing())
-    notes.push_back("The run is not complete, and every figure is about the teams that are there: " + what + ".");
+    notes.push_back("The run is incomplete, and all results describe only the teams that are there: " + what + ".");
   const auto censored = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed; });
   if (censored > 0) {
     notes.push_back(std::to_string(censored) + " of " + std::to_string(data.teams.size()) +
                     " teams reached the limit of " + std::to_string(run.spec().teaching.max_periods) +
-                    " periods before everything was learned. They count as censored in the completion curves and with "
-                    "the periods they had in all means.");
+                    " periods before they had learned everything. The completion curves treat them as censored; means "
+                    "include them with the periods they had.");
   }
   if (!data.has_periods) {
     notes.emplace_back(
-        "Only teams were recorded (record.level = \"team\"), so that there are no figures over periods. Run the study "
-        "with record.level = \"period\" to get them.");
+        "Only teams were recorded (record.level = \"team\"), so there are no figures over periods. To get them, run "
+        "the "
+        "study with record.level = \"period\".");
   }
   const auto most =
       std::max_element(design.cells.begin(), design.cells.end(), [](auto& a, auto& b) { return a.teams < b.teams; });
   if (most->teams > points) {
-    notes.push_back("Single teams are shown for the first " + std::to_string(points) +
-                    " replicates of every cell; means, intervals and tests are of all teams.");
+    notes.push_back("Individual teams are shown for the first " + std::to_string(points) +
+                    " replicates of every cell; means, intervals and tests use all teams.");
   }
   if (!run.spec().factors.empty()) {
     notes.emplace_back(
-        "The study varies keys: every strategy appears once per setting. Headlines are over all settings.");
+        "The study varies parameters: every strategy appears once per setting. The summary is over all settings.");
   }
 }
 
 // A design in which nothing can be compared has no findings, and that is no error.
 Analysis analyse(const RunFiles& run, std::vector<std::string>& notes) try {
   auto analysis = analyze_run(run.folder, {});
-  // The first note is the size of the design, which the overview says.
-  for (std::size_t i = 1; i < analysis.notes.size(); ++i) notes.push_back("Findings: " + analysis.notes[i] + ".");
+  // The notes of the analysis are about the size of the design and missing teams, which the report says itself.
+  for (const auto& what : analysis.not_analysed) notes.push_back("Not analysed: " + what + ".");
   return analysis;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::kInfeasible) throw;
@@ -218,7 +221,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
                 {"version", manifest_text(run, "version")},
                 {"created", manifest_text(run, "stopped")},
                 {"labels", labels_of(run, design)},
-                {"overview", overview_of(run, design, data)},
+                {"overview", overview_of(run, design, data, analysis)},
                 {"notes", notes},
                 {"tables", std::move(tables)},
                 {"findings", Json::parse(findings_json(analysis))},

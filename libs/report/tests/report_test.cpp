@@ -110,6 +110,17 @@ TEST_F(InventedReport, CountsRightAnswers) {
   EXPECT_NEAR(row.at(5).get<double>(), 0.954413, 1e-6);
 }
 
+TEST_F(InventedReport, BeginsWithPlainSentences) {
+  const auto& summary = document_->at("overview").at("summary");
+  ASSERT_EQ(summary.size(), 2u);  // one group strategy and one composition: no differences to speak of
+  EXPECT_EQ(summary.at(0),
+            "The study simulated 4 teams of 2 people who learned how a robot decides by watching what it does, and "
+            "compared 2 ways of teaching them.");
+  EXPECT_EQ(summary.at(1),
+            "Teams taught together needed 5.0 teaching periods on average, teams whose members were taught one after "
+            "the other 4.0; their knowledge at the end was 0.60 and 0.30 (0: nothing, 1: everything).");
+}
+
 TEST_F(InventedReport, HasHeadlinesOfGroupsAndBaseline) {
   const auto& headlines = document_->at("overview").at("headlines");
   ASSERT_EQ(headlines.size(), 4u);
@@ -177,10 +188,16 @@ TEST_F(RealReport, GivesEveryParameterAMeaning) {
 
 TEST_F(RealReport, WritesAMethodsParagraphWithItsReferences) {
   const auto paragraph = document_->at("methods").at("paragraph").get<std::string>();
-  for (const auto* fact : {"4 teams of 2 learners", "kith 1.2.3 (abc)", "seed 1.",
-                           "0.703 (novice) and 0.809 (proficient)", "60 particles", "(Jayaraman et al., 2024)",
-                           "common random numbers; Salmon et al., 2011)", "0.05 rad", "50 periods at the latest"}) {
+  for (const auto* fact :
+       {"4 teams of 2 learners", "kith 1.2.3 (abc)", "seed 1.", "0.703 (novice) and 0.809 (proficient)", "60 particles",
+        "(Jayaraman et al., 2024)", "common random numbers; Salmon et al., 2011)", "0.05 rad", "at most 50 periods",
+        "Taught together or alone (periods and knowledge): Welch's t test, Hedges' g (Hedges, 1981)",
+        "a paired t test of the same people"}) {
     EXPECT_THAT(paragraph, HasSubstr(fact));
+  }
+  // Nothing is named that was not done: there is one group strategy and one composition.
+  for (const auto* absent : {"Bonferroni", "Tukey", "log-rank", "Poisson", "analysis of variance"}) {
+    EXPECT_THAT(paragraph, Not(HasSubstr(absent)));
   }
   for (const auto& reference : document_->at("methods").at("references")) {
     EXPECT_THAT(reference.at("bibtex").get<std::string>(), HasSubstr(reference.at("key").get<std::string>()));
@@ -242,6 +259,26 @@ TEST(Report, TellsSettingsOfVariedKeysApart) {
   EXPECT_EQ(document.at("overview").at("factors"), Json::parse(R"(["stop.max_periods"])"));
   // One team a cell has no spread.
   EXPECT_TRUE(document.at("tables").at("cells").at("rows").at(0).at(5).is_null());
+}
+
+TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {
+  const Scratch scratch;
+  run_tiny_study(scratch / "run",
+                 {"design.strategies=[\"common\", \"joint\"]", "design.compositions=[\"NN\", \"PP\"]"});
+  const auto document = Json::parse(build_report(scratch / "run"));
+  const auto& summary = document.at("overview").at("summary");
+  ASSERT_EQ(summary.size(), 3u);
+  const auto text = summary.at(2).get<std::string>();
+  EXPECT_THAT(text, ::testing::StartsWith("Which of the 2 strategies for teaching a team together was used "));
+  EXPECT_THAT(text, HasSubstr("; who was in a team (2 compositions) "));
+  const auto p_of = [&](const std::string& id) {
+    for (const auto& finding : document.at("findings")) {
+      if (finding.at("id") == id) return finding.at("tables").at(0).at("rows").at(0).at("p_value").get<double>();
+    }
+    throw std::out_of_range{id};
+  };
+  const bool none = p_of("periods") >= 0.05 && p_of("knowledge") >= 0.05;
+  EXPECT_EQ(text.find("was used made no detectable difference") != std::string::npos, none) << text;
 }
 
 TEST(Report, OfOneCellHasNothingToTest) {

@@ -39,6 +39,12 @@ struct ResultTable {
 /// "p = 0.032", "p < 0.001".
 [[nodiscard]] std::string p_text(double p);
 
+/// A procedure that an analysis used, as a methods section names it.
+struct Method {
+  std::string text{};    ///< "two-way analysis of variance (type II sums of squares)"
+  std::string source{};  ///< Its key in docs/references.bib; may be empty.
+};
+
 /// The answer to one question about a study.
 struct Finding {
   std::string id{};  ///< "periods", "knowledge-within-composition", ...
@@ -48,19 +54,21 @@ struct Finding {
   std::string sentence{};               ///< What was tested, on what, and what it means.
   std::vector<std::string> warnings{};  ///< Assumptions that do not hold, and what could not be estimated and why.
   std::vector<ResultTable> tables{};
+  std::vector<Method> methods{};  ///< Every procedure whose results the tables hold.
 };
 
 /// All that was found.
 struct Analysis {
   std::string subject;             ///< What was analysed: a folder or a file.
   std::vector<std::string> notes;  ///< What holds for all findings.
-  std::vector<Finding> findings;
+  std::vector<Finding> findings{};
+  std::vector<std::string> not_analysed{};  ///< What the design does not allow, and why.
 };
 
-/// The findings as a JSON array, on one line: {"id", "title", "question", "model", "sentence", "warnings", "tables"}
-/// each. A table is {"caption", "columns": [{"field", "name", "kind"}], "rows": [{FIELD: value}]}; kinds are "text",
-/// "count", "number", "fraction" and "p". Values have all digits; null is what cannot be estimated, and a field that
-/// does not apply to a row (the F of residuals) is absent.
+/// The findings as a JSON array, on one line: {"id", "title", "question", "model", "sentence", "warnings", "tables",
+/// "methods"} each. A table is {"caption", "columns": [{"field", "name", "kind"}], "rows": [{FIELD: value}]}; kinds are
+/// "text", "count", "number", "fraction" and "p". Values have all digits; null is what cannot be estimated, and a field
+/// that does not apply to a row (the F of residuals) is absent.
 [[nodiscard]] std::string findings_json(const Analysis& analysis);
 
 }  // namespace kith
