@@ -81,8 +81,8 @@ TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
        "7 cells, the header 8", "commas"},
       {rows, "a1,right,b1,1,0,0,1", "a1,right,b1,1,0,0,1\nfirm ice,a1,right,b1,1,0,0,1",
        "icy_crossing_transitions.csv:4:10: error[E0246]", "are there twice", "sum of the probabilities"},
-      {rows, "water,home", "wtaer,home", "icy_crossing_transitions.csv:1:35: error[E0503]",
-       "nobody knows a column \"wtaer\"", "did you mean water?"},
+      {rows, "water,home", "wtaer,home", "icy_crossing_transitions.csv:1:35: error[E0503]", "unknown column \"wtaer\"",
+       "did you mean water?"},
       {rows, "firm ice,a1,down,a2", "firm ice,f1,down,a2", "icy_crossing_transitions.csv:2:10: error[E0254]",
        "'f1' is terminal", "remove its transitions"},
   };

@@ -48,7 +48,7 @@ std::string together_or_alone(const ReportDesign& design, const RunData& data) {
   Outcome together, alone;
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
     const auto& series = design.series[design.cells[design.cell_of_team[i]].series];
-    auto& outcome = series.strategy == Strategy::kBaseline ? alone : together;
+    auto& outcome = series.strategy == kBaseline ? alone : together;
     outcome.periods.push_back(data.teams[i].periods);
     outcome.knowledge.push_back(data.teams[i].knowledge);
   }
@@ -97,9 +97,9 @@ std::string effect_of(const Analysis& analysis, const std::string& term) {
 }
 
 std::string differences(const RunFiles& run, const ReportDesign& design, const Analysis& analysis) {
-  std::set<Strategy> strategies;
+  std::set<std::string> strategies;
   for (const auto& series : design.series) {
-    if (series.strategy != Strategy::kBaseline) strategies.insert(series.strategy);
+    if (series.strategy != kBaseline) strategies.insert(series.strategy);
   }
   const auto strategy = effect_of(analysis, "strategy"), composition = effect_of(analysis, "composition");
   std::string text;

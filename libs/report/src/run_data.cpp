@@ -50,7 +50,7 @@ class DataReader {
     std::size_t last = kNoTeam;
     const auto rows = read_table("teams.csv", {"completed", "periods", "knowledge", "area_sr"}, [&](const auto& row) {
       if (row.team() == last) {
-        row.refuse("E0606", "team " + std::to_string(last + 1) + " is there twice", "remove the second row");
+        row.refuse("E0606", "team " + std::to_string(last + 1) + " occurs twice", "remove the second row");
       }
       last = row.team();
       const auto most = max_period(row) * row.address().composition.size();

@@ -110,7 +110,7 @@ TEST_F(ReportErrors, NameTeamsThatAreMissingOrTwice) {
   expect("E0606 teams.csv:0", "the table has 3 teams, the study 4");
   std::ofstream{table("teams.csv")} << text + text.substr(last);
   testing::reseal(run_);
-  expect("E0606 teams.csv:6", "team 4 is there twice");
+  expect("E0606 teams.csv:6", "team 4 occurs twice");
 }
 
 TEST_F(ReportErrors, NameTheRowOfATeamThatTheStudyDoesNotHave) {

@@ -132,13 +132,13 @@ class Reader {
     });
     if (!has_header_ && diagnostics_.empty()) {
       diagnostics_.push_back({.id = "E0501",
-                              .message = "the table is empty; it has not even a header",
+                              .message = "the table is empty: it has no header",
                               .file = file_,
                               .hint = "begin with a line of column names, such as " + names()});
     }
     if (diagnostics_.size() >= kMaxDiagnostics) {
       diagnostics_.resize(kMaxDiagnostics);
-      diagnostics_.push_back({.id = "E0511", .message = "too many problems; the rest was not read", .file = file_});
+      diagnostics_.push_back({.id = "E0511", .message = "too many problems; the rest was not checked", .file = file_});
     }
     return std::move(diagnostics_);
   }
@@ -167,7 +167,7 @@ class Reader {
   bool report_malformed(const detail::CsvRecord& record) {
     if (!record.malformed) return false;
     report(record, 0,
-           {"E0508", "the quotes of this row do not match",
+           {"E0508", "unbalanced quotes in this row",
             "put the whole cell between quotes and write a quote inside it twice"});
     return true;
   }
@@ -188,7 +188,7 @@ class Reader {
       }
       auto& source = source_[column->second];
       if (source != record.fields.size()) {
-        report(record, f, {"E0504", "column " + in_quotes(name) + " is there twice", "remove one of them"});
+        report(record, f, {"E0504", "column " + in_quotes(name) + " occurs twice", "remove one of them"});
       }
       source = f;
     }
@@ -223,7 +223,7 @@ class Reader {
     for (const Column& column : columns_) known.push_back(column.name);
     const std::string nearest = nearest_word(name, known);
     report(record, field,
-           {"E0503", "nobody knows a column " + in_quotes(name),
+           {"E0503", "unknown column " + in_quotes(name),
             nearest.empty() ? "remove it; the columns are " + names() : "did you mean " + nearest + "?"});
   }
 
@@ -302,7 +302,7 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
   detail::for_each_record(text, [&](const detail::CsvRecord& record) {
     found = true;
     if (record.malformed) {
-      report("E0508", "the quotes of the header do not match",
+      report("E0508", "unbalanced quotes in the header",
              "put the whole name between quotes and write a quote inside it twice");
     }
     for (const auto& field : record.fields) {
@@ -313,13 +313,13 @@ std::vector<Column> read_csv_header(std::string_view text, const std::string& fi
       } else if (!is_text(name)) {
         report("E0509", "the name of a column is not UTF-8 text", "save the file as UTF-8");
       } else if (!names.insert(name).second) {
-        report("E0504", "column " + in_quotes(name) + " is there twice", "remove one of them");
+        report("E0504", "column " + in_quotes(name) + " occurs twice", "remove one of them");
       }
       columns.push_back({.name = name});
     }
     return false;
   });
-  if (!found) report("E0501", "the table is empty; it has not even a header", "begin with a line of column names");
+  if (!found) report("E0501", "the table is empty: it has no header", "begin with a line of column names");
   if (!diagnostics.empty()) throw Error{std::move(diagnostics)};
   return columns;
 }

@@ -15,7 +15,7 @@ function byComponent(study: Study): Figure[] {
       id: 'area-component',
       title,
       reading:
-        'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; every component has its own scale.',
+        'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; components have different scales.',
       gist: `${title}. Mean log area: ${range(rows, 'mean_log_area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
       table,
       spec: (width) =>

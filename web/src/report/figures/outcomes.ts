@@ -20,7 +20,7 @@ const kOutcomes: Outcome[] = [
     title: 'Periods of teaching by strategy and composition',
     xTitle: 'Periods',
     reading:
-      'Further left is faster; large marks are means with 95\u00a0% intervals, small dots single teams. The baseline counts the sum over members.',
+      'Further left is faster. Large marks are means with 95\u00a0% intervals, small dots are individual teams. For the baseline, periods are summed over members.',
   },
   {
     id: 'knowledge',
@@ -28,7 +28,7 @@ const kOutcomes: Outcome[] = [
     title: 'Knowledge at the end by strategy and composition',
     xTitle: 'Knowledge',
     reading:
-      'Further right is better; knowledge is the share of belief within the policy\u2019s region (BEC). Large marks are means with 95\u00a0% intervals, small dots single teams.',
+      'Further right is better. Knowledge is the share of belief in the policy\u2019s region (BEC). Large marks are means with 95\u00a0% intervals, small dots are individual teams.',
   },
 ];
 

@@ -36,9 +36,9 @@ export function completionFigures(study: Study): Figure[] {
       table,
       {
         id: 'completion',
-        title: 'Teams that have learned everything, over periods',
+        title: 'Share of teams that have learned everything',
         reading:
-          'Steeper and further left is faster; one minus the Kaplan-Meier estimate with 95\u00a0% bands. The baseline counts the sum over members.',
+          'Curves that are steeper and further left are faster. One minus the Kaplan-Meier estimate with 95\u00a0% bands. For the baseline, periods are summed over members.',
       },
       {
         x: 'period',
@@ -73,7 +73,7 @@ export function knowledgeFigures(study: Study): Figure[] {
         id: 'knowledge-periods',
         title: 'Knowledge over periods by type of learner',
         reading:
-          'Share of people\u2019s own belief within the policy\u2019s region (BEC), mean with 95\u00a0% bands; a line ends where too few people are still taught.',
+          'Share of a person\u2019s belief in the policy\u2019s region (BEC), means with 95\u00a0% bands. Lines end where too few people are still being taught.',
       },
       { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false },
       byType(study),
