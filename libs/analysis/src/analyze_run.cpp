@@ -13,10 +13,11 @@ using Response = std::pair<std::string, const std::vector<double>*>;
 std::string design_note(const RunTeams& teams) {
   const auto cut_off = std::count(teams.completed.begin(), teams.completed.end(), false);
   std::string text =
-      counted(teams.size(), "team") + ": " +
+      number_and_noun(teams.size(), "team") + ": " +
       (teams.strategy.levels.size() == 1 ? "1 strategy" : fmt::format("{} strategies", teams.strategy.levels.size())) +
-      " x " + counted(teams.composition.levels.size(), "composition");
-  for (const auto& key : teams.varied) text += " x " + counted(key.levels.size(), "setting") + " of " + key.name;
+      " x " + number_and_noun(teams.composition.levels.size(), "composition");
+  for (const auto& key : teams.varied)
+    text += " x " + number_and_noun(key.levels.size(), "setting") + " of " + key.name;
   if (cut_off > 0) {
     text += fmt::format("; {} reached the maximum number of periods unfinished and {} counted as {} stood", cut_off,
                         cut_off == 1 ? "is" : "are", cut_off == 1 ? "it" : "they");

@@ -70,7 +70,7 @@ Analysis analyze_table(const Dataset& data, const ModelQuestion& question, const
     throw Error{{Diagnostic{.id = "E0905",
                             .message = "no row has a value in every column of the model",
                             .file = data.file(),
-                            .hint = "the model uses the columns " + joined(columns),
+                            .hint = "the model uses the columns " + with_and(columns),
                             .infeasible = true}}};
   }
   ModelData model{.response = formula.response, .terms = formula.terms};

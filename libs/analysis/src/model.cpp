@@ -74,14 +74,14 @@ void add_method(Finding& finding, Method method) {
   if (std::none_of(finding.methods.begin(), finding.methods.end(), same)) finding.methods.push_back(std::move(method));
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string with_and(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
   return text;
 }
 
-std::string counted(std::size_t n, const std::string& noun) {
+std::string number_and_noun(std::size_t n, const std::string& noun) {
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 

@@ -63,9 +63,9 @@ template <typename T>
 // Adds a method unless the finding has it.
 void add_method(Finding& finding, Method method);
 // "a", "a and b", "a, b and c"
-[[nodiscard]] std::string joined(const std::vector<std::string>& words);
+[[nodiscard]] std::string with_and(const std::vector<std::string>& words);
 // "1 team", "4 teams"
-[[nodiscard]] std::string counted(std::size_t n, const std::string& noun);
+[[nodiscard]] std::string number_and_noun(std::size_t n, const std::string& noun);
 
 // "F(3, 224) = 0.20, p = 0.898"
 [[nodiscard]] std::string test_text(const TestResult& test);

@@ -56,7 +56,7 @@ std::string size_text(double eta_squared) {
 std::string joined_names(const ModelData& data, std::size_t t) {
   std::vector<std::string> names;
   for (const auto factor : data.terms[t]) names.push_back(data.factors[factor].name);
-  return joined(names);
+  return with_and(names);
 }
 
 // At the start of a sentence. Names of columns that are no words stay as they are.
@@ -98,7 +98,7 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
   }
   if (result.table.empty_cells > 0) {
     warnings.push_back(fmt::format("{} of levels {} no {}, so type II and type III tests have different hypotheses",
-                                   counted(result.table.empty_cells, "combination"),
+                                   number_and_noun(result.table.empty_cells, "combination"),
                                    result.table.empty_cells == 1 ? "has" : "have", data.observations));
   } else if (least != most) {
     warnings.push_back(fmt::format("the design is unbalanced (cells have {} to {} {}){}", least, most,
@@ -110,7 +110,7 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
   if (least < kFewPerCell)
     warnings.push_back(
         fmt::format("the smallest cell has {}, so F tests depend on normal residuals; permutation tests do not",
-                    counted(least, data.observations.substr(0, data.observations.size() - 1))));
+                    number_and_noun(least, data.observations.substr(0, data.observations.size() - 1))));
   const auto spread = brown_forsythe(data.values, cells);
   if (spread && spread->p < alpha && largest > kUnequalSpread * smallest) {
     warnings.push_back(fmt::format(

@@ -20,7 +20,7 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
   auto finding = analyze_model(model, options, stream_of(options, response));
   std::vector<std::string> names;
   for (const auto& factor : model.factors) names.push_back(factor.name);
-  finding.title = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + joined(names) + ": " + response;
+  finding.title = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names) + ": " + response;
   finding.question = "Do " + response + " depend on how a group is taught and who is in it?";
   if (response == "knowledge") finding.question.replace(0, 2, "Does");
   return finding;
@@ -86,10 +86,11 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
                       : found.empty() ? "no effect of strategy was found in any of them."
                                       : "strategy has an effect in " + found + ".");
   if (!tested.empty()) {
-    add_method(finding,
-               {"one-way analyses of variance" +
-                (is_corrected ? fmt::format(" with {} correction for {}", name, counted(tested.size(), "composition"))
-                              : std::string{})});
+    add_method(
+        finding,
+        {"one-way analyses of variance" +
+         (is_corrected ? fmt::format(" with {} correction for {}", name, number_and_noun(tested.size(), "composition"))
+                       : std::string{})});
   }
   if (any_ranks) add_method(finding, {"Kruskal-Wallis tests (uncorrected)"});
   finding.tables.push_back(std::move(table));

@@ -154,10 +154,10 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
   }
   finding.sentence = fmt::format(
       "Every strategy taught the same {} of simulated people, so strategies are compared within groups: {}.",
-      counted(blocks.values.size(), "group"),
+      number_and_noun(blocks.values.size(), "group"),
       found.empty() ? "no difference between two strategies was found" : "these differ: " + found);
   if (tested > 0)
-    add_method(finding, {fmt::format("paired t tests with Holm correction for {}", counted(tested, "pair"))});
+    add_method(finding, {fmt::format("paired t tests with Holm correction for {}", number_and_noun(tested, "pair"))});
   finding.tables.push_back(std::move(table));
   add_blocked(blocks, finding);
   return finding;
@@ -223,7 +223,7 @@ void add_same_people(const RunTeams& teams, const std::vector<double>& values, c
                                     test->test.p < options.alpha
                                         ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
                                         : "no difference was found",
-                                    counted(together.size(), "group"), p_text(test->test.p));
+                                    number_and_noun(together.size(), "group"), p_text(test->test.p));
     add_method(finding, {"a paired t test of the same people"});
   } else {
     finding.warnings.push_back("no paired test of the same people: " + test.reason());
@@ -261,10 +261,11 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
                      {}};
   auto& row = table.rows.emplace_back(table.columns.size());
   row[0] = text_cell("together - alone");
-  finding.sentence = fmt::format(
-      "Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other", response,
-      response == "periods" ? "were" : "was", formatted(mean(group), Kind::kNumber), counted(group.size(), "group"),
-      formatted(mean(alone), Kind::kNumber), counted(alone.size(), "group"));
+  finding.sentence =
+      fmt::format("Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other",
+                  response, response == "periods" ? "were" : "was", formatted(mean(group), Kind::kNumber),
+                  number_and_noun(group.size(), "group"), formatted(mean(alone), Kind::kNumber),
+                  number_and_noun(alone.size(), "group"));
   if (test) {
     row[1] = test->difference;
     row[2] = test->low;

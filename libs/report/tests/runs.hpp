@@ -83,8 +83,12 @@ inline std::vector<TeamRecord> invented_teams() {
     const auto& known = team.period_records;
     const bool goes_on = !known.empty() && known.back().member == member;
     const auto period = goes_on ? known.back().period + 1 : 1;
-    team.period_records.push_back(
-        {.period = period, .member = member, .component = component, .source = "common", .area_sr = area, .p_bec = {}});
+    team.period_records.push_back({.period = period,
+                                   .member = member,
+                                   .component = component,
+                                   .source = "common",
+                                   .area_sr = area,
+                                   .p_bec = {0.5, 0.5}});
   };
   // The baseline: member 1 has two periods of component 1, member 2 one of it.
   teach(teams[0], 1, 1, 9.0);
