@@ -229,7 +229,7 @@ class Paragraph {
     });
     const auto own =
         believers.empty() || teachers == peoples ? "" : "; those of the learners themselves had " + peoples;
-    say("Beliefs about the reward weights were particle filters on the unit sphere with " +
+    say("Beliefs about the reward weights were represented by particle filters on the unit sphere with " +
         counted(options.filter.particles, "particle") + ", the " +
         (options.likelihood == LikelihoodForm::kDiscontinuous ? "discontinuous" : "continuous") +
         " half-space likelihood, systematic resampling" + cite_("kitagawa1996") +
