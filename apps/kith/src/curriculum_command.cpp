@@ -81,8 +81,8 @@ class CurriculumText {
   void test(std::size_t j, const CurriculumTest& test) {
     const auto id = atlas_.id(test.demo);
     const auto path = atlas_.trajectory(test.demo);
-    out_ += fmt::format("\n   Test {}: world {}, {} (about {:.0f} % would answer correctly before this lesson)\n",
-                        j + 1, id.mdp.value(), name_of(test.difficulty), 100.0 * test.share_right);
+    out_ += fmt::format("\n   Test {}: world {}, {} (before it about {:.0f} % would answer correctly)\n", j + 1,
+                        id.mdp.value(), name_of(test.difficulty), 100.0 * test.share_right);
     out_ += start_and_path(domain_, id, path, 5);
     line("answer: " + with_chance(id.mdp, path), 5);
     for (const auto& half_space : test.covers) line("shows that " + in_words(domain_, half_space), 5);

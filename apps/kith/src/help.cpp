@@ -115,7 +115,7 @@ std::string help_text(const std::vector<CommandDescription>& commands, bool full
       "  kith teach item-delivery --group NNP --strategy joint\n";
   if (full) {
     text +=
-        "\nEvery option can also be set in the environment, `--threads 2` as KITH_THREADS=2.\n"
+        "\nOptions can be set in the environment too: KITH_THREADS=2 is `--threads 2`.\n"
         "The command line takes precedence over the environment, and the environment\n"
         "over the study file. NO_COLOR turns colours off.\n\n";
     text += kExitCodes;

@@ -75,7 +75,7 @@ void add_validate(CLI::App& app, Options& options) {
 }
 
 void add_inspect(CLI::App& app, Options& options) {
-  auto& command = *app.add_subcommand("inspect", "Show a domain: map, reward, policy, and what can be taught about it");
+  auto& command = *app.add_subcommand("inspect", "Show a domain: map, reward, policy, and what can be taught");
   command.add_option("domain", options.inspect.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
   takes_word(*command.add_option("--show", options.inspect.show, "What to show, separated by commas")
                   ->delimiter(',')
@@ -121,7 +121,7 @@ void add_ask(CLI::App& app, Options& options) {
 
 void add_find(CLI::App& app, Options& options) {
   auto& find = options.find;
-  auto& command = *app.add_subcommand("find", "Find, or make, a world that teaches or tests exactly one constraint");
+  auto& command = *app.add_subcommand("find", "Find or make a world that teaches or tests exactly one constraint");
   command.add_option("domain", find.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
   command
       .add_option("constraint", find.constraint,

@@ -68,9 +68,9 @@ TEST(Integrity, OfAMergeWithADamagedRecord) {
   const auto manifest = Json::parse(text_of(scratch / "merged/manifest.json"));
   EXPECT_EQ(manifest.at("exit_reason"), "partial");
   EXPECT_EQ(manifest.at("teams"), 15);
-  EXPECT_THAT(run_kith({"analyze", scratch / "merged", "--brief"}).out, HasSubstr("the run is not complete"));
+  EXPECT_THAT(run_kith({"analyze", scratch / "merged", "--brief"}).out, HasSubstr("the run is incomplete"));
   must_run({"report", scratch / "merged", "-o", scratch / "report.html"});
-  EXPECT_THAT(text_of(scratch / "report.html"), HasSubstr("The run is not complete"));
+  EXPECT_THAT(text_of(scratch / "report.html"), HasSubstr("The run is incomplete"));
 
   must_run(small_study(scratch / "2") + Words{"--shard", "2/2"});  // teaches that team again
   must_run(merge);

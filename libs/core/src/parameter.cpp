@@ -13,6 +13,8 @@ namespace {
 
 std::string number(double value) {
   if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+  constexpr double kWhole = 1e15;  // up to here plain digits are exact, and easier to read
+  if (std::abs(value) < kWhole && value == std::trunc(value)) return std::to_string(static_cast<std::int64_t>(value));
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};

@@ -1,6 +1,9 @@
 #include "kith/present/legend.hpp"
+#include "kith/present/wrapped.hpp"
 
 #include <fmt/format.h>
+#include <string>
+#include <vector>
 
 #include <algorithm>
 
@@ -59,7 +62,8 @@ Picture bare_picture(const Domain& domain, DemoId id) { return domain.draw_bare(
 std::string legend(const Domain& domain, std::size_t indent) {
   if (!domain.has_map()) return "";
   const auto symbols = domain.legend();
-  std::string text;
+  const std::string blank(indent, ' ');
+  std::vector<std::string> entries;
   for (const std::size_t number : {domain.num_mdps() - 1, std::size_t{0}}) {
     const MdpIndex m{number};
     const auto picture = domain.draw(m, std::nullopt);
@@ -70,11 +74,18 @@ std::string legend(const Domain& domain, std::size_t indent) {
                             ? "first start"
                             : name_of(domain, what, symbols[domain.legend_index(cell)]);
       const auto entry = fmt::format("{} {}", glyph_at(picture, cell), name);
-      if (("   " + text + "   ").find("   " + entry + "   ") != std::string::npos) return;
-      text += (text.empty() ? "" : "   ") + entry;
+      if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
     });
   }
-  const std::string blank(indent, ' ');
+  std::string text, line;
+  for (const auto& entry : entries) {
+    if (!line.empty() && indent + line.size() + 3 + entry.size() > kTextWidth) {
+      text += line + "\n" + blank;
+      line.clear();
+    }
+    line += (line.empty() ? "" : "   ") + entry;
+  }
+  text += line;
   const std::string item = domain.item_names().empty() ? "" : "   * item elsewhere than at first";
   return blank + text + "\n" + blank + "@ robot" + item + "   ^ v < > moves   o end of a leg\n";
 }

@@ -88,8 +88,16 @@ std::map<std::string, std::string> tables_of(const Study& study, const std::vect
   return tables;
 }
 
+// With the types of the team's members.
+StudySpec spec_of_team() {
+  StudySpec spec;
+  spec.learner_types.resize(2);
+  spec.learner_types[1].letter = 'P';
+  return spec;
+}
+
 TEST(StudyTables, MatchTheHandWrittenOnes) {
-  const auto tables = tables_of({{StudySpec{}}}, {team()});
+  const auto tables = tables_of({{spec_of_team()}}, {team()});
   EXPECT_EQ(tables.at("teams.csv"),
             "strategy,composition,replicate,team,seed_address,status,completed,periods,demonstrations,tests,knowledge,"
             "knowledge_min,kcs_learned,kcs_skipped,area_sr\n"
@@ -117,7 +125,7 @@ TEST(StudyTables, MatchTheHandWrittenOnes) {
 }
 
 TEST(StudyTables, HaveVariedKeysRightBehindTheComposition) {
-  StudySpec spec;
+  auto spec = spec_of_team();
   spec.factors = {{"stop.max_periods", "3"}, {"teacher.counterfactual_sampling", "spread"}};
   for (const auto& [file, text] : tables_of({{spec}}, {team()})) {
     EXPECT_THAT(text,

@@ -10,9 +10,9 @@ namespace kith {
 
 /// One belief in figures.
 struct BeliefFigures {
-  std::string whose;      ///< "member 1", "common", "joint"
-  double p_bec = 0.0;     ///< Mass in the behaviour equivalence class of the policy.
-  double p_taught = 0.0;  ///< Mass in the region of what the lesson teaches.
+  std::string whose;            ///< "member 1", "common", "joint"
+  double p_bec = 0.0;           ///< Mass in the behaviour equivalence class of the policy.
+  double p_taught = 0.0;        ///< Mass in the region of what the lesson teaches.
   std::optional<double> ess{};  ///< Effective sample size; none if there is no particle belief.
 };
 
