@@ -92,12 +92,15 @@ const char* name_of(ErrorKind kind) {
   return "internal";
 }
 
+// "E1201" is explained on a page, "usage" is for scripts.
+bool is_documented(std::string_view id) { return id.size() == 5 && (id[0] == 'E' || id[0] == 'W'); }
+
 // Without a file or a line, the program itself is the place.
 void show(Console& console, std::vector<Diagnostic> diagnostics) {
   for (auto& diagnostic : diagnostics) {
     if (!diagnostic.file.empty()) continue;
     diagnostic.file = "kith";
-    diagnostic.id.clear();
+    if (!is_documented(diagnostic.id)) diagnostic.id.clear();
   }
   console.show(diagnostics);
 }

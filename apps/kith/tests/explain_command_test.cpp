@@ -218,7 +218,7 @@ TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
   for (const auto& arguments : {std::vector<std::string>{"find", icy, normal}, {"find", icy, normal, "--no-make"}}) {
     const auto none = run_kith(arguments);
     EXPECT_EQ(none.code, 4);
-    EXPECT_THAT(none.err, AllOf(HasSubstr("error: no start state of 'icy-crossing' teaches exactly "),
+    EXPECT_THAT(none.err, AllOf(HasSubstr("error[E1111]: no start state of 'icy-crossing' teaches exactly "),
                                 HasSubstr("`kith find DOMAIN` lists what can be isolated"),
                                 ::testing::Not(HasSubstr("few cells"))));
   }
