@@ -119,7 +119,7 @@ int main() {
     const auto& period = session.history().back();
     std::printf("period %2zu: %-16s right:", session.periods(),
                 atlas.knowledge_components()[period.lesson.component].name.c_str());
-    for (const bool right : period.feedback.all_correct) std::printf(" %s", right ? "yes" : "no ");
+    for (const bool right : period.feedback.all_correct) std::printf(" %s", right ? "yes" : "no");
     std::printf("\n");
   }
 }

@@ -226,7 +226,7 @@ TEST(FindCommand, SaysWhatCannotBeDoneWithoutAMap) {
   const auto cliff = std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml";
   const auto written = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml"});
   EXPECT_EQ(written.code, 4);
-  EXPECT_THAT(written.err, AllOf(HasSubstr("error: world 0 of 'cliff' cannot be written"),
+  EXPECT_THAT(written.err, AllOf(HasSubstr("world 0 of 'cliff' cannot be written"),
                                  HasSubstr("help: it has no map; kith export --mdp 0 writes it")));
   const auto json = run_kith({"find", cliff, "(0,-1)", "-o", scratch / "one.toml", "--json"});
   EXPECT_EQ(Json::parse(json.out)["errors"][0]["id"], "E1112");
