@@ -161,14 +161,14 @@ std::vector<std::size_t> sampled_particles(const ParticleBelief& belief, const S
 
 std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, const ParticleBelief& belief,
                                                     const SelectionOptions& options, RandomStream random,
-                                                    std::vector<Direction>* weights) {
+                                                    std::vector<std::size_t>* particles) {
   std::vector<PolicyCellIndex> cells;
+  cells.reserve(options.counterfactuals);
   for (const auto i : sampled_particles(belief, options, random)) {
-    const Direction point = belief.point(i);
-    const auto cell = behaviours.locate(point);
+    const auto cell = behaviours.locate(belief.point(i));
     if (std::find(cells.begin(), cells.end(), cell) != cells.end()) continue;
     cells.push_back(cell);
-    if (weights != nullptr) weights->push_back(point);
+    if (particles != nullptr) particles->push_back(i);
   }
   std::sort(cells.begin(), cells.end());
   return cells;
@@ -180,14 +180,16 @@ Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const Kn
   Unit unit;
   ConstraintSet taught = cache.numbers_of(taught_region);
   Selection selection{cache, component, visited};
+  std::vector<std::size_t> particles;
   for (std::uint64_t step = 0;; ++step) {
     const auto here = random.split(step);
-    std::vector<Direction> weights;
+    particles.clear();
     const auto cells =
-        sample_counterfactuals(cache.behaviours(), belief, options, here.split("counterfactuals"), &weights);
+        sample_counterfactuals(cache.behaviours(), belief, options, here.split("counterfactuals"), &particles);
     auto next = selection.next(cells, taught, unit.demonstrations, here.split("looks"));
     if (!next) break;
-    next->counterfactuals = std::move(weights);
+    next->counterfactuals.reserve(particles.size());
+    for (const auto i : particles) next->counterfactuals.push_back(belief.point(i));
     visited.insert(next->demo);
     taught = cache.regions().minimal(taught | cache.numbers_of(next->half_spaces));
     belief.observe(next->half_spaces, options.likelihood, here.split("copy"));

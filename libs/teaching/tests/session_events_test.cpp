@@ -341,6 +341,38 @@ TEST(SessionEvents, NobodyThereNoLesson) {
   EXPECT_TRUE(session.propose(cache));
 }
 
+// Sessions on several threads over one atlas, with caches that go from thread to thread.
+TEST(SessionEvents, ThreadsShareAnAtlasAndHandCachesOn) {
+  const auto taught = [](TeachingCache& cache, std::uint64_t seed) {
+    auto session = session_of(cache, "joint", 2, quick(3), seed);
+    auto random = RandomStream{seed}.split("answers");
+    while (session.propose(cache)) {
+      std::vector<std::vector<Answer>> answers(2);
+      for (auto& list : answers) {
+        for (const auto& test : session.lesson().tests) {
+          const auto paths = item_delivery().coverage_set(test.demo);
+          list.emplace_back(paths[uniform_index(paths.size(), random)]);
+        }
+      }
+      session.submit(answers);
+    }
+    return session;
+  };
+  constexpr std::size_t kThreads = 3;
+  std::vector<TeachingCache> caches;
+  for (std::size_t i = 0; i < kThreads; ++i) caches.emplace_back(item_delivery());
+  for (std::size_t round = 0; round < 3; ++round) {
+    std::vector<std::optional<Session>> sessions(kThreads);
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < kThreads; ++i) {
+      threads.emplace_back([&, i] { sessions[i] = taught(caches[(i + round) % kThreads], i); });
+    }
+    for (auto& thread : threads) thread.join();
+    TeachingCache own{item_delivery()};
+    for (std::size_t i = 0; i < kThreads; ++i) EXPECT_EQ(*sessions[i], taught(own, i));
+  }
+}
+
 // The cache may be trimmed, exchanged and handed to another thread while sessions live.
 TEST(SessionEvents, NeitherCacheNorThreadMatters) {
   TeachingCache cache{item_delivery()};

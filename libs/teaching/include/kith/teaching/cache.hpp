@@ -23,7 +23,7 @@ namespace kith {
 class TeachingCache {
  public:
   /// Memory that is kept when sessions propose lessons, in bytes; while a lesson is chosen it may be more.
-  static constexpr std::size_t kDefaultBytes = std::size_t{24} << 20u;
+  static constexpr std::size_t kDefaultBytes = std::size_t{48} << 20u;
 
   /// Keeps the atlas alive, and so do sessions that are made with this cache.
   explicit TeachingCache(std::shared_ptr<const Atlas> atlas, std::size_t max_bytes = kDefaultBytes)

@@ -22,10 +22,10 @@ struct SelectionOptions {
 };
 
 /// The policy cells of N beliefs drawn from `belief`; ascending, each once.
-/// @param weights  if not null, gets the first weight drawn of each cell, in the order of the draws.
+/// @param particles  if not null, gets the first particle drawn of each cell, in the order of the draws.
 [[nodiscard]] std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, const ParticleBelief& belief,
                                                                   const SelectionOptions& options, RandomStream random,
-                                                                  std::vector<Direction>* weights = nullptr);
+                                                                  std::vector<std::size_t>* particles = nullptr);
 
 /// Chooses demonstrations for a belief until none adds knowledge.
 ///
