@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <array>
 
-#include "aggregation_rules.hpp"
-
 namespace kith {
+namespace detail {
+
+// The registry: one row per rule. Each is defined in a file of its own.
+AggregationRule common_rule();
+AggregationRule joint_rule();
+
+}  // namespace detail
 
 std::span<const AggregationRule> aggregation_rules() noexcept {
-  static const std::array rules{detail::kCommonRule, detail::kJointRule};
+  static const std::array rules{detail::common_rule(), detail::joint_rule()};
   return rules;
 }
 

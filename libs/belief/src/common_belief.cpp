@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "aggregation_rules.hpp"
+#include "kith/belief/aggregation.hpp"
 #include "kith/belief/consistency.hpp"
 
 namespace kith::detail {
@@ -64,6 +64,6 @@ std::vector<std::size_t> observe_common(ParticleBelief& belief, const TeamRespon
 
 }  // namespace
 
-const AggregationRule kCommonRule{"common", "what all members know (intersection)", observe_common};
+AggregationRule common_rule() { return {"common", "what all members know (intersection)", observe_common}; }
 
 }  // namespace kith::detail

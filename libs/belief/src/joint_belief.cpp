@@ -1,4 +1,4 @@
-#include "aggregation_rules.hpp"
+#include "kith/belief/aggregation.hpp"
 
 namespace kith::detail {
 namespace {
@@ -11,6 +11,6 @@ std::vector<std::size_t> observe_joint(ParticleBelief& belief, const TeamRespons
 
 }  // namespace
 
-const AggregationRule kJointRule{"joint", "what at least one member knows (union)", observe_joint};
+AggregationRule joint_rule() { return {"joint", "what at least one member knows (union)", observe_joint}; }
 
 }  // namespace kith::detail

@@ -1,5 +1,4 @@
 #include "kith/teaching/demonstration_selection.hpp"
-#include "strategy_kinds.hpp"
 
 namespace kith::detail {
 namespace {
@@ -45,10 +44,14 @@ std::unique_ptr<Strategy> for_highest(const ParameterValues&) { return std::make
 
 }  // namespace
 
-const StrategyKind kBaselineKind{kBaseline, "teach every member alone, one after the other", members_only, for_lowest};
-const StrategyKind kIndividualLowKind{"individual-low", "teach for the member who knows least", members_only,
-                                      for_lowest};
-const StrategyKind kIndividualHighKind{"individual-high", "teach for the member who knows most", members_only,
-                                       for_highest};
+StrategyKind baseline_kind() {
+  return {kBaseline, "teach every member alone, one after the other", members_only, for_lowest};
+}
+StrategyKind individual_low_kind() {
+  return {"individual-low", "teach for the member who knows least", members_only, for_lowest};
+}
+StrategyKind individual_high_kind() {
+  return {"individual-high", "teach for the member who knows most", members_only, for_highest};
+}
 
 }  // namespace kith::detail

@@ -4,14 +4,22 @@
 #include <array>
 #include <stdexcept>
 
-#include "strategy_kinds.hpp"
-
 namespace kith {
+namespace detail {
+
+// The registry: one row per kind, in the order of the documentation. Each is defined in a file of its own.
+StrategyKind baseline_kind();
+StrategyKind individual_low_kind();
+StrategyKind individual_high_kind();
+StrategyKind common_kind();
+StrategyKind joint_kind();
+
+}  // namespace detail
 
 std::span<const StrategyKind> strategy_kinds() noexcept {
   static const std::array kinds{
-      detail::kBaselineKind, detail::kIndividualLowKind, detail::kIndividualHighKind,
-      detail::kCommonKind,   detail::kJointKind,
+      detail::baseline_kind(), detail::individual_low_kind(), detail::individual_high_kind(),
+      detail::common_kind(),   detail::joint_kind(),
   };
   return kinds;
 }

@@ -1,5 +1,4 @@
 #include "kith/teaching/demonstration_selection.hpp"
-#include "strategy_kinds.hpp"
 
 namespace kith::detail {
 namespace {
@@ -21,14 +20,16 @@ class ForTheTeam : public Strategy {
 
 }  // namespace
 
-const StrategyKind kCommonKind{
-    "common", "teach for what all members know",
-    [](const ParameterValues&) { return TeamBeliefNeeds{.members = false, .rules = {"common"}}; },
-    [](const ParameterValues&) -> std::unique_ptr<Strategy> { return std::make_unique<ForTheTeam>("common"); }};
+StrategyKind common_kind() {
+  return {"common", "teach for what all members know",
+          [](const ParameterValues&) { return TeamBeliefNeeds{.members = false, .rules = {"common"}}; },
+          [](const ParameterValues&) -> std::unique_ptr<Strategy> { return std::make_unique<ForTheTeam>("common"); }};
+}
 
-const StrategyKind kJointKind{
-    "joint", "teach for what at least one member knows",
-    [](const ParameterValues&) { return TeamBeliefNeeds{.members = false, .rules = {"joint"}}; },
-    [](const ParameterValues&) -> std::unique_ptr<Strategy> { return std::make_unique<ForTheTeam>("joint"); }};
+StrategyKind joint_kind() {
+  return {"joint", "teach for what at least one member knows",
+          [](const ParameterValues&) { return TeamBeliefNeeds{.members = false, .rules = {"joint"}}; },
+          [](const ParameterValues&) -> std::unique_ptr<Strategy> { return std::make_unique<ForTheTeam>("joint"); }};
+}
 
 }  // namespace kith::detail
