@@ -292,8 +292,8 @@ Verdict Session::judge(const Test& test, const Answer& answer) const {
   return verdict;
 }
 
+// What the answers show. @throws Error if they cannot be answers to the current tests.
 Session::Given Session::judged(std::size_t member, std::vector<Answer> answers) const {
-  require_phase(SessionPhase::kTests, "answering");
   require_seat(member);
   const auto who = "member " + std::to_string(member + 1);
   if (!takes_part(member)) refuse(who + " is away");
@@ -310,6 +310,7 @@ Session::Given Session::judged(std::size_t member, std::vector<Answer> answers) 
 }
 
 void Session::answer(std::size_t member, std::vector<Answer> answers) {
+  require_phase(SessionPhase::kTests, "answering");
   auto given = judged(member, std::move(answers));
   events_.emplace_back(TestsAnswered{member, given.answers});
   pending_[member] = std::move(given);
@@ -399,16 +400,9 @@ const Feedback& Session::submit(std::span<const std::vector<Answer>> answers) {
     refuse("there are answers of " + std::to_string(answers.size()) + " members instead of " +
            std::to_string(num_members()));
   }
-  phase_ = SessionPhase::kTests;  // so that answers can be judged before anything happens
-  try {
-    for (std::size_t i = 0; i < num_members(); ++i) {
-      if (takes_part(i)) static_cast<void>(judged(i, answers[i]));
-    }
-  } catch (...) {
-    phase_ = SessionPhase::kLesson;
-    throw;
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (takes_part(i)) static_cast<void>(judged(i, answers[i]));  // before anything happens
   }
-  phase_ = SessionPhase::kLesson;
   show();
   for (std::size_t i = 0; i < num_members(); ++i) {
     if (takes_part(i)) answer(i, answers[i]);
