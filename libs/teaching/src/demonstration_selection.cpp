@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
+#include <utility>
 
 #include "kith/geometry/cover.hpp"
 #include "visual_order.hpp"
@@ -162,15 +163,23 @@ std::vector<std::size_t> sampled_particles(const ParticleBelief& belief, const S
 std::vector<PolicyCellIndex> sample_counterfactuals(Behaviours& behaviours, const ParticleBelief& belief,
                                                     const SelectionOptions& options, RandomStream random,
                                                     std::vector<std::size_t>* particles) {
-  std::vector<PolicyCellIndex> cells;
-  cells.reserve(options.counterfactuals);
-  for (const auto i : sampled_particles(belief, options, random)) {
-    const auto cell = behaviours.locate(belief.point(i));
-    if (std::find(cells.begin(), cells.end(), cell) != cells.end()) continue;
-    cells.push_back(cell);
-    if (particles != nullptr) particles->push_back(i);
+  const auto drawn = sampled_particles(belief, options, random);
+  std::vector<std::pair<PolicyCellIndex, std::size_t>> found;  // cell, place among the draws
+  found.reserve(drawn.size());
+  for (std::size_t place = 0; place < drawn.size(); ++place) {
+    found.emplace_back(behaviours.locate(belief.point(drawn[place])), place);
   }
-  std::sort(cells.begin(), cells.end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+              found.end());
+  std::vector<PolicyCellIndex> cells;
+  cells.reserve(found.size());
+  for (const auto& [cell, place] : found) cells.push_back(cell);
+  if (particles != nullptr) {
+    for (const auto& [cell, place] : found) particles->push_back(place);
+    std::sort(particles->begin(), particles->end());
+    for (auto& place : *particles) place = drawn[place];
+  }
   return cells;
 }
 
