@@ -35,7 +35,20 @@ TEST(Adjust, AHandComputedHolm) {
   EXPECT_THROW((void)adjust(std::vector<double>{std::nan("")}, Correction::kNone), std::invalid_argument);
 }
 
+// The example of section 3.2: the largest p of rank i with p <= 0.05 i / 15 is the fourth.
+TEST(Adjust, FalseDiscoveryRateOfBenjaminiAndHochbergsExample) {
+  const std::vector<double> p{0.0001, 0.0004, 0.0019, 0.0095, 0.0201, 0.0278, 0.0298, 0.0344,
+                              0.0459, 0.3240, 0.4262, 0.5719, 0.6528, 0.7590, 1.0000};
+  const auto adjusted = adjust(p, Correction::kFdr);
+  EXPECT_NEAR(adjusted[3], 0.0095 * 15.0 / 4.0, 1e-15);
+  EXPECT_LE(adjusted[3], 0.05);
+  EXPECT_GT(adjusted[4], 0.05);
+  EXPECT_NEAR(adjusted[5], 0.0298 * 15.0 / 7.0, 1e-15);  // as that of the next: adjusted values do not fall
+  EXPECT_EQ(adjusted[14], 1.0);
+}
+
 TEST(Adjust, CorrectionsHaveNames) {
+  EXPECT_EQ(to_string(Correction::kFdr), "Benjamini-Hochberg");
   EXPECT_EQ(to_string(Correction::kNone), "none");
   EXPECT_EQ(to_string(Correction::kBonferroni), "Bonferroni");
   EXPECT_EQ(to_string(Correction::kHolm), "Holm");

@@ -9,8 +9,9 @@
 
 namespace kith {
 
-/// How p-values of a family of tests are adjusted so that the chance of any false claim stays below alpha.
-enum class Correction { kNone, kBonferroni, kHolm };
+/// How p-values of a family of tests are adjusted: so that the chance of any false claim stays below alpha (Bonferroni,
+/// Holm), or the expected share of false claims among all claims (false discovery rate) [benjamini1995].
+enum class Correction { kNone, kBonferroni, kHolm, kFdr };
 [[nodiscard]] std::string_view to_string(Correction correction) noexcept;
 
 /// Adjusted p-values, in the order given, in [0, 1] (R: p.adjust).
