@@ -46,7 +46,7 @@ std::shared_ptr<const Study> study_with(std::vector<std::string> overrides, std:
   return std::make_shared<const Study>(std::move(*reading.study));
 }
 
-Work teach(std::shared_ptr<const Atlas> atlas, std::shared_ptr<const Study> study) {
+Work teach(const std::shared_ptr<const Atlas>& atlas, const std::shared_ptr<const Study>& study) {
   return [=](std::size_t rounds) {
     RunOptions options;
     options.threads = 1;

@@ -30,7 +30,7 @@ std::string tables_of(const StudyReading& reading, std::size_t threads) {
   return all;
 }
 
-Work study_work(SharedReading reading, std::size_t threads) {
+Work study_work(const SharedReading& reading, std::size_t threads) {
   return [=](std::size_t rounds) {
     for (; rounds > 0; --rounds) keep(in_memory(*reading, threads).teams.size());
   };

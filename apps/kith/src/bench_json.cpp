@@ -73,7 +73,7 @@ std::vector<std::string> slower_cases(const BenchOutcome& outcome) {
 }
 
 Json bench_document(const BenchOutcome& outcome) {
-  using namespace build_info;
+  using namespace build_info;  // NOLINT(google-build-using-namespace): constants only
   Json document{{"schema", kBenchSchema},
                 {"version", kVersion},
                 {"git", kGitId},

@@ -45,7 +45,7 @@ struct ParsedCommandLine {
 
 /// Understands the arguments behind the program's name, and the environment
 /// variables KITH_... of options that were not given.
-[[nodiscard]] ParsedCommandLine parse_command_line(const std::vector<std::string>& arguments);
+[[nodiscard]] ParsedCommandLine parse_command_line(const std::vector<std::string>& given);
 
 /// All commands, in the order of the help.
 [[nodiscard]] std::vector<CommandDescription> describe_commands();

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "kith/core/error.hpp"
 #include "kith/core/printable.hpp"
@@ -44,7 +45,7 @@ Console::Console(const CommonOptions& options)
       log_has_color_{wants_color(STDERR_FILENO, options.color)},
       log_is_terminal_{terminal(STDERR_FILENO)} {}
 
-void Console::print(std::string_view text) {
+void Console::print(std::string_view text) const {
   if (result_is_terminal_) {
     write_result(printable(text, Keep::kTextColors));
   } else {
@@ -57,7 +58,9 @@ void Console::write_result(std::string_view text) {
     const auto n = ::write(STDOUT_FILENO, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0 && errno == EPIPE) throw BrokenPipe{};
-    if (n < 0) throw Error{ErrorKind::kIo, std::string{"cannot write to standard output: "} + std::strerror(errno)};
+    if (n < 0)
+      throw Error{ErrorKind::kIo,
+                  std::string{"cannot write to standard output: "} + std::generic_category().message(errno)};
     text.remove_prefix(static_cast<std::size_t>(n));
   }
 }
@@ -68,7 +71,7 @@ void Console::log(std::string_view level, std::string_view text) {
   write_log(line.append(printable(text)).append("\n"));
 }
 
-void Console::print_json(const nlohmann::ordered_json& document) {
+void Console::print_json(const nlohmann::ordered_json& document) const {
   // File names may be any bytes; the document is UTF-8 whatever they are.
   print(document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
@@ -85,7 +88,7 @@ void Console::warning(std::string_view text) {
   if (!options_.quiet) log("warning", text);
 }
 
-void Console::show(const std::vector<Diagnostic>& diagnostics) {
+void Console::show(const std::vector<Diagnostic>& diagnostics) const {
   std::string text;
   for (const auto& diagnostic : diagnostics) {
     if (diagnostic.severity == Severity::kWarning && options_.quiet) continue;

@@ -22,15 +22,15 @@ class Console {
 
   /// Writes a result: to a terminal with control characters escaped, which may come from files; else as it is. @throws
   /// BrokenPipe, or kith::Error (kIo) if it cannot be written.
-  void print(std::string_view text);
+  void print(std::string_view text) const;
   /// Writes one JSON document, indented, with a line break at the end.
-  void print_json(const nlohmann::ordered_json& document);
+  void print_json(const nlohmann::ordered_json& document) const;
 
   void info(std::string_view text);     ///< Unless -q.
   void detail(std::string_view text);   ///< With -v.
   void warning(std::string_view text);  ///< Unless -q.
   /// Warnings and errors of a file, as they are.
-  void show(const std::vector<Diagnostic>& diagnostics);
+  void show(const std::vector<Diagnostic>& diagnostics) const;
 
   [[nodiscard]] bool json() const noexcept { return options_.json; }
   [[nodiscard]] bool quiet() const noexcept { return options_.quiet; }

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <system_error>
 
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -30,7 +31,8 @@ std::string standard_input(std::size_t most) {
   while (text.size() < most) {
     const auto count = ::read(STDIN_FILENO, piece.data(), std::min(piece.size(), most - text.size()));
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw Error{ErrorKind::kIo, std::string{"cannot read standard input: "} + std::strerror(errno)};
+    if (count < 0)
+      throw Error{ErrorKind::kIo, std::string{"cannot read standard input: "} + std::generic_category().message(errno)};
     if (count == 0) break;
     text.append(piece.data(), static_cast<std::size_t>(count));
   }
@@ -45,7 +47,7 @@ InputText read_input(const std::string& file) {
   if (std::filesystem::is_directory(file, failure))
     throw Error{ErrorKind::kIo, "cannot read " + file + ": it is a folder"};
   std::ifstream stream{file, std::ios::binary};
-  if (!stream) throw Error{ErrorKind::kIo, "cannot read " + file + ": " + std::strerror(errno)};
+  if (!stream) throw Error{ErrorKind::kIo, "cannot read " + file + ": " + std::generic_category().message(errno)};
   return {file, text_of(stream, file), std::filesystem::path{file}.parent_path()};
 }
 

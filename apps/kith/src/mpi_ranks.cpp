@@ -95,7 +95,7 @@ class MpiRanks final : public Ranks {
 bool several_were_started() {
   for (const auto* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     const char* value = std::getenv(name);
-    if (value != nullptr && std::atoi(value) > 1) return true;
+    if (value != nullptr && std::strtol(value, nullptr, 10) > 1) return true;
   }
   return false;
 }

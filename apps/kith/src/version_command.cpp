@@ -23,7 +23,7 @@ std::vector<Library> library_versions() {
 }
 
 int run_version(Console& console) {
-  using namespace build_info;
+  using namespace build_info;  // NOLINT(google-build-using-namespace): constants only
   if (!console.json()) {
     console.print(
         fmt::format("kith {} ({}{}, {}, {})\n", kVersion, kGitId, kGitDirty ? ", changed" : "", kCompiler, kBuildType));

@@ -122,7 +122,7 @@ Behaviours::LossIndex Behaviours::number_of(const IntegerVector& loss) {
     if (half_space && sign_of_dot(half_space->normal(), atlas_->domain().weights().integer) > 0) {
       entry.constraint = static_cast<std::int32_t>(constraints_.add(*half_space).value());
     }
-    losses_.push_back(std::move(entry));
+    losses_.push_back(entry);
   }
   return place->second;
 }

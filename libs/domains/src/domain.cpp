@@ -89,7 +89,8 @@ const RewardWeights& Domain::weights() const noexcept { return data_->weights; }
 const std::vector<HalfSpace>& Domain::prior() const noexcept { return data_->prior; }
 std::size_t Domain::max_steps() const noexcept { return data_->max_steps; }
 std::size_t Domain::num_mdps() const noexcept {
-  return std::visit([](const auto& family) { return family.members.size(); }, data_->family);
+  const auto* grid = std::get_if<GridFamily>(&data_->family);
+  return grid != nullptr ? grid->members.size() : std::get_if<ExplicitFamily>(&data_->family)->members.size();
 }
 std::size_t Domain::num_starts() const noexcept { return data_->num_starts; }
 bool Domain::is_exact() const noexcept { return data_->exact; }
@@ -100,7 +101,8 @@ int Domain::width() const { return data_->grid().world.width; }
 int Domain::height() const { return data_->grid().world.height; }
 const std::vector<std::string>& Domain::item_names() const noexcept {
   static const std::vector<std::string> kNone;
-  return data_->has_map() ? std::get<GridFamily>(data_->family).item_names : kNone;
+  const auto* grid = std::get_if<GridFamily>(&data_->family);
+  return grid != nullptr ? grid->item_names : kNone;
 }
 
 StateIndex Domain::initial_state(MdpIndex m) const {

@@ -123,12 +123,13 @@ std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& 
   file.finish();
   if (failed()) return std::nullopt;
 
+  const auto weights_place = reward.weights_place;
   Domain::Data data = data_from(model.dynamics, std::move(reward));
   data.action_names = model.model.actions.all();
   ExplicitFamily family = detail::build_explicit_family(std::move(model.model), data.feature_names.size(),
                                                         model.dynamics.discount, limits, model_report);
   if (failed()) return std::nullopt;
-  detail::check_model(family, data, model.dynamics, reward.weights_place, report);
+  detail::check_model(family, data, model.dynamics, weights_place, report);
   if (failed()) return std::nullopt;
   check_features(model.dynamics, family.members, report);
   data.family = std::move(family);

@@ -74,7 +74,8 @@ std::string cassandra_text(const ExportView& view) {
       const std::string where = index_text(a) + " : " + index_text(s) + " : ";
       if (choice == choices.end() || choice->action != a) {
         text += "T: " + where + index_text(s) + " 1.0\n";
-        if (!view.is_terminal(s)) text += "R: " + where + index_text(s) + " " + loss + "\n";
+        if (!view.is_terminal(s))
+          text.append("R: ").append(where).append(index_text(s)).append(" ").append(loss).append("\n");
         continue;
       }
       for (const ExportedOutcome& one : choice->outcomes) {
@@ -183,9 +184,13 @@ std::vector<ExportedFile> prism_files(const ExportView& view, const std::string&
     std::string structure = features[k];
     for (char& c : structure) c = c == '-' ? '_' : c;
     const std::string file = name + "." + features[k] + ".trew";
-    names += (k == 0 ? "" : ", ") + quoted(view.domain().feature_names()[k]) + " = " + quoted(file);
-    files.push_back({file, "# Reward structure \"" + structure + "\"\n# Transition rewards\n" + size +
-                               index_text(num_rewards[k]) + "\n" + rewards[k]});
+    names.append(k == 0 ? "" : ", ")
+        .append(quoted(view.domain().feature_names()[k]))
+        .append(" = ")
+        .append(quoted(file));
+    auto text = "# Reward structure \"" + structure + "\"\n# Transition rewards\n";
+    text.append(size).append(index_text(num_rewards[k])).append("\n").append(rewards[k]);
+    files.push_back({file, std::move(text)});
   }
   const std::string model =
       "[model]\nformat = \"prism\"\nterminal = \"goal\"\nstart = \"start\"\n[[model.mdp]]\ntransitions = " +

@@ -388,6 +388,7 @@ class PrismReader {
   void check_label(const std::string& wanted, const std::map<std::uint32_t, std::string>& names,
                    const ModelPlace& place) {
     std::vector<std::string> known;
+    known.reserve(names.size());
     for (const auto& [number, name] : names) known.push_back(name);
     if (wanted.empty() || std::find(known.begin(), known.end(), wanted) != known.end()) return;
     report_.error("E0251", place, "there is no label '" + wanted + "', which the domain file asks for",

@@ -83,6 +83,7 @@ class CurriculumMaker {
  private:
   void answer_right(Session& session, const std::vector<Test>& tests) const {
     std::vector<Answer> answers;
+    answers.reserve(tests.size());
     for (const auto& test : tests) answers.emplace_back(atlas_.feature_counts(test.demo));
     const std::vector<std::vector<Answer>> all{answers};
     static_cast<void>(session.submit(all));
@@ -121,6 +122,7 @@ class CurriculumMaker {
   // In the order of the tables, where there are some.
   [[nodiscard]] std::vector<PolicyCellIndex> cells_of(const std::vector<Direction>& weights) {
     std::vector<PolicyCellIndex> cells;
+    cells.reserve(weights.size());
     for (const auto& w : weights) cells.push_back(cache_.behaviours().locate(w));
     if (atlas_.is_tabulated()) std::sort(cells.begin(), cells.end());
     return cells;

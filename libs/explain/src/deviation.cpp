@@ -44,7 +44,7 @@ std::optional<Contrast> deviation(const Atlas& atlas, DemoIndex demo, std::size_
   Trajectory rest{{s, next}, {action}};
   if (!mdp.is_terminal(next)) append(rest, atlas.trajectory(atlas.index({world, next})));
   auto counts = atlas.deviation_counts(atlas.index({world, s}), static_cast<std::size_t>(choice - choices.begin()));
-  return beside(atlas, demo, {at, std::move(counts), at, std::move(rest)});
+  return beside(atlas, demo, {at, counts, at, std::move(rest)});
 }
 
 }  // namespace kith::detail

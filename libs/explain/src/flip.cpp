@@ -63,6 +63,7 @@ std::string thing_in_words(const Domain& domain, const OptionalGroup& group) {
     return "the " + group.name + " from " + cell_text(domain, cells.front()) + " to " + cell_text(domain, cells.back());
   }
   std::vector<std::string> places;
+  places.reserve(cells.size());
   for (const auto& cell : cells) places.push_back(cell_text(domain, cell));
   return "the " + group.name + " at " + listed(places);
 }

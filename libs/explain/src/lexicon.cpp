@@ -139,6 +139,7 @@ bool Lexicon::knows(const std::string& word) const {
 
 std::vector<Happening> Lexicon::happenings(const std::vector<std::string>& words) const {
   std::vector<std::string> stems;
+  stems.reserve(words.size());
   for (const auto& word : words) stems.push_back(known_stem(word));
   // "pick up the parcel", "put it down", "drop the parcel off": what is carried is clear without saying.
   const bool takes = has_action("pickup") && stems.front() == stem("pickup");

@@ -390,6 +390,7 @@ class Answerer {
       return show_world(look_at(scene_.needed_start(question_.world.value_or(last_world()))));
     }
     std::vector<Place> sorted;
+    sorted.reserve(places.size());
     for (const auto& [spot, place] : places) sorted.push_back(place);
     std::stable_sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) { return a.worlds > b.worlds; });
     const std::string verb = question_.negated    ? " does not happen "

@@ -268,6 +268,7 @@ class Parser {
     }
     if (found.size() > 1) {
       std::vector<std::string> names;
+      names.reserve(found.size());
       for (const auto& one : found) names.push_back(lexicon_.name_of(one));
       fail_at(place, "E1103", "'" + phrase_text() + "' could mean several things: " + listed(names),
               "use one of these names");
@@ -290,7 +291,7 @@ class Parser {
             nearest.empty() ? "it knows " + listed(lexicon_.happening_names()) : "did you mean '" + nearest + "'?");
   }
 
-  std::string thing_of_phrase(const Place& place) const {
+  [[nodiscard]] std::string thing_of_phrase(const Place& place) const {
     const auto things = lexicon_.optional_things();
     std::optional<std::string> named;
     for (const auto& word : phrase_) {
@@ -322,7 +323,7 @@ class Parser {
     for (auto last = tokens_.size(); last-- > at_;) {
       const auto end = tokens_[last].place.column - 1 + tokens_[last].place.length;
       auto name = text_.substr(begin, end - begin);
-      if (names.count(name) == 0) name = "state " + name;
+      if (names.count(name) == 0) name.insert(0, "state ");
       if (names.count(name) == 0 && last > at_) continue;
       Token found{Token::Kind::kName, names.count(name) != 0 ? name : text_.substr(begin, end - begin), 0, 0, {}};
       found.place = {begin + 1, end - begin};

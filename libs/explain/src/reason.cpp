@@ -110,6 +110,7 @@ class Comparison {
   }
   [[nodiscard]] std::string verbs(const std::vector<Surplus>& all) const {
     std::vector<std::string> words;
+    words.reserve(all.size());
     for (const auto& one : all) words.push_back(doing(domain_.wording(one.feature), one.n, one.more));
     return listed(words);
   }

@@ -117,6 +117,7 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
   const auto found = known.find(plain(text));
   if (found != known.end()) return found->second;
   std::vector<std::string> all;
+  all.reserve(known.size());
   for (const auto& [sentence, half_space] : known) all.push_back(sentence);
   const auto nearest = nearest_word(plain(text), all);
   fail("E1109", "'" + text + "' is no constraint on this robot's reward",
@@ -171,6 +172,7 @@ std::vector<Isolated> isolated_constraints(const Atlas& atlas) {
     if (const auto tested = only_one(atlas.tested_constraints(demo))) ++at(*tested).testing;
   }
   std::vector<Isolated> all;
+  all.reserve(found.size());
   for (const auto& [constraint, isolated] : found) all.push_back(isolated);
   return all;
 }

@@ -233,7 +233,7 @@ HalfSpace in_small_numbers(const Domain& domain, const HalfSpace& half_space) {
     for (const auto unit : sizes) {
       auto candidate = rounded(domain, normal, multiple, unit);
       if (best && candidate.slack >= best->slack) continue;
-      best = std::move(candidate);
+      best = candidate;
       if (best->slack <= kClose) return HalfSpace{best->normal};
     }
   }

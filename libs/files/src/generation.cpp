@@ -95,7 +95,7 @@ Generation::~Generation() {
   if (!staging_.empty()) fs::remove_all(staging_, ignored);
 }
 
-void Generation::commit(std::vector<std::string> removed,
+void Generation::commit(const std::vector<std::string>& removed,
                         const std::function<void(const std::string& instant)>& observer) {
   write_file_atomically(staging_ / kContents, contents_of(staging_, removed), FolderSync::kLater);
   make_folder(staging_ / kReplaced);

@@ -12,7 +12,7 @@ namespace {
 
 std::string figure(double value, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  static_cast<void>(std::snprintf(text, sizeof text, "%.*f", digits, value));
   return text;
 }
 

@@ -129,7 +129,7 @@ class Problem {
     // Step outwards first: the edge is far, and the search near the best point is easy.
     double inside = best.x[k];
     double step = edge > inside ? 0.1 : -0.1;
-    double outside = inside;
+    double outside = 0.0;
     while (true) {
       outside = edge > inside ? std::min(inside + step, edge) : std::max(inside + step, edge);
       if (loss(outside) > kDrop) break;

@@ -208,8 +208,8 @@ std::unique_ptr<Learner> make_bayesian(const ParameterValues& values, std::span<
 
 std::string describe_bayesian(const ParameterValues& values, std::span<const double> traits) {
   std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "ability %.4f, gains %.4f confirmed and %.4f corrected", traits[0], traits[1],
-                traits[2]);
+  static_cast<void>(std::snprintf(text.data(), text.size(), "ability %.4f, gains %.4f confirmed and %.4f corrected",
+                                  traits[0], traits[1], traits[2]));
   return std::string{text.data()} + ", at most " + to_string(values.real("ability_max")) + ", log-odds x " +
          to_string(values.real("ability_scale"));
 }

@@ -66,7 +66,7 @@ class TargetsParser {
   }
 
  private:
-  const StudySpec& spec() const { return study_.study->variants.front(); }
+  [[nodiscard]] const StudySpec& spec() const { return study_.study->variants.front(); }
 
   // Of a file of another kind only that is worth saying.
   bool right_schema() {
@@ -144,7 +144,7 @@ class TargetsParser {
   // --- parameters --------------------------------------------------------------
 
   // "learner.*.x" stands for the key x of every learner type.
-  std::vector<std::string> expanded(const std::string& key) const {
+  [[nodiscard]] std::vector<std::string> expanded(const std::string& key) const {
     constexpr std::string_view kAll = "learner.*.";
     if (key.rfind(kAll, 0) != 0) return {key};
     std::vector<std::string> keys;

@@ -160,7 +160,7 @@ class Converter {
     return json;
   }
 
-  [[nodiscard]] std::string source_name(SourceBelief source) const {
+  [[nodiscard]] std::string source_name(const SourceBelief& source) const {
     if (!source.is_member()) return source.rule;
     return "member " + std::to_string(members_[source.member]);
   }

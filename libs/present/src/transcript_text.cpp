@@ -98,7 +98,7 @@ class TranscriptWriter {
     return text;
   }
 
-  [[nodiscard]] std::string name_of_source(SourceBelief source) const {
+  [[nodiscard]] std::string name_of_source(const SourceBelief& source) const {
     if (!source.is_member()) {
       const auto* rule = find_aggregation_rule(source.rule);
       return "the " + source.rule + " belief" + (rule != nullptr ? ": " + std::string{rule->description} : "");

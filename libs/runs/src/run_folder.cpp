@@ -229,7 +229,7 @@ void RunFolder::publish_shard(const Study& study, const std::string& shard, std:
 }
 
 void RunFolder::commit(Generation& generation, const std::string& manifest, const RunFacts& facts,
-                       std::vector<std::string> removed) {
+                       const std::vector<std::string>& removed) {
   write_inputs(generation.path());
   std::string log;
   for (const auto& line : facts.log) log += line + "\n";
@@ -239,7 +239,7 @@ void RunFolder::commit(Generation& generation, const std::string& manifest, cons
   reach("staged");
   require_in_place();
   published_ = true;
-  generation.commit(std::move(removed), observer_);
+  generation.commit(removed, observer_);
   reach("published");
 }
 

@@ -249,6 +249,7 @@ CellModel::CellModel(std::size_t observations, std::span<const Factor> factors,
   for (auto& term : terms_) term.reason = reason_;
   if (!reason_.empty()) return;
   std::vector<MatrixXd> columns;
+  columns.reserve(sets.size());
   for (const auto& set : sets) columns.push_back(term_columns(cells, set, sets));
   decompose(columns, sets, type);
   for (std::size_t t = 0; t < sets.size(); ++t) {

@@ -155,7 +155,7 @@ Estimable<CountModel> fit_count_model(std::span<const double> counts, std::span<
     require_codes(factor, counts.size(), "fit_count_model");
     used.push_back(drop_unused(factor));
   }
-  if (auto fault = fault_of(counts, used); !fault.empty()) return Result::impossible(std::move(fault));
+  if (const auto fault = fault_of(counts, used); !fault.empty()) return Result::impossible(fault);
 
   const auto data = detail::summarise_counts(counts, used);
   const auto design = design_of(data, used, used.size());

@@ -31,7 +31,7 @@ Factor interaction(const Factor& a, const Factor& b) {
     throw std::invalid_argument{"interaction: both factors need one level per observation"};
   Factor both{a.name + ":" + b.name, {}, {}};
   for (const auto& first : a.levels) {
-    for (const auto& second : b.levels) both.levels.push_back(first + ":" + second);
+    for (const auto& second : b.levels) both.levels.push_back(std::string{first}.append(":").append(second));
   }
   both.codes.reserve(a.codes.size());
   for (std::size_t i = 0; i < a.codes.size(); ++i) both.codes.push_back(a.codes[i] * b.levels.size() + b.codes[i]);

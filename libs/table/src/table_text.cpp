@@ -45,10 +45,11 @@ std::string read_table_text(std::istream& stream, const std::string& name) {
 std::string read_table_text(const std::filesystem::path& path) {
   std::error_code failure;
   if (std::filesystem::is_directory(path, failure))
-    throw Error{ErrorKind::kIo, "cannot read " + path.string() + ": " + std::strerror(EISDIR)};
+    throw Error{ErrorKind::kIo, "cannot read " + path.string() + ": " + std::generic_category().message(EISDIR)};
   errno = 0;
   std::ifstream stream{path, std::ios::binary};
-  if (!stream) throw Error{ErrorKind::kIo, "cannot read " + path.string() + ": " + std::strerror(errno)};
+  if (!stream)
+    throw Error{ErrorKind::kIo, "cannot read " + path.string() + ": " + std::generic_category().message(errno)};
   if (!std::filesystem::is_regular_file(path, failure)) return read_table_text(stream, path.string());
 
   const auto size = std::filesystem::file_size(path, failure);

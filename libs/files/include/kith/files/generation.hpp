@@ -29,7 +29,7 @@ class Generation {
   /// there now.
   /// @param removed   names that the folder no longer holds afterwards.
   /// @param observer  is told "generation" once it is committed, and the name of everything that has been moved.
-  void commit(std::vector<std::string> removed = {},
+  void commit(const std::vector<std::string>& removed = {},
               const std::function<void(const std::string& instant)>& observer = {});
 
  private:

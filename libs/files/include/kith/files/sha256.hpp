@@ -15,7 +15,9 @@ class Sha256 {
  public:
   Sha256();
   ~Sha256();
+  Sha256(const Sha256&) = delete;
   Sha256(Sha256&&) noexcept;
+  Sha256& operator=(const Sha256&) = delete;
   Sha256& operator=(Sha256&&) noexcept;
   void update(std::string_view bytes);
   /// The 32 bytes of the hash; nothing can be added any more.

@@ -40,7 +40,9 @@ class Database {
   };
   Database(std::filesystem::path path, Mode mode);
   ~Database();
+  Database(const Database&) = delete;
   Database(Database&& other) noexcept;
+  Database& operator=(const Database&) = delete;
   Database& operator=(Database&& other) noexcept;
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
@@ -67,7 +69,9 @@ class Statement {
  public:
   Statement(const Database& database, sqlite3* handle, const std::string& sql);
   ~Statement();
+  Statement(const Statement&) = delete;
   Statement(Statement&& other) noexcept;
+  Statement& operator=(const Statement&) = delete;
   Statement& operator=(Statement&&) = delete;
 
   // Parameters are numbered from 1. The bytes of a text or blob must live until reset() or the last step.

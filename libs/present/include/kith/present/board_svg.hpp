@@ -36,10 +36,10 @@ class BoardSvg {
   };
   [[nodiscard]] Point centre(const Cell& cell) const;
   void terrain(Svg& svg, const Point& at, const std::string& name) const;
-  void disc(Svg& svg, const Point& at, const std::string& letters) const;
-  void station(Svg& svg, const Point& at, const std::string& letters) const;
-  void destination(Svg& svg, const Point& at, const std::string& letters) const;
-  void goal(Svg& svg, const Point& at, const std::string& letters) const;
+  void disc(Svg& svg, const Point& at, const std::string& sign) const;
+  void station(Svg& svg, const Point& at, const std::string& sign) const;
+  void destination(Svg& svg, const Point& at, const std::string& sign) const;
+  void goal(Svg& svg, const Point& at, const std::string& sign) const;
   void robot(Svg& svg, const Point& at) const;
   void contents(Svg& svg, MdpIndex m, const GridState& state) const;
   void grid(Svg& svg) const;

@@ -109,7 +109,7 @@ class RunFolder {
   void reach(const std::string& instant) const;
   void write_inputs(const std::filesystem::path& folder) const;
   void commit(Generation& generation, const std::string& manifest, const RunFacts& facts,
-              std::vector<std::string> removed);
+              const std::vector<std::string>& removed);
 
   std::filesystem::path path_;
   RunInputs inputs_;

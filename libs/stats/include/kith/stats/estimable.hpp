@@ -12,9 +12,9 @@ template <typename T>
 class Estimable {
  public:
   Estimable(T value) : value_{std::move(value)} {}  // NOLINT(google-explicit-constructor): a value is an answer
-  [[nodiscard]] static Estimable impossible(std::string reason) {
+  [[nodiscard]] static Estimable impossible(const std::string& reason) {
     Estimable result;
-    result.reason_ = std::move(reason);
+    result.reason_ = reason;
     return result;
   }
 
