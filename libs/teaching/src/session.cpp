@@ -56,6 +56,13 @@ void update_with(TeamBelief& belief, const std::vector<bool>& present, Update up
   belief = std::move(trial);
 }
 
+// Adds what is not there yet: a constraint that several test sets examine is shown once.
+void add_new(std::vector<HalfSpace>& shown, std::span<const HalfSpace> more) {
+  for (const auto& half_space : more) {
+    if (std::find(shown.begin(), shown.end(), half_space) == shown.end()) shown.push_back(half_space);
+  }
+}
+
 // So that the next push_back() cannot fail.
 template <typename T>
 void make_room(std::vector<T>& list) {
@@ -329,18 +336,14 @@ const Feedback& Session::close_tests() {
     auto& verdicts = feedback.verdicts.emplace_back();
     if (counts[i] && !has_answered(i)) verdicts.assign(lesson_.tests.size(), unanswered);
     if (has_answered(i)) verdicts = pending_[i]->verdicts;
-    for (const auto& verdict : verdicts) {
-      shown[i].insert(shown[i].end(), verdict.half_spaces.begin(), verdict.half_spaces.end());
-    }
+    for (const auto& verdict : verdicts) add_new(shown[i], verdict.half_spaces);
     const bool all =
         counts[i] && std::all_of(verdicts.begin(), verdicts.end(), [](const auto& v) { return v.correct; });
     feedback.all_correct.push_back(all);
     everybody = everybody && (all || !counts[i]);
   }
   if (nobody(counts)) throw Error{ErrorKind::kUsage, "the tests cannot be closed: everybody is away"};
-  for (const auto& test : lesson_.tests) {
-    feedback.half_spaces.insert(feedback.half_spaces.end(), test.covered.begin(), test.covered.end());
-  }
+  for (const auto& test : lesson_.tests) add_new(feedback.half_spaces, test.covered);
   feedback.component_learned = everybody && correct_in_a_row_ + 1 >= options_.consecutive_correct;
   make_room(events_);
   update_with(belief_, counts,

@@ -183,6 +183,16 @@ TEST(Session, DuplicateSetsAskAboutEveryConstraintThatOften) {
   EXPECT_GE(twice.lesson().tests.size(), 2 * once.lesson().tests.size());
 }
 
+TEST(Session, DuplicateSetsShowEveryConstraintOnce) {
+  TeachingCache cache{item_delivery()};
+  auto once = make_session(cache, "common", 2);
+  auto twice = make_session(cache, "common", 2, {.duplicate_sets = 2});
+  const auto right_once = submit(once, cache, robots_answers(once));
+  const auto right_twice = submit(twice, cache, robots_answers(twice));
+  EXPECT_EQ(right_twice.half_spaces, right_once.half_spaces);
+  EXPECT_TRUE(twice.belief() == once.belief());
+}
+
 TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "joint", 3);
