@@ -282,7 +282,10 @@ class RunImport {
       const auto facets = atlas_.finite_region(demo).facets();
       possible.insert(facets.begin(), facets.end());
       period.all_correct = period.all_correct && answered.correct;
-      period.taught.insert(period.taught.end(), answered.covered.begin(), answered.covered.end());
+      for (const auto& half_space : answered.covered) {  // once, however many test sets examined it: as Session does
+        const bool is_new = std::find(period.taught.begin(), period.taught.end(), half_space) == period.taught.end();
+        if (is_new) period.taught.push_back(half_space);
+      }
       person.correct += answered.correct ? 1u : 0u;
       ++person.answered;
       last_.push_back(answered.correct);
