@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "kith/stats/multiple.hpp"
+#include "tail_integral.hpp"
 
 // The studentised range Q = R / S: R is the range of k standard normals, and df S^2 an independent chi-squared.
 //
@@ -68,22 +68,6 @@ class RangeTail {
   std::vector<Point> points_;
 };
 
-// Sum of f(start + i * step) over all integers i, from 0 outwards until terms no longer count. f has one peak, near
-// `start`.
-template <typename Function>
-double sum_outwards(double start, double step, Function f) {
-  constexpr double kNegligible = 1e-18;
-  double sum = f(start);
-  for (const double direction : {-step, step}) {
-    for (int i = 1;; ++i) {
-      const double term = f(start + i * direction);
-      sum += term;
-      if (term <= kNegligible * sum) break;
-    }
-  }
-  return sum;
-}
-
 void require_range(std::size_t groups, double df, const char* message) {
   if (groups < 2 || !(df >= 2.0)) throw std::invalid_argument{message};
 }
@@ -101,51 +85,22 @@ double studentized_range_upper(double q, std::size_t groups, double df) {
 
   // Bounded by how steeply P(R > r) falls, steeper for many groups, and by the width of the density.
   const double step = std::min(groups <= 20 ? 0.1 : 0.05, 0.7 / std::sqrt(2.0 * df));
-  // Of log s, with exponent 0 at its mode u = 0.
-  const auto density = [df](double u) { return std::exp(df * (u - 0.5 * std::expm1(2.0 * u))); };
+  const auto density = [df](double u) { return detail::log_scale_density(u, df); };
   // Both factors are log-concave in u, so their product has one peak: here if P(R > r) fades as exp(-r^2 / 4).
   const double mode = -0.5 * std::log1p(0.5 * q * (q / df));
   if (std::isinf(mode)) return 0.0;
-  const double tail = sum_outwards(mode, step, [&](double u) {
+  const double tail = detail::sum_outwards(mode, step, [&](double u) {
     const double weight = density(u);
     return weight > 0.0 ? weight * range_upper(q * std::exp(u)) : 0.0;
   });
-  const double total = sum_outwards(0.0, step, density);
+  const double total = detail::sum_outwards(0.0, step, density);
   return std::min(1.0, tail / total);
 }
 
 double studentized_range_quantile(double p, std::size_t groups, double df) {
   require_range(groups, df, "studentized_range_quantile: groups and df must be >= 2");
   if (!(p > 0.0 && p < 1.0)) throw std::invalid_argument{"studentized_range_quantile: p must be in (0, 1)"};
-  // A root of the tails' log ratio by false position, halving the weight of an end that stays (Illinois).
-  const auto excess = [&](double q) { return std::log(studentized_range_upper(q, groups, df) / p); };
-  double low = 0.0;
-  double at_low = -std::log(p);
-  double high = 4.0;
-  double at_high = excess(high);
-  while (at_high > 0.0) {
-    low = high;
-    at_low = at_high;
-    high *= 2.0;
-    at_high = excess(high);
-  }
-  for (int i = 0; i < 200 && high - low > 4.0 * std::numeric_limits<double>::epsilon() * high; ++i) {
-    const bool bounded = std::isfinite(at_high);
-    const double middle = bounded ? (low * at_high - high * at_low) / (at_high - at_low) : 0.5 * (low + high);
-    const double at_middle = excess(middle);
-    if (at_middle == 0.0) return middle;
-    if (at_middle > 0.0) {
-      low = middle;
-      at_low = at_middle;
-      at_high *= 0.5;
-    } else {
-      high = middle;
-      at_high = at_middle;
-      at_low *= 0.5;
-    }
-    if (std::abs(at_middle) < 1e-13) return middle;
-  }
-  return 0.5 * (low + high);
+  return detail::upper_quantile(p, [&](double q) { return studentized_range_upper(q, groups, df); });
 }
 
 }  // namespace kith
