@@ -5,6 +5,8 @@
 #include "kith/random/distributions.hpp"
 #include "kith/stats/anova.hpp"
 #include "kith/stats/effect_size.hpp"
+#include "kith/stats/linear_model.hpp"
+#include "kith/stats/marginal_means.hpp"
 #include "kith/stats/multiple.hpp"
 
 namespace kith {
@@ -52,6 +54,19 @@ void BM_Tukey(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(tukey_hsd(means, counts, 1.0, static_cast<double>(state.range(0))));
 }
 BENCHMARK(BM_Tukey)->Arg(5)->Arg(224)->Arg(19'984)->Unit(benchmark::kMillisecond);
+
+// What do marginal means with all their pairs cost, of a factor at each level of another?
+void BM_MarginalMeans(benchmark::State& state) {
+  const Teams teams{static_cast<std::size_t>(state.range(0))};
+  for (auto _ : state) {
+    const auto model = fit_linear_model(teams.response, teams.factors, kCrossed).value();
+    const auto means = marginal_means(model.effects, std::vector<std::size_t>{0}, std::vector<std::size_t>{1});
+    for (const auto& group : means.groups) {
+      benchmark::DoNotOptimize(estimate_contrasts(model.effects, group, pairwise_contrasts(group), Adjustment::kTukey));
+    }
+  }
+}
+BENCHMARK(BM_MarginalMeans)->Arg(240)->Arg(20'000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kith

@@ -1,5 +1,7 @@
 #include "kith/stats/marginal_means.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +12,7 @@
 #include "inference.hpp"
 #include "kith/stats/distributions.hpp"
 #include "kith/stats/multiple.hpp"
+#include "kith/stats/multivariate_t.hpp"
 
 namespace kith {
 namespace {
@@ -176,6 +179,8 @@ std::string_view to_string(Adjustment adjustment) noexcept {
       return "Benjamini-Hochberg";
     case Adjustment::kTukey:
       return "Tukey-Kramer";
+    case Adjustment::kMultivariateT:
+      return "multivariate t";
     case Adjustment::kNone:
       break;
   }
@@ -291,6 +296,30 @@ void adjust_by_range(std::span<LinearEstimate*> family, std::size_t num_means, d
   }
 }
 
+void adjust_by_largest(std::span<LinearEstimate*> family, const FixedEffects& model, double confidence) {
+  const auto k = family.size();
+  std::vector<double> correlations(k * k, 1.0);
+  for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double covariance = covariance_of(model, family[i]->combination, family[j]->combination);
+      correlations[i * k + j] = correlations[j * k + i] = std::clamp(
+          covariance / family[i]->inference->standard_error / family[j]->inference->standard_error, -1.0, 1.0);
+    }
+  }
+  const LargestT largest{correlations};
+  double df_of_critical = 0.0;
+  double critical = 0.0;
+  for (auto* contrast : family) {
+    const double df = contrast->inference->df;
+    if (df != df_of_critical) {
+      critical = largest.quantile(1.0 - confidence, df);
+      df_of_critical = df;
+    }
+    set_p(*contrast, largest.upper(std::abs(contrast->inference->statistic), df));
+    set_interval(*contrast, critical);
+  }
+}
+
 }  // namespace
 
 std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const MarginalGroup& means,
@@ -330,10 +359,65 @@ std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const 
   if (adjustment == Adjustment::kTukey) {
     const auto num_means = static_cast<std::size_t>(std::count(in_family.begin(), in_family.end(), true));
     adjust_by_range(family, num_means, confidence);
+  } else if (adjustment == Adjustment::kMultivariateT) {
+    adjust_by_largest(family, model, confidence);
   } else if (adjustment != Adjustment::kNone) {
     adjust_one_by_one(family, adjustment, confidence);
   }
   return results;
+}
+
+namespace {
+
+// Of F = mean of the squares of independent t statistics: that with which F has the same mean (2 if one has none).
+double denominator_df(const std::vector<double>& dfs) {
+  const auto [smallest, largest] = std::minmax_element(dfs.begin(), dfs.end());
+  if (*smallest == *largest || *largest - *smallest < 1e-8) return *smallest;
+  if (*smallest <= 2.0) return 2.0;
+  double excess = 0.0;  // of the sum of nu / (nu - 2) over the number
+  for (const double nu : dfs) excess += std::isinf(nu) ? 0.0 : 2.0 / (nu - 2.0);
+  return 2.0 + 2.0 * static_cast<double>(dfs.size()) / excess;
+}
+
+}  // namespace
+
+Estimable<TestResult> test_equal_means(const FixedEffects& model, const MarginalGroup& means) {
+  using Result = Estimable<TestResult>;
+  std::vector<const MarginalMean*> estimable;
+  for (const auto& mean : means.means) {
+    if (mean.estimate) estimable.push_back(&mean);
+  }
+  if (estimable.size() < 2)
+    return Result::impossible(means.means.size() < 2 || estimable.size() == means.means.size()
+                                  ? "fewer than two means"
+                                  : "fewer than two means can be estimated");
+  if (!model.no_standard_errors.empty()) return Result::impossible(model.no_standard_errors);
+  const auto p = static_cast<Eigen::Index>(model.coefficients.size());
+  Eigen::MatrixXd differences(static_cast<Eigen::Index>(estimable.size()) - 1, p);
+  const auto combination_of = [&](std::size_t m) {
+    return Eigen::Map<const Eigen::VectorXd>{estimable[m]->combination.data(), p};
+  };
+  for (Eigen::Index i = 0; i < differences.rows(); ++i)
+    differences.row(i) = (combination_of(static_cast<std::size_t>(i) + 1) - combination_of(0)).transpose();
+  const Eigen::Map<const Eigen::MatrixXd> covariance{model.covariance.data(), p, p};
+  const Eigen::Map<const Eigen::VectorXd> coefficients{model.coefficients.data(), p};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{differences * covariance * differences.transpose()};
+  const double largest = solver.eigenvalues().maxCoeff();
+  if (!(largest > 0.0)) return Result::impossible("the standard errors of all differences are zero");
+  double sum = 0.0;
+  std::vector<double> dfs;
+  for (Eigen::Index i = 0; i < differences.rows(); ++i) {
+    const double variance = solver.eigenvalues()(i);
+    if (variance <= 1e-10 * largest) continue;
+    const Eigen::VectorXd contrast = differences.transpose() * solver.eigenvectors().col(i);
+    const double estimate = contrast.dot(coefficients);
+    sum += estimate * estimate / variance;
+    dfs.push_back(model.df({contrast.data(), static_cast<std::size_t>(p)}));
+  }
+  const auto rank = static_cast<double>(dfs.size());
+  const double df = denominator_df(dfs);
+  if (std::isinf(df)) return TestResult{"chi-squared", sum, {rank}, chi_squared_upper(sum, rank)};
+  return TestResult{"F", sum / rank, {rank, df}, f_upper(sum / rank, rank, df)};
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/estimable.hpp"
 #include "kith/stats/fixed_effects.hpp"
+#include "kith/stats/tests.hpp"
 
 namespace kith {
 
@@ -51,9 +52,11 @@ enum class Adjustment {
   kNone,
   kBonferroni,
   kSidak,
-  kHolm,   ///< Intervals are Bonferroni's: Holm's procedure has no simple ones.
-  kFdr,    ///< Benjamini and Hochberg [benjamini1995]; intervals are not adjusted.
-  kTukey,  ///< Tukey-Kramer: the studentised range of all means [tukey1949; kramer1956]. For all pairs.
+  kHolm,           ///< Intervals are Bonferroni's: Holm's procedure has no simple ones.
+  kFdr,            ///< Benjamini and Hochberg [benjamini1995]; intervals are not adjusted.
+  kTukey,          ///< Tukey-Kramer: the studentised range of all means [tukey1949; kramer1956]. For all pairs.
+  kMultivariateT,  ///< LargestT with the correlations of the contrasts: Dunnett's test if they compare with a control
+                   ///< [dunnett1955].
 };
 [[nodiscard]] std::string_view to_string(Adjustment adjustment) noexcept;
 
@@ -79,6 +82,13 @@ struct MeanContrast {
 [[nodiscard]] std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const MarginalGroup& means,
                                                              std::span<const MeanContrast> contrasts,
                                                              Adjustment adjustment, double confidence = 0.95);
+
+/// Test that all means of a group are equal: the simple effect of the factors `over` at the group's levels of the
+/// factors `by` (R: emmeans::joint_tests). F; if the degrees of freedom are infinite, chi-squared. Where they differ
+/// between contrasts, those of the denominator are such that F has the mean of the sum of the squared t statistics of
+/// independent contrasts (R: lmerTest). Means that cannot be estimated do not count.
+/// Not estimable below two means, or as their differences' inference is not.
+[[nodiscard]] Estimable<TestResult> test_equal_means(const FixedEffects& model, const MarginalGroup& means);
 
 /// A marginal mean with its interval on the scale of the response: exp() of a log link, 1 / (1 + exp(-x)) of a logit.
 [[nodiscard]] Estimable<Interval> response_mean(Link link, const LinearEstimate& mean);
