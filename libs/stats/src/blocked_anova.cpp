@@ -1,5 +1,8 @@
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +11,7 @@
 #include "checks.hpp"
 #include "f_test.hpp"
 #include "kith/stats/anova.hpp"
+#include "kith/stats/distributions.hpp"
 
 namespace kith {
 namespace {
@@ -104,24 +108,116 @@ Split split_spread(const Blocks& blocks, std::size_t num_groups) {
   return split;
 }
 
+Estimable<Blocks> blocks_of(std::span<const double> standardized, const Factor& levels, const Factor& groups,
+                            const Factor& people) {
+  using Result = Estimable<Blocks>;
+  if (standardized.empty()) return Result::impossible("no observations");
+  if (levels.levels.size() < 2) return Result::impossible("only one level of '" + levels.name + "' has observations");
+  auto blocks = gather_blocks(standardized, levels, groups, people);
+  if (!blocks.reason.empty()) return Result::impossible(blocks.reason);
+  return blocks;
+}
+
+void require_blocks(std::span<const double> response, const Factor& within, const Factor& between, const Factor& block,
+                    const char* function) {
+  require_finite(response, function);
+  for (const auto* factor : {&within, &between, &block}) require_codes(*factor, response.size(), function);
+}
+
+constexpr const char* kNoSpread = "no spread within the blocks beyond what their group has in common";
+constexpr const char* kNoResidual = "no residual degrees of freedom: one block in every group";
+
+// The chi-squared of Box's expansion to second order, as R's mauchly.test. `df` are those of the covariances.
+TestResult mauchly_test(double w, double contrasts, double df) {
+  const double p = contrasts;
+  const double rho = 1.0 - (2.0 * p * p + p + 2.0) / (6.0 * p * df);
+  const double second = (p + 2.0) * (p - 1.0) * (p - 2.0) * (2.0 * p * p * p + 6.0 * p * p + 3.0 * p + 2.0) /
+                        (288.0 * (df * p * rho) * (df * p * rho));
+  const double statistic = -df * rho * std::log(w);
+  const double chi_df = p * (p + 1.0) / 2.0 - 1.0;
+  const double first = chi_squared_upper(statistic, chi_df);
+  const double corrected = first + second * (chi_squared_upper(statistic, chi_df + 4.0) - first);
+  return {"chi-squared", statistic, {chi_df}, std::clamp(corrected, 0.0, 1.0)};
+}
+
 }  // namespace
+
+Estimable<Sphericity> check_sphericity(std::span<const double> response, const Factor& within, const Factor& between,
+                                       const Factor& block) {
+  using Result = Estimable<Sphericity>;
+  require_blocks(response, within, between, block, "check_sphericity");
+  const auto levels = drop_unused(within);
+  const auto groups = drop_unused(between);
+  const auto standardized = standardize(response);
+  const auto blocks = blocks_of(standardized.values, levels, groups, drop_unused(block));
+  if (!blocks) return Result::impossible(blocks.reason());
+  const auto split = split_spread(*blocks, groups.levels.size());
+  const auto num_blocks = blocks->group.size();
+  if (num_blocks == groups.levels.size()) return Result::impossible(kNoResidual);
+  if (split.residual <= negligible_sum_of_squares(standardized.rounding, response.size()))
+    return Result::impossible(kNoSpread);
+
+  const auto k = static_cast<Eigen::Index>(levels.levels.size());
+  const auto p = static_cast<double>(k - 1);
+  const auto df = static_cast<double>(num_blocks - groups.levels.size());
+  // Covariances of the levels less the blocks' means: of rank k - 1, with the eigenvalues that orthonormal contrasts
+  // of the levels have.
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(k, k);
+  for (std::size_t b = 0; b < num_blocks; ++b) {
+    Eigen::VectorXd rest(k);
+    for (Eigen::Index l = 0; l < k; ++l) {
+      const auto level = static_cast<std::size_t>(l);
+      rest(l) = blocks->differences[b][level] - split.expected[blocks->group[b]][level];
+    }
+    covariance += rest * rest.transpose() / df;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{covariance, Eigen::EigenvaluesOnly};
+  const Eigen::VectorXd values = solver.eigenvalues().tail(k - 1).cwiseMax(0.0);
+  const double mean = values.mean();
+  Sphericity result;
+  result.greenhouse_geisser = std::clamp(mean * mean * p / values.squaredNorm(), 1.0 / p, 1.0);
+  const double shrunk = p * result.greenhouse_geisser;
+  result.huynh_feldt =
+      df > shrunk ? std::clamp(((df + 1.0) * shrunk - 2.0) / (p * (df - shrunk)), result.greenhouse_geisser, 1.0) : 1.0;
+  if (k == 2) {
+    result.mauchly = Estimable<TestResult>::impossible("two levels are always spherical");
+    return result;
+  }
+  if (df < p) {
+    result.mauchly_w = 0.0;
+    result.mauchly = Estimable<TestResult>::impossible("fewer blocks than Mauchly's test needs for so many levels");
+    return result;
+  }
+  result.mauchly_w = std::min(1.0, std::exp((values / mean).array().log().sum()));
+  if (!(result.mauchly_w > 0.0)) {
+    result.mauchly = Estimable<TestResult>::impossible("some levels have no spread within the blocks between them");
+    return result;
+  }
+  result.mauchly = mauchly_test(result.mauchly_w, p, df);
+  return result;
+}
+
+TestResult correct_for_sphericity(const TestResult& test, double epsilon) {
+  if (test.statistic_name != "F" || test.df.size() != 2)
+    throw std::invalid_argument{"correct_for_sphericity: an F test is needed"};
+  if (!(epsilon > 0.0 && epsilon <= 1.0))
+    throw std::invalid_argument{"correct_for_sphericity: epsilon must be in (0, 1]"};
+  const double df1 = epsilon * test.df[0];
+  const double df2 = epsilon * test.df[1];
+  return {"F", test.statistic, {df1, df2}, f_upper(test.statistic, df1, df2)};
+}
 
 Estimable<AnovaTable> blocked_anova(std::span<const double> response, const Factor& within, const Factor& between,
                                     const Factor& block) {
-  require_finite(response, "blocked_anova");
-  for (const auto* factor : {&within, &between, &block}) require_codes(*factor, response.size(), "blocked_anova");
+  require_blocks(response, within, between, block, "blocked_anova");
   using Result = Estimable<AnovaTable>;
   const auto levels = drop_unused(within);
   const auto groups = drop_unused(between);
   const auto people = drop_unused(block);
-  const auto only_one_level = [](const Factor& factor) {
-    return "only one level of '" + factor.name + "' has observations";
-  };
-  if (response.empty()) return Result::impossible("no observations");
-  if (levels.levels.size() < 2) return Result::impossible(only_one_level(within));
   const auto standardized = standardize(response);
-  const auto blocks = gather_blocks(standardized.values, levels, groups, people);
-  if (!blocks.reason.empty()) return Result::impossible(blocks.reason);
+  const auto gathered = blocks_of(standardized.values, levels, groups, people);
+  if (!gathered) return Result::impossible(gathered.reason());
+  const auto& blocks = *gathered;
   const auto split = split_spread(blocks, groups.levels.size());
 
   const auto df = levels.levels.size() - 1;
@@ -140,14 +236,14 @@ Estimable<AnovaTable> blocked_anova(std::span<const double> response, const Fact
   }
   std::string reason;
   if (table.residual_df == 0) {
-    reason = "no residual degrees of freedom: one block in every group";
+    reason = kNoResidual;
   } else if (split.residual <= negligible_sum_of_squares(standardized.rounding, response.size())) {
-    reason = "no spread within the blocks beyond what their group has in common";
+    reason = kNoSpread;
   }
   table.terms.push_back({within.name, df, in_units(split.of_within)});
   test_term(table.terms.back(), split.of_within, split.residual, table.residual_df, reason);
   const auto interaction_df = df * (groups.levels.size() - 1);
-  if (interaction_df == 0) reason = only_one_level(between);
+  if (interaction_df == 0) reason = "only one level of '" + between.name + "' has observations";
   table.terms.push_back({within.name + ":" + between.name, interaction_df, in_units(split.of_interaction)});
   test_term(table.terms.back(), split.of_interaction, split.residual, table.residual_df, reason);
   return table;

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/non_central_f.hpp>
+#include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
@@ -119,6 +120,22 @@ double non_central_f_upper(double f, double df1, double df2, double non_centrali
     return bm::cdf(
         bm::complement(bm::non_central_chi_squared_distribution<double, Quiet>{df1, non_centrality}, f * df1));
   return bm::cdf(bm::complement(bm::non_central_f_distribution<double, Quiet>{df1, df2, non_centrality}, f));
+}
+
+double non_central_t_lower(double t, double df, double non_centrality) {
+  require(!std::isnan(t), "non_central_t_lower: t must be a number");
+  require_df(df, "non_central_t_lower: df must be > 0");
+  require(std::isfinite(non_centrality), "non_central_t_lower: non_centrality must be finite");
+  if (std::isinf(t)) return t > 0.0 ? 1.0 : 0.0;
+  if (std::isinf(df)) return normal_upper(non_centrality - t);
+  constexpr double kFar = 1e4;
+  if (std::abs(non_centrality) <= kFar)
+    return bm::cdf(bm::non_central_t_distribution<double, Quiet>{df, non_centrality}, t);
+  // non_centrality / S <= t
+  if ((t > 0.0) != (non_centrality > 0.0)) return t > 0.0 ? 1.0 : 0.0;
+  const double squared = df * (non_centrality / t) * (non_centrality / t);
+  const auto chi_squared = bm::chi_squared_distribution<double, Quiet>{df};
+  return t > 0.0 ? bm::cdf(bm::complement(chi_squared, squared)) : bm::cdf(chi_squared, squared);
 }
 
 double gamma_ratio(double a, double b) {

@@ -129,9 +129,18 @@ double standardized_difference(const TwoSamples& samples, double difference, dou
   return difference / std::sqrt(within / static_cast<double>(samples.n_first + samples.n_second - 2));
 }
 
-double small_sample_correction(std::size_t df) {
-  const double half = static_cast<double>(df) / 2.0;
-  return df < 2 ? 0.0 : gamma_ratio(half, half - 0.5) / std::sqrt(half);
+// df >= 2
+double small_sample_correction(double df) {
+  const double half = df / 2.0;
+  return std::isinf(df) ? 1.0 : gamma_ratio(half, half - 0.5) / std::sqrt(half);
+}
+
+// Of a statistic t of df degrees of freedom that is d / unit.
+StandardizedDifference non_central_interval(double t, double df, double unit, double confidence) {
+  const double tail = (1.0 - confidence) / 2.0;
+  const Interval d{t * unit, non_centrality_of_t(t, df, 1.0 - tail) * unit, non_centrality_of_t(t, df, tail) * unit};
+  const double correction = small_sample_correction(df);
+  return {d, {correction * d.estimate, correction * d.low, correction * d.high}};
 }
 
 double cohens_d_of(const TwoSamples& samples) {
@@ -153,7 +162,59 @@ Estimable<double> hedges_g(std::span<const double> a, std::span<const double> b)
   if (!samples.reason.empty()) return Estimable<double>::impossible(samples.reason);
   const auto df = a.size() + b.size() - 2;
   if (df < 2) return Estimable<double>::impossible("fewer than two residual degrees of freedom");
-  return small_sample_correction(df) * cohens_d_of(samples);
+  return small_sample_correction(static_cast<double>(df)) * cohens_d_of(samples);
+}
+
+Estimable<StandardizedDifference> standardized_difference(std::span<const double> a, std::span<const double> b,
+                                                          double confidence) {
+  using Result = Estimable<StandardizedDifference>;
+  require_confidence(confidence, "standardized_difference");
+  const auto samples = two_samples(a, b, "standardized_difference");
+  if (!samples.reason.empty()) return Result::impossible(samples.reason);
+  const auto df = a.size() + b.size() - 2;
+  if (df < 2) return Result::impossible("fewer than two residual degrees of freedom");
+  const double unit = std::sqrt(1.0 / static_cast<double>(a.size()) + 1.0 / static_cast<double>(b.size()));
+  return non_central_interval(cohens_d_of(samples) / unit, static_cast<double>(df), unit, confidence);
+}
+
+Estimable<StandardizedDifference> paired_standardized_difference(std::span<const double> a, std::span<const double> b,
+                                                                 double confidence) {
+  using Result = Estimable<StandardizedDifference>;
+  const auto difference = paired_t_test(a, b, confidence);
+  if (!difference) return Result::impossible(difference.reason());
+  if (a.size() < 3) return Result::impossible("fewer than three pairs");
+  const auto n = static_cast<double>(a.size());
+  return non_central_interval(difference->test.statistic, n - 1.0, 1.0 / std::sqrt(n), confidence);
+}
+
+Estimable<StandardizedDifference> standardized_contrast(const FixedEffects& model, const LinearEstimate& contrast,
+                                                        double confidence) {
+  using Result = Estimable<StandardizedDifference>;
+  require_confidence(confidence, "standardized_contrast");
+  if (model.link != Link::kIdentity)
+    return Result::impossible("the model is linear on another scale than that of the response");
+  if (!contrast.inference) return Result::impossible(contrast.inference.reason());
+  if (!model.residual_sd) return Result::impossible(model.residual_sd.reason());
+  if (contrast.inference->df < 2.0) return Result::impossible("fewer than two degrees of freedom");
+  return non_central_interval(contrast.inference->statistic, contrast.inference->df,
+                              contrast.inference->standard_error / *model.residual_sd, confidence);
+}
+
+Estimable<VarianceShare> variance_share(const AnovaTerm& term, std::size_t observations, double confidence) {
+  require_confidence(confidence, "variance_share");
+  if (observations == 0) throw std::invalid_argument{"variance_share: observations must be > 0"};
+  if (!term.test) return Estimable<VarianceShare>::impossible(term.test.reason());
+  const double f = term.test->statistic;
+  const double df = term.test->df.at(0);
+  const double residual_df = term.test->df.at(1);
+  const double tail = (1.0 - confidence) / 2.0;
+  const auto n = static_cast<double>(observations);
+  const auto share = [&](double p) {
+    const double non_centrality = non_centrality_of_f(f, df, residual_df, p);
+    return non_centrality / (non_centrality + n);
+  };
+  const double excess = std::max(0.0, df * (f - 1.0));
+  return VarianceShare{{f * df / (f * df + residual_df), share(tail), share(1.0 - tail)}, excess / (excess + n)};
 }
 
 Estimable<Interval> bootstrap_hedges_g(std::span<const double> a, std::span<const double> b,
@@ -162,7 +223,7 @@ Estimable<Interval> bootstrap_hedges_g(std::span<const double> a, std::span<cons
   const auto estimate = hedges_g(a, b);
   if (!estimate) return Estimable<Interval>::impossible(estimate.reason());
   const auto samples = two_samples(a, b, "bootstrap_hedges_g");
-  const double correction = small_sample_correction(a.size() + b.size() - 2);
+  const double correction = small_sample_correction(static_cast<double>(a.size() + b.size() - 2));
   std::vector<double> resampled;
   for (std::size_t r = 0; r < options.resamples; ++r) {
     auto stream = random.split(r);
@@ -175,6 +236,24 @@ Estimable<Interval> bootstrap_hedges_g(std::span<const double> a, std::span<cons
     resampled.push_back(correction * standardized_difference(samples, difference, within));
   }
   return percentile_interval(*estimate, std::move(resampled), options);
+}
+
+Estimable<Interval> bootstrap_variance_ratio(std::span<const double> a, std::span<const double> b,
+                                             const BootstrapOptions& options, RandomStream random) {
+  require_options(options, "bootstrap_variance_ratio");
+  const auto estimate = variance_ratio(a, b, options.confidence);
+  if (!estimate) return Estimable<Interval>::impossible(estimate.reason());
+  const auto samples = two_samples(a, b, "bootstrap_variance_ratio");
+  const double df_ratio = static_cast<double>(b.size() - 1) / static_cast<double>(a.size() - 1);
+  std::vector<double> resampled;
+  for (std::size_t r = 0; r < options.resamples; ++r) {
+    auto stream = random.split(r);
+    const double first = spread(resample(cell_of(samples.cells, 0), stream), a.size());
+    const double second = spread(resample(cell_of(samples.cells, 1), stream), b.size());
+    if (first <= samples.negligible || second <= samples.negligible) continue;
+    resampled.push_back(first / second * df_ratio);
+  }
+  return percentile_interval(estimate->ratio.estimate, std::move(resampled), options);
 }
 
 namespace {

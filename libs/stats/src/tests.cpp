@@ -216,6 +216,32 @@ Estimable<MeanDifference> paired_t_test(std::span<const double> a, std::span<con
                       exponent);
 }
 
+Estimable<VarianceRatio> variance_ratio(std::span<const double> a, std::span<const double> b, double confidence) {
+  using Result = Estimable<VarianceRatio>;
+  require_finite(a, "variance_ratio");
+  require_finite(b, "variance_ratio");
+  require_confidence(confidence, "variance_ratio");
+  if (a.size() < 2 || b.size() < 2) return Result::impossible("fewer than two values in a group");
+  std::vector<double> both{a.begin(), a.end()};
+  both.insert(both.end(), b.begin(), b.end());
+  const auto standardized = standardize(both);
+  const std::span<const double> values{standardized.values};
+  const auto first = describe("", values.first(a.size()));
+  const auto second = describe("", values.subspan(a.size()));
+  for (const auto* group : {&first, &second}) {
+    if (no_spread(group->sum_of_squares, group->n, standardized.rounding))
+      return Result::impossible("no spread within a group");
+  }
+  const double ratio = first.variance() / second.variance();
+  const double df1 = first.n - 1.0;
+  const double df2 = second.n - 1.0;
+  const double tail = (1.0 - confidence) / 2.0;
+  const double upper = f_upper(ratio, df1, df2);
+  const double lower = f_upper(1.0 / ratio, df2, df1);  // keeps the digits of a small lower tail
+  return VarianceRatio{{ratio, ratio / f_quantile(1.0 - tail, df1, df2), ratio / f_quantile(tail, df1, df2)},
+                       {"F", ratio, {df1, df2}, std::min(1.0, 2.0 * std::min(upper, lower))}};
+}
+
 std::vector<double> mid_ranks(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -62,6 +62,26 @@ struct AnovaTable {
 [[nodiscard]] Estimable<AnovaTable> blocked_anova(std::span<const double> response, const Factor& within,
                                                   const Factor& between, const Factor& block);
 
+/// Whether the levels of a factor within blocks are compared with equal precision, as the F tests of blocked_anova()
+/// assume (sphericity), and by how much their degrees of freedom shrink if not.
+struct Sphericity {
+  /// Mauchly's test [mauchly1940] (R: mauchly.test), chi-squared approximation to second order. R 4.2 has the number of
+  /// levels in a place of the second-order term that needs levels - 1, so its p differs by up to 1e-4. Not estimable
+  /// unless blocks - groups >= levels - 1.
+  Estimable<TestResult> mauchly = Estimable<TestResult>::impossible("not computed");
+  double mauchly_w = 1.0;           ///< In [0, 1]; 1: spherical. 0 if there are too few blocks.
+  double greenhouse_geisser = 1.0;  ///< Epsilon in [1 / (levels - 1), 1] [greenhouse1959].
+  double huynh_feldt = 1.0;         ///< Epsilon, less conservative, at most 1 [huynh1976].
+};
+/// Of the same model as blocked_anova(), from the covariances of the levels within groups of blocks. With two levels it
+/// always holds, and there is nothing to test.
+/// Not estimable as blocked_anova() is not, without spread or residual degrees of freedom.
+[[nodiscard]] Estimable<Sphericity> check_sphericity(std::span<const double> response, const Factor& within,
+                                                     const Factor& between, const Factor& block);
+/// An F test of blocked_anova() with both degrees of freedom multiplied by epsilon, which makes it valid without
+/// sphericity. @throws std::invalid_argument unless it is an F test and epsilon is in (0, 1].
+[[nodiscard]] TestResult correct_for_sphericity(const TestResult& test, double epsilon);
+
 /// Skewness and excess kurtosis of residuals with the Jarque-Bera test of normality (asymptotic).
 struct NormalityCheck {
   double skewness = 0.0;

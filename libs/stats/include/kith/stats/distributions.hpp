@@ -17,6 +17,14 @@ namespace kith {
 /// the spread of the numerator, less than 1e-4 of it, is left out.
 [[nodiscard]] double non_central_f_upper(double f, double df1, double df2, double non_centrality);
 
+/// P(T <= t) for the non-central t distribution, that of (Z + non_centrality) / S, within 1e-8. Beyond a non-centrality
+/// of 1e4 the spread of Z, less than 1e-4 of it, counts only where df is infinite.
+[[nodiscard]] double non_central_t_lower(double t, double df, double non_centrality);
+/// The non-centrality with which P(T <= t) = p, p in (0, 1): a confidence limit [steiger2004].
+[[nodiscard]] double non_centrality_of_t(double t, double df, double p);
+/// The non-centrality >= 0 with which P(F > f) = p, p in (0, 1); 0 if P(F > f) is above p without any [steiger2004].
+[[nodiscard]] double non_centrality_of_f(double f, double df1, double df2, double p);
+
 /// Gamma(a) / Gamma(b) for a, b > 0, without overflow where the ratio itself has none.
 [[nodiscard]] double gamma_ratio(double a, double b);
 

@@ -6,6 +6,7 @@
 
 #include "kith/stats/estimable.hpp"
 #include "kith/stats/factor.hpp"
+#include "kith/stats/tests.hpp"
 
 namespace kith {
 
@@ -41,5 +42,19 @@ struct PairwiseDifference {
                                                                    std::span<const std::size_t> counts,
                                                                    double mean_square, double df,
                                                                    double confidence = 0.95);
+
+/// One pair of groups of a Games-Howell test.
+struct UnequalVariancePair {
+  std::size_t first = 0;  ///< Indices of levels; the difference is mean(second) - mean(first).
+  std::size_t second = 0;
+  /// Welch's standard error and degrees of freedom; interval and p by the studentised range of all groups.
+  Estimable<MeanDifference> difference = Estimable<MeanDifference>::impossible("not computed");
+};
+/// Pairwise differences without equal variances [games1976], of the groups that have observations; in the order of
+/// tukey_hsd(). A pair says why it cannot be compared: fewer than two values in a group, no spread in both, or fewer
+/// than two degrees of freedom. Not estimable with fewer than two groups.
+/// @throws std::invalid_argument as welch_anova() does, or if confidence is not in (0, 1).
+[[nodiscard]] Estimable<std::vector<UnequalVariancePair>> games_howell(std::span<const double> values,
+                                                                       const Factor& groups, double confidence = 0.95);
 
 }  // namespace kith

@@ -29,6 +29,13 @@ struct TestResult {
 /// Test of equal variances by absolute deviations from the group medians (Brown and Forsythe).
 [[nodiscard]] Estimable<TestResult> brown_forsythe(std::span<const double> values, const Factor& groups);
 
+/// An estimate with its confidence interval.
+struct Interval {
+  double estimate = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
 /// A difference of means with its confidence interval and two-sided test.
 struct MeanDifference {
   double difference = 0.0;  ///< mean(a) - mean(b)
@@ -43,6 +50,16 @@ struct MeanDifference {
 /// Pairs, such as teams of the same simulated people under two strategies (R: t.test(paired = TRUE)).
 /// @throws std::invalid_argument unless both have the same length.
 [[nodiscard]] Estimable<MeanDifference> paired_t_test(std::span<const double> a, std::span<const double> b,
+                                                      double confidence = 0.95);
+
+/// The ratio of two variances with its interval and two-sided F test (R: var.test). Both assume normal values; where
+/// they are not, brown_forsythe() and bootstrap_variance_ratio() do without.
+struct VarianceRatio {
+  Interval ratio;   ///< variance(a) / variance(b)
+  TestResult test;  ///< F(a - 1, b - 1)
+};
+/// Not estimable below two values in a group, or if one has no spread. @param confidence in (0, 1).
+[[nodiscard]] Estimable<VarianceRatio> variance_ratio(std::span<const double> a, std::span<const double> b,
                                                       double confidence = 0.95);
 
 /// Ranks from 1; ties get their mean rank.

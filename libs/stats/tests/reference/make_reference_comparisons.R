@@ -1,0 +1,226 @@
+# Writes comparisons.json, the reference values of comparisons_test.
+#
+#   Rscript libs/stats/tests/reference/make_reference_comparisons.R libs/stats/tests/reference/comparisons.json
+#
+# Needs R >= 4.2 with car, emmeans and mvtnorm. Data are drawn here with a fixed seed and stored with the results, so that neither
+# the build nor the tests need R. Confidence limits of non-centralities are roots of R's pt and pf; tails of the
+# studentised range are the integral that defines them, because ptukey is off for few degrees of freedom.
+
+suppressPackageStartupMessages({ library(car); library(emmeans); library(mvtnorm) })
+options(warn = -1)  # about precision far from the roots, and about epsilons above 1
+set.seed(20261123, kind = "Mersenne-Twister", normal.kind = "Inversion", sample.kind = "Rejection")
+
+# ---- JSON ----
+
+number <- function(x) ifelse(is.finite(x), sprintf("%.17g", x), "null")
+json <- function(x) {
+  if (is.null(x)) return("null")
+  if (is.list(x)) {
+    items <- vapply(x, json, "")
+    if (is.null(names(x))) return(paste0("[", paste(items, collapse = ","), "]"))
+    return(paste0("{", paste0("\"", names(x), "\":", items, collapse = ","), "}"))
+  }
+  if (is.character(x)) return(paste0("\"", x, "\""))
+  if (is.logical(x) && !is.na(x)) return(ifelse(x, "true", "false"))
+  number(x)
+}
+array_of <- function(x) unname(as.list(x))
+
+# ---- studentised range, by its definition ----
+
+range_upper <- function(r, k) vapply(r, function(r) {
+  f <- function(z) k * dnorm(z) * pnorm(z)^(k - 1) * -expm1((k - 1) * log1p(-pnorm(z - r) / pnorm(z)))
+  integrate(f, r / 2 - 9, max(r / 2 + 9, 9.5), rel.tol = 1e-12, subdivisions = 2000)$value
+}, 0)
+tukey_upper <- function(q, k, df) {
+  if (q == 0) return(1)
+  density <- function(s) exp(log(2) + df / 2 * log(df / 2) - lgamma(df / 2) + (df - 1) * log(s) - df * s^2 / 2)
+  f <- function(s) density(s) * range_upper(q * s, k)
+  middle <- sqrt(df / (df + q^2 / 2))
+  sd <- 1 / sqrt(2 * df)
+  integrate(f, max(0, middle - 12 * sd), middle, rel.tol = 1e-11, subdivisions = 4000)$value +
+    integrate(f, middle, 1 + 12 * sd, rel.tol = 1e-11, subdivisions = 4000)$value
+}
+
+# ---- the largest of several |t| ----
+
+# Product correlations of comparisons with a control of n[1] observations; by the integral that defines them.
+dunnett_upper <- function(t, loadings, df) {
+  given <- function(r) vapply(r, function(r) integrate(function(y) dnorm(y) * vapply(y, function(y) {
+    s <- sqrt(1 - loadings^2)
+    -expm1(sum(log1p(-pmin(1, pnorm((r - loadings * y) / s, lower.tail = FALSE) + pnorm((r + loadings * y) / s, lower.tail = FALSE)))))
+  }, 0), -9 - r, 9 + r, rel.tol = 1e-10, subdivisions = 1000)$value, 0)
+  if (is.infinite(df)) return(given(t))
+  density <- function(s) exp(log(2) + df / 2 * log(df / 2) - lgamma(df / 2) + (df - 1) * log(s) - df * s^2 / 2)
+  sd <- 1 / sqrt(2 * df)
+  integrate(function(s) density(s) * given(t * s), max(0, 1 - 12 * sd), 1 + 12 * sd, rel.tol = 1e-9, subdivisions = 1000)$value
+}
+largest_t <- list()
+for (n in list(c(10, 10, 10), c(5, 10, 20, 7), c(30, 3), c(4, 4, 4, 4, 4, 4))) for (df in c(3, 11, 60, Inf)) for (t in c(0.5, 2, 3.5)) {
+  loadings <- sqrt(n[-1] / (n[1] + n[-1]))
+  correlations <- outer(loadings, loadings)
+  diag(correlations) <- 1
+  largest_t[[length(largest_t) + 1]] <- list(kind = "product", correlations = array_of(as.vector(correlations)), t = t,
+                                             df = if (is.infinite(df)) 0 else df, p = dunnett_upper(t, loadings, df))
+}
+general <- function(contrasts, covariance) cov2cor(contrasts %*% covariance %*% t(contrasts))
+random_covariance <- function(k) crossprod(matrix(rnorm(k * (k + 2)), k + 2))
+with_control <- function(k) cbind(-1, diag(k - 1))
+all_pairs <- function(k) t(combn(k, 2, function(p) { x <- numeric(k); x[p] <- c(-1, 1); x }))
+for (k in 3:5) for (contrasts in list(with_control(k), all_pairs(k))) for (df in c(5, 40)) for (t in c(1, 2.5, 4)) {
+  r <- general(contrasts, random_covariance(k))
+  p <- 1 - pmvt(rep(-t, nrow(r)), rep(t, nrow(r)), df = df, corr = r, algorithm = GenzBretz(maxpts = 3e5, abseps = 1e-7))
+  if (attr(p, "error") < 2e-5 * p) largest_t[[length(largest_t) + 1]] <- list(kind = "general", correlations = array_of(as.vector(r)), t = t, df = df, p = as.numeric(p))
+}
+cat(length(largest_t), "tails of the largest t\n")
+
+# ---- effect sizes ----
+
+ncp_t <- function(t, df, p) uniroot(function(ncp) pt(t, df, ncp) - p, c(t - 12, t + 12), tol = 1e-12)$root
+ncp_f <- function(f, df1, df2, p) if (pf(f, df1, df2, lower.tail = FALSE) >= p) 0 else
+  uniroot(function(ncp) pf(f, df1, df2, ncp, lower.tail = FALSE) - p, c(0, 20 * f * df1 + 20), tol = 1e-12)$root
+J <- function(df) exp(lgamma(df / 2) - lgamma((df - 1) / 2)) / sqrt(df / 2)
+
+two_groups <- list()
+add_groups <- function(a, b, bounds) {
+  n <- c(length(a), length(b))
+  df <- sum(n) - 2
+  unit <- sqrt(sum(1 / n))
+  t <- t.test(a, b, var.equal = TRUE)$statistic[[1]]
+  d <- c(t, ncp_t(t, df, 0.975), ncp_t(t, df, 0.025)) * unit
+  welch <- t.test(a, b)
+  v <- var.test(a, b, conf.level = 0.9)
+  tost <- function(test, se) {
+    difference <- if (length(test$estimate) == 2) test$estimate[[1]] - test$estimate[[2]] else test$estimate[[1]]
+    dft <- test$parameter[[1]]
+    list(p_low = pt((difference - bounds[1]) / se, dft, lower.tail = FALSE), p_high = pt((difference - bounds[2]) / se, dft),
+         low = difference - qt(0.95, dft) * se, high = difference + qt(0.95, dft) * se)
+  }
+  entry <- list(a = array_of(a), b = array_of(b), bounds = bounds, d = array_of(d), g = array_of(J(df) * d),
+                variance_ratio = list(ratio = v$estimate[[1]], low = v$conf.int[1], high = v$conf.int[2], p = v$p.value),
+                welch_tost = c(tost(welch, welch$stderr),
+                               list(p_by_t_test = max(t.test(a, b, mu = bounds[1], alternative = "greater")$p.value,
+                                                      t.test(a, b, mu = bounds[2], alternative = "less")$p.value))))
+  entry$bounds <- array_of(bounds)
+  if (n[1] == n[2]) {
+    paired <- t.test(a, b, paired = TRUE)
+    tp <- paired$statistic[[1]]
+    entry$paired_d <- array_of(c(tp, ncp_t(tp, n[1] - 1, 0.975), ncp_t(tp, n[1] - 1, 0.025)) / sqrt(n[1]))
+    entry$paired_tost <- tost(paired, paired$stderr)
+  }
+  two_groups[[length(two_groups) + 1]] <<- entry
+}
+add_groups(rnorm(12), rnorm(9, 0.5), c(-0.5, 0.5))
+add_groups(rnorm(5, 3), rnorm(5), c(-1, 1))
+add_groups(rnorm(40), rnorm(40, 0.05), c(-0.6, 0.6))
+add_groups(rnorm(3), rnorm(25, sd = 3), c(-2, 1))
+add_groups(rnorm(30, 1e4), rnorm(30, 1e4 + 0.2, 0.2), c(-0.5, 0.5))
+add_groups(rpois(60, 7), rpois(60, 8), c(-1, 1))
+add_groups(rnorm(150), rnorm(150), c(-0.3, 0.3))
+
+shares <- list()
+for (f in c(0.3, 1, 2.4, 9, 60)) for (df in list(c(1, 8), c(3, 56), c(9, 224), c(3, 5000))) {
+  n <- sum(df) + 1
+  low <- ncp_f(f, df[1], df[2], 0.025)
+  high <- ncp_f(f, df[1], df[2], 0.975)
+  shares[[length(shares) + 1]] <- list(f = f, df1 = df[1], df2 = df[2], n = n, eta = f * df[1] / (f * df[1] + df[2]),
+                                       low = low / (low + n), high = high / (high + n),
+                                       omega = max(0, df[1] * (f - 1)) / (max(0, df[1] * (f - 1)) + n))
+}
+
+# ---- Games and Howell ----
+
+games_howell <- list()
+add_games <- function(name, sizes, sds) {
+  g <- rep(seq_along(sizes), sizes)
+  y <- rnorm(length(g), 0.6 * g, sds[g])
+  pairs <- combn(length(sizes), 2, function(p) {
+    test <- t.test(y[g == p[2]], y[g == p[1]])
+    df <- test$parameter[[1]]
+    t <- test$statistic[[1]]
+    list(first = p[1] - 1, second = p[2] - 1, diff = test$estimate[[1]] - test$estimate[[2]], se = test$stderr, df = df,
+         p = if (df < 2) NA else tukey_upper(sqrt(2) * abs(t), length(sizes), df),
+         reach = if (df < 2) NA else qtukey(0.95, length(sizes), df) / sqrt(2) * test$stderr)
+  }, simplify = FALSE)
+  games_howell[[length(games_howell) + 1]] <<- list(name = name, y = array_of(y), g = array_of(g - 1), pairs = pairs)
+}
+add_games("equal sizes", c(8, 8, 8), c(1, 1, 1))
+add_games("unequal sizes and variances", c(5, 20, 12, 40), c(3, 0.5, 1, 2))
+add_games("two groups", c(6, 9), c(1, 4))
+add_games("pairs of values", c(2, 30, 4), c(1, 0.1, 2))
+
+# ---- sphericity ----
+
+# R's mauchly.test (also car's) has the number of levels in one place of the second-order term where the expansion has
+# the number of contrasts. The p-value is stored as R has it and with the right term.
+mauchly_p <- function(w, p, n) {
+  rho <- 1 - (2 * p^2 + p + 2) / (6 * p * n)
+  w2 <- (p + 2) * (p - 1) * (p - 2) * (2 * p^3 + 6 * p^2 + 3 * p + 2) / (288 * (n * p * rho)^2)
+  z <- -n * rho * log(w)
+  f <- p * (p + 1) / 2 - 1
+  first <- pchisq(z, f, lower.tail = FALSE)
+  first + w2 * (pchisq(z, f + 4, lower.tail = FALSE) - first)
+}
+sphericity <- list()
+add_blocks <- function(name, k, sizes, autocorrelation, spread = rep(1, k)) {
+  n <- sum(sizes)
+  group <- rep(seq_along(sizes), sizes)
+  covariance <- autocorrelation^abs(outer(1:k, 1:k, "-")) * outer(spread, spread)
+  y <- rmvnorm(n, sigma = covariance) + 2 * rnorm(n) + outer(group, 1:k) * 0.15
+  wide <- if (length(sizes) > 1) lm(y ~ factor(group), contrasts = list("factor(group)" = "contr.sum")) else lm(y ~ 1)
+  idata <- data.frame(within = factor(1:k))
+  s <- summary(Anova(wide, idata = idata, idesign = ~within, type = 3), multivariate = FALSE)
+  last <- nrow(s$univariate.tests)
+  d <- expand.grid(block = 1:n, within = 1:k)
+  sphericity[[length(sphericity) + 1]] <<- list(
+    name = name, y = array_of(as.vector(y)), block = array_of(d$block - 1), within = array_of(d$within - 1),
+    between = array_of(group[d$block] - 1),
+    w = if (length(s$sphericity.tests)) s$sphericity.tests[1, 1] else NA,
+    p = if (length(s$sphericity.tests)) s$sphericity.tests[1, 2] else NA,
+    p_expansion = if (length(s$sphericity.tests)) mauchly_p(s$sphericity.tests[1, 1], k - 1, n - length(sizes)) else NA,
+    gg = if (length(s$pval.adjustments)) s$pval.adjustments[1, "GG eps"] else NA,
+    hf = if (length(s$pval.adjustments)) s$pval.adjustments[1, "HF eps"] else NA,
+    p_gg = if (length(s$pval.adjustments)) s$pval.adjustments[1, "Pr(>F[GG])"] else NA,
+    p_hf = if (length(s$pval.adjustments)) s$pval.adjustments[1, "Pr(>F[HF])"] else NA,
+    f = s$univariate.tests[last - (length(sizes) > 1), "F value"],
+    interaction_p_gg = if (length(sizes) > 1 && length(s$pval.adjustments)) s$pval.adjustments[2, "Pr(>F[GG])"] else NA,
+    equal = length(unique(sizes)) == 1)
+}
+add_blocks("four levels, one group", 4, 12, 0.2)
+add_blocks("autocorrelated", 4, 15, 0.9)
+add_blocks("unequal spread", 5, 10, 0.1, c(1, 1, 1, 4, 8))
+add_blocks("three levels", 3, 6, 0.5)
+add_blocks("two levels", 2, 9, 0.5)
+add_blocks("three groups of eight", 4, c(8, 8, 8), 0.6)
+add_blocks("groups of unequal size", 3, c(4, 9, 6), 0.7)
+add_blocks("six levels, many blocks", 6, c(40, 40), 0.3)
+
+# ---- simple effects ----
+
+simple_effects <- list()
+add_simple <- function(name, counts, formula, over, by) {
+  index <- arrayInd(rep(seq_along(counts), counts), dim(counts))
+  d <- data.frame(a = factor(index[, 1]), b = factor(index[, 2]))
+  d$y <- rnorm(nrow(d)) + 0.4 * index[, 1] * index[, 2]
+  tests <- joint_tests(lm(formula, d), by = by)
+  tests <- tests[tests[["model term"]] == over, ]
+  simple_effects[[length(simple_effects) + 1]] <<- list(
+    name = name, y = array_of(d$y), a = array_of(index[, 1] - 1), b = array_of(index[, 2] - 1),
+    terms = if (grepl("[*]", as.character(formula)[3])) list(list(0), list(1), list(0, 1)) else list(list(0), list(1)),
+    over = if (over == "a") 0 else 1,
+    f = array_of(tests$F.ratio), df1 = array_of(tests$df1), df2 = array_of(tests$df2), p = array_of(tests$p.value))
+}
+add_simple("balanced", array(6, c(4, 3)), y ~ a * b, "a", "b")
+add_simple("unbalanced", array(c(3, 5, 2, 7, 4, 6), c(2, 3)), y ~ a * b, "b", "a")
+add_simple("additive", array(c(3, 5, 2, 7, 4, 6), c(3, 2)), y ~ a + b, "a", "b")
+
+# ---- write ----
+
+lines <- function(name, entries) paste0("\"", name, "\":[\n", paste(vapply(entries, json, ""), collapse = ",\n"), "\n]")
+made_by <- paste0(R.version.string, ", car ", packageVersion("car"), ", emmeans ", packageVersion("emmeans"),
+                  ", mvtnorm ", packageVersion("mvtnorm"))
+writeLines(paste0("{\"made_by\":\"", made_by, "\",\n",
+                  paste(lines("largest_t", largest_t), lines("two_groups", two_groups), lines("shares", shares),
+                        lines("games_howell", games_howell), lines("sphericity", sphericity),
+                        lines("simple_effects", simple_effects), sep = ",\n"), "\n}"),
+           commandArgs(TRUE)[1])
