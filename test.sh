@@ -86,7 +86,6 @@ fuzz() {
     die "fuzzing found something: see build/fuzz/findings and build/fuzz/logs"
 }
 # The benchmarks are built with the libraries of the release; the corpora are replayed by the fuzz targets themselves.
-sanitized_tests() { run_tests asan -LE '^(slow|fuzz|fuzzing)$'; }
 layers=(libs/*/tests)
 layers=("${layers[@]#libs/}")
 layers=("${layers[@]%/tests}")
@@ -96,7 +95,7 @@ part "release: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_B
 part "release: tests" run_tests release
 part "headers alone" configure_and_build release -- all_verify_interface_header_sets
 part "ASan: build" configure_and_build asan -- "${all_tests[@]/%/_tests}"
-part "ASan: tests" sanitized_tests
+part "ASan: tests" run_tests asan
 part "TSan: build" configure_and_build tsan -- kith_core_tests kith_teaching_tests kith_study_tests kith_runs_tests
 part "TSan: tests" run_tests tsan
 part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers
