@@ -56,7 +56,7 @@ TEST_F(ItemDelivery, HasTheWeightsAndWordsOfItsFile) {
   EXPECT_EQ(domain.feature_words(1), "stopping at the charger");
   EXPECT_EQ(domain.max_steps(), 60u);
   EXPECT_EQ(domain.action_names(), (std::vector<std::string>{"up", "down", "left", "right", "pickup", "dropoff"}));
-  EXPECT_EQ(domain.item_names(), (std::vector<std::string>{"parcel"}));
+  EXPECT_EQ(domain.map()->item_names(), (std::vector<std::string>{"parcel"}));
 }
 
 TEST_F(ItemDelivery, HasOptimalPathsOfOneToFourteenSteps) {
@@ -115,7 +115,7 @@ TEST_F(ItemDelivery, AgreesWithTheReferenceOnEveryStart) {
       EXPECT_EQ(domain.has_feature(MdpIndex{m}, k), env.at("reward_features_present").at(k).get<bool>());
     }
     for (const auto& start : env.at("starts")) {
-      const auto s = domain.find_state(MdpIndex{m}, state_of(start.at("state")));
+      const auto s = domain.map()->find_state(MdpIndex{m}, state_of(start.at("state")));
       ASSERT_TRUE(s.has_value() && s->value() < mdp.num_states()) << m << " " << start.at("state");
       ++num_starts;
       const IntegerVector& counts = plans[m].feature_counts[s->value()];

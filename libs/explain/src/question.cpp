@@ -30,6 +30,7 @@ class Answerer {
   Answerer(const Atlas& atlas, const std::string& text, Question question)
       : atlas_{atlas},
         domain_{atlas.domain()},
+        map_{domain_.map()},
         text_{text},
         question_{std::move(question)},
         scene_{atlas, text, question_} {}
@@ -64,7 +65,7 @@ class Answerer {
     return std::to_string(n) + " of " + counted(of, "world");
   }
 
-  [[nodiscard]] std::string start() const { return domain_.has_map() ? "the map's start" : "the first state"; }
+  [[nodiscard]] std::string start() const { return map_ ? "the map's start" : "the first state"; }
   // Where "in 6 of 16 worlds" is about.
   [[nodiscard]] std::string from_the_start() const {
     return question_.is_about_a_step() ? " as the next step" + scene_.spot() : " on the way from " + start();
@@ -340,7 +341,7 @@ class Answerer {
   using Spot = std::pair<std::optional<Cell>, std::string>;  // the name of a state that is on no map
 
   [[nodiscard]] Spot spot_of(MdpIndex world, StateIndex s) const {
-    if (domain_.has_map()) return {domain_.state(world, s).robot, ""};
+    if (map_) return {map_->state(world, s).robot, ""};
     return {std::nullopt, domain_.state_name(world, s)};
   }
 
@@ -412,7 +413,7 @@ class Answerer {
     for (const auto& place : places) {
       if (texts.size() == kMost) break;
       const auto of = question_.negated ? place.visited : domain_.num_mdps();
-      texts.push_back((texts.empty() || !domain_.has_map() ? place.text : place.text.substr(3)) +
+      texts.push_back((texts.empty() || !map_ ? place.text : place.text.substr(3)) +
                       (question_.world ? "" : " in " + worlds_text(place.worlds, of)));
     }
     if (question_.negated && !question_.world) texts.front() += " that lead there";
@@ -626,7 +627,7 @@ class Answerer {
         changes = changes || variant[g] != condition.present;
         variant[g] = condition.present;
       }
-      const auto where = condition.cell ? " at " + cell_text(domain_, *condition.cell) : std::string{};
+      const auto where = condition.cell ? " at " + cell_text(*map_, *condition.cell) : std::string{};
       if (!found) {
         detail::fail(text_, condition.place, "E1108", "no world has " + condition.thing + where,
                      "kith inspect prints the map with everything on it");
@@ -647,6 +648,7 @@ class Answerer {
 
   const Atlas& atlas_;
   const Domain& domain_;
+  std::optional<GridMap> map_;  // there is one if the question names a cell
   const std::string& text_;
   Question question_;
   detail::Scene scene_;

@@ -90,7 +90,7 @@ std::vector<Token> tokens_of(const std::string& text) {
 class Parser {
  public:
   Parser(const Domain& domain, const std::string& text)
-      : domain_{domain}, text_{text}, lexicon_{domain}, tokens_{tokens_of(text)} {}
+      : domain_{domain}, map_{domain.map()}, text_{text}, lexicon_{domain}, tokens_{tokens_of(text)} {}
 
   Question parse() {
     read_kind();
@@ -177,7 +177,7 @@ class Parser {
     if (token.kind == Token::Kind::kCell) return take_cell(token);
     if (token.kind == Token::Kind::kName) return take_state(token);
     if (word == "world" || word == "mdp") return take_world(token);
-    if (word == "state" && !domain_.has_map() && !lexicon_.knows(word)) return take_unquoted_state(token);
+    if (word == "state" && !map_ && !lexicon_.knows(word)) return take_unquoted_state(token);
     if (token.kind == Token::Kind::kNumber) {
       fail_at(token.place, "E1103", "it is not clear what the number " + word + " stands for",
               "write 'world " + word + "', or a cell as (COLUMN,ROW)");
@@ -306,10 +306,10 @@ class Parser {
     }
     if (named) return *named;
     const auto nearest = nearest_word(phrase_.front().text, things);
-    const auto hint = !nearest.empty()     ? "did you mean '" + nearest + "'?"
-                      : !domain_.has_map() ? "without a map, worlds differ as a whole: ask 'in world N'"
-                      : things.empty()     ? "all its worlds are the same"
-                                           : "optional in this domain: " + listed(things);
+    const auto hint = !nearest.empty() ? "did you mean '" + nearest + "'?"
+                      : !map_          ? "without a map, worlds differ as a whole: ask 'in world N'"
+                      : things.empty() ? "all its worlds are the same"
+                                       : "optional in this domain: " + listed(things);
     fail_at(place, "E1108", "'" + phrase_text() + "' is not something that only some worlds have", hint);
   }
 
@@ -343,7 +343,7 @@ class Parser {
   // The name of a state, in models without a map.
   void take_state(const Token& token) {
     close_phrase();
-    if (domain_.has_map()) {
+    if (map_) {
       fail_at(token.place, "E1104", "states have no names in a domain with a map",
               "name a cell: (COLUMN,ROW), or an action or a feature without quotes");
     }
@@ -376,16 +376,16 @@ class Parser {
 
   void take_cell(const Token& token) {
     close_phrase();
-    if (!domain_.has_map()) {
+    if (!map_) {
       fail_at(token.place, "E1104", "this domain has no map, so there are no cells",
               "name a state in quotes, as kith inspect prints it");
     }
-    const Cell cell{static_cast<int>(token.number), domain_.height() + 1 - static_cast<int>(token.row)};
-    if (token.number < 1 || token.number > static_cast<std::size_t>(domain_.width()) || token.row < 1 ||
-        token.row > static_cast<std::size_t>(domain_.height())) {
+    const Cell cell{static_cast<int>(token.number), map_->height() + 1 - static_cast<int>(token.row)};
+    if (token.number < 1 || token.number > static_cast<std::size_t>(map_->width()) || token.row < 1 ||
+        token.row > static_cast<std::size_t>(map_->height())) {
       fail_at(token.place, "E1104",
               "the map has no cell (" + std::to_string(token.number) + "," + std::to_string(token.row) + ")",
-              "it has " + std::to_string(domain_.width()) + " columns and " + std::to_string(domain_.height()) +
+              "it has " + std::to_string(map_->width()) + " columns and " + std::to_string(map_->height()) +
                   " rows, counted from the top left, from 1");
     }
     if (question_.kind == Kind::kWhatIf && !question_.conditions.empty()) {
@@ -412,7 +412,7 @@ class Parser {
   void take_item(const Token& token) {
     close_phrase();
     while (at_ < tokens_.size() && is_filler(tokens_[at_].text)) ++at_;
-    const auto& names = domain_.item_names();
+    const auto names = map_ ? map_->item_names() : std::vector<std::string>{};
     if (at_ < tokens_.size()) {
       const auto& word = tokens_[at_].text;
       for (std::size_t i = 0; i < names.size(); ++i) {
@@ -492,6 +492,7 @@ class Parser {
     Place place;
   };
   const Domain& domain_;
+  std::optional<GridMap> map_;
   const std::string& text_;
   Lexicon lexicon_;
   std::vector<Token> tokens_;

@@ -141,7 +141,7 @@ std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace&
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     if (regions.facets(set_for(atlas, demo, purpose)) != target) continue;
-    const int complexity = atlas.domain().has_map() ? atlas.domain().complexity(atlas.id(demo)) : 0;
+    const int complexity = atlas.domain().complexity(atlas.id(demo));
     const std::tuple candidate{complexity, atlas.trajectory(demo).actions.size(), demo};
     if (!best || candidate < *best) best = candidate;
   }

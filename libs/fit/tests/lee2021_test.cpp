@@ -110,7 +110,7 @@ TEST(Lee2021, ReadsAWorldIntoADomainFile) {
   const auto worlds = read_lee2021_worlds(folder.write("worlds.jsonl", std::string{"\n"} + kWorld + "\n"));
   ASSERT_EQ(worlds.size(), 1u);
   EXPECT_EQ(worlds[0].domain.weights().raw, (std::vector<double>{7.25, 10.5, -1}));
-  EXPECT_TRUE(worlds[0].domain.content(MdpIndex{0}, {2, 1}).wall);
+  EXPECT_TRUE(worlds[0].domain.map()->content(MdpIndex{0}, {2, 1}).wall);
   EXPECT_TRUE(judge_actions(worlds[0].domain, MdpIndex{0}, worlds[0].optimal_actions).optimal);
 }
 
