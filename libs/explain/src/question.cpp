@@ -629,8 +629,7 @@ class Answerer {
       }
       const auto where = condition.cell ? " at " + cell_text(*map_, *condition.cell) : std::string{};
       if (!found) {
-        detail::fail(text_, condition.place, "E1108", "no world has " + condition.thing + where,
-                     "kith inspect prints the map with everything on it");
+        detail::fail(text_, condition.place, "E1108", "no world has " + condition.thing + where, Remedy::kShowMap);
       }
       if (!changes) {
         detail::fail(

@@ -104,8 +104,8 @@ class Parser {
   using Kind = Question::Kind;
 
   [[noreturn]] void fail_at(const Place& place, const std::string& id, const std::string& message,
-                            const std::string& hint = {}) const {
-    fail(text_, place, id, message, hint);
+                            const Advice& advice = {}) const {
+    fail(text_, place, id, message, advice);
   }
 
   // "Does it recharge?" asks when it does; "how much does rubble cost?" what can be concluded about its weight.
@@ -316,7 +316,7 @@ class Parser {
   // "state 0", "state on the bank at a1": the longest stretch of words that is a name, or the next word.
   void take_unquoted_state(const Token& word) {
     if (at_ >= tokens_.size())
-      fail_at(word.place, "E1104", "which state?", "write its name, as kith inspect prints it");
+      fail_at(word.place, "E1104", "which state?", Advice{"write its name", Remedy::kShowStates});
     if (tokens_[at_].kind == Token::Kind::kName) return;  // quoted after all
     const auto names = state_names();
     const auto begin = tokens_[at_].place.column - 1;
@@ -366,19 +366,20 @@ class Parser {
             hint_of_states(token.text, found.empty() ? std::vector<std::string>{names.begin(), names.end()} : found));
   }
 
-  static std::string hint_of_states(const std::string& name, const std::vector<std::string>& names) {
+  static Advice hint_of_states(const std::string& name, const std::vector<std::string>& names) {
     constexpr std::size_t kListed = 8;
     constexpr std::size_t kMostCompared = 5'000;  // comparing with more takes too long
     const auto nearest = names.size() > kMostCompared ? "" : nearest_word(name, names);
     if (!nearest.empty()) return "did you mean '" + nearest + "'?";
-    return names.size() > kListed ? "kith inspect names the states of an MDP" : "its states are " + listed(names);
+    if (names.size() > kListed) return Remedy::kShowStates;
+    return "its states are " + listed(names);
   }
 
   void take_cell(const Token& token) {
     close_phrase();
     if (!map_) {
       fail_at(token.place, "E1104", "this domain has no map, so there are no cells",
-              "name a state in quotes, as kith inspect prints it");
+              Advice{"name a state, in quotes", Remedy::kShowStates});
     }
     const Cell cell{static_cast<int>(token.number), map_->height() + 1 - static_cast<int>(token.row)};
     if (token.number < 1 || token.number > static_cast<std::size_t>(map_->width()) || token.row < 1 ||
@@ -507,7 +508,7 @@ class Parser {
 }  // namespace
 
 void fail(const std::string& question, const Place& place, const std::string& id, const std::string& message,
-          const std::string& hint) {
+          const Advice& advice) {
   Diagnostic diagnostic;
   diagnostic.id = id;
   diagnostic.message = message;
@@ -515,7 +516,8 @@ void fail(const std::string& question, const Place& place, const std::string& id
   diagnostic.line = 1;
   diagnostic.column = place.column;
   diagnostic.length = place.length;
-  diagnostic.hint = hint;
+  diagnostic.hint = advice.hint;
+  diagnostic.remedy = advice.remedy;
   diagnostic.source_line = question;
   throw Error{ErrorKind::kInvalidInput, message, {diagnostic}};
 }

@@ -54,7 +54,7 @@ inline void publish(const std::filesystem::path& folder, const StudyReading& rea
 inline StudyReading tiny_study(std::vector<std::string> overrides = {}) {
   overrides.insert(overrides.begin(),
                    {"replicates=2", "learner.N.particles=60", "learner.P.particles=60", "teacher.particles=60"});
-  return load_study("quick", overrides);
+  return load_study("quick", {overrides});
 }
 
 /// A finished run of that study.

@@ -257,7 +257,7 @@ StudyReading read_run_folder(const fs::path& path, const StudyKinds& kinds) {
   if (!fs::is_regular_file(file, error)) {  // a named pipe would keep us waiting
     throw Error{ErrorKind::kIo, path.string() + " is not a run folder: it has no inputs/study.toml"};
   }
-  auto reading = load_study(file.string(), {}, kinds);
+  auto reading = load_study(file.string(), {.kinds = kinds});
   if (!reading.study || !reading.domain) return reading;
   const auto expected = run_digest(path);
   if (expected && *expected != freeze(reading).digest()) {

@@ -35,7 +35,7 @@ class ScratchFolder {
 
 /// The built-in study "quick", with overrides.
 [[nodiscard]] inline StudyReading quick_study(const std::vector<std::string>& overrides = {}) {
-  auto reading = load_study("quick", overrides);
+  auto reading = load_study("quick", {overrides});
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;
 }

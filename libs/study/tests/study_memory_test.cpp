@@ -14,7 +14,7 @@ namespace kith {
 namespace {
 
 Study quick(const std::vector<std::string>& overrides = {}) {
-  auto reading = load_study("quick", overrides);
+  auto reading = load_study("quick", {overrides});
   if (!reading.study) throw Error{reading.diagnostics};
   return *std::move(reading.study);
 }
