@@ -438,8 +438,11 @@ void add_bench(CLI::App& app, Options& options) {
 }
 
 void add_explain(CLI::App& app, Options& options) {
-  auto& command = *app.add_subcommand("explain", "Say what an error or warning id means");
-  command.add_option("id", options.explain.id, "The id, such as E0207; without one, all are listed")->type_name("ID");
+  auto& command = *app.add_subcommand("explain", "Say what an error id means, or list kinds and their parameters");
+  command
+      .add_option("topic", options.explain.id,
+                  "An id, such as E0207, or learners, strategies or beliefs; without one, all ids are listed")
+      ->type_name("TOPIC");
   add_common(command, options.common);
 }
 
