@@ -194,7 +194,7 @@ void add_study(CLI::App& app, Options& options) {
   command.add_option("--set", study.set, "Set a key of the study (may be repeated)")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command.add_flag("--dry-run", study.dry_run, "Print what would be run, and run nothing");
+  command.add_flag("--dry-run", study.dry_run, "Print what would be run and about how long it takes; write nothing");
   command.add_flag("--yes", study.yes, "Replace the results of a different study in the run folder");
   add_mode<ResumeMode>(command, "--resume", study.resume, "Whether to resume an earlier run", "WHEN",
                        {{"auto", ResumeMode::kAuto}, {"never", ResumeMode::kNever}, {"require", ResumeMode::kRequire}});
