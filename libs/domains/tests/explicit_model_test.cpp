@@ -12,6 +12,7 @@
 #include "kith/core/error.hpp"
 #include "kith/mdp/planner.hpp"
 #include "models_under_test.hpp"
+#include "scratch_folder.hpp"
 
 namespace kith {
 namespace {
@@ -299,9 +300,7 @@ TEST(ExplicitModel, ScalesProbabilitiesThatWereRounded) {
 }
 
 TEST(ExplicitModel, IsFoundBesideItsDomainFile) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("kith_explicit_model_test_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()));
-  std::filesystem::create_directories(folder);
+  const testing::ScratchFolder folder;
   for (const auto& [name, text] : kIceCsv) std::ofstream{folder / name} << text;
   EXPECT_EQ(load_domain((folder / "domain.toml").string()).num_starts(), 2u);
   const auto reading = read_domain(folder / "domain.toml");
@@ -317,7 +316,6 @@ TEST(ExplicitModel, IsFoundBesideItsDomainFile) {
     EXPECT_EQ(error.diagnostics().at(0).line, 2u);
     EXPECT_EQ(error.diagnostics().at(0).column, 6u);
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
