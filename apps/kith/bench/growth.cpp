@@ -41,7 +41,7 @@ Work weigh_by(std::size_t constraints) { return update(constraints, {.resample_b
 std::shared_ptr<const Study> study_with(std::vector<std::string> overrides, std::size_t replicates) {
   overrides.insert(overrides.begin(), {R"(design.strategies=["individual-low", "individual-high", "common", "joint"])",
                                        R"(record.level="team")", "replicates=" + std::to_string(replicates)});
-  auto reading = load_study("paper-uncalibrated", overrides);
+  auto reading = load_study("paper-uncalibrated", {overrides});
   if (!reading.study) throw Error{reading.diagnostics};
   return std::make_shared<const Study>(std::move(*reading.study));
 }

@@ -60,8 +60,9 @@ class CurriculumText {
       line("someone missing this fact would predict the same likeliest path, with other chances", 5);
     } else {
       const auto fork = contrast.robot.states[contrast.decisive];
-      const auto where = domain_.has_map() ? "at " + cell_text(domain_, domain_.state(world, fork).robot)
-                                           : "in state '" + domain_.state_name(world, fork) + "'";
+      const auto map = domain_.map();
+      const auto where = map ? "at " + cell_text(*map, map->state(world, fork).robot)
+                             : "in state '" + domain_.state_name(world, fork) + "'";
       line("someone missing this fact would predict: " + with_chance(world, contrast.alternative), 5);
       line(fmt::format("they differ from step {}, {}", contrast.decisive + 1, where), 5);
     }

@@ -32,10 +32,11 @@ std::string DomainView::title() const {
 }
 
 std::string DomainView::map() const {
-  if (!domain_.has_map()) return model();
+  const auto map = domain_.map();
+  if (!map) return model();
   const DemoId start{mdp_, domain_.initial_state(mdp_)};
   return heading(fmt::format("Map of MDP {}, and its first start", mdp_.value())) +
-         beside({bare_picture(domain_, start), start_picture(domain_, start)}, 2) + "\n" + legend(domain_, 2);
+         beside({bare_picture(*map, start), start_picture(*map, start)}, 2) + "\n" + legend(domain_, 2);
 }
 
 std::string DomainView::model() const {
@@ -87,15 +88,16 @@ std::string DomainView::reward() const {
 std::string DomainView::policy() const {
   auto text = heading(fmt::format("The robot's policy in MDP {}", mdp_.value()));
   const auto& mdp = domain_.mdp(mdp_);
-  if (!domain_.has_map()) return text + policy_table();
+  const auto map = domain_.map();
+  if (!map) return text + policy_table();
   if (!mdp.is_deterministic() || mdp.discount() != 1.0)
     return text + "  not shown: only policies of deterministic, undiscounted MDPs are\n";
   const auto solution = plan_exactly(mdp, domain_.weights().integer).solution.value();
   const auto start = domain_.initial_state(mdp_);
   const auto path = canonical_trajectory(mdp, solution.canonical_choice, start);
-  for (const auto& now : configurations_on(domain_, mdp_, path)) {
-    text += "  " + configuration_in_words(domain_, mdp_, now) + "\n" +
-            beside({policy_picture(domain_, mdp_, solution.canonical_choice, now)}, 4);
+  for (const auto& now : configurations_on(domain_, *map, mdp_, path)) {
+    text += "  " + configuration_in_words(*map, mdp_, now) + "\n" +
+            beside({policy_picture(domain_, *map, mdp_, solution.canonical_choice, now)}, 4);
   }
   const auto& counts = solution.feature_counts[start.value()];
   text += "  ^ v < > move the robot; a letter begins the name of another action\n";

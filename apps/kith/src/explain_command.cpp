@@ -1,4 +1,4 @@
-// What an error id means: the tables of docs/errors*.md, which are the registry of ids.
+// What an error id means: the tables of docs/errors*.md, which are the registry of ids. And what kinds there are.
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
@@ -8,6 +8,7 @@
 #include "build_facts.hpp"
 #include "commands.hpp"
 #include "error_pages.hpp"
+#include "kind_lists.hpp"
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
 #include "kith/present/json.hpp"
@@ -109,9 +110,24 @@ std::string entry_text(const ErrorEntry& entry, const Console& console) {
          field("example", entry.example) + field("about", entry.section);
 }
 
+void print_kinds(const KindList& list, Console& console) {
+  if (console.json()) {
+    console.print_json({{"schema", "kith.explain/1"}, {"program", program_name()}, {list.topic, to_json(list)}});
+  } else {
+    console.print(to_text(list, console));
+  }
+}
+
 }  // namespace
 
 int run_explain(const ExplainOptions& options, Console& console) {
+  const auto kinds = kind_lists();
+  const auto topic =
+      std::find_if(kinds.begin(), kinds.end(), [&](const auto& list) { return list.topic == options.id; });
+  if (topic != kinds.end()) {
+    print_kinds(*topic, console);
+    return 0;
+  }
   const auto entries = error_entries();
   if (options.id.empty()) {
     Json all = Json::array();
@@ -133,11 +149,14 @@ int run_explain(const ExplainOptions& options, Console& console) {
   if (found == entries.end()) {
     std::vector<std::string> known;
     for (const auto& entry : entries) known.push_back(entry.id);
-    const auto nearest = nearest_word(id, known);
+    for (const auto& list : kinds) known.emplace_back(list.topic);
+    const auto by_id = nearest_word(id, known);
+    const auto nearest = by_id.empty() ? nearest_word(options.id, known) : by_id;
     Diagnostic diagnostic;
     diagnostic.id = "usage";
     diagnostic.message = "kith has no error or warning '" + options.id + "'";
-    diagnostic.hint = nearest.empty() ? "`kith explain` lists all ids" : "did you mean '" + nearest + "'?";
+    diagnostic.hint = nearest.empty() ? "`kith explain` lists all ids; learners, strategies and beliefs are topics"
+                                      : "did you mean '" + nearest + "'?";
     throw Error{ErrorKind::kUsage, diagnostic.message, {diagnostic}};
   }
   if (console.json()) {

@@ -72,7 +72,7 @@ void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace
                        described(domain, constraint));
   } else {
     std::vector<std::string> changes;
-    for (const auto& change : found.made->changes) changes.push_back(change_in_words(family, change));
+    for (const auto& change : found.made->changes) changes.push_back(change_in_words(*family.map(), change));
     text = wrapped(fmt::format("No world of {} {} exactly this: {}. One was made from world {}: {}.", family.id(), verb,
                                described(domain, constraint), found.made->base.value(), listed(changes)),
                    kTextWidth) +
@@ -92,9 +92,10 @@ void print_finding_json(const FoundDemo& found, const HalfSpace& constraint, Pur
   json["reason"] = reason_of(found.atlas, found.demo, constraint);
   Json made = nullptr;
   if (found.made != nullptr) {
+    const auto map = domain.map().value();  // worlds are made by changing a map
     made = {{"from", found.made->base.value()}, {"changes", Json::array()}, {"domain", found.made->text}};
     for (const auto& change : found.made->changes) {
-      made["changes"].push_back({{"cell", {change.cell.x, domain.height() + 1 - change.cell.y}},
+      made["changes"].push_back({{"cell", {change.cell.x, map.height() + 1 - change.cell.y}},
                                  {"from", std::string{change.from}},
                                  {"to", std::string{change.to}}});
     }
@@ -118,7 +119,7 @@ Error not_a_file_of_its_own(const Domain& domain, MdpIndex world) {
   return infeasible(
       "E1112",
       fmt::format("world {} of '{}' cannot be written as a domain file of its own", world.value(), domain.id()),
-      domain.has_map() ? "its [map] has to be written by hand: one map, nothing optional" : by_export);
+      domain.map() ? "its [map] has to be written by hand: one map, nothing optional" : by_export);
 }
 
 // The world as a domain file of its own.
@@ -129,9 +130,9 @@ void write_world(const std::string& out, const std::string& family_text, const F
   } else {
     const auto& domain = found.atlas.domain();
     const auto world = found.atlas.id(found.demo).mdp;
-    if (domain.has_map()) {
+    if (const auto map = domain.map()) {
       text =
-          with_one_map(family_text, fmt::format("{}-{}", domain.id(), world.value()), domain.draw(world, std::nullopt));
+          with_one_map(family_text, fmt::format("{}-{}", domain.id(), world.value()), map->draw(world, std::nullopt));
     }
     if (!text) throw not_a_file_of_its_own(domain, world);
   }

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "commands.hpp"
 #include "fit_json.hpp"
@@ -15,6 +18,7 @@
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/present/json.hpp"
+#include "planning_input.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {
@@ -50,8 +54,34 @@ int finish(const FitCommandOptions& options, const Json& document, const std::st
 }
 
 // Learning goes on without process noise in the published search.
-std::optional<std::vector<GridSearchGroup>> search_grid(ResponseLogs logs, const LikelihoodOptions& options) {
+ResponseLogs without_noise(ResponseLogs logs) {
   for (auto& model : logs.models) model.parameters.set("process_noise", 0.0);
+  return logs;
+}
+
+// "computing the likelihood of 60 people takes about 12 s", from the time that one run takes for a few of them and two
+// of the abilities. Cost is proportional to people, runs and abilities.
+std::string likelihood_work_text(const ResponseLogs& logs, const ParameterGrid& grid, LikelihoodOptions options) {
+  const auto threads = options.parallel.threads > 0 ? options.parallel.threads : std::thread::hardware_concurrency();
+  const auto few = std::clamp<std::size_t>(threads, 1, logs.people.size());
+  ResponseLogs probe{.people = {}, .models = logs.models, .policy = logs.policy, .notes = {}};
+  for (std::size_t i = 0; i < few; ++i) probe.people.push_back(logs.people[i * logs.people.size() / few]);
+  auto coarse = grid;
+  const auto n = grid.abilities.size();
+  coarse.abilities = {grid.abilities[n / 4], grid.abilities[n - 1 - n / 4]};
+  const auto runs = static_cast<double>(options.replicates);
+  options.replicates = 1;
+  options.parallel.on_progress = [](std::size_t, std::size_t) { return stop_signal() == 0; };
+  const auto begin = std::chrono::steady_clock::now();
+  (void)log_likelihoods(probe, coarse, options);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const double share = static_cast<double>(few) / static_cast<double>(logs.people.size()) *
+                       static_cast<double>(coarse.abilities.size()) / static_cast<double>(n);
+  return fmt::format("computing the likelihood of {} people takes about {}", logs.people.size(),
+                     duration_text(took.count() * runs / share));
+}
+
+std::optional<std::vector<GridSearchGroup>> search_grid(const ResponseLogs& logs, const LikelihoodOptions& options) {
   const auto table = log_likelihoods(logs, published_grid(), options);
   if (!table.complete) return std::nullopt;
   return grid_search(logs, table);
@@ -79,9 +109,12 @@ int run_fit(const FitCommandOptions& options, Console& console) {
                                    progress.update(done, total);
                                    return stop_signal() == 0;
                                  }};
+  const LikelihoodOptions how{.replicates = options.replicates, .seed = options.seed, .parallel = parallel};
+  const bool says_time = !console.quiet() && !imported.logs.people.empty();
   if (options.method == "grid") {
-    const auto groups =
-        search_grid(imported.logs, {.replicates = options.replicates, .seed = options.seed, .parallel = parallel});
+    const auto logs = without_noise(imported.logs);
+    if (says_time) console.info(likelihood_work_text(logs, published_grid(), how));
+    const auto groups = search_grid(logs, how);
     progress.finish();
     if (!groups) return wrote_nothing(console);
     return finish(options, to_json(*groups), text_of(*groups, console), console);
@@ -92,6 +125,7 @@ int run_fit(const FitCommandOptions& options, Console& console) {
   fit_options.num_types = options.types;
   fit_options.folds = options.folds;
   fit_options.parallel = parallel;
+  if (says_time) console.info(likelihood_work_text(imported.logs, grid_of(fit_options), how));
   const auto report = fit_learners(imported.logs, fit_options);
   progress.finish();
   if (!report.complete) return wrote_nothing(console);

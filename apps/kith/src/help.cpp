@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "kind_lists.hpp"
 #include "kith/present/wrapped.hpp"
 
 namespace kith::cli {
@@ -81,7 +82,7 @@ const std::vector<std::string>& examples_of(const std::string& command) {
       {"report", {"kith report results/paper", "kith report results/paper -o paper.html"}},
       {"fit",
        {"kith fit results/paper -o fit.json", "kith fit trials.csv --types 2", "kith fit results/paper --method grid"}},
-      {"explain", {"kith explain E0207", "kith explain --json"}},
+      {"explain", {"kith explain E0207", "kith explain strategies", "kith explain learners --json"}},
       {"doctor", {"kith doctor", "kith doctor --json"}},
       {"completion",
        {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion zsh)"}},
@@ -121,6 +122,15 @@ std::string help_text(const std::vector<CommandDescription>& commands, bool full
   return text + "\n`kith COMMAND -h` for a command's options, `kith COMMAND --help` for details.\n";
 }
 
+namespace {
+
+bool takes_keys(const CommandDescription& command) {
+  return std::any_of(command.options.begin(), command.options.end(),
+                     [](const auto& option) { return option.names.front() == "--set"; });
+}
+
+}  // namespace
+
 std::string help_text(const CommandDescription& command, bool full) {
   constexpr std::size_t kFullWidth = 28;
   std::string text = usage_line(command) + "\n" + wrapped(command.summary + ".", kTextWidth) + "\n\nexamples:\n";
@@ -136,6 +146,7 @@ std::string help_text(const CommandDescription& command, bool full) {
       text += padded(left_column(option), kFullWidth) + right_column(option, kFullWidth, full) + "\n";
     }
   }
+  if (full && takes_keys(command)) text += "\n" + keys_text();
   if (full) text += std::string{"\n"} + kExitCodes;
   return text;
 }

@@ -63,9 +63,10 @@ InputText read_named(const std::string& name_or_file) {
 
 StudyReading study_of(const std::string& name, const std::vector<std::string>& overrides) {
   auto reading = [&] {
-    if (name != "-") return load_study(name, overrides);
+    const StudyReadOptions options{.overrides = overrides, .override_name = "--set"};
+    if (name != "-") return load_study(name, options);
     const auto input = read_input(name);
-    return parse_study(input.text, input.name, {overrides, {}});
+    return parse_study(input.text, input.name, options);
   }();
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;

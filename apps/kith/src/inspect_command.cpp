@@ -135,8 +135,8 @@ class Inspection {
   void counterfactuals() {
     const auto demo = atlas_.index({mdp_, domain_.initial_state(mdp_)});
     heading(fmt::format("What people could expect from the start of MDP {}", mdp_.value()));
-    if (domain_.has_map()) {
-      out_ += beside({bare_picture(domain_, atlas_.id(demo)), start_picture(domain_, atlas_.id(demo))}, 4);
+    if (const auto map = domain_.map()) {
+      out_ += beside({bare_picture(*map, atlas_.id(demo)), start_picture(*map, atlas_.id(demo))}, 4);
     } else {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
     }

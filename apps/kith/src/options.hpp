@@ -219,7 +219,7 @@ struct InitOptions {
 };
 
 struct ExplainOptions {
-  std::string id;  ///< "E0207"; empty: list all.
+  std::string id;  ///< "E0207", or a list of kinds ("strategies"); empty: list all ids.
 };
 
 /// One command line, understood.

@@ -27,6 +27,12 @@ std::string_view words_for(Remedy remedy) {
       return "analyse a table of your own with: kith analyze FILE --model ...";
     case Remedy::kLikelihoodMethod:
       return "use --method likelihood";
+    case Remedy::kShowMap:
+      return "see the map with everything on it: kith inspect DOMAIN";
+    case Remedy::kShowStates:
+      return "see the names of all states: kith inspect DOMAIN --show policy --all";
+    case Remedy::kListConstraints:
+      return "choose one that this lists: kith find DOMAIN";
   }
   return {};
 }

@@ -22,6 +22,7 @@
 #include "kith/runs/study_run.hpp"
 #include "kith/study/study_memory.hpp"
 #include "mpi_ranks.hpp"
+#include "planning_input.hpp"
 #include "progress.hpp"
 #include "run_outcome.hpp"
 #include "summary_json.hpp"
@@ -55,6 +56,17 @@ void check_folder(const StudyOptions& options, const StudyReading& reading) {
   if (access(path.c_str(), W_OK | X_OK) != 0)
     throw Error{ErrorKind::kIo,
                 "cannot make the folder " + options.out + ": no permission to write in " + path.string()};
+}
+
+// What stands in the way of teaching is said as if the study were run.
+void say_how_long(const Study& study, const Domain& domain, std::size_t threads, std::size_t teams, Console& console) {
+  require_study_memory(study, threads);
+  require_teaching_memory(domain, threads);
+  std::optional<WorkNotice> notice{std::in_place, console, "planning " + domain.id()};
+  const Atlas atlas{domain};
+  notice.reset();
+  require_something_to_teach(atlas);
+  console.info(work_text(atlas, study.variants.front(), threads, teams));
 }
 
 int dry_run(const Study& study, std::size_t teams, Console& console) {
@@ -138,7 +150,12 @@ int run_study(const StudyOptions& options, Console& console) {
   auto reading = study_of(options.study, overrides_of(options));
   if (!console.quiet()) console.show(reading.diagnostics);
   if (options.dry_run && !options.out.empty()) check_folder(options, reading);
-  if (options.dry_run) return dry_run(*reading.study, num_teams(*reading.study), console);
+  if (options.dry_run) {
+    const auto teams = num_teams(*reading.study);
+    const auto threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+    if (!console.quiet()) say_how_long(*reading.study, *reading.domain, threads, teams, console);
+    return dry_run(*reading.study, teams, console);
+  }
   if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith study needs -o DIR, the folder for the results"};
 
   const auto ranks = mpi_ranks();

@@ -314,6 +314,31 @@ TEST(ExplainCommand, SaysWhatAnIdMeans) {
   EXPECT_THAT(run_kith({"explain", "E020"}).err, HasSubstr("kith has no error or warning 'E020'"));
 }
 
+// Every row of a registry is listed with its parameters, in text, in JSON and in the help of commands that take keys.
+TEST(ExplainCommand, ListsKindsWithTheirParameters) {
+  const auto learners = run_kith({"explain", "learners"});
+  EXPECT_EQ(learners.code, 0) << learners.err;
+  EXPECT_THAT(learners.out, HasSubstr("    ability_scale\n      a number in (0, 5]; default: 1\n"));
+  EXPECT_THAT(learners.out, HasSubstr("    ability.mean\n      a number in [0, 1]; required\n"));
+  EXPECT_THAT(learners.out, HasSubstr("[jayaraman2024]"));
+  const auto help = run_kith({"help", "study"}).out;
+  for (const std::string topic : {"learners", "strategies", "beliefs"}) {
+    const auto text = run_kith({"explain", topic}).out;
+    const auto rows = Json::parse(run_kith({"explain", topic, "--json"}).out).at(topic);
+    ASSERT_FALSE(rows.empty()) << topic;
+    for (const auto& row : rows) {
+      const auto name = row.at("name").get<std::string>();
+      EXPECT_THAT(text, HasSubstr("\n" + name + "\n    " + row.at("description").get<std::string>().substr(0, 10)));
+      EXPECT_THAT(help, HasSubstr("\n    " + name));
+      for (const auto& parameter : row.at("parameters")) {
+        EXPECT_THAT(text, HasSubstr("    " + parameter.at("name").get<std::string>() + "\n"));
+        EXPECT_THAT(help, HasSubstr(parameter.at("name").get<std::string>()));
+      }
+    }
+  }
+  EXPECT_THAT(run_kith({"explain", "strategy"}).err, HasSubstr("did you mean 'strategies'?"));
+}
+
 // Every id that a source can report is explained, and only once.
 TEST(ExplainCommand, KnowsEveryIdOfTheSources) {
   const auto entries = Json::parse(run_kith({"explain", "--json"}).out).at("errors");
@@ -343,6 +368,9 @@ TEST(ExplainCommand, KnowsEveryIdOfTheSources) {
 TEST(Texts, FitEightyColumns) {
   std::vector<std::vector<std::string>> commands{{"--help"},
                                                  {"explain"},
+                                                 {"explain", "learners"},
+                                                 {"explain", "strategies"},
+                                                 {"explain", "beliefs"},
                                                  {"teach", "item-delivery", "--group", "NNP", "--strategy", "joint"},
                                                  {"teach", "skateboard", "--group", "NP"},
                                                  {"curriculum", "item-delivery"},

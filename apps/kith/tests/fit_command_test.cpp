@@ -39,6 +39,8 @@ TEST_F(FitCommand, SaysWhatItFoundAndWhatCannotBeTold) {
   EXPECT_THAT(ran.out, HasSubstr("these data cannot tell the gains apart"));
   EXPECT_THAT(ran.out, HasSubstr("[learner.N]"));
   EXPECT_THAT(ran.err, HasSubstr("W0704"));
+  EXPECT_THAT(ran.err, HasSubstr("computing the likelihood of 12 people takes about "));
+  EXPECT_THAT(fit({"--method", "grid"}).err, HasSubstr("computing the likelihood of 12 people takes about "));
 }
 
 TEST_F(FitCommand, WritesTheSameJsonToFileAndOutput) {

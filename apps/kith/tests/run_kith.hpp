@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "scratch_folder.hpp"
+
 namespace kith::testing {
 
 /// What a run of the program came to.
@@ -49,20 +51,13 @@ using Tables = std::map<std::string, std::string>;
   return tables;
 }
 
-/// A folder of its own, removed at the end.
+/// A folder of its own, removed at the end; names in it are strings, as arguments are.
 class Scratch {
  public:
-  Scratch() {
-    std::string name = (std::filesystem::temp_directory_path() / "kith-test-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Scratch() { std::filesystem::remove_all(path_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] std::string operator/(std::string_view name) const { return (path_ / name).string(); }
+  [[nodiscard]] std::string operator/(std::string_view name) const { return (folder_ / name).string(); }
 
  private:
-  std::filesystem::path path_;
+  ScratchFolder folder_;
 };
 
 /// Starts the program without a shell; the caller waits for the process.

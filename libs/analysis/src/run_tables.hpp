@@ -7,13 +7,11 @@
 
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/dataset.hpp"
+#include "kith/core/baseline.hpp"
 #include "kith/files/published_run.hpp"
 #include "model.hpp"
 
 namespace kith {
-
-// The name that teaching everybody alone has in tables.
-inline constexpr const char* kBaselineName = "baseline";
 
 // The teams of a run, column by column; one element per team.
 struct RunTeams {
@@ -30,7 +28,7 @@ struct RunTeams {
   std::vector<double> area_sr;
 
   [[nodiscard]] std::size_t size() const noexcept { return team.size(); }
-  [[nodiscard]] bool is_baseline(std::size_t i) const { return strategy.levels[strategy.codes[i]] == kBaselineName; }
+  [[nodiscard]] bool is_baseline(std::size_t i) const { return strategy.levels[strategy.codes[i]] == kBaseline; }
 };
 
 // @throws kith::Error as analyze_run does.

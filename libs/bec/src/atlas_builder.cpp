@@ -77,11 +77,12 @@ void AtlasBuilder::plan() {
 }
 
 std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {
-  if (!atlas_.domain_.has_map()) {
+  const auto map = atlas_.domain_.map();
+  if (!map) {
     const auto number = state_names_.try_emplace(atlas_.domain_.state_name(m, s), state_names_.size()).first->second;
     return static_cast<std::uint32_t>(number);
   }
-  const auto& state = atlas_.domain_.state(m, s);
+  const auto state = map->state(m, s);
   std::vector<std::int64_t> key{state.robot.x, state.robot.y, state.exited ? 1 : 0};
   for (const auto& item : state.items) key.insert(key.end(), {item.x, item.y});
   for (const bool carried : state.carried) key.push_back(carried ? 1 : 0);

@@ -71,7 +71,7 @@ TEST(GoldenItemDelivery, OneStepMinimalSetsAgreeWhereTheOptimumIsUnique) {
     ASSERT_EQ(starts.size(), sets.size());
     for (std::size_t i = 0; i < starts.size(); ++i) {
       ASSERT_EQ(starts[i].at("traj_idx"), sets[i].at("traj_idx"));
-      const auto s = atlas.domain().find_state(MdpIndex{m}, grid_state(starts[i].at("state")));
+      const auto s = atlas.domain().map()->find_state(MdpIndex{m}, grid_state(starts[i].at("state")));
       ASSERT_TRUE(s.has_value());
       const auto demo = atlas.index({MdpIndex{m}, *s});
       const auto& counts = starts[i].at("features");
@@ -87,7 +87,7 @@ TEST(GoldenItemDelivery, OneStepMinimalSetsAgreeWhereTheOptimumIsUnique) {
       } else {
         ++others;
         if (ours != theirs) {
-          different.push_back(describe_start(m, atlas.domain().state(MdpIndex{m}, *s)));
+          different.push_back(describe_start(m, atlas.domain().map()->state(MdpIndex{m}, *s)));
         }
       }
     }

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <functional>
 #include <string>
 
 #include "item_delivery.hpp"
@@ -12,12 +10,15 @@
 #include "kith/bec/behaviours.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "memory_limit.hpp"
 
 namespace kith {
 namespace {
 
 using ::testing::HasSubstr;
 using testing::item_delivery;
+using testing::memory_refusal;
+using testing::MemoryLimit;
 
 // An open map of so many cells a side, with every state as a start or with a few.
 Domain open_map(std::size_t side, const std::string& family = {}) {
@@ -39,26 +40,6 @@ Domain open_map(std::size_t side, const std::string& family = {}) {
   return *std::move(reading.domain);
 }
 
-// KITH_MEMORY for as long as it lives.
-class MemoryOf {
- public:
-  explicit MemoryOf(const char* said) { setenv("KITH_MEMORY", said, 1); }
-  ~MemoryOf() { unsetenv("KITH_MEMORY"); }
-  MemoryOf(const MemoryOf&) = delete;
-  MemoryOf& operator=(const MemoryOf&) = delete;
-};
-
-std::string refusal_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
-    EXPECT_EQ(error.diagnostics().at(0).id, "E1201");
-    return error.what();
-  }
-  return {};
-}
-
 TEST(MemoryNeeds, GrowWithTheStatesAndWithThePairsOfStartsAndStates) {
   const auto small = open_map(50);
   const auto large = open_map(100);
@@ -74,16 +55,17 @@ TEST(MemoryNeeds, OfTablesAreThoseOfPlanning) {
 
 TEST(MemoryNeeds, AreCheckedBeforePlanning) {
   const auto domain = open_map(100);
-  const MemoryOf little{"1M"};
-  EXPECT_THAT(refusal_of([&] { (void)Atlas{domain}; }),
+  const MemoryLimit little{"1M"};
+  EXPECT_THAT(memory_refusal([&] { (void)Atlas{domain}; }),
               HasSubstr("planning the 9999 states of 'open' needs about 7 MB"));
-  EXPECT_THAT(refusal_of([&] { require_teaching_memory(domain, 2); }), HasSubstr("teaching the 9999 states"));
+  EXPECT_THAT(memory_refusal([&] { require_teaching_memory(domain, 2); }), HasSubstr("teaching the 9999 states"));
 }
 
 TEST(MemoryNeeds, AreCheckedBeforeTeaching) {
   const Atlas atlas{open_map(100)};
-  const MemoryOf little{"1M"};
-  EXPECT_THAT(refusal_of([&] { (void)Behaviours{atlas}; }), HasSubstr("choosing what to teach in domain 'open' needs"));
+  const MemoryLimit little{"1M"};
+  EXPECT_THAT(memory_refusal([&] { (void)Behaviours{atlas}; }),
+              HasSubstr("choosing what to teach in domain 'open' needs"));
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <sys/resource.h>
 
 #include <cstdlib>
-#include <fstream>
 
 #include "kith/core/error.hpp"
+#include "scratch_folder.hpp"
 
 namespace kith {
 namespace {
@@ -19,22 +19,15 @@ constexpr std::uint64_t kMebibyte = 1 << 20;
 class MemoryOfAMachine : public ::testing::Test {
  protected:
   MemoryOfAMachine() {
-    std::string name = (fs::temp_directory_path() / "kith-memory-XXXXXX").string();
-    root_ = mkdtemp(name.data());
     write("proc/meminfo", "MemTotal:       16777216 kB\nMemFree:         1048576 kB\nMemAvailable:    8388608 kB\n");
     unsetenv("KITH_MEMORY");
   }
-  ~MemoryOfAMachine() override {
-    fs::remove_all(root_);
-    unsetenv("KITH_MEMORY");
-  }
-  void write(const std::string& path, const std::string& text) const {
-    fs::create_directories((root_ / path).parent_path());
-    std::ofstream{root_ / path} << text;
-  }
+  ~MemoryOfAMachine() override { unsetenv("KITH_MEMORY"); }
+  void write(const std::string& path, const std::string& text) const { (void)scratch_.write(path, text); }
   [[nodiscard]] std::uint64_t free_mebibytes() const { return free_memory(root_) / kMebibyte; }
 
-  fs::path root_;
+  testing::ScratchFolder scratch_;
+  fs::path root_ = scratch_.path();
 };
 
 TEST_F(MemoryOfAMachine, IsWhatIsAvailable) { EXPECT_EQ(free_mebibytes(), 8192u); }

@@ -1,27 +1,10 @@
-// What people see of a domain: drawings, and figures of how start pictures look.
+// What people see of a domain: the names of states, and figures of how start pictures look.
 #include <algorithm>
 #include <stdexcept>
 
 #include "domain_data.hpp"
 
 namespace kith {
-namespace {
-
-using detail::SymbolContent;
-using detail::World;
-
-// The symbol that shows exactly `content`: the cell's own if it does, else the
-// first of the legend that does; without one the cell's own, or a blank for floor.
-char glyph_for(const World& world, std::size_t cell, const SymbolContent& content) {
-  const detail::Symbol& own = world.symbols[world.symbol_of[cell]];
-  if (own.content == content) return own.glyph;
-  for (const detail::Symbol& symbol : world.symbols) {
-    if (symbol.content == content) return symbol.glyph;
-  }
-  return content.is_floor() ? ' ' : own.glyph;
-}
-
-}  // namespace
 
 void GridFamily::describe_states() {
   const std::size_t num_groups = world.groups.size();
@@ -71,8 +54,9 @@ std::string Domain::state_name(MdpIndex m, StateIndex s) const {
     }
     throw std::invalid_argument{"Domain::state_name: there is no state " + std::to_string(s.value())};
   }
-  const GridState now = state(m, s);
-  const std::vector<std::size_t> items = items_in(m);
+  const GridMap map{data_->grid()};
+  const GridState now = map.state(m, s);
+  const std::vector<std::size_t> items = map.items_in(m);
   const auto at = [&](Cell cell) { return cell_text(data_->grid().world, *data_->grid().world.index_of(cell)); };
   std::string text = now.exited ? "gone from " + at(now.robot) : "robot at " + at(now.robot);
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -85,46 +69,6 @@ std::string Domain::state_name(MdpIndex m, StateIndex s) const {
     text += ", " + station.name + " at " + cell_text(data_->grid().world, station.cell);
   }
   return text;
-}
-
-std::vector<std::string> Domain::draw(MdpIndex m, std::optional<StateIndex> s) const {
-  const World& world = data_->grid().world;
-  const GridState now = s ? state(m, *s) : GridState{};
-  const std::vector<std::size_t> items = items_in(m);
-  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
-  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
-    const Cell at = world.cell_at(cell);
-    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
-    bool moved_here = false;
-    if (s) {
-      content.start = false;
-      if (std::ranges::find(now.stations, at) == now.stations.end()) content.station.clear();
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        const std::string& name = data_->grid().item_names[items[i]];
-        if (now.items[i] != at && content.item == name) content.item.clear();
-        moved_here = moved_here || (now.items[i] == at && content.item != name);
-      }
-    }
-    char glyph = glyph_for(world, cell, content);
-    if (moved_here) glyph = '*';
-    if (s && now.robot == at) glyph = '@';
-    rows[cell / static_cast<std::size_t>(world.width)] += glyph;
-  }
-  return rows;
-}
-
-std::vector<std::string> Domain::draw_bare(MdpIndex m, StateIndex s) const {
-  const World& world = data_->grid().world;
-  const GridState now = state(m, s);
-  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
-  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
-    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
-    content.start = false;
-    content.item.clear();
-    if (std::ranges::find(now.stations, world.cell_at(cell)) == now.stations.end()) content.station.clear();
-    rows[cell / static_cast<std::size_t>(world.width)] += glyph_for(world, cell, content);
-  }
-  return rows;
 }
 
 }  // namespace kith

@@ -36,12 +36,6 @@ void check_mdp(const Domain::Data& data, MdpIndex m, const char* function) {
   visit_member(data, m, function, [](const auto&) {});
 }
 
-const DomainMember& member_of(const Domain::Data& data, MdpIndex m, const char* function) {
-  const auto& members = data.grid().members;
-  check_mdp(data, m, function);
-  return members[m.value()];
-}
-
 const Mdp& mdp_of(const Domain::Data& data, MdpIndex m, const char* function) {
   return visit_member(data, m, function, [](const auto& member) -> const Mdp& { return member.mdp; });
 }
@@ -95,14 +89,10 @@ std::size_t Domain::num_mdps() const noexcept {
 std::size_t Domain::num_starts() const noexcept { return data_->num_starts; }
 bool Domain::is_exact() const noexcept { return data_->exact; }
 std::int64_t Domain::count_scale() const noexcept { return data_->count_scale; }
-bool Domain::has_map() const noexcept { return data_->has_map(); }
 const Mdp& Domain::mdp(MdpIndex m) const { return mdp_of(*data_, m, "Domain::mdp"); }
-int Domain::width() const { return data_->grid().world.width; }
-int Domain::height() const { return data_->grid().world.height; }
-const std::vector<std::string>& Domain::item_names() const noexcept {
-  static const std::vector<std::string> kNone;
+std::optional<GridMap> Domain::map() const noexcept {
   const auto* grid = std::get_if<GridFamily>(&data_->family);
-  return grid != nullptr ? grid->item_names : kNone;
+  return grid == nullptr ? std::nullopt : std::optional{GridMap{*grid}};
 }
 
 StateIndex Domain::initial_state(MdpIndex m) const {
@@ -132,7 +122,7 @@ std::string Domain::describe_variant(MdpIndex m) const {
 }
 
 std::vector<OptionalGroup> Domain::optional_groups() const {
-  if (!has_map()) return {};
+  if (!data_->has_map()) return {};
   const detail::World& world = data_->grid().world;
   std::vector<OptionalGroup> groups;
   for (const detail::CellGroup& group : world.groups) {
@@ -143,101 +133,10 @@ std::vector<OptionalGroup> Domain::optional_groups() const {
   return groups;
 }
 
-std::vector<LegendEntry> Domain::legend() const {
-  if (!has_map()) return {};
-  std::vector<LegendEntry> entries;
-  for (const detail::Symbol& symbol : data_->grid().world.symbols) {
-    const detail::SymbolContent& content = symbol.content;
-    entries.push_back({symbol.glyph,
-                       {content.wall, content.goal, content.terrain, content.destination},
-                       content.goal_name,
-                       content.station,
-                       content.item,
-                       content.start,
-                       symbol.is_optional()});
-  }
-  return entries;
-}
-
-std::size_t Domain::legend_index(Cell cell) const {
-  const auto index = data_->grid().world.index_of(cell);
-  if (!index) throw std::invalid_argument{"Domain::legend_index: the cell is off the map"};
-  return data_->grid().world.symbol_of[*index];
-}
-
 bool Domain::has_feature(MdpIndex m, std::size_t k) const {
   const Mdp& mdp = mdp_of(*data_, m, "Domain::has_feature");
   if (k >= num_features()) throw std::invalid_argument{"Domain::has_feature: there is no feature " + std::to_string(k)};
   return k + 1 == num_features() || mdp.has_feature(k);
-}
-
-CellContent Domain::content(MdpIndex m, Cell cell) const {
-  (void)member_of(*data_, m, "Domain::content");
-  const auto index = data_->grid().world.index_of(cell);
-  if (!index) throw std::invalid_argument{"Domain::content: the cell is off the map"};
-  if (!data_->grid().world.is_present(*index, m.value())) return {};
-  const detail::SymbolContent& content = data_->grid().world.content(*index);
-  return {content.wall, content.goal, content.terrain, content.destination};
-}
-
-std::vector<std::size_t> Domain::items_in(MdpIndex m) const {
-  check_mdp(*data_, m, "Domain::items_in");
-  std::vector<std::size_t> items;
-  if (!data_->has_map()) return items;
-  const DomainMember& member = data_->grid().members[m.value()];
-  for (std::size_t i = 0; i < member.item_present.size(); ++i) {
-    if (member.item_present[i]) items.push_back(i);
-  }
-  return items;
-}
-
-GridState Domain::state(MdpIndex m, StateIndex s) const {
-  const DomainMember& member = member_of(*data_, m, "Domain::state");
-  if (s.value() >= member.states.size()) {
-    throw std::invalid_argument{"Domain::state: there is no state " + std::to_string(s.value())};
-  }
-  const detail::PackedState packed = member.states[s.value()];
-  const detail::World& world = data_->grid().world;
-  GridState state;
-  state.robot = world.cell_at(data_->grid().layout.robot(packed));
-  for (std::size_t i = 0; i < member.item_present.size(); ++i) {
-    if (!member.item_present[i]) continue;
-    state.items.push_back(world.cell_at(data_->grid().layout.item(packed, i)));
-    state.carried.push_back(data_->grid().layout.carried(packed) == i + 1);
-  }
-  for (std::size_t i = 0; i < world.stations.size(); ++i) {
-    if (data_->grid().layout.has_station(packed, i)) state.stations.push_back(world.cell_at(world.stations[i].cell));
-  }
-  state.exited = data_->grid().layout.exited(packed);
-  return state;
-}
-
-std::optional<StateIndex> Domain::find_state(MdpIndex m, const GridState& state) const {
-  const DomainMember& member = member_of(*data_, m, "Domain::find_state");
-  const detail::World& world = data_->grid().world;
-  const auto robot = world.index_of(state.robot);
-  const std::vector<std::size_t> items = items_in(m);
-  if (!robot || state.items.size() != items.size() || state.carried.size() != items.size()) return std::nullopt;
-  detail::PackedState packed = data_->grid().layout.with_robot(0, *robot);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const auto cell = world.index_of(state.items[i]);
-    if (!cell) return std::nullopt;
-    packed = data_->grid().layout.with_item(packed, items[i], *cell);
-    if (state.carried[i]) packed = data_->grid().layout.with_carried(packed, items[i] + 1);
-  }
-  std::uint64_t stations = 0;
-  for (std::size_t i = 0; i < world.stations.size(); ++i) {
-    const Cell cell = world.cell_at(world.stations[i].cell);
-    if (std::ranges::find(state.stations, cell) != state.stations.end()) stations |= std::uint64_t{1} << i;
-  }
-  packed = data_->grid().layout.with_stations(packed, stations);
-  if (state.exited) packed = data_->grid().layout.with_exit(packed);
-
-  const auto it =
-      std::ranges::lower_bound(member.by_state, packed, {}, [&](std::uint32_t s) { return member.states[s]; });
-  // Comparing the whole state also refuses what the packing cannot express.
-  if (it == member.by_state.end() || this->state(m, StateIndex{*it}) != state) return std::nullopt;
-  return StateIndex{*it};
 }
 
 int Domain::complexity(DemoId demo) const {

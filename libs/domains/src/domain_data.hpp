@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -60,11 +59,7 @@ struct Domain::Data {
   std::int64_t count_scale = 1;
 
   [[nodiscard]] bool has_map() const noexcept { return std::holds_alternative<GridFamily>(family); }
-  // The gridworlds. @throws std::logic_error if the MDPs are none.
-  [[nodiscard]] const GridFamily& grid() const {
-    if (const auto* found = std::get_if<GridFamily>(&family)) return *found;
-    throw std::logic_error{"Domain: an explicit model has no map"};
-  }
+  [[nodiscard]] const GridFamily& grid() const { return std::get<GridFamily>(family); }
   [[nodiscard]] const ExplicitFamily& model() const { return std::get<ExplicitFamily>(family); }
 
   // Fills in the sums over the members.

@@ -124,9 +124,9 @@ std::optional<std::string> with_one_map(std::string_view text, const std::string
   }
   remove_options(result);
   const auto reading = parse_domain(result, id);
-  if (!reading.domain || reading.domain->num_mdps() != 1 || reading.domain->draw(MdpIndex{0}, std::nullopt) != rows) {
-    return std::nullopt;
-  }
+  if (!reading.domain || reading.domain->num_mdps() != 1) return std::nullopt;
+  const auto map = reading.domain->map();
+  if (!map || map->draw(MdpIndex{0}, std::nullopt) != rows) return std::nullopt;
   return result;
 }
 

@@ -106,7 +106,7 @@ TEST(Condition, ExitEndsTheEpisode) {
   EXPECT_EQ(domain.action_names()[last.action.value()], "exit");
   const StateIndex end = domain.mdp(MdpIndex{0}).outcomes(last).front().next;
   EXPECT_TRUE(domain.mdp(MdpIndex{0}).is_terminal(end));
-  EXPECT_TRUE(domain.state(MdpIndex{0}, end).exited);
+  EXPECT_TRUE(domain.map()->state(MdpIndex{0}, end).exited);
 }
 
 TEST(Condition, NotBindsTighterThanAndThanOr) {
@@ -170,10 +170,10 @@ when = "action"
 weights = { step = -1 }
 )");
   EXPECT_EQ(domain.num_features(), 1u);
-  EXPECT_EQ(domain.item_names(), (std::vector<std::string>{"pen", "cup"}));
+  EXPECT_EQ(domain.map()->item_names(), (std::vector<std::string>{"pen", "cup"}));
   const Mdp& mdp = domain.mdp(MdpIndex{0});
   for (std::size_t s = 0; s < mdp.num_states(); ++s) {
-    const GridState state = domain.state(MdpIndex{0}, StateIndex{s});
+    const GridState state = domain.map()->state(MdpIndex{0}, StateIndex{s});
     EXPECT_LE(state.carried[0] + state.carried[1], 1);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_TRUE(!state.carried[i] || state.items[i] == state.robot);
@@ -192,9 +192,9 @@ TEST(OptionalGroups, OfOneNameToggleTogetherAcrossSymbols) {
   const Domain domain = sound_domain(text);
   EXPECT_EQ(domain.num_mdps(), 2u);
   EXPECT_EQ(domain.describe_variant(MdpIndex{0}), "a@{} b@{}");
-  EXPECT_EQ(domain.content(MdpIndex{1}, {2, 2}).terrain, "a");
-  EXPECT_EQ(domain.content(MdpIndex{1}, {2, 4}).terrain, "b");
-  EXPECT_EQ(domain.content(MdpIndex{0}, {2, 2}).terrain, "");
+  EXPECT_EQ(domain.map()->content(MdpIndex{1}, {2, 2}).terrain, "a");
+  EXPECT_EQ(domain.map()->content(MdpIndex{1}, {2, 4}).terrain, "b");
+  EXPECT_EQ(domain.map()->content(MdpIndex{0}, {2, 2}).terrain, "");
 }
 
 TEST(Maps, OfOneRowAndOfOneStepAreFine) {

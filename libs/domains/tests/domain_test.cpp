@@ -42,20 +42,20 @@ TEST(Skateboard, HasItsStatesWhereTheThingsAre) {
   // Bits: west path, east path, board.
   EXPECT_EQ(domain.mdp(MdpIndex{0b001}).num_states(), 552u);
   EXPECT_EQ(domain.mdp(MdpIndex{0b111}).num_states(), 360u);
-  EXPECT_TRUE(domain.items_in(MdpIndex{0b110}).empty());
-  EXPECT_EQ(domain.items_in(MdpIndex{0b001}), (std::vector<std::size_t>{0}));
+  EXPECT_TRUE(domain.map()->items_in(MdpIndex{0b110}).empty());
+  EXPECT_EQ(domain.map()->items_in(MdpIndex{0b001}), (std::vector<std::size_t>{0}));
   EXPECT_EQ(domain.describe_variant(MdpIndex{0b101}), "path@{(1,4),(2,4),(3,4),(4,4)} board@{(1,1)}");
 }
 
 TEST(Domain, NamesItsStates) {
   const Domain domain = sound_domain(kSkateboard);
   const MdpIndex m{0b001};
-  EXPECT_TRUE(domain.has_map());
+  EXPECT_TRUE(domain.map().has_value());
   EXPECT_EQ(domain.state_name(m, StateIndex{0}), "robot at (4,1), board at (1,1)");
-  GridState riding = domain.state(m, StateIndex{0});
+  GridState riding = domain.map()->state(m, StateIndex{0});
   riding.robot = riding.items[0];
   riding.carried[0] = true;
-  EXPECT_EQ(domain.state_name(m, domain.find_state(m, riding).value()), "robot at (1,1), carrying board");
+  EXPECT_EQ(domain.state_name(m, domain.map()->find_state(m, riding).value()), "robot at (1,1), carrying board");
   EXPECT_THROW((void)domain.state_name(m, StateIndex{domain.mdp(m).num_states() + 1000}), std::invalid_argument);
 }
 
@@ -89,10 +89,10 @@ std::optional<GridState> next_state(const Domain& domain, MdpIndex m, const Grid
     next.carried[0] = false;
   } else {
     next.robot = {s.robot.x + kMoves.at(action).x, s.robot.y + kMoves.at(action).y};
-    const bool off =
-        next.robot.x < 1 || next.robot.y < 1 || next.robot.x > domain.width() || next.robot.y > domain.height();
-    if (off || domain.content(m, next.robot).wall) return std::nullopt;
-    if (carries && domain.content(m, next.robot).terrain == "path") return std::nullopt;
+    const bool off = next.robot.x < 1 || next.robot.y < 1 || next.robot.x > domain.map()->width() ||
+                     next.robot.y > domain.map()->height();
+    if (off || domain.map()->content(m, next.robot).wall) return std::nullopt;
+    if (carries && domain.map()->content(m, next.robot).terrain == "path") return std::nullopt;
     if (carries) next.items[0] = next.robot;
     std::erase(next.stations, s.robot);
   }
@@ -100,7 +100,7 @@ std::optional<GridState> next_state(const Domain& domain, MdpIndex m, const Grid
 }
 
 std::vector<double> features_of(const Domain& domain, MdpIndex m, const GridState& s, const GridState& next) {
-  const std::string left = s.robot != next.robot ? domain.content(m, s.robot).terrain : "";
+  const std::string left = s.robot != next.robot ? domain.map()->content(m, s.robot).terrain : "";
   if (domain.id() == "skateboard") {
     const bool board = std::ranges::count(s.carried, true) > 0 || s.robot == next.robot;
     return {board ? 1.0 : 0.0, !board && left == "path" ? 1.0 : 0.0, !board && left != "path" ? 1.0 : 0.0};
@@ -110,8 +110,9 @@ std::vector<double> features_of(const Domain& domain, MdpIndex m, const GridStat
 }
 
 bool is_over(const Domain& domain, MdpIndex m, const GridState& s) {
-  if (domain.content(m, s.robot).goal) return true;
-  return domain.id() == "item-delivery" && !s.carried[0] && !domain.content(m, s.items[0]).destination_of.empty();
+  if (domain.map()->content(m, s.robot).goal) return true;
+  return domain.id() == "item-delivery" && !s.carried[0] &&
+         !domain.map()->content(m, s.items[0]).destination_of.empty();
 }
 
 // Laws of every domain, checked for all MDPs or a spread of them.
@@ -128,7 +129,7 @@ TEST_P(DomainLaws, TransitionsAreThoseOfTheRules) {
     const MdpIndex m{i};
     const Mdp& mdp = domain_.mdp(m);
     for (std::size_t j = 0; j < mdp.num_states(); ++j) {
-      const GridState s = domain_.state(m, StateIndex{j});
+      const GridState s = domain_.map()->state(m, StateIndex{j});
       std::size_t c = 0;
       for (std::size_t a = 0; a < domain_.action_names().size(); ++a) {
         const auto next = next_state(domain_, m, s, domain_.action_names()[a]);
@@ -137,7 +138,7 @@ TEST_P(DomainLaws, TransitionsAreThoseOfTheRules) {
         const Choice& choice = mdp.choices(StateIndex{j})[c++];
         ASSERT_EQ(choice.action, ActionIndex{a});
         const Outcome& outcome = mdp.outcomes(choice).front();
-        ASSERT_EQ(domain_.state(m, outcome.next), *next);
+        ASSERT_EQ(domain_.map()->state(m, outcome.next), *next);
         const auto phi = mdp.features(outcome);
         ASSERT_EQ((std::vector<double>{phi.begin(), phi.end()}), features_of(domain_, m, s, *next));
         ASSERT_EQ(mdp.is_terminal(outcome.next), is_over(domain_, m, *next));
@@ -152,7 +153,7 @@ TEST_P(DomainLaws, EveryStateIsFoundByWhatItLooksLike) {
     const MdpIndex m{i};
     const Mdp& mdp = domain_.mdp(m);
     for (std::size_t s = 0; s < mdp.num_states() + mdp.num_terminals(); ++s) {
-      ASSERT_EQ(domain_.find_state(m, domain_.state(m, StateIndex{s})), StateIndex{s});
+      ASSERT_EQ(domain_.map()->find_state(m, domain_.map()->state(m, StateIndex{s})), StateIndex{s});
     }
   }
 }
@@ -183,7 +184,7 @@ TEST_P(DomainLaws, VariantsCountUpWithTheLastBitFastest) {
 // The documented formula over digits that the test collects itself.
 TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
   const auto digits = [&](DemoId demo) {
-    const GridState s = domain_.state(demo.mdp, demo.start);
+    const GridState s = domain_.map()->state(demo.mdp, demo.start);
     std::vector<int> list{s.robot.x, s.robot.y};
     for (std::size_t i = 0; i < s.items.size(); ++i) {
       list.insert(list.end(), {s.items[i].x, s.items[i].y, s.carried[i] ? 1 : 0});
@@ -206,7 +207,9 @@ TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
     int expected = 0;
     for (std::size_t k = 0; k < std::min(da.size(), db.size()); ++k) expected += 2 * std::abs(da[k] - db[k]);
     for (std::size_t k = 0; k < toggled(ma).size(); ++k) expected += toggled(ma)[k] != toggled(mb)[k] ? 1 : 0;
-    const auto stations = [&](DemoId d) { return static_cast<int>(domain_.state(d.mdp, d.start).stations.size()); };
+    const auto stations = [&](DemoId d) {
+      return static_cast<int>(domain_.map()->state(d.mdp, d.start).stations.size());
+    };
     expected += std::abs(stations(a) - stations(b));
     ASSERT_EQ(domain_.dissimilarity(a, b), expected);
     ASSERT_EQ(domain_.dissimilarity(b, a), expected);
@@ -217,17 +220,17 @@ TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
 TEST_P(DomainLaws, CopiesAreTheSameDomain) {
   const Domain copy = domain_;
   EXPECT_EQ(copy.num_starts(), domain_.num_starts());
-  EXPECT_EQ(copy.state(MdpIndex{1}, StateIndex{2}), domain_.state(MdpIndex{1}, StateIndex{2}));
+  EXPECT_EQ(copy.map()->state(MdpIndex{1}, StateIndex{2}), domain_.map()->state(MdpIndex{1}, StateIndex{2}));
   EXPECT_EQ(copy.initial_state(MdpIndex{0}), StateIndex{0});
 }
 
 TEST_P(DomainLaws, BadIndicesAreRefused) {
   const MdpIndex beyond{domain_.num_mdps()};
   EXPECT_THROW((void)domain_.mdp(beyond), std::invalid_argument);
-  EXPECT_THROW((void)domain_.state(MdpIndex{0}, StateIndex{1'000'000}), std::invalid_argument);
+  EXPECT_THROW((void)domain_.map()->state(MdpIndex{0}, StateIndex{1'000'000}), std::invalid_argument);
   EXPECT_THROW((void)domain_.complexity({beyond, StateIndex{0}}), std::invalid_argument);
   EXPECT_THROW((void)domain_.has_feature(MdpIndex{0}, domain_.num_features()), std::invalid_argument);
-  EXPECT_THROW((void)domain_.content(MdpIndex{0}, Cell{0, 1}), std::invalid_argument);
+  EXPECT_THROW((void)domain_.map()->content(MdpIndex{0}, Cell{0, 1}), std::invalid_argument);
   EXPECT_THROW((void)domain_.weights().return_of(IntegerVector{1, 2}), std::invalid_argument);
 }
 
@@ -238,21 +241,21 @@ TEST(Complexity, CountsOptionalThingsAndStationsThatAreLeft) {
   const Domain delivery = load_domain("item-delivery");
   EXPECT_EQ(delivery.complexity({MdpIndex{0}, StateIndex{0}}), 0);
   EXPECT_EQ(delivery.complexity({MdpIndex{63}, StateIndex{0}}), 6);
-  GridState used = delivery.state(MdpIndex{63}, StateIndex{0});
+  GridState used = delivery.map()->state(MdpIndex{63}, StateIndex{0});
   used.stations.clear();
   used.robot = {3, 3};
-  EXPECT_EQ(delivery.complexity({MdpIndex{63}, *delivery.find_state(MdpIndex{63}, used)}), 5);
+  EXPECT_EQ(delivery.complexity({MdpIndex{63}, *delivery.map()->find_state(MdpIndex{63}, used)}), 5);
   EXPECT_EQ(sound_domain(kColoredTiles).complexity({MdpIndex{0b111000011}, StateIndex{3}}), 5);
   EXPECT_EQ(sound_domain(kSkateboard).complexity({MdpIndex{0b101}, StateIndex{0}}), 5);
 }
 
 TEST(FindState, RefusesWhatIsNoState) {
   const Domain domain = load_domain("item-delivery");
-  const GridState good = domain.state(MdpIndex{1}, StateIndex{0});
+  const GridState good = domain.map()->state(MdpIndex{1}, StateIndex{0});
   const auto refused = [&](auto&& change) {
     GridState s = good;
     change(s);
-    return !domain.find_state(MdpIndex{1}, s).has_value();
+    return !domain.map()->find_state(MdpIndex{1}, s).has_value();
   };
   EXPECT_FALSE(refused([](GridState&) {}));
   EXPECT_TRUE(refused([](GridState& s) { s.robot = {1, 3}; }));  // a wall
@@ -262,21 +265,21 @@ TEST(FindState, RefusesWhatIsNoState) {
   EXPECT_TRUE(refused([](GridState& s) { s.stations.push_back({1, 1}); }));  // no station there
   EXPECT_TRUE(refused([](GridState& s) { s.exited = true; }));
   EXPECT_TRUE(refused([](GridState& s) { s.carried[0] = true, s.items[0] = {2, 2}; }));
-  EXPECT_FALSE(domain.find_state(MdpIndex{0}, good).has_value());  // that MDP has no charger
+  EXPECT_FALSE(domain.map()->find_state(MdpIndex{0}, good).has_value());  // that MDP has no charger
 }
 
 TEST(Draw, ShowsTheMapOfTheVariant) {
   const Domain domain = load_domain("item-delivery");
   using Rows = std::vector<std::string>;
-  EXPECT_EQ(domain.draw(MdpIndex{63}, std::nullopt), (Rows{"#.rB", "#rrr", "G.rS"}));
-  EXPECT_EQ(domain.draw(MdpIndex{0}, std::nullopt), (Rows{"#...", "#...", "G..S"}));
-  EXPECT_EQ(domain.draw(MdpIndex{63}, StateIndex{0}), (Rows{"#.rB", "#rrr", "G.r@"}));
+  EXPECT_EQ(domain.map()->draw(MdpIndex{63}, std::nullopt), (Rows{"#.rB", "#rrr", "G.rS"}));
+  EXPECT_EQ(domain.map()->draw(MdpIndex{0}, std::nullopt), (Rows{"#...", "#...", "G..S"}));
+  EXPECT_EQ(domain.map()->draw(MdpIndex{63}, StateIndex{0}), (Rows{"#.rB", "#rrr", "G.r@"}));
 }
 
 TEST(Draw, ShowsThingsWhereTheyAre) {
   const Domain domain = load_domain("item-delivery");
   GridState s{{3, 2}, {{2, 3}}, {false}, {}, false};
-  EXPECT_EQ(domain.draw(MdpIndex{1}, domain.find_state(MdpIndex{1}, s)),
+  EXPECT_EQ(domain.map()->draw(MdpIndex{1}, domain.map()->find_state(MdpIndex{1}, s)),
             (std::vector<std::string>{"#*..", "#.@.", "G..."}));
 }
 

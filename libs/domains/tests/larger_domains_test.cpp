@@ -106,11 +106,11 @@ TEST(Navigation, LeavesNothingToChance) {
 
 TEST(RescueFloor, HasSixteenWorldsOfAFewThousandStates) {
   const Domain domain = from_file("rescue_floor");
-  EXPECT_EQ(domain.width(), 24);
-  EXPECT_EQ(domain.height(), 16);
+  EXPECT_EQ(domain.map()->width(), 24);
+  EXPECT_EQ(domain.map()->height(), 16);
   EXPECT_EQ(domain.num_mdps(), 16u);
   EXPECT_EQ(domain.num_starts(), 480u);
-  EXPECT_THAT(domain.item_names(), ::testing::ElementsAre("medkit", "casualty"));
+  EXPECT_THAT(domain.map()->item_names(), ::testing::ElementsAre("medkit", "casualty"));
   EXPECT_EQ(domain.variant(MdpIndex{0}).size(), 17u);
   std::size_t sum = 0;
   for (const auto& [size, number] : sizes_of(domain)) {
@@ -136,13 +136,13 @@ TEST(RescueFloor, PutsThingsDownOnlyWhereTheyBelong) {
   const MdpIndex m{15};
   std::size_t num_drops = 0;
   for (StateIndex s{0}; s.value() < domain.mdp(m).num_states(); ++s) {
-    const GridState before = domain.state(m, s);
+    const GridState before = domain.map()->state(m, s);
     for (const Choice& choice : domain.mdp(m).choices(s)) {
       if (domain.action_names()[choice.action.value()] != "dropoff") continue;
-      const GridState after = domain.state(m, domain.mdp(m).outcomes(choice).front().next);
+      const GridState after = domain.map()->state(m, domain.mdp(m).outcomes(choice).front().next);
       for (std::size_t i = 0; i < 2; ++i) {
         if (!before.carried[i] || after.carried[i]) continue;
-        EXPECT_EQ(domain.content(m, after.items[i]).destination_of, domain.item_names()[i]);
+        EXPECT_EQ(domain.map()->content(m, after.items[i]).destination_of, domain.map()->item_names()[i]);
         ++num_drops;
       }
     }

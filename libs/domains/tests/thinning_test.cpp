@@ -89,18 +89,18 @@ TEST(Thinning, KeepsWhatAWorldIs) {
     const MdpIndex same{index};
     ASSERT_EQ(some.variant(m), all.variant(same));
     EXPECT_EQ(some.describe_variant(m), all.describe_variant(same));
-    EXPECT_EQ(some.draw(m, std::nullopt), all.draw(same, std::nullopt));
+    EXPECT_EQ(some.map()->draw(m, std::nullopt), all.map()->draw(same, std::nullopt));
     ASSERT_EQ(some.mdp(m).num_states(), all.mdp(same).num_states());
     for (StateIndex s{0}; s.value() < some.mdp(m).num_states(); ++s) {
-      ASSERT_EQ(some.state(m, s), all.state(same, s));
-      ASSERT_EQ(some.find_state(m, some.state(m, s)), s);
+      ASSERT_EQ(some.map()->state(m, s), all.map()->state(same, s));
+      ASSERT_EQ(some.map()->find_state(m, some.map()->state(m, s)), s);
       ASSERT_EQ(some.complexity({m, s}), all.complexity({same, s}));
     }
     const DemoId here{m, StateIndex{0}};
     const DemoId there{MdpIndex{some.num_mdps() - 1}, StateIndex{3}};
     EXPECT_EQ(some.dissimilarity(here, there),
               all.dissimilarity({same, StateIndex{0}}, {MdpIndex{all.num_mdps() - 1}, StateIndex{3}}));
-    EXPECT_EQ(some.content(m, {3, 1}).terrain, all.content(same, {3, 1}).terrain);
+    EXPECT_EQ(some.map()->content(m, {3, 1}).terrain, all.map()->content(same, {3, 1}).terrain);
   }
 }
 

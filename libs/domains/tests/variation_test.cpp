@@ -15,14 +15,14 @@ TEST(WithOneMap, MakesAFamilyOfOneOutOfEveryWorldOfTheBuiltIns) {
   for (const auto& built_in : built_in_domains()) {
     const auto domain = load_domain(std::string{built_in.name});
     for (const std::size_t m : {std::size_t{0}, domain.num_mdps() - 1}) {
-      const auto rows = domain.draw(MdpIndex{m}, std::nullopt);
+      const auto rows = domain.map()->draw(MdpIndex{m}, std::nullopt);
       const auto text = with_one_map(built_in.text, "one-world", rows);
       ASSERT_TRUE(text.has_value()) << built_in.name << " " << m;
       const auto reading = parse_domain(*text, "one-world");
       ASSERT_TRUE(reading.domain.has_value());
       EXPECT_EQ(reading.domain->id(), "one-world");
       EXPECT_EQ(reading.domain->num_mdps(), 1u);
-      EXPECT_EQ(reading.domain->draw(MdpIndex{0}, std::nullopt), rows);
+      EXPECT_EQ(reading.domain->map()->draw(MdpIndex{0}, std::nullopt), rows);
       EXPECT_EQ(reading.domain->weights().integer, domain.weights().integer);
       EXPECT_EQ(reading.domain->mdp(MdpIndex{0}).num_states(), domain.mdp(MdpIndex{m}).num_states());
     }

@@ -50,33 +50,34 @@ TEST(Drawings, ShowEveryCellByItsOwnSymbolWhereSymbolsMeanTheSame) {
   const auto domain = load_domain("skateboard");
   const MdpIndex all{domain.num_mdps() - 1};
   const std::vector<std::string> rows{".....G", ".....q", ".....q", "ppppqq"};
-  EXPECT_EQ(domain.draw_bare(all, domain.initial_state(all)), rows);
+  EXPECT_EQ(domain.map()->draw_bare(all, domain.initial_state(all)), rows);
   const auto goals = load_domain("two-goals");
   const MdpIndex open{0};
   const std::vector<std::string> with_both{".....", ".....", ".....", "....B", "A...."};
-  EXPECT_EQ(goals.draw_bare(open, goals.initial_state(open)), with_both);
+  EXPECT_EQ(goals.map()->draw_bare(open, goals.initial_state(open)), with_both);
 }
 
 TEST(Drawings, LeaveOutStationsThatAreGone) {
   const auto domain = load_domain("item-delivery");
   const MdpIndex all{63};
-  EXPECT_EQ(domain.draw_bare(all, domain.initial_state(all)), (std::vector<std::string>{"#.rB", "#rrr", "G.r."}));
-  auto later = domain.state(all, domain.initial_state(all));
+  EXPECT_EQ(domain.map()->draw_bare(all, domain.initial_state(all)),
+            (std::vector<std::string>{"#.rB", "#rrr", "G.r."}));
+  auto later = domain.map()->state(all, domain.initial_state(all));
   later.stations.clear();
-  const auto state = domain.find_state(all, later);
+  const auto state = domain.map()->find_state(all, later);
   ASSERT_TRUE(state.has_value());
-  EXPECT_EQ(domain.draw_bare(all, *state), (std::vector<std::string>{"#.r.", "#rrr", "G.r."}));
+  EXPECT_EQ(domain.map()->draw_bare(all, *state), (std::vector<std::string>{"#.r.", "#rrr", "G.r."}));
 }
 
 TEST(Legend, NamesWhatSymbolsStandForAndWhatIsOptional) {
   const auto domain = load_domain("two-goals");
-  const auto legend = domain.legend();
-  const auto& near = legend[domain.legend_index({1, 1})];
+  const auto legend = domain.map()->legend();
+  const auto& near = legend[domain.map()->legend_index({1, 1})];
   EXPECT_EQ(near.symbol, 'A');
   EXPECT_TRUE(near.content.goal);
   EXPECT_EQ(near.goal_name, "near");
-  EXPECT_TRUE(legend[domain.legend_index({1, 4})].is_optional);
-  EXPECT_THROW(static_cast<void>(domain.legend_index({0, 1})), std::invalid_argument);
+  EXPECT_TRUE(legend[domain.map()->legend_index({1, 4})].is_optional);
+  EXPECT_THROW(static_cast<void>(domain.map()->legend_index({0, 1})), std::invalid_argument);
 }
 
 TEST(OptionalGroups, StandInTheOrderOfTheVariantsBits) {

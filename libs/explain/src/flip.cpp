@@ -9,17 +9,19 @@ namespace kith {
 
 std::optional<DemoIndex> same_start(const Atlas& atlas, DemoIndex demo, MdpIndex world) {
   const auto& domain = atlas.domain();
+  const auto map = domain.map();
+  if (!map) return std::nullopt;
   const auto [from, start] = atlas.id(demo);
-  const auto before = domain.state(from, start);
-  const auto fresh_there = domain.state(world, domain.initial_state(world));
-  const auto fresh_here = domain.state(from, domain.initial_state(from));
+  const auto before = map->state(from, start);
+  const auto fresh_there = map->state(world, domain.initial_state(world));
+  const auto fresh_here = map->state(from, domain.initial_state(from));
   const auto has = [](const auto& list, const auto& entry) {
     return std::find(list.begin(), list.end(), entry) != list.end();
   };
   GridState state;
   state.robot = before.robot;
-  const auto items_here = domain.items_in(from);
-  const auto items_there = domain.items_in(world);
+  const auto items_here = map->items_in(from);
+  const auto items_there = map->items_in(world);
   for (std::size_t i = 0; i < items_there.size(); ++i) {
     const auto place = std::find(items_here.begin(), items_here.end(), items_there[i]);
     const auto j = static_cast<std::size_t>(place - items_here.begin());
@@ -34,7 +36,7 @@ std::optional<DemoIndex> same_start(const Atlas& atlas, DemoIndex demo, MdpIndex
   for (const auto& station : fresh_there.stations) {
     if (!has(fresh_here.stations, station) || has(before.stations, station)) state.stations.push_back(station);
   }
-  const auto found = domain.find_state(world, state);
+  const auto found = map->find_state(world, state);
   if (!found || domain.mdp(world).is_terminal(*found)) return std::nullopt;
   return atlas.index({world, *found});
 }
@@ -56,15 +58,15 @@ std::optional<Trajectory> flipped_path(const Atlas& atlas, const Contrast& contr
   return walk.finished();
 }
 
-std::string thing_in_words(const Domain& domain, const OptionalGroup& group) {
+std::string thing_in_words(const GridMap& map, const OptionalGroup& group) {
   constexpr std::size_t kFew = 2;
   const auto& cells = group.cells;
   if (cells.size() > kFew) {
-    return "the " + group.name + " from " + cell_text(domain, cells.front()) + " to " + cell_text(domain, cells.back());
+    return "the " + group.name + " from " + cell_text(map, cells.front()) + " to " + cell_text(map, cells.back());
   }
   std::vector<std::string> places;
   places.reserve(cells.size());
-  for (const auto& cell : cells) places.push_back(cell_text(domain, cell));
+  for (const auto& cell : cells) places.push_back(cell_text(map, cell));
   return "the " + group.name + " at " + listed(places);
 }
 
@@ -83,8 +85,7 @@ std::string doing_instead(const std::string& action) {
 
 std::optional<Flip> nearest_flip(const Atlas& atlas, const Contrast& contrast) {
   const auto& domain = atlas.domain();
-  if (!domain.has_map() || !domain.is_exact())
-    return std::nullopt;  // without a map nothing says which worlds are alike
+  if (!domain.map() || !domain.is_exact()) return std::nullopt;  // without a map nothing says which worlds are alike
   const auto here = atlas.id(contrast.demo).mdp;
   const auto groups = domain.optional_groups();
   struct Candidate {
@@ -122,10 +123,12 @@ std::vector<std::size_t> toggled_groups(const Domain& domain, MdpIndex a, MdpInd
 }
 
 std::string difference_in_words(const Domain& domain, MdpIndex world, std::span<const std::size_t> toggled) {
+  const auto map = domain.map();
+  if (!map) return {};
   const auto groups = domain.optional_groups();
   const auto there = domain.variant(world);
   std::vector<std::string> added, removed;
-  for (const auto g : toggled) (there[g] ? added : removed).push_back(thing_in_words(domain, groups[g]));
+  for (const auto g : toggled) (there[g] ? added : removed).push_back(thing_in_words(*map, groups[g]));
   std::string text;
   if (!added.empty()) text = "with " + listed(added);
   if (!removed.empty()) text += (text.empty() ? "" : " and ") + ("without " + listed(removed));
@@ -136,9 +139,10 @@ std::string flip_in_words(const Atlas& atlas, const Contrast& contrast, const Fl
   const auto& domain = atlas.domain();
   const auto [world, start] = atlas.id(flip.demo);
   const auto& names = domain.action_names();
-  const auto cell = domain.state(world, flip.robot.states[contrast.decisive]).robot;
+  const auto map = domain.map().value();  // otherwise nothing flips
+  const auto cell = map.state(world, flip.robot.states[contrast.decisive]).robot;
   return difference_in_words(domain, world, flip.toggled) + " it " +
-         action_words(names[flip.robot.actions[contrast.decisive].value()]) + " at " + cell_text(domain, cell) +
+         action_words(names[flip.robot.actions[contrast.decisive].value()]) + " at " + cell_text(map, cell) +
          " rather than " + doing_instead(names[contrast.robot.actions[contrast.decisive].value()]);
 }
 

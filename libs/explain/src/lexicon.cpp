@@ -106,7 +106,9 @@ void Lexicon::add_words(const std::string& text, std::size_t feature) {
 }
 
 bool Lexicon::is_item(const std::string& stem_of_word) const {
-  const auto& items = domain_.item_names();
+  const auto map = domain_.map();
+  if (!map) return false;
+  const auto& items = map->item_names();
   return std::any_of(items.begin(), items.end(), [&](const auto& item) { return stem(item) == stem_of_word; });
 }
 

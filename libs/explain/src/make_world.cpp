@@ -16,9 +16,9 @@ namespace {
 using Rows = std::vector<std::string>;
 
 // Symbols that may become one another: floor, walls, terrain and stations.
-std::string placeable(const Domain& domain) {
+std::string placeable(const GridMap& map) {
   std::string symbols;
-  for (const auto& entry : domain.legend()) {
+  for (const auto& entry : map.legend()) {
     if (entry.start || !entry.item.empty() || entry.content.goal || !entry.content.destination_of.empty()) continue;
     symbols += entry.symbol;
   }
@@ -68,16 +68,17 @@ class QuickLook {
 // Goes through changed maps, those with fewer changes first.
 class WorldMaker {
  public:
-  WorldMaker(const Atlas& atlas, std::string_view text, const HalfSpace& constraint, Purpose purpose,
-             const MakeWorldOptions& options)
+  WorldMaker(const Atlas& atlas, const GridMap& map, std::string_view text, const HalfSpace& constraint,
+             Purpose purpose, const MakeWorldOptions& options)
       : atlas_{atlas},
         domain_{atlas.domain()},
+        map_{map},
         text_{text},
         constraint_{constraint},
         purpose_{purpose},
         options_{options},
         target_{detail::target_facets(atlas.prior_cone(), constraint)},
-        symbols_{placeable(domain_)} {
+        symbols_{placeable(map)} {
     if (options.max_changes == 0) throw std::invalid_argument{"make_world: at least one cell must change"};
   }
 
@@ -86,7 +87,7 @@ class WorldMaker {
     for (std::size_t n = 1; n <= options_.max_changes && !made_; ++n) {
       for (const auto base : bases) {
         base_ = base;
-        change(domain_.draw(base, std::nullopt), n, 0);
+        change(map_.draw(base, std::nullopt), n, 0);
         if (made_ || states_ >= options_.max_states) break;
       }
     }
@@ -147,11 +148,11 @@ class WorldMaker {
     const auto demo = simplest_isolating(atlas, constraint_, purpose_);
     if (!demo) return;
     std::vector<CellChange> changes;
-    const auto before = domain_.draw(base_, std::nullopt);
+    const auto before = map_.draw(base_, std::nullopt);
     for (std::size_t row = 0; row < rows.size(); ++row) {
       for (std::size_t column = 0; column < rows[row].size(); ++column) {
         if (rows[row][column] == before[row][column]) continue;
-        changes.push_back({{static_cast<int>(column) + 1, domain_.height() - static_cast<int>(row)},
+        changes.push_back({{static_cast<int>(column) + 1, map_.height() - static_cast<int>(row)},
                            before[row][column],
                            rows[row][column]});
       }
@@ -161,6 +162,7 @@ class WorldMaker {
 
   const Atlas& atlas_;
   const Domain& domain_;
+  GridMap map_;
   std::string_view text_;
   const HalfSpace& constraint_;
   Purpose purpose_;
@@ -173,8 +175,8 @@ class WorldMaker {
   std::optional<MadeWorld> made_;
 };
 
-std::string name_of(const Domain& domain, char symbol) {
-  for (const auto& entry : domain.legend()) {
+std::string name_of(const GridMap& map, char symbol) {
+  for (const auto& entry : map.legend()) {
     if (entry.symbol != symbol) continue;
     if (entry.content.wall) return "wall";
     if (!entry.content.terrain.empty()) return entry.content.terrain;
@@ -185,17 +187,17 @@ std::string name_of(const Domain& domain, char symbol) {
 
 }  // namespace
 
-bool can_make_worlds(const Domain& domain) { return domain.has_map() && domain.is_exact(); }
+bool can_make_worlds(const Domain& domain) { return domain.map() && domain.is_exact(); }
 
 std::optional<MadeWorld> make_world(const Atlas& atlas, std::string_view text, const HalfSpace& constraint,
                                     Purpose purpose, const MakeWorldOptions& options) {
-  if (!can_make_worlds(atlas.domain())) return std::nullopt;
-  return WorldMaker{atlas, text, constraint, purpose, options}.make();
+  const auto map = atlas.domain().map();
+  if (!map || !can_make_worlds(atlas.domain())) return std::nullopt;
+  return WorldMaker{atlas, *map, text, constraint, purpose, options}.make();
 }
 
-std::string change_in_words(const Domain& domain, const CellChange& change) {
-  return name_of(domain, change.from) + " at " + cell_text(domain, change.cell) + " becomes " +
-         name_of(domain, change.to);
+std::string change_in_words(const GridMap& map, const CellChange& change) {
+  return name_of(map, change.from) + " at " + cell_text(map, change.cell) + " becomes " + name_of(map, change.to);
 }
 
 }  // namespace kith

@@ -1,96 +1,23 @@
 #include "question_parser.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
 #include "lexicon.hpp"
+#include "question_tokens.hpp"
 
 namespace kith::detail {
 namespace {
 
-struct Token {
-  enum class Kind { kWord, kNumber, kCell, kName };
-  Kind kind = Kind::kWord;
-  std::string text;  // lower case, except for names
-  std::size_t number = 0, row = 0;
-  Place place;
-};
-
 // Words that may stand anywhere and say nothing.
 bool is_filler(const std::string& word) { return filler_words().count(word) != 0; }
-
-std::size_t number_of(const std::string& digits) {
-  constexpr std::size_t kMaxDigits = 9;
-  return digits.size() > kMaxDigits ? 1'000'000'000 : static_cast<std::size_t>(std::stoul(digits));
-}
-
-// The end of a name in quotes that begin at `i`, or nothing: "'" also stands within words.
-std::optional<std::size_t> end_of_name(const std::string& text, std::size_t i) {
-  if (text[i] != '"' && text[i] != '\'') return std::nullopt;
-  const auto end = text.find(text[i], i + 1);
-  return end == std::string::npos || end == i + 1 ? std::nullopt : std::optional{end};
-}
-
-// Also of words in other scripts, which are then unknown words rather than none.
-bool is_letter(unsigned char c) {
-  constexpr unsigned char kLastAscii = 0x7F;
-  return c > kLastAscii || std::isalnum(c) != 0;
-}
-
-// Words, numbers, cells and names in quotes; whatever else is there separates them.
-std::vector<Token> tokens_of(const std::string& text) {
-  const auto is = [&](std::size_t i, auto predicate) {
-    return i < text.size() && predicate(static_cast<unsigned char>(text[i])) != 0;
-  };
-  std::vector<Token> tokens;
-  bool comma = false;  // between the last token and this one
-  for (std::size_t i = 0; i < text.size();) {
-    const bool digit = is(i, [](unsigned char c) { return std::isdigit(c); });
-    const auto belongs = [digit](unsigned char c) {
-      return digit ? std::isdigit(c) != 0 : is_letter(c) || c == '_' || c == '-' || c == '\'';
-    };
-    if (const auto end = end_of_name(text, i)) {
-      tokens.push_back({Token::Kind::kName, text.substr(i + 1, *end - i - 1), 0, 0, {i + 2, *end - i - 1}});
-      i = *end + 1;
-      comma = false;
-      continue;
-    }
-    if (!is(i, [](unsigned char c) { return is_letter(c); })) {
-      comma = comma || text[i] == ',';
-      ++i;
-      continue;
-    }
-    const auto begin = i;
-    while (is(i, belongs)) ++i;
-    Token token;
-    token.place = {begin + 1, i - begin};
-    for (const char c : text.substr(begin, i - begin)) {
-      token.text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    if (digit) {
-      token.kind = Token::Kind::kNumber;
-      token.number = number_of(token.text);
-    }
-    const bool pair = digit && comma && !tokens.empty() && tokens.back().kind == Token::Kind::kNumber;
-    if (pair) {
-      tokens.back().kind = Token::Kind::kCell;
-      tokens.back().row = token.number;
-      tokens.back().place.length = i + 1 - tokens.back().place.column;
-    } else {
-      tokens.push_back(token);
-    }
-    comma = false;
-  }
-  return tokens;
-}
 
 class Parser {
  public:
   Parser(const Domain& domain, const std::string& text)
-      : domain_{domain}, text_{text}, lexicon_{domain}, tokens_{tokens_of(text)} {}
+      : domain_{domain}, map_{domain.map()}, text_{text}, lexicon_{domain}, tokens_{tokens_of(text)} {}
 
   Question parse() {
     read_kind();
@@ -104,8 +31,8 @@ class Parser {
   using Kind = Question::Kind;
 
   [[noreturn]] void fail_at(const Place& place, const std::string& id, const std::string& message,
-                            const std::string& hint = {}) const {
-    fail(text_, place, id, message, hint);
+                            const Advice& advice = {}) const {
+    fail(text_, place, id, message, advice);
   }
 
   // "Does it recharge?" asks when it does; "how much does rubble cost?" what can be concluded about its weight.
@@ -177,7 +104,7 @@ class Parser {
     if (token.kind == Token::Kind::kCell) return take_cell(token);
     if (token.kind == Token::Kind::kName) return take_state(token);
     if (word == "world" || word == "mdp") return take_world(token);
-    if (word == "state" && !domain_.has_map() && !lexicon_.knows(word)) return take_unquoted_state(token);
+    if (word == "state" && !map_ && !lexicon_.knows(word)) return take_unquoted_state(token);
     if (token.kind == Token::Kind::kNumber) {
       fail_at(token.place, "E1103", "it is not clear what the number " + word + " stands for",
               "write 'world " + word + "', or a cell as (COLUMN,ROW)");
@@ -306,17 +233,17 @@ class Parser {
     }
     if (named) return *named;
     const auto nearest = nearest_word(phrase_.front().text, things);
-    const auto hint = !nearest.empty()     ? "did you mean '" + nearest + "'?"
-                      : !domain_.has_map() ? "without a map, worlds differ as a whole: ask 'in world N'"
-                      : things.empty()     ? "all its worlds are the same"
-                                           : "optional in this domain: " + listed(things);
+    const auto hint = !nearest.empty() ? "did you mean '" + nearest + "'?"
+                      : !map_          ? "without a map, worlds differ as a whole: ask 'in world N'"
+                      : things.empty() ? "all its worlds are the same"
+                                       : "optional in this domain: " + listed(things);
     fail_at(place, "E1108", "'" + phrase_text() + "' is not optional in this domain", hint);
   }
 
   // "state 0", "state on the bank at a1": the longest stretch of words that is a name, or the next word.
   void take_unquoted_state(const Token& word) {
     if (at_ >= tokens_.size())
-      fail_at(word.place, "E1104", "which state?", "write its name, as kith inspect prints it");
+      fail_at(word.place, "E1104", "which state?", Advice{"write its name", Remedy::kShowStates});
     if (tokens_[at_].kind == Token::Kind::kName) return;  // quoted after all
     const auto names = state_names();
     const auto begin = tokens_[at_].place.column - 1;
@@ -343,7 +270,7 @@ class Parser {
   // The name of a state, in models without a map.
   void take_state(const Token& token) {
     close_phrase();
-    if (domain_.has_map()) {
+    if (map_) {
       fail_at(token.place, "E1104", "states have no names in a domain with a map",
               "name a cell: (COLUMN,ROW), or an action or a feature without quotes");
     }
@@ -366,26 +293,27 @@ class Parser {
             hint_of_states(token.text, found.empty() ? std::vector<std::string>{names.begin(), names.end()} : found));
   }
 
-  static std::string hint_of_states(const std::string& name, const std::vector<std::string>& names) {
+  static Advice hint_of_states(const std::string& name, const std::vector<std::string>& names) {
     constexpr std::size_t kListed = 8;
     constexpr std::size_t kMostCompared = 5'000;  // comparing with more takes too long
     const auto nearest = names.size() > kMostCompared ? "" : nearest_word(name, names);
     if (!nearest.empty()) return "did you mean '" + nearest + "'?";
-    return names.size() > kListed ? "kith inspect names the states of an MDP" : "its states are " + listed(names);
+    if (names.size() > kListed) return Remedy::kShowStates;
+    return "its states are " + listed(names);
   }
 
   void take_cell(const Token& token) {
     close_phrase();
-    if (!domain_.has_map()) {
+    if (!map_) {
       fail_at(token.place, "E1104", "this domain has no map, so there are no cells",
-              "name a state in quotes, as kith inspect prints it");
+              Advice{"name a state, in quotes", Remedy::kShowStates});
     }
-    const Cell cell{static_cast<int>(token.number), domain_.height() + 1 - static_cast<int>(token.row)};
-    if (token.number < 1 || token.number > static_cast<std::size_t>(domain_.width()) || token.row < 1 ||
-        token.row > static_cast<std::size_t>(domain_.height())) {
+    const Cell cell{static_cast<int>(token.number), map_->height() + 1 - static_cast<int>(token.row)};
+    if (token.number < 1 || token.number > static_cast<std::size_t>(map_->width()) || token.row < 1 ||
+        token.row > static_cast<std::size_t>(map_->height())) {
       fail_at(token.place, "E1104",
               "the map has no cell (" + std::to_string(token.number) + "," + std::to_string(token.row) + ")",
-              "it has " + std::to_string(domain_.width()) + " columns and " + std::to_string(domain_.height()) +
+              "it has " + std::to_string(map_->width()) + " columns and " + std::to_string(map_->height()) +
                   " rows, counted from the top left, from 1");
     }
     if (question_.kind == Kind::kWhatIf && !question_.conditions.empty()) {
@@ -412,7 +340,7 @@ class Parser {
   void take_item(const Token& token) {
     close_phrase();
     while (at_ < tokens_.size() && is_filler(tokens_[at_].text)) ++at_;
-    const auto& names = domain_.item_names();
+    const auto names = map_ ? map_->item_names() : std::vector<std::string>{};
     if (at_ < tokens_.size()) {
       const auto& word = tokens_[at_].text;
       for (std::size_t i = 0; i < names.size(); ++i) {
@@ -492,6 +420,7 @@ class Parser {
     Place place;
   };
   const Domain& domain_;
+  std::optional<GridMap> map_;
   const std::string& text_;
   Lexicon lexicon_;
   std::vector<Token> tokens_;
@@ -506,7 +435,7 @@ class Parser {
 }  // namespace
 
 void fail(const std::string& question, const Place& place, const std::string& id, const std::string& message,
-          const std::string& hint) {
+          const Advice& advice) {
   Diagnostic diagnostic;
   diagnostic.id = id;
   diagnostic.message = message;
@@ -514,7 +443,8 @@ void fail(const std::string& question, const Place& place, const std::string& id
   diagnostic.line = 1;
   diagnostic.column = place.column;
   diagnostic.length = place.length;
-  diagnostic.hint = hint;
+  diagnostic.hint = advice.hint;
+  diagnostic.remedy = advice.remedy;
   diagnostic.source_line = question;
   throw Error{ErrorKind::kInvalidInput, message, {diagnostic}};
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/core/diagnostic.hpp"
 
 namespace kith::detail {
 
@@ -38,7 +39,7 @@ struct Question {
   std::optional<Cell> cell;            // where the robot is, in domains with a map
   std::optional<std::string> state;    // what the robot's state is called, in domains without one
   Place spot;                          // of either in the text
-  std::optional<std::size_t> carried;  // index into Domain::item_names()
+  std::optional<std::size_t> carried;  // index into GridMap::item_names()
   std::optional<MdpIndex> world;
 
   [[nodiscard]] bool is_about_a_step() const { return cell || state; }
@@ -46,7 +47,7 @@ struct Question {
 
 // @throws kith::Error: the question with a caret under the place.
 [[noreturn]] void fail(const std::string& question, const Place& place, const std::string& id,
-                       const std::string& message, const std::string& hint = {});
+                       const std::string& message, const Advice& advice = {});
 
 // Understands a question. @throws kith::Error (E1102 to E1106).
 [[nodiscard]] Question parse_question(const Domain& domain, const std::string& text);

@@ -18,12 +18,12 @@ std::string Scene::name_of(const Happening& happening) const {
 
 std::string Scene::spot() const {
   if (question_.state) return " in state '" + *question_.state + "'";
-  return question_.cell ? " at " + cell_text(domain_, *question_.cell) : "";
+  return question_.cell ? " at " + cell_text(*map_, *question_.cell) : "";
 }
 
 std::string Scene::context() const {
   std::string text = spot();
-  if (question_.carried) text += " carrying " + domain_.item_names()[*question_.carried];
+  if (question_.carried) text += " carrying " + map_->item_names()[*question_.carried];
   if (question_.world) text += " in world " + std::to_string(question_.world->value());
   return text;
 }
@@ -32,10 +32,10 @@ std::optional<DemoIndex> Scene::start_in(MdpIndex world) const {
   const auto initial = domain_.initial_state(world);
   if (question_.state) return state_called(world, *question_.state);
   if (!question_.cell) return atlas_.index({world, initial});
-  auto state = domain_.state(world, initial);
+  auto state = map_->state(world, initial);
   state.robot = *question_.cell;
   if (question_.carried) {
-    const auto items = domain_.items_in(world);
+    const auto items = map_->items_in(world);
     const auto place = std::find(items.begin(), items.end(), *question_.carried);
     if (place == items.end()) return std::nullopt;
     const auto i = static_cast<std::size_t>(place - items.begin());
@@ -43,11 +43,11 @@ std::optional<DemoIndex> Scene::start_in(MdpIndex world) const {
     state.carried[i] = true;
   }
   const auto& mdp = domain_.mdp(world);
-  const auto found = domain_.find_state(world, state);
+  const auto found = map_->find_state(world, state);
   if (found && !mdp.is_terminal(*found)) return atlas_.index({world, *found});
   const auto fits = [&](StateIndex s) {
     if (mdp.is_terminal(s)) return false;
-    const auto there = domain_.state(world, s);
+    const auto there = map_->state(world, s);
     return there.robot == state.robot && there.carried == state.carried;
   };
   const auto path = atlas_.trajectory(atlas_.index({world, initial}));
@@ -75,8 +75,8 @@ DemoIndex Scene::needed_start(MdpIndex world) const {
   }
   fail(text_, question_.spot, "E1104",
        "the robot is never " +
-           (question_.carried ? "carrying " + domain_.item_names()[*question_.carried] + " " : std::string{}) + "at " +
-           cell_text(domain_, *question_.cell) + " in world " + std::to_string(world.value()),
+           (question_.carried ? "carrying " + map_->item_names()[*question_.carried] + " " : std::string{}) + "at " +
+           cell_text(*map_, *question_.cell) + " in world " + std::to_string(world.value()),
        "there may be a wall, or the episode ends there");
 }
 
@@ -211,14 +211,14 @@ std::optional<Contrast> Scene::way_of_others(DemoIndex demo, const Happening& ha
 }
 
 std::string Scene::name_of(MdpIndex world) const {
-  const auto name = domain_.has_map() ? std::string{} : domain_.describe_variant(world);
+  const auto name = map_ ? std::string{} : domain_.describe_variant(world);
   return name.empty() ? "world " + std::to_string(world.value())
                       : "world " + std::to_string(world.value()) + " (" + name + ")";
 }
 
 std::string Scene::spot_text(MdpIndex world, StateIndex s) const {
-  return domain_.has_map() ? "at " + cell_text(domain_, domain_.state(world, s).robot)
-                           : "in state '" + domain_.state_name(world, s) + "'";
+  return map_ ? "at " + cell_text(*map_, map_->state(world, s).robot)
+              : "in state '" + domain_.state_name(world, s) + "'";
 }
 
 std::string Scene::place_text(DemoIndex demo) const {

@@ -14,7 +14,7 @@ namespace kith::detail {
 class Scene {
  public:
   Scene(const Atlas& atlas, const std::string& text, const Question& question)
-      : atlas_{atlas}, domain_{atlas.domain()}, text_{text}, question_{question} {}
+      : atlas_{atlas}, domain_{atlas.domain()}, map_{domain_.map()}, text_{text}, question_{question} {}
 
   [[nodiscard]] std::string name_of(const Happening& happening) const;
   [[nodiscard]] const std::string& action(ActionIndex a) const { return domain_.action_names()[a.value()]; }
@@ -65,6 +65,7 @@ class Scene {
 
   const Atlas& atlas_;
   const Domain& domain_;
+  std::optional<GridMap> map_;  // there is one if the question names a cell or an item
   const std::string& text_;
   const Question& question_;
 };

@@ -82,11 +82,12 @@ std::optional<std::vector<std::int64_t>> numbers_in(const std::string& text) {
   return numbers;
 }
 
-[[noreturn]] void fail(const std::string& id, const std::string& message, const std::string& hint, bool infeasible) {
+[[noreturn]] void fail(const std::string& id, const std::string& message, const Advice& advice, bool infeasible) {
   Diagnostic diagnostic;
   diagnostic.id = id;
   diagnostic.message = message;
-  diagnostic.hint = hint;
+  diagnostic.hint = advice.hint;
+  diagnostic.remedy = advice.remedy;
   diagnostic.infeasible = infeasible;
   throw Error{infeasible ? ErrorKind::kInfeasible : ErrorKind::kInvalidInput, message, {diagnostic}};
 }
@@ -121,8 +122,8 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
   for (const auto& [sentence, half_space] : known) all.push_back(sentence);
   const auto nearest = nearest_word(plain(text), all);
   fail("E1109", "'" + text + "' is not a constraint on this robot's reward",
-       nearest.empty() ? "write its normal, such as (-1,0,2), or a sentence that `kith find DOMAIN` lists"
-                       : "did you mean '" + nearest + "'?",
+       nearest.empty() ? Advice{"write its normal, such as (-1,0,2)", Remedy::kListConstraints}
+                       : Advice{"did you mean '" + nearest + "'?"},
        false);
 }
 
@@ -141,7 +142,7 @@ std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace&
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
     if (!atlas.is_candidate(demo)) continue;
     if (regions.facets(set_for(atlas, demo, purpose)) != target) continue;
-    const int complexity = atlas.domain().has_map() ? atlas.domain().complexity(atlas.id(demo)) : 0;
+    const int complexity = atlas.domain().complexity(atlas.id(demo));
     const std::tuple candidate{complexity, atlas.trajectory(demo).actions.size(), demo};
     if (!best || candidate < *best) best = candidate;
   }

@@ -358,8 +358,8 @@ std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& a
   return text;
 }
 
-std::string cell_text(const Domain& domain, const Cell& cell) {
-  return "(" + std::to_string(cell.x) + "," + std::to_string(domain.height() + 1 - cell.y) + ")";
+std::string cell_text(const GridMap& map, const Cell& cell) {
+  return "(" + std::to_string(cell.x) + "," + std::to_string(map.height() + 1 - cell.y) + ")";
 }
 
 std::string action_words(const std::string& action) {

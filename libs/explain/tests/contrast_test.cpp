@@ -274,7 +274,7 @@ void expect_flips(const Atlas& atlas, const Contrast& contrast, const Flip& flip
   const auto [here, start_here] = atlas.id(contrast.demo);
   const auto [there, start_there] = atlas.id(flip.demo);
   EXPECT_NE(here, there);
-  EXPECT_EQ(domain.state(here, start_here).robot, domain.state(there, start_there).robot);
+  EXPECT_EQ(domain.map()->state(here, start_here).robot, domain.map()->state(there, start_there).robot);
   const Planned planned{domain, there};
   EXPECT_TRUE(planned.flips(start_there, contrast));
   ASSERT_LT(contrast.decisive, flip.robot.actions.size());
@@ -282,8 +282,8 @@ void expect_flips(const Atlas& atlas, const Contrast& contrast, const Flip& flip
     EXPECT_TRUE(planned.is_best(flip.robot.states[t], flip.robot.actions[t])) << t;
   }
   for (std::size_t t = 0; t < contrast.decisive; ++t) EXPECT_EQ(flip.robot.actions[t], contrast.robot.actions[t]);
-  EXPECT_EQ(domain.state(there, flip.robot.states[contrast.decisive]).robot,
-            domain.state(here, contrast.robot.states[contrast.decisive]).robot);
+  EXPECT_EQ(domain.map()->state(there, flip.robot.states[contrast.decisive]).robot,
+            domain.map()->state(here, contrast.robot.states[contrast.decisive]).robot);
   EXPECT_EQ(flip.robot.actions[contrast.decisive], contrast.alternative.actions[contrast.decisive]);
   EXPECT_EQ(toggled_groups(domain, here, there), flip.toggled);
 }
@@ -328,12 +328,12 @@ TEST(SameStart, DoesNotExistWhereTheCarriedThingDoesNot) {
   const auto& atlas = atlas_of("skateboard");
   const auto& domain = atlas.domain();
   const MdpIndex with_board{domain.num_mdps() - 1};
-  ASSERT_EQ(domain.items_in(with_board).size(), 1u);
+  ASSERT_EQ(domain.map()->items_in(with_board).size(), 1u);
   MdpIndex without_board{with_board.value() ^ 1u};
-  ASSERT_TRUE(domain.items_in(without_board).empty());
+  ASSERT_TRUE(domain.map()->items_in(without_board).empty());
   for (StateIndex s{0}; s.value() < domain.mdp(with_board).num_states(); ++s) {
     const auto there = same_start(atlas, atlas.index({with_board, s}), without_board);
-    if (domain.state(with_board, s).carried.front()) {
+    if (domain.map()->state(with_board, s).carried.front()) {
       EXPECT_FALSE(there.has_value());
     }
   }

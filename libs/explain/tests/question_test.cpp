@@ -81,7 +81,7 @@ TEST(AskWhen, LooksAtTheNextStepWhereACellIsNamed) {
   ASSERT_GE(reply.examples.size(), 2u);
   EXPECT_EQ(atlas.domain().action_names()[reply.examples[0].path.actions[0].value()], "up");
   EXPECT_NE(atlas.domain().action_names()[reply.examples[1].path.actions[0].value()], "up");
-  EXPECT_EQ(atlas.domain().state(atlas.id(reply.examples[0].demo).mdp, reply.examples[0].path.states[0]).robot,
+  EXPECT_EQ(atlas.domain().map()->state(atlas.id(reply.examples[0].demo).mdp, reply.examples[0].path.states[0]).robot,
             (Cell{4, 1}));
   EXPECT_EQ(ask("where up at 4,3 carrying parcel").text, reply.text);
 }
@@ -100,7 +100,7 @@ TEST(AskWhere, ListsCellsWithAPathForEach) {
   ASSERT_EQ(reply.examples.size(), 1u);
   const auto& example = reply.examples[0];
   ASSERT_TRUE(example.decisive.has_value());
-  EXPECT_EQ(atlas.domain().state(atlas.id(example.demo).mdp, example.path.states[*example.decisive]).robot,
+  EXPECT_EQ(atlas.domain().map()->state(atlas.id(example.demo).mdp, example.path.states[*example.decisive]).robot,
             (Cell{4, 3}));
   EXPECT_EQ(ask("where recharge in world 0").text,
             "Stopping at the charger happens nowhere on the way from the map's start.");

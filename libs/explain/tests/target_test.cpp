@@ -123,15 +123,15 @@ TEST(MakeWorld, ChangesFewCellsUntilOneConstraintIsLeft) {
   // The text is the world, and the changes are what differs.
   const auto reading = parse_domain(made->text, "made");
   ASSERT_TRUE(reading.domain.has_value());
-  auto rows = atlas.domain().draw(made->base, std::nullopt);
+  auto rows = atlas.domain().map()->draw(made->base, std::nullopt);
   for (const auto& change : made->changes) {
     char& symbol =
         rows[rows.size() - static_cast<std::size_t>(change.cell.y)][static_cast<std::size_t>(change.cell.x - 1)];
     EXPECT_EQ(symbol, change.from);
     symbol = change.to;
-    EXPECT_NE(change_in_words(atlas.domain(), change).find(" becomes "), std::string::npos);
+    EXPECT_NE(change_in_words(*atlas.domain().map(), change).find(" becomes "), std::string::npos);
   }
-  EXPECT_EQ(reading.domain->draw(MdpIndex{0}, std::nullopt), rows);
+  EXPECT_EQ(reading.domain->map()->draw(MdpIndex{0}, std::nullopt), rows);
 }
 
 TEST(MakeWorld, IsNothingWithoutAMapAndWhereCountsAreExpectations) {

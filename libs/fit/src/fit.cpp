@@ -225,16 +225,19 @@ class Fitting {
 
 }  // namespace
 
+ParameterGrid grid_of(const FitOptions& options) {
+  return make_grid(options.ability_first, options.ability_last, options.num_abilities, options.gain_last,
+                   options.num_gains);
+}
+
 FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
   constexpr std::size_t kFewest = 3;
   if (logs.people.size() < kFewest) {
     too_few("too few people to fit a population: " + std::to_string(logs.people.size()) + ", and 3 are the least");
   }
   if (options.num_types == 0) static_cast<void>(labelled_members(logs));  // complain before the work
-  const auto grid = make_grid(options.ability_first, options.ability_last, options.num_abilities, options.gain_last,
-                              options.num_gains);
   const auto table = log_likelihoods(
-      logs, grid,
+      logs, grid_of(options),
       {.replicates = options.replicates, .seed = options.seed, .slip = options.slip, .parallel = options.parallel});
   if (!table.complete) return {.complete = false, .types = {}, .people = {}, .cross_validation = {}, .sentences = {}};
   return Fitting{logs, options, table}.run();

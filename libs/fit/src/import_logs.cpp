@@ -49,10 +49,9 @@ void add(ImportedLogs& all, const fs::path& path, AnswerDetail detail, const std
     return;
   }
   if (!has_column(columns, "participant") && !has_column(columns, "mdp_id")) {
-    throw Error{
-        {detail::fault("E0703", "this table is of no known layout", responses, 1,
-                       "give a run folder of `kith study`, the folder of the Lee et al. (2021) tables, or a CSV "
-                       "file with one row per trial (user_id, domain, interaction_type, ...)")}};
+    throw Error{{detail::fault("E0703", "this table is of no known layout", responses, 1,
+                               "give the folder of a run, the folder of the Lee et al. (2021) tables, or a CSV "
+                               "file with one row per trial (user_id, domain, interaction_type, ...)")}};
   }
   for (auto record : accuracy_records(read_lee2021_responses(responses))) {
     record.person.insert(0, prefix);

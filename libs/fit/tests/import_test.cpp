@@ -56,7 +56,7 @@ class RunFolderImport : public ::testing::Test {
     testing::reseal(run_);
   }
 
-  testing::TemporaryFolder folder_;
+  testing::ScratchFolder folder_;
   fs::path run_ = folder_.path() / "run";
 };
 
@@ -163,7 +163,7 @@ TEST_F(RunFolderImport, CountsTestsWithoutAnAnswerAsSayingNothing) {
 }
 
 TEST(RunImport, RefusesRecordsOfTeamsOnlyAndCounterfactualsOfPeoplesOwn) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   testing::run_into(folder.path() / "teams", testing::study_text("N", 2, kTypes + "[record]\nlevel = \"team\"\n"));
   EXPECT_EQ(import_fault(folder.path() / "teams"), "E0705 study.toml:0");
   testing::run_into(folder.path() / "own",
@@ -176,7 +176,7 @@ TEST(RunImport, RefusesLearnersOfOtherModels) {
   LearnerModel other = bayesian_model();
   other.kind = "other";
   const std::array<const LearnerModel*, 1> models{&other};
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   testing::run_into(folder.path() / "run", testing::study_text("N", 2, kTypes), {.learners = models});
   try {
     (void)import_run_folder(folder.path() / "run", AnswerDetail::kPath, {.learners = models});
@@ -188,7 +188,7 @@ TEST(RunImport, RefusesLearnersOfOtherModels) {
 }
 
 TEST(RunImport, RefusesDomainsWithoutTables) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto domain = folder.path() / "two.toml";
   write_file_atomically(domain,
                         testing::rubble_domain("\"S.rG\", \"....\"", "[prior]\nhalfspaces = [ { step = -1 } ]\n"));
@@ -200,7 +200,7 @@ TEST(RunImport, RefusesDomainsWithoutTables) {
 }
 
 TEST(RunImport, WarnsOfPeopleWhoAreInSeveralTeams) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   testing::run_into(
       folder.path() / "run",
       "schema = \"kith.study/1\"\nid = \"paired\"\ndomain = \"item-delivery\"\nseed = 3\nreplicates = 2\n[design]\n"
@@ -214,7 +214,7 @@ TEST(RunImport, WarnsOfPeopleWhoAreInSeveralTeams) {
 }
 
 TEST(ImportLogs, RefusesWhatItDoesNotKnow) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   EXPECT_EQ(import_fault(folder.path()).substr(0, 5), "E0703");
   EXPECT_EQ(import_fault(folder.write("a.csv", "team,score\n1,2\n")), "E0703 a.csv:1");
   EXPECT_EQ(import_fault(folder.write("b.csv", "")), "E0501 b.csv:1");
@@ -246,7 +246,7 @@ std::multiset<std::string> note_ids(const ResponseLogs& logs) {
 }
 
 TEST(Trials, BecomePeriodsInOrder) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto logs = import_trials(folder.write("trials.csv", kHeader + session("a", "cl", 2)));
   ASSERT_EQ(logs.people.size(), 1u);
   const auto& person = logs.people[0];
@@ -267,7 +267,7 @@ TEST(Trials, BecomePeriodsInOrder) {
 }
 
 TEST(Trials, KnownFaultsAreNotedAndNothingIsDroppedInSilence) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const std::string text = kHeader + session("a", "cl", 12) + session("b", "cl", 12) + session("c", "cl", 11) +
                            session("d", "open", 12) + session("e", "wt", 12) + row("f", "cl", "demo", "") +
                            row("f", "cl", "diagnostic test", "0") + row("f", "open", "final test", "0");
@@ -282,7 +282,7 @@ TEST(Trials, KnownFaultsAreNotedAndNothingIsDroppedInSilence) {
 }
 
 TEST(Trials, CanBeFitted) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   std::string text = kHeader;
   for (const char who : {'a', 'b', 'c', 'd'}) text += session(std::string{who}, "cl", 4);
   const auto imported = import_logs({folder.write("trials.csv", text)}, AnswerDetail::kPath);
@@ -298,7 +298,7 @@ TEST(Trials, CanBeFitted) {
 }
 
 TEST(Trials, NameRowAndFaultOfWhatCannotBeRead) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto fault = [&](const std::string& text) { return import_fault(folder.write("t.csv", text)); };
   const std::string good = session("a", "cl", 1);
   EXPECT_EQ(fault(kHeader + good), "none");
@@ -314,7 +314,7 @@ TEST(Trials, NameRowAndFaultOfWhatCannotBeRead) {
 
 // Going through lists in lists in lists would use up the stack.
 TEST(Trials, AreRefusedWithListsNestedTooDeep) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + "1, 0, 2" + std::string(depth, ']'); };
   const auto fault = [&](const std::string& key, std::size_t depth) {
     const auto cell = "\"{\"\"" + key + "\"\": " + nested(depth) + "}\"";
@@ -327,7 +327,7 @@ TEST(Trials, AreRefusedWithListsNestedTooDeep) {
 }
 
 TEST(Trials, GiveDifferentPeopleDifferentNames) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const std::string text =
       "user_id,domain,interaction_type,is_opt_response,group\n"
       "a,b/c,final test,1,\n"
@@ -340,7 +340,7 @@ TEST(Trials, GiveDifferentPeopleDifferentNames) {
 }
 
 TEST(ImportLogs, KeepsDataWithAndWithoutExposuresApart) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto trials = folder.write("trials.csv", kHeader + session("a", "cl", 1));
   const auto answers = folder.write(
       "answers.csv", "participant,domain,mdp_id,test_difficulty,optimal_response,moves\n1,two_goal,w,0,1,up\n");

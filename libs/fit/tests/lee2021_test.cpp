@@ -4,14 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 
 #include "human_data.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/judgement.hpp"
-#include "temporary_folder.hpp"
+#include "scratch_folder.hpp"
 
 namespace kith {
 namespace {
@@ -86,7 +85,7 @@ constexpr const char* kWorld =
     R"( "opt_traj_reward": 0.45333333333333337, "test_difficulty": "low"}})";
 
 std::vector<std::string> faults_of(const std::string& line) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto path = folder.write("worlds.jsonl", line + "\n");
   try {
     static_cast<void>(read_lee2021_worlds(path));
@@ -106,11 +105,11 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST(Lee2021, ReadsAWorldIntoADomainFile) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto worlds = read_lee2021_worlds(folder.write("worlds.jsonl", std::string{"\n"} + kWorld + "\n"));
   ASSERT_EQ(worlds.size(), 1u);
   EXPECT_EQ(worlds[0].domain.weights().raw, (std::vector<double>{7.25, 10.5, -1}));
-  EXPECT_TRUE(worlds[0].domain.content(MdpIndex{0}, {2, 1}).wall);
+  EXPECT_TRUE(worlds[0].domain.map()->content(MdpIndex{0}, {2, 1}).wall);
   EXPECT_TRUE(judge_actions(worlds[0].domain, MdpIndex{0}, worlds[0].optimal_actions).optimal);
 }
 
@@ -129,7 +128,7 @@ TEST(Lee2021, NamesFileLineAndFaultOfABadWorld) {
 }
 
 TEST(Lee2021, NamesRowAndColumnOfABadResponse) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto ids = [&](const std::string& text) {
     std::string result;
     try {

@@ -10,7 +10,7 @@
 #include "kith/learners/bayesian_learner.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
-#include "temporary_folder.hpp"
+#include "scratch_folder.hpp"
 
 // Running everything 20 times as slowly, sanitizers get smaller cases.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -45,7 +45,7 @@ inline RunResult run_into(const std::filesystem::path& folder, const std::string
 }
 
 inline SimulatedPeople simulate(const std::string& text, AnswerDetail detail = AnswerDetail::kPath) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto run = run_into(folder.path() / "run", text);
   SimulatedPeople people{import_run_folder(folder.path() / "run", detail), {}};
   for (const auto& team : run.teams) {

@@ -108,6 +108,16 @@ TEST(BayesianPeople, HaveGainsApartFromAbilities) {
   }
 }
 
+// As teacher.assumed_ability, which may be 1 as well.
+TEST(BayesianPeople, MayHaveAbilitiesUpToCertainty) {
+  auto sure = novice();
+  sure.set("ability_max", 1.0);
+  sure.set("ability.mean", 1.0);
+  sure.set("ability.sd", 0.1);
+  for (std::uint64_t person = 0; person < 100; ++person) EXPECT_LT(draw(sure, RandomStream{person}).ability, 1.0);
+  EXPECT_THROW(sure.set("ability_max", 1.0000001), Error);
+}
+
 TEST(BayesianPeople, AreNotFoundWhereNobodyMeetsTheRules) {
   auto nobody = novice();
   nobody.set("ability.mean", 0.5);

@@ -135,7 +135,7 @@ TEST(TargetsFile, DocumentsEveryErrorItMayGive) {
 TEST(TargetsFile, OfThePaperIsGood) {
   const auto text = testing::text_of(std::filesystem::path{KITH_SOURCE_DIR} / "studies" / "paper-targets.toml");
   const auto reading =
-      parse_targets(text, "paper-targets.toml", [](const auto& overrides) { return load_study("paper", overrides); });
+      parse_targets(text, "paper-targets.toml", [](const auto& overrides) { return load_study("paper", {overrides}); });
   ASSERT_TRUE(reading.targets);
   EXPECT_EQ(reading.targets->targets.size(), 8u);
   EXPECT_EQ(reading.targets->parameters.size(), 6u);

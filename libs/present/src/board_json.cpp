@@ -9,7 +9,7 @@
 namespace kith {
 namespace {
 
-Json cell_json(const Domain& domain, const Cell& cell) { return Json::array({cell.x, domain.height() + 1 - cell.y}); }
+Json cell_json(const GridMap& map, const Cell& cell) { return Json::array({cell.x, map.height() + 1 - cell.y}); }
 
 struct Kind {
   std::string kind, name;
@@ -31,18 +31,19 @@ std::vector<Kind> parts_of(const LegendEntry& entry) {
 }
 
 Json frame_json(const Domain& domain, MdpIndex world, StateIndex s) {
-  if (!domain.has_map()) return {{"state", domain.state_name(world, s)}};
-  const auto state = domain.state(world, s);
-  const auto names = domain.items_in(world);
+  const auto map = domain.map();
+  if (!map) return {{"state", domain.state_name(world, s)}};
+  const auto state = map->state(world, s);
+  const auto names = map->items_in(world);
   Json items = Json::array();
   for (std::size_t i = 0; i < state.items.size(); ++i) {
-    items.push_back({{"name", domain.item_names()[names[i]]},
-                     {"cell", cell_json(domain, state.items[i])},
+    items.push_back({{"name", map->item_names()[names[i]]},
+                     {"cell", cell_json(*map, state.items[i])},
                      {"carried", bool{state.carried[i]}}});
   }
   Json stations = Json::array();
-  for (const auto& station : state.stations) stations.push_back(cell_json(domain, station));
-  return {{"robot", cell_json(domain, state.robot)}, {"items", items}, {"stations", stations}};
+  for (const auto& station : state.stations) stations.push_back(cell_json(*map, station));
+  return {{"robot", cell_json(*map, state.robot)}, {"items", items}, {"stations", stations}};
 }
 
 }  // namespace
@@ -54,9 +55,10 @@ Json board_domain_json(const Domain& domain) {
         {{"name", domain.feature_names()[k]}, {"words", domain.feature_words(k)}, {"weight", domain.weights().raw[k]}});
   }
   Json json{{"id", domain.id()}, {"title", domain.title()}, {"features", features}};
-  if (!domain.has_map()) return json;
+  const auto map = domain.map();
+  if (!map) return json;
   Json legend = Json::array();
-  for (const auto& entry : domain.legend()) {
+  for (const auto& entry : map->legend()) {
     const auto kinds = parts_of(entry);
     if (kinds.empty()) continue;  // floor
     Json parts = Json::array();
@@ -67,14 +69,14 @@ Json board_domain_json(const Domain& domain) {
                       {"parts", parts}});
   }
   json["legend"] = legend;
-  json["width"] = domain.width();
-  json["height"] = domain.height();
+  json["width"] = map->width();
+  json["height"] = map->height();
   return json;
 }
 
 Json board_json(const Domain& domain, DemoId id) {
   Json json{{"world", id.mdp.value()}};
-  if (domain.has_map()) json["map"] = domain.draw(id.mdp, std::nullopt);
+  if (const auto map = domain.map()) json["map"] = map->draw(id.mdp, std::nullopt);
   json["start"] = frame_json(domain, id.mdp, id.start);
   return json;
 }
@@ -91,7 +93,7 @@ Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
 
 Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step) {
   Json json{{"frame", step}};
-  if (domain.has_map()) json["cell"] = cell_json(domain, domain.state(world, path.states[step]).robot);
+  if (const auto map = domain.map()) json["cell"] = cell_json(*map, map->state(world, path.states[step]).robot);
   return json;
 }
 

@@ -52,8 +52,8 @@ void centred(Svg& svg, double x, double y, const std::string& words, double size
 
 }  // namespace
 
-BoardSvg::BoardSvg(const Domain& domain) : domain_{domain} {
-  for (const auto& entry : domain.legend()) {
+BoardSvg::BoardSvg(const GridMap& map) : map_{map} {
+  for (const auto& entry : map.legend()) {
     add_once(terrains_, entry.content.terrain);
     add_once(things_, entry.station);
     add_once(things_, entry.item);
@@ -66,11 +66,11 @@ BoardSvg::BoardSvg(const Domain& domain) : domain_{domain} {
   }
 }
 
-double BoardSvg::width() const { return kMargin + kCell * domain_.width() + 2.0; }
-double BoardSvg::height() const { return kMargin + kCell * domain_.height() + 2.0; }
+double BoardSvg::width() const { return kMargin + kCell * map_.width() + 2.0; }
+double BoardSvg::height() const { return kMargin + kCell * map_.height() + 2.0; }
 
 BoardSvg::Point BoardSvg::centre(const Cell& cell) const {
-  return {kMargin + (cell.x - 0.5) * kCell, kMargin + (domain_.height() - cell.y + 0.5) * kCell};
+  return {kMargin + (cell.x - 0.5) * kCell, kMargin + (map_.height() - cell.y + 0.5) * kCell};
 }
 
 std::string BoardSvg::letters(const std::string& name) const {
@@ -166,20 +166,20 @@ void BoardSvg::robot(Svg& svg, const Point& at) const {
 }
 
 void BoardSvg::grid(Svg& svg) const {
-  const double right = kMargin + kCell * domain_.width();
-  const double bottom = kMargin + kCell * domain_.height();
-  for (int x = 0; x <= domain_.width(); ++x) {
+  const double right = kMargin + kCell * map_.width();
+  const double bottom = kMargin + kCell * map_.height();
+  for (int x = 0; x <= map_.width(); ++x) {
     const double at = kMargin + kCell * x;
-    const bool edge = x == 0 || x == domain_.width();
+    const bool edge = x == 0 || x == map_.width();
     svg.line(at, kMargin, at, bottom, {{"stroke", edge ? "#57606a" : "#d5d9de"}});
     if (x > 0) {
       svg.text(at - kCell / 2, kMargin - 7, std::to_string(x),
                {{"text-anchor", "middle"}, {"font-size", "11"}, {"fill", "#57606a"}});
     }
   }
-  for (int y = 0; y <= domain_.height(); ++y) {
+  for (int y = 0; y <= map_.height(); ++y) {
     const double at = kMargin + kCell * y;
-    const bool edge = y == 0 || y == domain_.height();
+    const bool edge = y == 0 || y == map_.height();
     svg.line(kMargin, at, right, at, {{"stroke", edge ? "#57606a" : "#d5d9de"}});
     if (y > 0) {
       svg.text(kMargin - 6, at - kCell / 2 + 4, std::to_string(y),
@@ -189,11 +189,11 @@ void BoardSvg::grid(Svg& svg) const {
 }
 
 void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state) const {
-  for (int y = 1; y <= domain_.height(); ++y) {
-    for (int x = 1; x <= domain_.width(); ++x) {
+  for (int y = 1; y <= map_.height(); ++y) {
+    for (int x = 1; x <= map_.width(); ++x) {
       const Cell cell{x, y};
       const auto at = centre(cell);
-      const auto content = domain_.content(m, cell);
+      const auto content = map_.content(m, cell);
       if (content.wall) {
         svg.add("rect", {{"x", svg_number(at.x - kCell / 2)},
                          {"y", svg_number(at.y - kCell / 2)},
@@ -202,23 +202,23 @@ void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state) const {
                          {"fill", "#3c444d"}});
       }
       if (!content.destination_of.empty()) destination(svg, at, letters(content.destination_of));
-      if (content.goal) goal(svg, at, letters(domain_.legend()[domain_.legend_index(cell)].goal_name));
+      if (content.goal) goal(svg, at, letters(map_.legend()[map_.legend_index(cell)].goal_name));
     }
   }
   for (const auto& cell : state.stations) {
-    station(svg, centre(cell), letters(domain_.legend()[domain_.legend_index(cell)].station));
+    station(svg, centre(cell), letters(map_.legend()[map_.legend_index(cell)].station));
   }
-  const auto items = domain_.items_in(m);
+  const auto items = map_.items_in(m);
   for (std::size_t i = 0; i < state.items.size(); ++i) {
-    if (!state.carried[i]) disc(svg, centre(state.items[i]), letters(domain_.item_names()[items[i]]));
+    if (!state.carried[i]) disc(svg, centre(state.items[i]), letters(map_.item_names()[items[i]]));
   }
 }
 
 Svg BoardSvg::board(MdpIndex m, const GridState& state, bool bare) const {
   Svg svg;
-  for (int y = 1; y <= domain_.height(); ++y) {
-    for (int x = 1; x <= domain_.width(); ++x) {
-      const auto content = domain_.content(m, {x, y});
+  for (int y = 1; y <= map_.height(); ++y) {
+    for (int x = 1; x <= map_.width(); ++x) {
+      const auto content = map_.content(m, {x, y});
       if (!content.terrain.empty()) terrain(svg, centre({x, y}), content.terrain);
     }
   }
@@ -233,8 +233,8 @@ Svg BoardSvg::path(MdpIndex m, const Trajectory& path, const std::string& color,
   constexpr double kLane = 3.5;  // to the right of the middle, so that ways there and back lie beside each other
   const double width = dashed ? 2.6 : 3.4;
   for (std::size_t t = 0; t + 1 < path.states.size(); ++t) {
-    const auto from = centre(domain_.state(m, path.states[t]).robot);
-    const auto to = centre(domain_.state(m, path.states[t + 1]).robot);
+    const auto from = centre(map_.state(m, path.states[t]).robot);
+    const auto to = centre(map_.state(m, path.states[t + 1]).robot);
     const double dx = (to.x - from.x) / kCell;
     const double dy = (to.y - from.y) / kCell;
     if (dx == 0.0 && dy == 0.0) {
@@ -323,7 +323,7 @@ double BoardSvg::legend(Svg& svg, double x, double y, double line_width) const {
   entry("robot", [&](const Point& at) { robot(svg, at); });
   bool has_wall = false;
   std::vector<std::string> known;
-  for (const auto& symbol : domain_.legend()) has_wall = has_wall || symbol.content.wall;
+  for (const auto& symbol : map_.legend()) has_wall = has_wall || symbol.content.wall;
   if (has_wall) {
     entry("wall", [&](const Point& at) {
       svg.add("rect", {{"x", svg_number(at.x - 14)},
@@ -339,7 +339,7 @@ double BoardSvg::legend(Svg& svg, double x, double y, double line_width) const {
     known.push_back(name);
     entry(name, draw);
   };
-  for (const auto& symbol : domain_.legend()) {
+  for (const auto& symbol : map_.legend()) {
     once(symbol.station, [&](const Point& at) { station(svg, at, letters(symbol.station)); });
     once(symbol.item, [&](const Point& at) { disc(svg, at, letters(symbol.item)); });
     if (!symbol.content.destination_of.empty()) {

@@ -39,12 +39,12 @@ Json components_to_json(const Atlas& atlas) {
 }
 
 // The map of every MDP, rows from the top; null where that would be too long.
-Json maps_to_json(const Domain& domain) {
+Json maps_to_json(const GridMap& map, std::size_t num_mdps) {
   constexpr std::size_t kMostCells = 1'000'000;
-  const auto cells = static_cast<std::size_t>(domain.width()) * static_cast<std::size_t>(domain.height());
-  if (cells * domain.num_mdps() > kMostCells) return nullptr;
+  const auto cells = static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height());
+  if (cells * num_mdps > kMostCells) return nullptr;
   Json maps = Json::array();
-  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) maps.push_back(domain.draw(m, std::nullopt));
+  for (MdpIndex m{0}; m.value() < num_mdps; ++m) maps.push_back(map.draw(m, std::nullopt));
   return maps;
 }
 
@@ -61,7 +61,7 @@ Json inspection_json(const Domain& domain) {
                 {"actions", domain.action_names()},
                 {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit)}}},
                 {"prior", to_json(domain.prior(), d)}};
-  if (domain.has_map()) document["maps"] = maps_to_json(domain);
+  if (const auto map = domain.map()) document["maps"] = maps_to_json(*map, domain.num_mdps());
   return document;
 }
 

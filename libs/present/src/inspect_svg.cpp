@@ -88,33 +88,33 @@ std::string title_of(const Domain& domain) {
 }
 
 template <typename Visit>
-void for_each_cell_from_bottom(const Domain& domain, const Visit& visit) {
-  for (int y = 1; y <= domain.height(); ++y) {
-    for (int x = 1; x <= domain.width(); ++x) visit(Cell{x, y});
+void for_each_cell_from_bottom(const GridMap& map, const Visit& visit) {
+  for (int y = 1; y <= map.height(); ++y) {
+    for (int x = 1; x <= map.width(); ++x) visit(Cell{x, y});
   }
 }
 
-SvgFile map_picture(const Domain& domain, const BoardSvg& boards, MdpIndex m) {
+SvgFile map_picture(const Domain& domain, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   Sheet sheet{boards, fmt::format("{}, MDP {}", title_of(domain), m.value())};
-  sheet.add(boards.board(m, domain.state(m, domain.initial_state(m))), "");
+  sheet.add(boards.board(m, map.state(m, domain.initial_state(m))), "");
   return {"map.svg", sheet.file()};
 }
 
-std::optional<SvgFile> policy_picture(const Domain& domain, const BoardSvg& boards, MdpIndex m) {
+std::optional<SvgFile> policy_picture(const Domain& domain, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& mdp = domain.mdp(m);
   if (!mdp.is_deterministic() || !mdp.is_integral() || mdp.discount() != 1.0) return std::nullopt;
   const auto solution = plan_exactly(mdp, domain.weights().integer).solution.value();
   const auto path = canonical_trajectory(mdp, solution.canonical_choice, domain.initial_state(m));
   Sheet sheet{boards, fmt::format("What the robot does in MDP {} of {}", m.value(), domain.id())};
-  for (const auto& configuration : configurations_on(domain, m, path)) {
+  for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
-    for_each_cell_from_bottom(domain, [&](const Cell& cell) {
-      const auto state = domain.find_state(m, with_robot_at(configuration, cell));
+    for_each_cell_from_bottom(map, [&](const Cell& cell) {
+      const auto state = map.find_state(m, with_robot_at(configuration, cell));
       if (!state || mdp.is_terminal(*state)) return;
       const auto& choice = mdp.choices(*state)[solution.canonical_choice[state->value()]];
       boards.action(board, cell, domain.action_names()[choice.action.value()]);
     });
-    sheet.add(std::move(board), configuration_in_words(domain, m, configuration));
+    sheet.add(std::move(board), configuration_in_words(map, m, configuration));
   }
   return SvgFile{"policy.svg", sheet.file()};
 }
@@ -129,29 +129,29 @@ SvgFile region_picture(const Atlas& atlas) {
   return {"bec.svg", svg.file(width, height, "The behaviour equivalence class of the policy of " + domain.id())};
 }
 
-SvgFile coverage_picture(const Atlas& atlas, const BoardSvg& boards, MdpIndex m) {
+SvgFile coverage_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& domain = atlas.domain();
   const auto path = atlas.trajectory(atlas.index({m, domain.initial_state(m)}));
   Sheet sheet{boards, fmt::format("How many ways people could expect from where the robot stands, MDP {} of {}",
                                   m.value(), domain.id())};
   const auto largest = std::max<std::size_t>(2, atlas.coverage().max);
-  for (const auto& configuration : configurations_on(domain, m, path)) {
+  for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
-    for_each_cell_from_bottom(domain, [&](const Cell& cell) {
-      const auto state = domain.find_state(m, with_robot_at(configuration, cell));
+    for_each_cell_from_bottom(map, [&](const Cell& cell) {
+      const auto state = map.find_state(m, with_robot_at(configuration, cell));
       if (!state || domain.mdp(m).is_terminal(*state)) return;
       const auto n = atlas.coverage_set(atlas.index({m, *state})).size();
       boards.number(board, cell, n, static_cast<double>(n - 1) / static_cast<double>(largest - 1));
     });
-    sheet.add(std::move(board), configuration_in_words(domain, m, configuration));
+    sheet.add(std::move(board), configuration_in_words(map, m, configuration));
   }
   return {"coverage.svg", sheet.file()};
 }
 
-SvgFile expected_picture(const Atlas& atlas, const BoardSvg& boards, MdpIndex m) {
+SvgFile expected_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& domain = atlas.domain();
   const auto demo = atlas.index({m, domain.initial_state(m)});
-  const auto start = domain.state(m, domain.initial_state(m));
+  const auto start = map.state(m, domain.initial_state(m));
   Sheet sheet{boards, fmt::format("What people could expect from the start of MDP {} of {}", m.value(), domain.id())};
   const auto& robot = atlas.feature_counts(demo);
   auto own = boards.board(m, start);
@@ -171,18 +171,19 @@ SvgFile expected_picture(const Atlas& atlas, const BoardSvg& boards, MdpIndex m)
 }  // namespace
 
 std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
-  if (!domain.has_map()) return {};
-  const BoardSvg boards{domain};
-  std::vector<SvgFile> files{map_picture(domain, boards, m)};
-  if (auto policy = policy_picture(domain, boards, m)) files.push_back(*std::move(policy));
+  const auto map = domain.map();
+  if (!map) return {};
+  const BoardSvg boards{*map};
+  std::vector<SvgFile> files{map_picture(domain, *map, boards, m)};
+  if (auto policy = policy_picture(domain, *map, boards, m)) files.push_back(*std::move(policy));
   return files;
 }
 
 std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
-  if (!atlas.domain().has_map()) return {region_picture(atlas)};
-  if (!atlas.is_tabulated()) return {region_picture(atlas)};
-  const BoardSvg boards{atlas.domain()};
-  return {region_picture(atlas), coverage_picture(atlas, boards, m), expected_picture(atlas, boards, m)};
+  const auto map = atlas.domain().map();
+  if (!map || !atlas.is_tabulated()) return {region_picture(atlas)};
+  const BoardSvg boards{*map};
+  return {region_picture(atlas), coverage_picture(atlas, *map, boards, m), expected_picture(atlas, *map, boards, m)};
 }
 
 void write_pictures(const std::filesystem::path& folder, const std::vector<SvgFile>& files) {

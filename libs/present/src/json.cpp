@@ -6,9 +6,7 @@ namespace kith {
 namespace {
 
 // Column and row, row 1 on top.
-Json position_json(const Domain& domain, const Cell& cell) {
-  return Json::array({cell.x, domain.height() + 1 - cell.y});
-}
+Json position_json(const GridMap& map, const Cell& cell) { return Json::array({cell.x, map.height() + 1 - cell.y}); }
 
 }  // namespace
 
@@ -61,23 +59,24 @@ Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension) {
 }
 
 Json start_to_json(const Domain& domain, DemoId id) {
-  if (!domain.has_map()) {
+  const auto map = domain.map();
+  if (!map) {
     return {{"state", id.start.value()},
             {"name", domain.state_name(id.mdp, id.start)},
             {"mdp", id.mdp.value()},
             {"start", id.start.value()}};
   }
-  const auto& state = domain.state(id.mdp, id.start);
-  const auto names = domain.items_in(id.mdp);
+  const auto& state = map->state(id.mdp, id.start);
+  const auto names = map->items_in(id.mdp);
   Json items = Json::array();
   Json stations = Json::array();
   for (std::size_t i = 0; i < state.items.size(); ++i) {
-    items.push_back({{"name", domain.item_names()[names[i]]},
-                     {"cell", position_json(domain, state.items[i])},
+    items.push_back({{"name", map->item_names()[names[i]]},
+                     {"cell", position_json(*map, state.items[i])},
                      {"carried", bool{state.carried[i]}}});
   }
-  for (const auto& station : state.stations) stations.push_back(position_json(domain, station));
-  return {{"robot", position_json(domain, state.robot)},
+  for (const auto& station : state.stations) stations.push_back(position_json(*map, station));
+  return {{"robot", position_json(*map, state.robot)},
           {"items", items},
           {"stations", stations},
           {"mdp", id.mdp.value()},

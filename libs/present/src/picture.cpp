@@ -39,11 +39,11 @@ GridState with_robot_at(GridState state, const Cell& cell) {
   return state;
 }
 
-std::vector<GridState> configurations_on(const Domain& domain, MdpIndex m, const Trajectory& path) {
+std::vector<GridState> configurations_on(const Domain& domain, const GridMap& map, MdpIndex m, const Trajectory& path) {
   std::vector<GridState> seen;
   for (const auto s : path.states) {
     if (domain.mdp(m).is_terminal(s)) continue;
-    const auto now = domain.state(m, s);
+    const auto now = map.state(m, s);
     if (std::none_of(seen.begin(), seen.end(), [&](const auto& other) { return same_things(now, other); })) {
       seen.push_back(now);
     }
@@ -51,25 +51,25 @@ std::vector<GridState> configurations_on(const Domain& domain, MdpIndex m, const
   return seen;
 }
 
-std::string configuration_in_words(const Domain& domain, MdpIndex m, const GridState& state) {
+std::string configuration_in_words(const GridMap& map, MdpIndex m, const GridState& state) {
   std::string text;
-  const auto names = domain.items_in(m);
+  const auto names = map.items_in(m);
   for (std::size_t i = 0; i < state.items.size(); ++i) {
-    const auto& name = domain.item_names()[names[i]];
-    text += (state.carried[i] ? "carrying " + name : name + " at " + cell_text(domain, state.items[i])) + ", ";
+    const auto& name = map.item_names()[names[i]];
+    text += (state.carried[i] ? "carrying " + name : name + " at " + cell_text(map, state.items[i])) + ", ";
   }
   return text + counted(state.stations.size(), "station") + " left";
 }
 
-Picture start_picture(const Domain& domain, DemoId id) { return domain.draw(id.mdp, id.start); }
+Picture start_picture(const GridMap& map, DemoId id) { return map.draw(id.mdp, id.start); }
 
-std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajectory& path) {
-  const auto robot = [&](std::size_t i) { return domain.state(id.mdp, path.states[i]).robot; };
+std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, DemoId id, const Trajectory& path) {
+  const auto robot = [&](std::size_t i) { return map.state(id.mdp, path.states[i]).robot; };
   std::vector<Picture> legs;
   Picture leg;
   std::size_t moves = 0;
   for (std::size_t i = 0; i < path.actions.size(); ++i) {
-    if (leg.empty()) leg = start_picture(domain, DemoId{id.mdp, path.states[i]});
+    if (leg.empty()) leg = start_picture(map, DemoId{id.mdp, path.states[i]});
     if (robot(i) != robot(i + 1)) {
       at(leg, robot(i)) = arrow_of(domain.action_names()[path.actions[i].value()]);
       ++moves;
@@ -95,19 +95,20 @@ std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, s
 }
 
 std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
-  if (!domain.has_map()) return path_text(domain, id, path, indent);
-  std::vector<Picture> pictures{bare_picture(domain, id), start_picture(domain, id)};
-  for (auto& leg : path_pictures(domain, id, path)) pictures.push_back(std::move(leg));
+  const auto map = domain.map();
+  if (!map) return path_text(domain, id, path, indent);
+  std::vector<Picture> pictures{bare_picture(*map, id), start_picture(*map, id)};
+  for (auto& leg : path_pictures(domain, *map, id, path)) pictures.push_back(std::move(leg));
   return beside(pictures, indent);
 }
 
-Picture policy_picture(const Domain& domain, MdpIndex m, std::span<const std::uint32_t> choice,
+Picture policy_picture(const Domain& domain, const GridMap& map, MdpIndex m, std::span<const std::uint32_t> choice,
                        const GridState& configuration) {
-  auto picture = domain.draw(m, std::nullopt);
-  for (int y = 1; y <= domain.height(); ++y) {
-    for (int x = 1; x <= domain.width(); ++x) {
+  auto picture = map.draw(m, std::nullopt);
+  for (int y = 1; y <= map.height(); ++y) {
+    for (int x = 1; x <= map.width(); ++x) {
       const Cell cell{x, y};
-      const auto state = domain.find_state(m, with_robot_at(configuration, cell));
+      const auto state = map.find_state(m, with_robot_at(configuration, cell));
       if (!state || domain.mdp(m).is_terminal(*state)) continue;
       const auto path = canonical_trajectory(domain.mdp(m), choice, *state);
       at(picture, cell) = arrow_of(domain.action_names()[path.actions.front().value()]);

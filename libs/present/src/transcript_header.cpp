@@ -51,7 +51,7 @@ class HeaderWriter {
 
   void pictures() {
     line();
-    if (!domain_.has_map()) {
+    if (!domain_.map()) {
       line("MDP n is one of the model's MDPs; start m is one of its states. Paths are lists of actions and states.");
       return;
     }

@@ -120,14 +120,15 @@ class TranscriptWriter {
 
   [[nodiscard]] std::string start_text(DemoId id) const {
     auto text = fmt::format("MDP {}, start {}", id.mdp.value(), id.start.value());
-    if (!domain_.has_map()) return text + ": " + domain_.state_name(id.mdp, id.start);
-    const auto state = domain_.state(id.mdp, id.start);
-    const auto items = domain_.items_in(id.mdp);
+    const auto map = domain_.map();
+    if (!map) return text + ": " + domain_.state_name(id.mdp, id.start);
+    const auto state = map->state(id.mdp, id.start);
+    const auto items = map->items_in(id.mdp);
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (state.carried[i]) {
-        text += ", carrying " + domain_.item_names()[items[i]];
+        text += ", carrying " + map->item_names()[items[i]];
       } else if (state.items[i] == state.robot) {
-        text += ", on the same cell as " + domain_.item_names()[items[i]];
+        text += ", on the same cell as " + map->item_names()[items[i]];
       }
     }
     return text;

@@ -40,7 +40,6 @@ constexpr std::array kMeanings{
     Meaning{"teacher.response_noise", "blur of the teacher's beliefs after test answers, in radians per axis (nu)"},
     Meaning{"teacher.resample_below",
             "beliefs are resampled when the effective sample size falls below this share of the particles"},
-    Meaning{"teacher.conflict", "which members the common belief follows when their answers contradict each other"},
     Meaning{"teacher.beliefs", "rules by which beliefs about the whole team are kept"},
     Meaning{"teacher.reduce_before_update",
             "whether the common belief gets only the minimal set of the half-spaces that answers show"},

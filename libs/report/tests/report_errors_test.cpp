@@ -44,7 +44,7 @@ class ReportErrors : public ::testing::Test {
   }
   [[nodiscard]] fs::path table(const std::string& name) const { return run_ / "tables" / name; }
 
-  Scratch scratch_;
+  ScratchFolder scratch_;
   fs::path run_ = scratch_ / "run";
 };
 

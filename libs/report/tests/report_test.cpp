@@ -25,7 +25,7 @@ constexpr double kStudent1 = 12.706204736432095;  // 97.5 % quantile of Student'
 class InventedReport : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const Scratch scratch;
+    const ScratchFolder scratch;
     publish(scratch / "run", tiny_study(), invented_teams());
     document_ = new Json(Json::parse(build_report(scratch / "run")));
   }
@@ -144,7 +144,7 @@ TEST_F(InventedReport, CountsCensoredTeams) {
 class RealReport : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch_ = new Scratch;
+    scratch_ = new ScratchFolder;
     run_tiny_study(*scratch_ / "run");
     text_ = new std::string(build_report(*scratch_ / "run"));
     document_ = new Json(Json::parse(*text_));
@@ -154,11 +154,11 @@ class RealReport : public ::testing::Test {
     delete text_;
     delete scratch_;
   }
-  static Scratch* scratch_;
+  static ScratchFolder* scratch_;
   static std::string* text_;
   static Json* document_;
 };
-Scratch* RealReport::scratch_ = nullptr;
+ScratchFolder* RealReport::scratch_ = nullptr;
 std::string* RealReport::text_ = nullptr;
 Json* RealReport::document_ = nullptr;
 
@@ -237,7 +237,7 @@ TEST_F(RealReport, RefusesTablesThatWereChanged) {
 }
 
 TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   run_tiny_study(scratch / "run", {"record.level=\"team\""});
   const auto document = Json::parse(build_report(scratch / "run"));
   std::set<std::string> tables;
@@ -249,7 +249,7 @@ TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
 }
 
 TEST(Report, TellsSettingsOfVariedKeysApart) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   run_tiny_study(scratch / "run",
                  {"replicates=1", "design.strategies=[\"common\"]", "design.vary={\"stop.max_periods\"=[1, 40]}"});
   const auto document = Json::parse(build_report(scratch / "run"));
@@ -262,7 +262,7 @@ TEST(Report, TellsSettingsOfVariedKeysApart) {
 }
 
 TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   run_tiny_study(scratch / "run",
                  {"design.strategies=[\"common\", \"joint\"]", "design.compositions=[\"NN\", \"PP\"]"});
   const auto document = Json::parse(build_report(scratch / "run"));
@@ -282,7 +282,7 @@ TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {
 }
 
 TEST(Report, OfOneCellHasNothingToTest) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   run_tiny_study(scratch / "run", {"design.strategies=[\"common\"]"});
   const auto document = Json::parse(build_report(scratch / "run"));
   EXPECT_THAT(document.at("findings"), IsEmpty());

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -12,26 +10,11 @@
 #include "kith/files/atomic_file.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/study/study.hpp"
+#include "scratch_folder.hpp"
 
 namespace kith::testing {
 
 using Json = nlohmann::json;
-
-/// A folder of its own, removed at the end.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (std::filesystem::temp_directory_path() / "kith-report-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Scratch() { std::filesystem::remove_all(path_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline RunFacts facts() {
   RunFacts facts;
@@ -54,7 +37,7 @@ inline void publish(const std::filesystem::path& folder, const StudyReading& rea
 inline StudyReading tiny_study(std::vector<std::string> overrides = {}) {
   overrides.insert(overrides.begin(),
                    {"replicates=2", "learner.N.particles=60", "learner.P.particles=60", "teacher.particles=60"});
-  return load_study("quick", overrides);
+  return load_study("quick", {overrides});
 }
 
 /// A finished run of that study.

@@ -93,6 +93,13 @@ std::optional<std::string> run_digest(const fs::path& folder) {
   return identity ? std::optional{identity->inputs.digest()} : std::nullopt;
 }
 
+// The same where nothing can be said about a damaged folder because its study cannot be read either.
+std::optional<std::string> digest_if_any(const fs::path& folder) try {
+  return run_digest(folder);
+} catch (const Error&) {
+  return std::nullopt;
+}
+
 }  // namespace
 
 RunInputs freeze(const StudyReading& reading) {
@@ -250,6 +257,41 @@ std::optional<std::string> published_fact(const fs::path& folder, const std::str
 
 std::optional<std::string> published_digest(const fs::path& folder) { return published_fact(folder, "run"); }
 
+namespace {
+
+// The inputs as they are in the folder, whatever this version makes of them. Which files the domain names comes from
+// its reading.
+RunInputs inputs_as_written(const fs::path& path, const StudyReading& reading) {
+  const auto folder = path / "inputs";
+  RunInputs inputs{
+      text_if_any(folder / "study.toml").value_or(""), text_if_any(folder / kFrozenDomain).value_or(""), {}};
+  for (const auto& file : reading.domain_files) {
+    const auto text = text_if_any(folder / file.name).value_or("");
+    inputs.files.push_back({file.name, sha256(text), text});
+  }
+  return inputs;
+}
+
+// "kith 0.1.0 (d64a5f4)", as the manifest or, without one, the journal says.
+std::string program_of(const fs::path& path) {
+  if (const auto version = published_fact(path, "version")) {
+    const auto git = published_fact(path, "git");
+    return "kith " + *version + (git && !git->empty() ? " (" + *git + ")" : "");
+  }
+  const auto identity = identity_if_any(path / kJournalFile);
+  return identity ? "kith " + identity->program : "another version of kith";
+}
+
+// The files are those of the run, and yet this program reads another study in them, or none.
+[[noreturn]] void refuse_other_version(const fs::path& path) {
+  refuse_run(
+      ErrorKind::kMismatch, "E0608", path / "inputs",
+      "this run was made by " + program_of(path) + ", and the study that it froze means something else to this version",
+      "use that version, or run the study again into another folder");
+}
+
+}  // namespace
+
 StudyReading read_run_folder(const fs::path& path, const StudyKinds& kinds) {
   settle_for_reading(path);
   const auto file = path / "inputs" / "study.toml";
@@ -257,10 +299,16 @@ StudyReading read_run_folder(const fs::path& path, const StudyKinds& kinds) {
   if (!fs::is_regular_file(file, error)) {  // a named pipe would keep us waiting
     throw Error{ErrorKind::kIo, path.string() + " is not a run folder: it has no inputs/study.toml"};
   }
-  auto reading = load_study(file.string(), {}, kinds);
-  if (!reading.study || !reading.domain) return reading;
-  const auto expected = run_digest(path);
+  auto reading = load_study(file.string(), {.kinds = kinds});
+  const bool is_read = reading.study && reading.domain;
+  const auto expected = is_read ? run_digest(path) : digest_if_any(path);
+  const bool is_as_written = expected && *expected == inputs_as_written(path, reading).digest();
+  if (!is_read) {
+    if (is_as_written) refuse_other_version(path);
+    return reading;
+  }
   if (expected && *expected != freeze(reading).digest()) {
+    if (is_as_written) refuse_other_version(path);
     refuse_run(ErrorKind::kMismatch, "E0607", path / "inputs",
                "the inputs are not those of the run: they do not give the digest in its manifest or journal",
                "rerun the command that ran the study; if it was replacing other results, that finishes it");

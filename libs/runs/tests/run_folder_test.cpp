@@ -260,5 +260,45 @@ TEST_F(RunFolderTest, GivesItsStudyBack) {
   EXPECT_EQ(kind_of_failure([&] { (void)read_run_folder(root_); }), ErrorKind::kIo);
 }
 
+std::string refusal_of_run(const fs::path& path) {
+  try {
+    (void)read_run_folder(path);
+  } catch (const Error& error) {
+    return error.diagnostics().at(0).id + ": " + error.diagnostics().at(0).message;
+  }
+  return "none";
+}
+
+// Another program froze what it understood, and found nothing wrong with it.
+TEST_F(RunFolderTest, SaysThatARunIsOfAnotherVersion) {
+  const auto publish = [&](const fs::path& path, std::string study) {
+    auto as_it_was = inputs();
+    as_it_was.study = std::move(study);
+    RunFacts facts;
+    facts.version = "0.0.9";
+    facts.git = "abc1234";
+    RunFolder{path, as_it_was}.publish(*reading().study, std::vector<TeamRecord>{}, facts);
+  };
+  const auto now = inputs().study;
+  auto before = now;
+  const std::string heading = "[teacher]\n";
+  ASSERT_NE(before.find(heading), std::string::npos);
+  before.insert(before.find(heading) + heading.size(), "conflict = \"largest-consistent\"\n");  // refused today
+  publish(root_ / "refused", before);
+  publish(root_ / "other", now + "# and a key with a default of long ago\n");
+  for (const auto* name : {"refused", "other"}) {
+    EXPECT_EQ(refusal_of_run(root_ / name),
+              "E0608: this run was made by kith 0.0.9 (abc1234), and the study that it froze means something else to "
+              "this version");
+  }
+  // A file that was changed is something else.
+  publish(root_ / "run", now);
+  EXPECT_EQ(refusal_of_run(root_ / "run"), "none");
+  auto changed = now;
+  changed.replace(changed.find("max_periods = "), 14, "max_periods = 1");
+  std::ofstream{root_ / "run" / "inputs" / "study.toml"} << changed;
+  EXPECT_EQ(refusal_of_run(root_ / "run").substr(0, 5), "E0607");
+}
+
 }  // namespace
 }  // namespace kith

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,31 +8,13 @@
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/study/study_file.hpp"
+#include "scratch_folder.hpp"
 
 namespace kith::testing {
 
-/// A folder of its own, removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "kith-runs-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// The built-in study "quick", with overrides.
 [[nodiscard]] inline StudyReading quick_study(const std::vector<std::string>& overrides = {}) {
-  auto reading = load_study("quick", overrides);
+  auto reading = load_study("quick", {overrides});
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;
 }

@@ -299,6 +299,17 @@ class SpecReader {
 
   // --- the rest --------------------------------------------------------------
 
+  // A key of versions before, whose only value was what is always done.
+  void refuse_conflict(TomlReader& teacher) {
+    const auto* value = teacher.content().find("conflict");
+    if (value == nullptr) return;
+    teacher.know("conflict");
+    report_.error("E0107", value->place(),
+                  "the key 'conflict' of [teacher] is no longer read: members whose answers conflict are always left "
+                  "out of the common belief, as few as possible",
+                  "remove this line; results do not change");
+  }
+
   void read_teacher(TomlReader& teacher) {
     auto& options = spec_.teaching;
     set_if(options.filter.particles, teacher.integer("particles", Presence::kOptional, {1, kMaxParticles}));
@@ -309,7 +320,7 @@ class SpecReader {
     set_if(options.assumed_ability, teacher.real("assumed_ability", Presence::kOptional, {0.5, 1.0, false, true}));
     set_if(options.likelihood, teacher.word("likelihood", Presence::kOptional, kLikelihoodWords));
     set_if(options.response_noise, teacher.real("response_noise", Presence::kOptional, {0.0, std::numbers::pi}));
-    (void)teacher.word("conflict", Presence::kOptional, {kConflictRule});
+    refuse_conflict(teacher);
     set_if(options.reduce_before_update, teacher.boolean("reduce_before_update", Presence::kOptional));
     if (const auto whose = teacher.word("learner_counterfactuals", Presence::kOptional, kCounterfactualWords)) {
       spec_.learner_counterfactuals_self = *whose == 1;

@@ -13,7 +13,6 @@ inline const std::vector<std::string> kSamplingWords{"systematic", "spread"};
 inline const std::vector<std::string> kLikelihoodWords{"discontinuous", "continuous"};
 inline const std::vector<std::string> kCounterfactualWords{"teacher", "self"};
 inline constexpr const char* kStudySchema = "kith.study/1";
-inline constexpr const char* kConflictRule = "largest-consistent";
 
 /// Reads every key of a study document into a specification; what is wrong goes
 /// to the report, and its key keeps its default. `design.vary` is left alone.

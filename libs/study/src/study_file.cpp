@@ -282,7 +282,7 @@ StudyReading parse_study(std::string_view text, const std::string& name, const S
   }
   std::vector<Diagnostic> diagnostics;
   for (const auto& text_of_override : options.overrides) {
-    auto override = parse_assignment(text_of_override, "--set");
+    auto override = parse_assignment(text_of_override, options.override_name);
     if (override.assignment) override.diagnostics = assign(*parsing.document, *override.assignment);
     diagnostics.insert(diagnostics.end(), override.diagnostics.begin(), override.diagnostics.end());
   }
@@ -292,12 +292,11 @@ StudyReading parse_study(std::string_view text, const std::string& name, const S
   return reading;
 }
 
-StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides,
-                        const StudyKinds& kinds) {
+StudyReading load_study(const std::string& name_or_path, StudyReadOptions options) {
   const auto& known = built_in_studies();
   const auto built_in =
       std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name_or_path; });
-  if (built_in != known.end()) return parse_study(built_in->text, name_or_path, {overrides, {}, kinds});
+  if (built_in != known.end()) return parse_study(built_in->text, name_or_path, options);
   const std::filesystem::path path{name_or_path};
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) {
@@ -312,7 +311,8 @@ StudyReading load_study(const std::string& name_or_path, const std::vector<std::
   }
   const auto text = text_of(path);
   if (!text) throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "'"};
-  return parse_study(*text, name_or_path, {overrides, path.parent_path(), kinds});
+  options.folder = path.parent_path();
+  return parse_study(*text, name_or_path, options);
 }
 
 }  // namespace kith

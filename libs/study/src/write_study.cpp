@@ -111,7 +111,6 @@ TableWriter teacher(const StudySpec& spec) {
   table.add("process_noise", options.filter.process_noise);
   table.add("response_noise", options.response_noise);
   table.add("resample_below", options.filter.resample_below);
-  table.add("conflict", std::string{kConflictRule});
   table.add("reduce_before_update", options.reduce_before_update);
   std::vector<std::string> beliefs;
   for (const auto& rule : options.rules) beliefs.emplace_back(rule.name);

@@ -2,24 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 
 namespace kith {
 namespace {
 
-std::string text_of_files(const std::filesystem::path& folder, const std::string& prefix,
-                          const std::string& extension) {
-  std::string text;
-  for (const auto& file : std::filesystem::directory_iterator{folder}) {
-    const auto name = file.path().filename().string();
-    if (name.rfind(prefix, 0) == 0 && file.path().extension() == extension) text += testing::text_of(file.path());
-  }
-  return text;
-}
-
 TEST(StudyErrorIds, AreAllExplainedOnAPage) {
-  const auto pages = text_of_files(std::filesystem::path{KITH_SOURCE_DIR} / "docs", "errors", ".md");
+  const auto pages = testing::error_pages();
   for (const auto& id : testing::error_ids_in("study"))
     EXPECT_NE(pages.find("| " + id + " |"), std::string::npos) << id;
 }
@@ -27,9 +16,7 @@ TEST(StudyErrorIds, AreAllExplainedOnAPage) {
 // Tests name the ids that they trigger; those of the tables of a run are triggered where runs are read.
 TEST(StudyErrorIds, AreAllTriggeredByATest) {
   std::string tests;
-  for (const auto* layer : {"study", "runs", "report", "fit"}) {
-    tests += text_of_files(std::filesystem::path{KITH_SOURCE_DIR} / "libs" / layer / "tests", "", ".cpp");
-  }
+  for (const auto* layer : {"study", "runs", "report", "fit"}) tests += testing::tests_of(layer);
   for (const auto& id : testing::error_ids_in("study")) EXPECT_NE(tests.find(id), std::string::npos) << id;
 }
 

@@ -7,8 +7,10 @@
 #include <iterator>
 #include <string>
 
+#include "kith/belief/aggregation.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/tables.hpp"
+#include "kith/teaching/strategy.hpp"
 
 namespace kith {
 namespace {
@@ -80,10 +82,14 @@ std::string row_of(const Parameter& parameter) {
          std::string{parameter.description} + " |\n";
 }
 
+std::string formats_page() {
+  std::ifstream file{std::string{KITH_SOURCE_DIR} + "/docs/formats.md"};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+
 TEST_P(LearnerModelFiles, HaveTheirKeysInTheDocuments) {
   const auto& model = *GetParam();
-  std::ifstream file{std::string{KITH_SOURCE_DIR} + "/docs/formats.md"};
-  const std::string page{std::istreambuf_iterator<char>{file}, {}};
+  const auto page = formats_page();
   const auto heading = "`kind = \"" + std::string{model.kind} + "\"`: ";
   std::string table =
       heading + std::string{model.description} + ".\n\n| key | value | default | what it is |\n|---|---|---|---|\n";
@@ -94,6 +100,30 @@ TEST_P(LearnerModelFiles, HaveTheirKeysInTheDocuments) {
 INSTANTIATE_TEST_SUITE_P(AllModels, LearnerModelFiles,
                          ::testing::ValuesIn(learner_models().begin(), learner_models().end()),
                          [](const auto& one) { return std::string{one.param->kind}; });
+
+// --- strategies and rules of aggregation -------------------------------------------
+
+TEST(StrategyKinds, AreInTheDocumentsWithTheirParameters) {
+  std::string table = "| kind | what it does |\n|---|---|\n";
+  std::string parameters;
+  for (const auto& kind : strategy_kinds()) {
+    table += "| `" + std::string{kind.name} + "` | " + std::string{kind.description} + " |\n";
+    if (kind.parameters.empty()) continue;
+    parameters =
+        "`kind = \"" + std::string{kind.name} + "\"`:\n\n| key | value | default | what it is |\n|---|---|---|---|\n";
+    for (const auto& parameter : kind.parameters) parameters += row_of(parameter);
+    EXPECT_NE(formats_page().find(parameters), std::string::npos) << "docs/formats.md must contain:\n\n" << parameters;
+  }
+  EXPECT_NE(formats_page().find(table + "\n"), std::string::npos) << "docs/formats.md must contain:\n\n" << table;
+}
+
+TEST(AggregationRules, AreInTheDocuments) {
+  std::string table = "| rule | the belief about ... |\n|---|---|\n";
+  for (const auto& rule : aggregation_rules()) {
+    table += "| `" + std::string{rule.name} + "` | " + std::string{rule.description} + " |\n";
+  }
+  EXPECT_NE(formats_page().find(table + "\n"), std::string::npos) << "docs/formats.md must contain:\n\n" << table;
+}
 
 // --- a model of one's own --------------------------------------------------------
 

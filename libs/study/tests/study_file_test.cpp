@@ -113,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"E0101", "seed = 7", "seed = ", 4}, Mistake{"E0106", "kith.study/1", "kith.study/9", 1},
         Mistake{"E0115", "\"tiny\"", "\"Tiny Study\"", 2}, Mistake{"E0116", "\"item-delivery\"", "\"item-delivry\"", 3},
+        Mistake{"E0107", "[design]", "teacher.conflict = \"largest-consistent\"\n[design]", 6},
         Mistake{"E0107", "replicates", "replicats", 5}, Mistake{"E0108", "seed = 7", "seed = 7.5", 4},
         Mistake{"E0109", "correct_gain", "gain_max = 0.07 #", 9},
         Mistake{"E0110", "replicates = 2", "replicates = 0", 5}, Mistake{"E0110", "mean = 0.7", "mean = 1.7", 10},

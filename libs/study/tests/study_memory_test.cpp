@@ -3,37 +3,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <functional>
-
 #include "item_delivery.hpp"
 #include "kith/core/error.hpp"
 #include "kith/study/study_file.hpp"
+#include "memory_limit.hpp"
 
 namespace kith {
 namespace {
 
+using testing::memory_refusal;
+
 Study quick(const std::vector<std::string>& overrides = {}) {
-  auto reading = load_study("quick", overrides);
+  auto reading = load_study("quick", {overrides});
   if (!reading.study) throw Error{reading.diagnostics};
   return *std::move(reading.study);
 }
 
-std::string refusal_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kInfeasible);
-    EXPECT_EQ(error.diagnostics().at(0).id, "E1201");
-    return error.what();
-  }
-  return {};
-}
-
 class StudyMemory : public ::testing::Test {
  protected:
-  StudyMemory() { setenv("KITH_MEMORY", "2G", 1); }
-  ~StudyMemory() override { unsetenv("KITH_MEMORY"); }
+  testing::MemoryLimit limit_{"2G"};
 };
 
 TEST_F(StudyMemory, GrowsWithParticlesMembersAndWhatIsRecorded) {
@@ -47,7 +35,7 @@ TEST_F(StudyMemory, GrowsWithParticlesMembersAndWhatIsRecorded) {
 TEST_F(StudyMemory, OfOneThreadTooManyIsRefused) {
   const auto study = quick({"teacher.particles=1000000"});
   require_study_memory(study, 2);
-  EXPECT_THAT(refusal_of([&] { require_study_memory(study, 1000); }),
+  EXPECT_THAT(memory_refusal([&] { require_study_memory(study, 1000); }),
               ::testing::HasSubstr("teaching on 1000 threads needs about"));
 }
 
@@ -55,7 +43,7 @@ TEST_F(StudyMemory, OfOneThreadTooManyIsRefused) {
 TEST_F(StudyMemory, OfTeamsThatAreAllKeptIsChecked) {
   const auto study = quick({"record.level=\"team\""});
   require_study_memory(study, 2, 10'000);
-  EXPECT_THAT(refusal_of([&] { require_study_memory(study, 2, 5'000'000); }),
+  EXPECT_THAT(memory_refusal([&] { require_study_memory(study, 2, 5'000'000); }),
               ::testing::HasSubstr("keeping 5000000 teams and teaching on 2 threads needs about"));
 }
 
@@ -66,12 +54,12 @@ TEST_F(StudyMemory, IsCheckedBeforeTheFirstTeam) {
   const auto addresses = team_addresses(study);
   RunOptions run;
   run.threads = 1;
-  EXPECT_NE(refusal_of([&] { (void)run_teams(atlas, study, addresses, run); }), "");
+  EXPECT_NE(memory_refusal([&] { (void)run_teams(atlas, study, addresses, run); }), "");
   const std::vector<std::uint32_t> teams{1};
   StreamOptions stream;
   stream.threads = 1;
   const auto sink = [](const TeamOutcome&) { FAIL() << "a team was taught"; };
-  EXPECT_NE(refusal_of([&] { stream_teams(atlas, study, teams, stream, sink); }), "");
+  EXPECT_NE(memory_refusal([&] { stream_teams(atlas, study, teams, stream, sink); }), "");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "kith/core/error.hpp"
+#include "scratch_folder.hpp"
 
 namespace kith {
 namespace {
@@ -34,12 +35,8 @@ Refusal refusal_of(Reading reading) {
 
 class TableText : public ::testing::Test {
  protected:
-  TableText() {
-    std::string name = (fs::temp_directory_path() / "kith-table-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~TableText() override { fs::remove_all(folder_); }
-  fs::path folder_;
+  testing::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
 };
 
 TEST_F(TableText, IsThatOfTheFile) {

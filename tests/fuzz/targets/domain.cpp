@@ -11,14 +11,15 @@ namespace {
 
 void check_states(const Domain& domain, MdpIndex m) {
   const auto& mdp = domain.mdp(m);
-  if (!domain.has_map()) return;  // models are a target of their own
+  const auto map = domain.map();
+  if (!map) return;  // models are a target of their own
   for (std::size_t s = 0; s < std::min<std::size_t>(mdp.num_states(), 8); ++s) {
-    const auto picture = domain.state(m, StateIndex{s});
-    fuzzing::require(domain.find_state(m, picture) == StateIndex{s}, "a state is found by its picture");
-    const auto drawn = domain.draw(m, StateIndex{s});
-    fuzzing::require(drawn.size() == static_cast<std::size_t>(domain.height()), "a drawing has a line per row");
+    const auto picture = map->state(m, StateIndex{s});
+    fuzzing::require(map->find_state(m, picture) == StateIndex{s}, "a state is found by its picture");
+    const auto drawn = map->draw(m, StateIndex{s});
+    fuzzing::require(drawn.size() == static_cast<std::size_t>(map->height()), "a drawing has a line per row");
     for (const auto& row : drawn) {
-      fuzzing::require(row.size() == static_cast<std::size_t>(domain.width()), "and a character per cell");
+      fuzzing::require(row.size() == static_cast<std::size_t>(map->width()), "and a character per cell");
     }
   }
   fuzzing::require(domain.initial_state(m).value() < mdp.num_states(), "a robot starts in a state");

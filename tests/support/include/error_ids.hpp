@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -15,6 +14,25 @@ namespace kith::testing {
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
+}
+
+/// The texts of the files directly in a folder of the source whose names begin and end like this, one after the other.
+[[nodiscard]] inline std::string text_of_files(const std::filesystem::path& folder, const std::string& prefix,
+                                               const std::string& extension) {
+  std::string text;
+  for (const auto& file : std::filesystem::directory_iterator{std::filesystem::path{KITH_SOURCE_DIR} / folder}) {
+    const auto name = file.path().filename().string();
+    if (name.rfind(prefix, 0) == 0 && file.path().extension() == extension) text += text_of(file.path());
+  }
+  return text;
+}
+
+/// The texts of all pages about errors.
+[[nodiscard]] inline std::string error_pages() { return text_of_files("docs", "errors", ".md"); }
+
+/// The texts of all tests of a layer.
+[[nodiscard]] inline std::string tests_of(const std::string& layer) {
+  return text_of_files(std::filesystem::path{"libs"} / layer / "tests", "", ".cpp");
 }
 
 /// Every diagnostic id ("E0312") that stands as a string in the sources of a layer.

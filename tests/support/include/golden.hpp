@@ -9,14 +9,16 @@
 
 namespace kith::testing {
 
-/// The folder of reference facts computed by an independent program, if this
-/// machine has it: $KITH_GOLDEN, else ../shared/golden beside the checkout.
+/// A file of reference facts computed by an independent program: in $KITH_GOLDEN or ../shared/golden beside the
+/// checkout, where this machine has them all, else the part of them that is in the tree, tests/support/facts.
 [[nodiscard]] inline std::optional<std::filesystem::path> golden_file(const std::string& name) {
+  const std::filesystem::path source{KITH_SOURCE_DIR};
   const char* folder = std::getenv("KITH_GOLDEN");
-  const auto path = folder != nullptr ? std::filesystem::path{folder} / name
-                                      : std::filesystem::path{KITH_SOURCE_DIR} / ".." / "shared" / "golden" / name;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  return path;
+  const auto all = folder != nullptr ? std::filesystem::path{folder} : source / ".." / "shared" / "golden";
+  for (const auto& place : {all, source / "tests" / "support" / "facts"}) {
+    if (std::filesystem::exists(place / name)) return place / name;
+  }
+  return std::nullopt;
 }
 
 [[nodiscard]] inline bool on_ci() {

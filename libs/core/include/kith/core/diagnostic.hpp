@@ -22,6 +22,9 @@ enum class Remedy {
   kMergePart,         ///< Put together what there is.
   kAnalyseTable,      ///< Analyse the table on its own, without its run.
   kLikelihoodMethod,  ///< Fit by likelihood.
+  kShowMap,           ///< Look at the map of the domain, with everything on it.
+  kShowStates,        ///< Look at the states of an MDP and their names.
+  kListConstraints,   ///< Look at the list of constraints that can be taught or tested.
 };
 
 /// How to mend an error: in words, by a remedy, or either.

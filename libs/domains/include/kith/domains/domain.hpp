@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "kith/domains/grid_map.hpp"
 #include "kith/geometry/eigen.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/mdp/mdp.hpp"
 
 namespace kith {
-
-using MdpIndex = Index<struct MdpTag>;
 
 /// A demonstration candidate, or a test: one start state of one MDP.
 struct DemoId {
@@ -39,31 +38,6 @@ struct RewardWeights {
   [[nodiscard]] double return_of(const IntegerVector& feature_counts) const;
 };
 
-/// A cell of a map, 1-based, x to the right, y up.
-struct Cell {
-  int x = 0;
-  int y = 0;
-  friend auto operator<=>(const Cell&, const Cell&) = default;
-};
-
-/// One state of a gridworld, as people see it.
-struct GridState {
-  Cell robot;
-  std::vector<Cell> items;     ///< Those of the MDP in declaration order; a carried item is at the robot's cell.
-  std::vector<bool> carried;   ///< Per entry of items; at most one.
-  std::vector<Cell> stations;  ///< Those still present, in reading order (top row first).
-  bool exited = false;
-  friend bool operator==(const GridState&, const GridState&) = default;
-};
-
-/// What a cell of one MDP's map holds apart from robot, items and stations.
-struct CellContent {
-  bool wall = false;
-  bool goal = false;
-  std::string terrain;         ///< Empty: plain floor.
-  std::string destination_of;  ///< Item that belongs here; empty: none.
-};
-
 /// How people call a feature. "{n}" stands for how often it counts.
 struct Wording {
   std::string one;      ///< What it is, once: "crossing rubble", "a step on the path". Never empty.
@@ -71,17 +45,6 @@ struct Wording {
   std::string do_one;   ///< What the robot does, as a verb: "cross rubble"; empty: nobody said.
   std::string do_many;  ///< The same several times: "cross rubble {n} times"; empty exactly where do_one is.
   friend bool operator==(const Wording&, const Wording&) = default;
-};
-
-/// What a symbol of the legend puts on a cell.
-struct LegendEntry {
-  char symbol = '.';
-  CellContent content;       ///< Wall, goal, terrain and destination.
-  std::string goal_name;     ///< Empty: a goal without a name, or none.
-  std::string station;       ///< Empty: none.
-  std::string item;          ///< Empty: none.
-  bool start = false;        ///< Where the robot first enters.
-  bool is_optional = false;  ///< Whether some MDPs lack it.
 };
 
 /// Things that are there or not together: one bit of an MDP's index.
@@ -150,25 +113,9 @@ class Domain {
   /// is no such state.
   [[nodiscard]] std::string state_name(MdpIndex m, StateIndex s) const;
 
-  /// Whether the MDPs are gridworlds on one map, rather than an explicit model that was given state by state. What is
-  /// about maps throws std::logic_error without one: width(), height(), content(), state(), find_state() and draw().
-  [[nodiscard]] bool has_map() const noexcept;
-  [[nodiscard]] int width() const;
-  [[nodiscard]] int height() const;
-  [[nodiscard]] CellContent content(MdpIndex m, Cell cell) const;
-  /// The symbols of the file, in its order.
-  [[nodiscard]] std::vector<LegendEntry> legend() const;
-  /// The symbol that the file draws at a cell: an index into legend(). MDPs may lack what it stands for.
-  /// @throws std::invalid_argument if the cell is off the map.
-  [[nodiscard]] std::size_t legend_index(Cell cell) const;
-  /// Also for terminal states.
-  [[nodiscard]] GridState state(MdpIndex m, StateIndex s) const;
-  /// The inverse of state(); nothing if the MDP has no such state.
-  [[nodiscard]] std::optional<StateIndex> find_state(MdpIndex m, const GridState& state) const;
-  /// All items of the family, in declaration order.
-  [[nodiscard]] const std::vector<std::string>& item_names() const noexcept;
-  /// Which of item_names() MDP m has: entry i names GridState::items[i]. All, unless items are optional.
-  [[nodiscard]] std::vector<std::size_t> items_in(MdpIndex m) const;
+  /// The map, if the MDPs are gridworlds on one; nothing for an explicit model that was given state by state. It refers
+  /// to the domain, which has to stay (it may be moved).
+  [[nodiscard]] std::optional<GridMap> map() const noexcept;
 
   /// How much there is to look at: optional things present in the start state
   /// (terrain cells and stations that are toggled, plus stations still there). 0 without a map.
@@ -179,14 +126,6 @@ class Domain {
   /// Without a map: 2 * sum |differences of the states' variables| (without variables: 2 for different states),
   /// plus 1 for different MDPs.
   [[nodiscard]] int dissimilarity(DemoId a, DemoId b) const;
-
-  /// The map of MDP m as text, top row first, one row per string, in the
-  /// symbols of the domain file; without `s` the initial picture, with it the
-  /// robot as '@' and the things where they are in `s`.
-  /// An item away from its first cell is drawn as '*', unless the robot is there.
-  [[nodiscard]] std::vector<std::string> draw(MdpIndex m, std::optional<StateIndex> s) const;
-  /// The same without the robot and the items: what stands on the map while the MDP is in state `s`.
-  [[nodiscard]] std::vector<std::string> draw_bare(MdpIndex m, StateIndex s) const;
 
  private:
   std::unique_ptr<const Data> data_;

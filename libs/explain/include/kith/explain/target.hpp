@@ -77,6 +77,6 @@ struct MakeWorldOptions {
                                                   const MakeWorldOptions& options = {});
 
 /// "rubble at (2,1) becomes floor".
-[[nodiscard]] std::string change_in_words(const Domain& domain, const CellChange& change);
+[[nodiscard]] std::string change_in_words(const GridMap& map, const CellChange& change);
 
 }  // namespace kith

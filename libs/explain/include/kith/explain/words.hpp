@@ -49,7 +49,7 @@ namespace kith {
 /// "a", "a and b", "a, b and c".
 [[nodiscard]] std::string listed(const std::vector<std::string>& things);
 /// "(2,1)": column and row from the top left, as in everything that kith prints.
-[[nodiscard]] std::string cell_text(const Domain& domain, const Cell& cell);
+[[nodiscard]] std::string cell_text(const GridMap& map, const Cell& cell);
 /// What the robot does with an action: "goes up", "picks it up", "leaves".
 [[nodiscard]] std::string action_words(const std::string& action);
 /// The same behind "does it": "go up", "pick it up", "leave".

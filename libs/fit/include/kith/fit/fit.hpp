@@ -22,6 +22,9 @@ struct FitOptions {
   ParallelOptions parallel{};
 };
 
+/// The grid on which fit_learners() computes likelihoods.
+[[nodiscard]] ParameterGrid grid_of(const FitOptions& options);
+
 /// What the answers say about the parameters of one population, in figures.
 struct Identifiability {
   double ability = 0.0;  ///< Mean contraction over people, see ParameterPosterior::contraction(); the same for ...

@@ -10,10 +10,10 @@
 
 namespace kith {
 
-/// Draws maps of one domain: what stands on the cells, and what is marked on them.
+/// Draws maps of one domain, which has to stay: what stands on the cells, and what is marked on them.
 class BoardSvg {
  public:
-  explicit BoardSvg(const Domain& domain);
+  explicit BoardSvg(const GridMap& map);
 
   [[nodiscard]] double width() const;   ///< With the numbers of the rows.
   [[nodiscard]] double height() const;  ///< With the numbers of the columns.
@@ -45,7 +45,7 @@ class BoardSvg {
   void grid(Svg& svg) const;
   [[nodiscard]] std::string letters(const std::string& name) const;
 
-  const Domain& domain_;
+  GridMap map_;
   std::vector<std::string> terrains_;
   std::vector<std::string> things_;   // stations, items and named goals
   std::vector<std::string> letters_;  // of things_

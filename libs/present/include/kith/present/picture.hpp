@@ -14,10 +14,11 @@ namespace kith {
 using Picture = std::vector<std::string>;
 
 /// The map in the state in which a demonstration starts.
-[[nodiscard]] Picture start_picture(const Domain& domain, DemoId id);
-/// A path drawn on the map, one picture per leg: a leg ends with an action that does not move the robot (a pick-up).
-/// Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends.
-[[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, DemoId id, const Trajectory& path);
+[[nodiscard]] Picture start_picture(const GridMap& map, DemoId id);
+/// A path drawn on the domain's map, one picture per leg: a leg ends with an action that does not move the robot (a
+/// pick-up). Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends.
+[[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, DemoId id,
+                                                 const Trajectory& path);
 /// A path in words, a line per action: "go -> on the ice".
 [[nodiscard]] std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
 /// The bare map, the start picture and the legs of the path beside each other, each row indented; without a map the
@@ -25,14 +26,15 @@ using Picture = std::vector<std::string>;
 [[nodiscard]] std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
 /// What the robot does wherever it stands, while items and stations are as in `configuration`.
 /// @param choice  per state of the MDP, as in ExactSolution::canonical_choice.
-[[nodiscard]] Picture policy_picture(const Domain& domain, MdpIndex m, std::span<const std::uint32_t> choice,
-                                     const GridState& configuration);
+[[nodiscard]] Picture policy_picture(const Domain& domain, const GridMap& map, MdpIndex m,
+                                     std::span<const std::uint32_t> choice, const GridState& configuration);
 /// The state with the robot at another cell; what it carries comes along.
 [[nodiscard]] GridState with_robot_at(GridState state, const Cell& cell);
 /// The states of a path before its end, without those in which only the robot is elsewhere than in one before.
-[[nodiscard]] std::vector<GridState> configurations_on(const Domain& domain, MdpIndex m, const Trajectory& path);
+[[nodiscard]] std::vector<GridState> configurations_on(const Domain& domain, const GridMap& map, MdpIndex m,
+                                                       const Trajectory& path);
 /// "parcel at (4,3), 1 station left": what a state is like apart from where the robot is.
-[[nodiscard]] std::string configuration_in_words(const Domain& domain, MdpIndex m, const GridState& state);
+[[nodiscard]] std::string configuration_in_words(const GridMap& map, MdpIndex m, const GridState& state);
 /// Pictures beside each other, each row indented.
 [[nodiscard]] std::string beside(const std::vector<Picture>& pictures, std::size_t indent);
 

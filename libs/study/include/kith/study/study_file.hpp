@@ -31,6 +31,7 @@ struct StudyReadOptions {
   /// directory.
   std::filesystem::path folder{};
   StudyKinds kinds{};
+  std::string override_name = "override";  ///< What diagnostics name in place of a file if an override is wrong.
 };
 
 /// Parses and checks a study file (schema kith.study/1, see docs/formats.md) with the overrides applied, reads
@@ -46,10 +47,9 @@ struct BuiltInStudy {
 };
 [[nodiscard]] const std::vector<BuiltInStudy>& built_in_studies();
 
-/// A built-in study by name, or the study file at that path.
+/// A built-in study by name, or the study file at that path, which is what `options.folder` is then set to.
 /// @throws kith::Error (kInvalidInput, E0116) if there is neither; kIo if the file cannot be read.
-[[nodiscard]] StudyReading load_study(const std::string& name_or_path, const std::vector<std::string>& overrides = {},
-                                      const StudyKinds& kinds = {});
+[[nodiscard]] StudyReading load_study(const std::string& name_or_path, StudyReadOptions options = {});
 
 /// The study as a study file with every key written out; reading it gives the same study again.
 /// @param domain  the study's domain, for the names of features.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kith/belief/team_belief.hpp"
+#include "kith/core/baseline.hpp"
 #include "kith/core/parameter.hpp"
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/visited_demos.hpp"
@@ -87,9 +88,6 @@ struct StrategyKind {
 /// The kind with this name; null if there is none.
 [[nodiscard]] const StrategyKind* find_strategy_kind(std::string_view name,
                                                      std::span<const StrategyKind> kinds = strategy_kinds()) noexcept;
-
-/// The baseline: everybody is taught alone, one after the other, in sessions of one person each.
-inline constexpr std::string_view kBaseline = "baseline";
 
 /// A strategy with its parameters, as a study or a session uses it.
 struct StrategyChoice {

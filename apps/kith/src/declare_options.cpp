@@ -1,0 +1,65 @@
+#include "declare_options.hpp"
+
+#include <cctype>
+
+#include "option_values.hpp"
+
+namespace kith::cli {
+namespace {
+
+std::string variable_of(const std::string& long_name) {
+  std::string name = "KITH_";
+  for (const char c : long_name)
+    name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
+std::string braces(const std::vector<std::string>& words) {
+  std::string text = "{";
+  for (const auto& word : words) text += (text.size() > 1 ? "," : "") + word;
+  return text + "}";
+}
+
+}  // namespace
+
+CLI::Option& takes_word(CLI::Option& option, const std::string& type, const std::vector<std::string>& words) {
+  return *option.check([words](const std::string& text) { return wrong_word(text, words); })
+              ->type_name(type + ":" + braces(words));
+}
+
+CLI::Option& takes_integer(CLI::Option& option, std::int64_t min, std::int64_t max) {
+  return *option.check([min, max](const std::string& text) { return wrong_integer(text, min, max); })->type_name("N");
+}
+
+void add_common(CLI::App& command, CommonOptions& common) {
+  command.set_help_flag();
+  command.add_flag("--json", common.json, "Print one JSON document instead of text");
+  add_mode<ColorMode>(command, "--color", common.color, "Colours on a terminal", "WHEN",
+                      {{"auto", ColorMode::kAuto}, {"always", ColorMode::kAlways}, {"never", ColorMode::kNever}});
+  command.add_flag("-q,--quiet", common.quiet, "Only results and errors");
+  command.add_flag("-v,--verbose", common.verbosity, "Print more detail; repeat for more");
+  for (auto* option : command.get_options()) {
+    if (!option->get_lnames().empty()) option->envname(variable_of(option->get_lnames().front()));
+  }
+}
+
+void add_progress(CLI::App& command, ProgressMode& mode) {
+  add_mode<ProgressMode>(command, "--progress", mode, "How to show progress, on stderr", "HOW",
+                         {{"auto", ProgressMode::kAuto},
+                          {"bar", ProgressMode::kBar},
+                          {"json", ProgressMode::kJson},
+                          {"none", ProgressMode::kNone}});
+}
+
+void add_shard(CLI::App& command, ShardOption& shard) {
+  command
+      .add_option_function<std::string>(
+          "--shard", [&shard](const std::string& text) { shard = *shard_of(text); },
+          "Run part I of N; kith merge combines the parts")
+      ->check([](const std::string& text) {
+        return shard_of(text) ? "" : "must be I/N, such as 2/7, with I from 1 to N, not '" + text + "'";
+      })
+      ->type_name("I/N");
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/mdp/mdp.hpp"
+
+namespace kith {
+
+using MdpIndex = Index<struct MdpTag>;
+
+/// A cell of a map, 1-based, x to the right, y up.
+struct Cell {
+  int x = 0;
+  int y = 0;
+  friend auto operator<=>(const Cell&, const Cell&) = default;
+};
+
+/// One state of a gridworld, as people see it.
+struct GridState {
+  Cell robot;
+  std::vector<Cell> items;     ///< Those of the MDP in declaration order; a carried item is at the robot's cell.
+  std::vector<bool> carried;   ///< Per entry of items; at most one.
+  std::vector<Cell> stations;  ///< Those still present, in reading order (top row first).
+  bool exited = false;
+  friend bool operator==(const GridState&, const GridState&) = default;
+};
+
+/// What a cell of one MDP's map holds apart from robot, items and stations.
+struct CellContent {
+  bool wall = false;
+  bool goal = false;
+  std::string terrain;         ///< Empty: plain floor.
+  std::string destination_of;  ///< Item that belongs here; empty: none.
+};
+
+/// What a symbol of the legend puts on a cell.
+struct LegendEntry {
+  char symbol = '.';
+  CellContent content;       ///< Wall, goal, terrain and destination.
+  std::string goal_name;     ///< Empty: a goal without a name, or none.
+  std::string station;       ///< Empty: none.
+  std::string item;          ///< Empty: none.
+  bool start = false;        ///< Where the robot first enters.
+  bool is_optional = false;  ///< Whether some MDPs lack it.
+};
+
+struct GridFamily;
+
+/// The map on which the MDPs of a domain are gridworlds: what its cells hold, what its states look like, and how it is
+/// drawn. A view: it refers to the Domain whose map() it is. A function that takes an MDP, a state or a cell throws
+/// std::invalid_argument if there is none such.
+class GridMap {
+ public:
+  explicit GridMap(const GridFamily& family) noexcept : family_{&family} {}
+
+  [[nodiscard]] int width() const noexcept;
+  [[nodiscard]] int height() const noexcept;
+  [[nodiscard]] CellContent content(MdpIndex m, Cell cell) const;
+  /// The symbols of the file, in its order.
+  [[nodiscard]] std::vector<LegendEntry> legend() const;
+  /// The symbol that the file draws at a cell: an index into legend(). MDPs may lack what it stands for.
+  [[nodiscard]] std::size_t legend_index(Cell cell) const;
+  /// Also for terminal states.
+  [[nodiscard]] GridState state(MdpIndex m, StateIndex s) const;
+  /// The inverse of state(); nothing if the MDP has no such state.
+  [[nodiscard]] std::optional<StateIndex> find_state(MdpIndex m, const GridState& state) const;
+  /// All items of the family, in declaration order.
+  [[nodiscard]] const std::vector<std::string>& item_names() const noexcept;
+  /// Which of item_names() MDP m has: entry i names GridState::items[i]. All, unless items are optional.
+  [[nodiscard]] std::vector<std::size_t> items_in(MdpIndex m) const;
+
+  /// The map of MDP m as text, top row first, one row per string, in the
+  /// symbols of the domain file; without `s` the initial picture, with it the
+  /// robot as '@' and the things where they are in `s`.
+  /// An item away from its first cell is drawn as '*', unless the robot is there.
+  [[nodiscard]] std::vector<std::string> draw(MdpIndex m, std::optional<StateIndex> s) const;
+  /// The same without the robot and the items: what stands on the map while the MDP is in state `s`.
+  [[nodiscard]] std::vector<std::string> draw_bare(MdpIndex m, StateIndex s) const;
+
+ private:
+  const GridFamily* family_;
+};
+
+}  // namespace kith

@@ -1,0 +1,165 @@
+#include "kith/domains/grid_map.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "domain_data.hpp"
+
+namespace kith {
+namespace {
+
+using detail::SymbolContent;
+using detail::World;
+
+const DomainMember& member_of(const GridFamily& family, MdpIndex m, const char* function) {
+  if (m.value() < family.members.size()) return family.members[m.value()];
+  throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
+}
+
+// The symbol that shows exactly `content`: the cell's own if it does, else the
+// first of the legend that does; without one the cell's own, or a blank for floor.
+char glyph_for(const World& world, std::size_t cell, const SymbolContent& content) {
+  const detail::Symbol& own = world.symbols[world.symbol_of[cell]];
+  if (own.content == content) return own.glyph;
+  for (const detail::Symbol& symbol : world.symbols) {
+    if (symbol.content == content) return symbol.glyph;
+  }
+  return content.is_floor() ? ' ' : own.glyph;
+}
+
+}  // namespace
+
+int GridMap::width() const noexcept { return family_->world.width; }
+int GridMap::height() const noexcept { return family_->world.height; }
+const std::vector<std::string>& GridMap::item_names() const noexcept { return family_->item_names; }
+
+std::vector<LegendEntry> GridMap::legend() const {
+  std::vector<LegendEntry> entries;
+  for (const detail::Symbol& symbol : family_->world.symbols) {
+    const detail::SymbolContent& content = symbol.content;
+    entries.push_back({symbol.glyph,
+                       {content.wall, content.goal, content.terrain, content.destination},
+                       content.goal_name,
+                       content.station,
+                       content.item,
+                       content.start,
+                       symbol.is_optional()});
+  }
+  return entries;
+}
+
+std::size_t GridMap::legend_index(Cell cell) const {
+  const auto index = family_->world.index_of(cell);
+  if (!index) throw std::invalid_argument{"GridMap::legend_index: the cell is off the map"};
+  return family_->world.symbol_of[*index];
+}
+
+CellContent GridMap::content(MdpIndex m, Cell cell) const {
+  (void)member_of(*family_, m, "GridMap::content");
+  const auto index = family_->world.index_of(cell);
+  if (!index) throw std::invalid_argument{"GridMap::content: the cell is off the map"};
+  if (!family_->world.is_present(*index, m.value())) return {};
+  const detail::SymbolContent& content = family_->world.content(*index);
+  return {content.wall, content.goal, content.terrain, content.destination};
+}
+
+std::vector<std::size_t> GridMap::items_in(MdpIndex m) const {
+  std::vector<std::size_t> items;
+  const DomainMember& member = member_of(*family_, m, "GridMap::items_in");
+  for (std::size_t i = 0; i < member.item_present.size(); ++i) {
+    if (member.item_present[i]) items.push_back(i);
+  }
+  return items;
+}
+
+GridState GridMap::state(MdpIndex m, StateIndex s) const {
+  const DomainMember& member = member_of(*family_, m, "GridMap::state");
+  if (s.value() >= member.states.size()) {
+    throw std::invalid_argument{"GridMap::state: there is no state " + std::to_string(s.value())};
+  }
+  const detail::PackedState packed = member.states[s.value()];
+  const detail::World& world = family_->world;
+  GridState state;
+  state.robot = world.cell_at(family_->layout.robot(packed));
+  for (std::size_t i = 0; i < member.item_present.size(); ++i) {
+    if (!member.item_present[i]) continue;
+    state.items.push_back(world.cell_at(family_->layout.item(packed, i)));
+    state.carried.push_back(family_->layout.carried(packed) == i + 1);
+  }
+  for (std::size_t i = 0; i < world.stations.size(); ++i) {
+    if (family_->layout.has_station(packed, i)) state.stations.push_back(world.cell_at(world.stations[i].cell));
+  }
+  state.exited = family_->layout.exited(packed);
+  return state;
+}
+
+std::optional<StateIndex> GridMap::find_state(MdpIndex m, const GridState& state) const {
+  const DomainMember& member = member_of(*family_, m, "GridMap::find_state");
+  const detail::World& world = family_->world;
+  const auto robot = world.index_of(state.robot);
+  const std::vector<std::size_t> items = items_in(m);
+  if (!robot || state.items.size() != items.size() || state.carried.size() != items.size()) return std::nullopt;
+  detail::PackedState packed = family_->layout.with_robot(0, *robot);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto cell = world.index_of(state.items[i]);
+    if (!cell) return std::nullopt;
+    packed = family_->layout.with_item(packed, items[i], *cell);
+    if (state.carried[i]) packed = family_->layout.with_carried(packed, items[i] + 1);
+  }
+  std::uint64_t stations = 0;
+  for (std::size_t i = 0; i < world.stations.size(); ++i) {
+    const Cell cell = world.cell_at(world.stations[i].cell);
+    if (std::ranges::find(state.stations, cell) != state.stations.end()) stations |= std::uint64_t{1} << i;
+  }
+  packed = family_->layout.with_stations(packed, stations);
+  if (state.exited) packed = family_->layout.with_exit(packed);
+
+  const auto it =
+      std::ranges::lower_bound(member.by_state, packed, {}, [&](std::uint32_t s) { return member.states[s]; });
+  // Comparing the whole state also refuses what the packing cannot express.
+  if (it == member.by_state.end() || this->state(m, StateIndex{*it}) != state) return std::nullopt;
+  return StateIndex{*it};
+}
+
+std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) const {
+  const World& world = family_->world;
+  const GridState now = s ? state(m, *s) : GridState{};
+  const std::vector<std::size_t> items = items_in(m);
+  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
+  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
+    const Cell at = world.cell_at(cell);
+    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
+    bool moved_here = false;
+    if (s) {
+      content.start = false;
+      if (std::ranges::find(now.stations, at) == now.stations.end()) content.station.clear();
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        const std::string& name = family_->item_names[items[i]];
+        if (now.items[i] != at && content.item == name) content.item.clear();
+        moved_here = moved_here || (now.items[i] == at && content.item != name);
+      }
+    }
+    char glyph = glyph_for(world, cell, content);
+    if (moved_here) glyph = '*';
+    if (s && now.robot == at) glyph = '@';
+    rows[cell / static_cast<std::size_t>(world.width)] += glyph;
+  }
+  return rows;
+}
+
+std::vector<std::string> GridMap::draw_bare(MdpIndex m, StateIndex s) const {
+  const World& world = family_->world;
+  const GridState now = state(m, s);
+  std::vector<std::string> rows(static_cast<std::size_t>(world.height));
+  for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
+    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
+    content.start = false;
+    content.item.clear();
+    if (std::ranges::find(now.stations, world.cell_at(cell)) == now.stations.end()) content.station.clear();
+    rows[cell / static_cast<std::size_t>(world.width)] += glyph_for(world, cell, content);
+  }
+  return rows;
+}
+
+}  // namespace kith

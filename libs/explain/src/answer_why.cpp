@@ -1,0 +1,118 @@
+// Why does the robot do something, what does it do, and how much is a feature worth to it?
+#include "answerer.hpp"
+
+#include "kith/explain/reason.hpp"
+#include "kith/explain/words.hpp"
+
+namespace kith::detail {
+
+void Answerer::why() {
+  const auto world = question_.world.value_or(last_world());
+  const auto demo = scene_.needed_start(world);
+  reply_.question = why_in_words();
+  if (question_.is_about_a_step()) {
+    why_at(demo);
+  } else {
+    why_path(demo);
+  }
+}
+
+std::string Answerer::why_in_words() const {
+  if (!question_.happening && !question_.instead) return "Why does it do what it does" + scene_.context() + "?";
+  if (!question_.happening) return "Why " + does(*question_.instead, true) + scene_.context() + "?";
+  auto text = "Why " + does(*question_.happening, false);
+  if (question_.instead) {
+    const auto verb = verb_of(*question_.instead);
+    text += verb.empty() ? " rather than " + scene_.name_of(*question_.instead) : " and not " + verb;
+  }
+  return text + scene_.context() + "?";
+}
+
+void Answerer::why_at(DemoIndex demo) {
+  const auto [world, start] = atlas_.id(demo);
+  if (question_.happening) scene_.check_possible(demo, *question_.happening);
+  if (question_.instead) scene_.check_possible(demo, *question_.instead);
+  const auto own = atlas_.trajectory(demo).actions.front();
+  const bool does = !question_.happening || scene_.is_at(world, start, own, *question_.happening);
+  const bool does_instead = question_.instead && scene_.is_at(world, start, own, *question_.instead);
+  std::string says = scene_.place_text(demo) + " it " + action_words(scene_.action(own));
+  if (!does || does_instead) {
+    says = (does ? "but " : "it does not: ") + says;
+    const auto contrast = does_instead ? scene_.contrast_to(demo, *question_.instead, false)
+                                       : scene_.contrast_to(demo, *question_.happening, true);
+    return conclude(demo, says, contrast);
+  }
+  conclude(demo, says, question_.instead ? scene_.contrast_to(demo, *question_.instead, true) : scene_.best_step(demo));
+}
+
+void Answerer::why_path(DemoIndex demo) {
+  const auto number = atlas_.id(demo).mdp;
+  const auto& asked = question_.happening ? *question_.happening : *question_.instead;
+  if (!question_.happening) std::swap(question_.happening, question_.instead);  // look_at() takes the happening
+  const auto world = look_at(demo);
+  const bool does = world.happens;
+  const auto what = scene_.name_of(asked) +
+                    (does ? (world.chance ? " can happen in " : " happens in ") : " does not happen in ") +
+                    scene_.name_of(number) + chance_text(world);
+  if (question_.happening && question_.instead && does) {
+    return conclude(demo, what, scene_.contrast_to(demo, *question_.instead, true),
+                    nothing_else(number, *question_.instead, true));
+  }
+  conclude(demo, what, scene_.contrast_to(demo, asked, !does), nothing_else(number, asked, !does));
+}
+
+void Answerer::conclude(DemoIndex demo, const std::string& says, const std::optional<Contrast>& contrast,
+                        const std::string& nothing) {
+  reply_.text = first_upper(says) + "; " + because(contrast, nothing) + ".";
+  show(demo, because(contrast, says), contrast);
+}
+
+void Answerer::what() {
+  const auto world = question_.world.value_or(last_world());
+  const auto demo = scene_.needed_start(world);
+  const auto path = atlas_.trajectory(demo);
+  reply_.question = "What does it do" + scene_.context() + "?";
+  reply_.text = first_upper(scene_.place_text(demo)) + " it " + action_words(scene_.action(path.actions.front())) + ".";
+  const auto contrast = scene_.best_step(demo);
+  show(demo, because(contrast, "it has no other choice"), contrast);
+}
+
+void Answerer::how_much() {
+  const auto k = question_.happening->feature;
+  const auto name = domain_.wording(k).one;
+  const bool is_cost = domain_.weights().integer[k] < 0;
+  reply_.question = "How much " + std::string{is_cost ? "does " : "is "} + name + (is_cost ? " cost?" : " worth?");
+  std::vector<std::string> sentences;
+  for (const auto& constraint : atlas_.policy_bec_half_spaces()) {
+    if (constraint.normal()[k] == 0) continue;
+    sentences.push_back(in_words(domain_, constraint));
+    if (atlas_.prior_cone().implies(constraint)) continue;
+    if (const auto demo = demonstration_of(constraint)) {
+      show(*demo, sentences.back(), contrast_for(atlas_, *demo, constraint));
+    }
+  }
+  if (sentences.empty()) {
+    reply_.text = "Nothing that it does tells how much " + name + (is_cost ? " costs." : " is worth.");
+    return;
+  }
+  reply_.text = "From what it does you can conclude: ";
+  for (std::size_t i = 0; i < sentences.size(); ++i) reply_.text += (i > 0 ? "; " : "") + sentences[i];
+  reply_.text += ".";
+}
+
+std::optional<DemoIndex> Answerer::demonstration_of(const HalfSpace& constraint) const {
+  const auto number = atlas_.constraints().find(constraint);
+  if (!number) return std::nullopt;
+  std::optional<DemoIndex> best;
+  std::size_t least = 0;
+  for (DemoIndex demo{0}; demo.value() < atlas_.num_demos(); ++demo) {
+    if (!atlas_.is_candidate(demo) || !atlas_.one_step(demo).contains(*number)) continue;
+    const auto length = atlas_.path(demo).size();
+    if (best && least <= length) continue;
+    best = demo;
+    least = length;
+  }
+  return best;
+}
+
+}  // namespace kith::detail
