@@ -35,7 +35,7 @@ std::vector<Estimable<double>> rank_p_values(const ModelData& data) {
 }  // namespace
 
 std::string formula_text(const ModelData& data) {
-  Formula formula{data.response, {}, data.terms};
+  Formula formula{data.response, {}, data.terms, {}};
   for (const auto& factor : data.factors) formula.factors.push_back(factor.name);
   return to_string(formula);
 }

@@ -90,6 +90,7 @@ std::size_t Domain::num_starts() const noexcept { return data_->num_starts; }
 bool Domain::is_exact() const noexcept { return data_->exact; }
 std::int64_t Domain::count_scale() const noexcept { return data_->count_scale; }
 const Mdp& Domain::mdp(MdpIndex m) const { return mdp_of(*data_, m, "Domain::mdp"); }
+
 std::optional<GridMap> Domain::map() const noexcept {
   const auto* grid = std::get_if<GridFamily>(&data_->family);
   return grid == nullptr ? std::nullopt : std::optional{GridMap{*grid}};

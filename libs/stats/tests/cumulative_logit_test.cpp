@@ -105,7 +105,7 @@ TEST(CumulativeLogit, TwoLevelsAreLogisticRegression) {
   EXPECT_EQ(model->proportional_odds.reason(), "the response has two levels");
 }
 
-std::string reason_of(const std::vector<std::size_t>& response, const std::vector<std::size_t>& group) {
+std::string why_no_odds(const std::vector<std::size_t>& response, const std::vector<std::size_t>& group) {
   const auto model =
       fit_cumulative_logit({"y", {"1", "2", "3"}, response}, std::vector<Factor>{{"g", {"a", "b"}, group}},
                            std::vector<std::vector<std::size_t>>{{0}});
@@ -115,10 +115,10 @@ std::string reason_of(const std::vector<std::size_t>& response, const std::vecto
 
 TEST(CumulativeLogit, WhatCannotBeFittedHasAReason) {
   using ::testing::HasSubstr;
-  EXPECT_THAT(reason_of({}, {}), HasSubstr("no observations"));
-  EXPECT_THAT(reason_of({1, 1, 1, 1}, {0, 1, 0, 1}), HasSubstr("all responses are 2"));
-  EXPECT_THAT(reason_of({0, 1, 2}, {0, 1, 0}), HasSubstr("no more observations than parameters"));
-  EXPECT_THAT(reason_of({0, 0, 1, 1, 2, 2, 2}, {0, 0, 0, 0, 1, 1, 1}), HasSubstr("has no bound"));
+  EXPECT_THAT(why_no_odds({}, {}), HasSubstr("no observations"));
+  EXPECT_THAT(why_no_odds({1, 1, 1, 1}, {0, 1, 0, 1}), HasSubstr("all responses are 2"));
+  EXPECT_THAT(why_no_odds({0, 1, 2}, {0, 1, 0}), HasSubstr("no more observations than parameters"));
+  EXPECT_THAT(why_no_odds({0, 0, 1, 1, 2, 2, 2}, {0, 0, 0, 0, 1, 1, 1}), HasSubstr("has no bound"));
 }
 
 TEST(CumulativeLogit, CallersMistakesThrow) {

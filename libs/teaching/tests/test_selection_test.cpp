@@ -16,7 +16,6 @@ namespace kith {
 namespace {
 
 using ::testing::ElementsAre;
-using testing::half_spaces;
 using ::testing::IsEmpty;
 using testing::item_delivery;
 
@@ -107,7 +106,7 @@ TEST(SelectTests, CoversEveryConstraintOrCountsIt) {
     const auto choice = select_tests(atlas, component, {}, taught, visited, RandomStream{1});
     ASSERT_LE(choice.tests.size() + choice.untested, taught.size());
     const auto uncovered = std::count_if(taught.begin(), taught.end(), [&](const HalfSpace& constraint) {
-      return std::none_of(choice.tests.begin(), choice.tests.end(), [&](const Test& test) {
+      return std::none_of(choice.tests.begin(), choice.tests.end(), [&](const kith::Test& test) {
         return std::find(test.covered.begin(), test.covered.end(), constraint) != test.covered.end();
       });
     });
@@ -123,7 +122,18 @@ TEST(SelectTests, CoversEveryConstraintOrCountsIt) {
 TEST(SelectTests, BeginsWithTheStartThatTestsMostConstraints) {
   const auto& atlas = item_delivery();
   const auto& component = last_component(atlas);
-  const auto taught = half_spaces({{-1, 0, 2}, {0, -1, -4}, {1, 1, 0}});
+  // What the start with the most constraints tests, and what determines the policy.
+  ConstraintSet several = atlas.no_constraints();
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    if (!atlas.is_candidate(demo)) continue;
+    auto both = atlas.no_constraints();
+    for (const auto c : atlas.robot_cell_facets(demo).members()) {
+      if (atlas.one_step(demo).contains(c)) both.insert(c);
+    }
+    if (both.count() > several.count()) several = both;
+  }
+  auto taught = atlas.constraints().half_spaces(several | atlas.policy_bec());
+  std::sort(taught.begin(), taught.end());
   const VisitedDemos none{atlas.num_demos()};
   std::vector<std::size_t> count(atlas.num_demos());
   for (const auto& constraint : taught) {
