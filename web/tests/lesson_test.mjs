@@ -148,7 +148,7 @@ describe('a lesson', () => {
       const drawn = () =>
         page.$$eval('.demonstration .way.own .line', (all) => all.slice(0, 1).map((line) => line.getAttribute('points').split(' ').length));
       assert.deepEqual(await drawn(), []);
-      const step = '.demonstration button[aria-label="One step on"]';
+      const step = '.demonstration button[aria-label="Next step"]';
       const lengths = [];
       for (let i = 0; i < sample.components[0].demonstrations[0].frames.length - 1; i += 1) {
         await page.click(step);
@@ -182,7 +182,7 @@ describe('a lesson', () => {
   it('has nothing that moves for who asks for less motion', async () => {
     await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
       assert.equal(await page.locator('.play').count(), 0);
-      await page.click('.demonstration button[aria-label="One step on"]');
+      await page.click('.demonstration button[aria-label="Next step"]');
       assert.match(await page.textContent('.demonstration .step'), /^Step 1/);
       const duration = await page.$eval('.mover', (mover) => getComputedStyle(mover).transitionDuration);
       assert.equal(duration, '0s');
@@ -196,7 +196,7 @@ describe('a lesson', () => {
       await page.waitForSelector('.test .answer');
       assert.equal((await page.textContent('.test summary')).trim(), 'Hide the answer');
       assert.equal(await page.locator('.test .answer .way').count(), 0, 'drawn before it is walked');
-      await page.click('.test .answer button[aria-label="One step on"]');
+      await page.click('.test .answer button[aria-label="Next step"]');
       await page.waitForSelector('.test .answer .way');
       assert.ok((await page.textContent('.test .answer .sentences')).length > 10);
     });

@@ -73,11 +73,11 @@ function Introduction({ lesson, legend }: Context & { lesson: Lesson }): JSX.Ele
     <section id="introduction" aria-labelledby="introduction-title">
       <h2 id="introduction-title">How it works</h2>
       <p>
-        This robot always takes the path that is best for it, and you find out what it likes and dislikes. The lesson has{' '}
+        This robot always takes the path that is best for it. Your task is to find out what it likes and dislikes. The lesson has{' '}
         {counted(n, 'part')}. In each part you watch examples, and then you predict what the robot will do.
       </p>
       {hasMap && (
-        <ul class="legend" aria-label="What is on the boards">
+        <ul class="legend" aria-label="What the symbols mean">
           <LegendItem name="the robot">
             <Robot />
           </LegendItem>

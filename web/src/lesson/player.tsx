@@ -66,10 +66,10 @@ export function Player({ frames, playback, what }: { frames: Frame[]; playback: 
             {playing ? 'Pause' : step === last ? 'Again' : 'Play'}
           </button>
         )}
-        <button type="button" aria-label="One step back" disabled={step === 0} onClick={() => show(step - 1)}>
+        <button type="button" aria-label="Previous step" disabled={step === 0} onClick={() => show(step - 1)}>
           &#x2190;
         </button>
-        <button type="button" aria-label="One step on" disabled={step === last} onClick={() => show(step + 1)}>
+        <button type="button" aria-label="Next step" disabled={step === last} onClick={() => show(step + 1)}>
           &#x2192;
         </button>
         <input

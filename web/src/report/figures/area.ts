@@ -15,7 +15,7 @@ function byComponent(study: Study): Figure[] {
       id: 'area-component',
       title,
       reading:
-        'Further left conveys more: a smaller area leaves fewer rewards possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; components have different scales.',
+        'Points further left convey more: a smaller area means that fewer rewards are possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; components have different scales.',
       gist: `${title}. Mean log area: ${range(rows, 'mean_log_area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
       table,
       spec: (width) =>
@@ -50,7 +50,7 @@ function byComposition(study: Study): Figure[] {
       id: 'area-composition',
       title,
       reading:
-        'Further left conveys more: mean area over all periods in steradians, with 95\u00a0% intervals over teams.',
+        'Points further left convey more: mean area over all periods in steradians, with 95\u00a0% intervals over teams.',
       gist: `${title}. Mean area in steradians: ${range(rows, 'mean_area_sr', name)}`,
       table,
       spec: (width) =>

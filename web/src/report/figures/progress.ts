@@ -92,7 +92,7 @@ export function abilityFigures(study: Study): Figure[] {
         id: 'ability-periods',
         title: 'Learning ability over the periods of a component',
         reading:
-          'Ability while watching, mean with 95\u00a0% bands; it starts anew with every component and rises with feedback.',
+          'Ability while watching, mean with 95\u00a0% bands; it is reset at the start of every component and rises with feedback.',
       },
       { x: 'period_of_kc', y: 'mean', xTitle: 'Period of the component', yTitle: 'Ability', step: false },
       (rows) =>
@@ -120,7 +120,7 @@ export function correctFigures(study: Study): Figure[] {
         id: 'correct-periods',
         title: 'Right answers over periods by type of learner',
         reading:
-          'Share of test answers that were right, with 95\u00a0% bands; later periods hold the teams that needed longest.',
+          'Share of test answers that were right, with 95\u00a0% bands; later periods include only the teams that needed longest.',
       },
       { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false },
       byType(study),
