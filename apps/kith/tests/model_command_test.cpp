@@ -59,10 +59,10 @@ TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
   const std::string rows = "icy_crossing_transitions.csv";
   const std::vector<Malformed> cases{
       {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:19:15: error[E0233]",
-       "'states.csv' cannot be read", "it is looked for beside the domain file"},
+       "'states.csv' cannot be read", "it is expected at"},
       {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:19:15: error[E0232]",
-       "cannot be a file of a model", "beside the domain file"},
-      {states, "b1,on the ice", "a1,on the ice", "icy_crossing_states.csv:3:1: error[E0241]", "'a1' is there twice",
+       "cannot be a file of a model", "in its folder or below"},
+      {states, "b1,on the ice", "a1,on the ice", "icy_crossing_states.csv:3:1: error[E0241]", "'a1' is given twice",
        "one row"},
       {states, "e2,in the water at e2,true", "e2,in the water at e2,false",
        "icy_crossing_states.csv:12:1: error[E0255]", "'e2' of MDP 'firm ice' is not terminal, but has no transition",
@@ -80,7 +80,7 @@ TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
       {rows, "a1,right,b1,1,0,0,1", "a1,right,b1,1,0,0", "icy_crossing_transitions.csv:3:26: error[E0505]",
        "7 cells, the header 8", "commas"},
       {rows, "a1,right,b1,1,0,0,1", "a1,right,b1,1,0,0,1\nfirm ice,a1,right,b1,1,0,0,1",
-       "icy_crossing_transitions.csv:4:10: error[E0246]", "are there twice", "sum of the probabilities"},
+       "icy_crossing_transitions.csv:4:10: error[E0246]", "are given twice", "sum of the probabilities"},
       {rows, "water,home", "wtaer,home", "icy_crossing_transitions.csv:1:35: error[E0503]", "unknown column \"wtaer\"",
        "did you mean water?"},
       {rows, "firm ice,a1,down,a2", "firm ice,f1,down,a2", "icy_crossing_transitions.csv:2:10: error[E0254]",
@@ -102,7 +102,7 @@ TEST_F(Model, IsInfeasibleWhereAStartCannotEnd) {
   const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
   EXPECT_EQ(ran.code, 4) << ran.err;
   EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing_states.csv:2:1: error[E0260]"),
-                             HasSubstr("no end can surely be reached"), HasSubstr("terminal")));
+                             HasSubstr("an end cannot be reached with certainty"), HasSubstr("terminal")));
 }
 
 TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {

@@ -47,7 +47,7 @@ std::vector<IntegerVector> Atlas::coverage_set(DemoIndex demo) const {
   if (!tabulated_) {
     throw Error{ErrorKind::kInfeasible,
                 "what people could expect in domain '" + domain_.id() +
-                    "' is not tabulated: that takes three features, exact counts and small worlds"};
+                    "' is not precomputed: that needs three features, exact counts and small worlds"};
   }
   std::vector<IntegerVector> vertices;
   for (const auto& loss : hulls_[hull(demo).value()].losses) vertices.push_back(feature_counts(demo) - loss);

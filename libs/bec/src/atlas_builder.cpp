@@ -43,10 +43,10 @@ void AtlasBuilder::choose_source(BehaviourSource source) {
     throw Error{ErrorKind::kInfeasible, "domain '" + domain.id() + "' has a single feature: there is nothing to weigh"};
   }
   if (source == BehaviourSource::kTabulated && !can_be_tabulated(domain)) {
-    throw Error{ErrorKind::kInfeasible,
-                "behaviours in domain '" + domain.id() +
-                    "' cannot be tabulated: that takes three features, exact counts below 2^31 and "
-                    "all states as starts"};
+    throw Error{
+        ErrorKind::kInfeasible,
+        "behaviours in domain '" + domain.id() +
+            "' cannot be precomputed: that needs three features, exact counts below 2^31 and all states as starts"};
   }
   atlas_.tabulated_ =
       source == BehaviourSource::kTabulated || (source == BehaviourSource::kAutomatic && is_cheap_to_tabulate(domain));

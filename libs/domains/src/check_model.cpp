@@ -68,13 +68,12 @@ class ModelChecker {
       where = "; in " + std::to_string(num_failures_) + " of " + std::to_string(family_.members.size()) +
               " MDPs, first in '" + failing_ + "'";
     }
-    const std::string hint = "give what the robot does a cost, so that finishing is better than wandering";
+    const std::string hint = "give actions a cost, so that finishing is better than wandering";
     if (failure_ == "E0321") {
       report_.infeasible("E0321", weights_place_,
-                         "the robot can go round in circles for ever-growing reward: " + cycle_ + where, hint);
+                         "the robot can collect unlimited reward by going in circles: " + cycle_ + where, hint);
     } else if (failure_ == "E0322") {
-      report_.infeasible("E0322", weights_place_, "the robot can go round in circles for nothing: " + cycle_ + where,
-                         hint);
+      report_.infeasible("E0322", weights_place_, "the robot can go in circles at no cost: " + cycle_ + where, hint);
     } else if (failure_ == "E0324") {
       report_.error("E0324", weights_place_, "the features are too large to count exactly with these weights" + where,
                     "count in larger units, or give the weights with fewer digits");

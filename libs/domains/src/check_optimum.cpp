@@ -34,7 +34,7 @@ class OptimumChecker {
     if (num_ties_ > 0) {
       report_.warning(
           "W0302", reward_.weights_place,
-          "from " + std::to_string(num_ties_) + " states there are equally good paths that differ in what they count",
+          "from " + std::to_string(num_ties_) + " states there are equally good paths with different feature counts",
           "people may answer with either; the path that the robot takes is taught as at least as good, unless its "
           "choices "
           "between equally good paths contradict each other");
@@ -56,11 +56,11 @@ class OptimumChecker {
     }
     if (positive_) {
       report_.infeasible("E0321", reward_.weights_place,
-                         "the robot can go round in circles for ever-growing reward: " + cycle_text_ + where,
-                         "give what happens on this circle a negative sum, for instance by a cost per action");
+                         "the robot can collect unlimited reward by going in circles: " + cycle_text_ + where,
+                         "make the total reward of this cycle negative, for instance with a cost per action");
     } else {
       report_.infeasible("E0322", reward_.weights_place,
-                         "the robot can go round in circles for nothing: " + cycle_text_ + where,
+                         "the robot can go in circles at no cost: " + cycle_text_ + where,
                          "give every action a cost, so that finishing is better than wandering");
     }
   }

@@ -127,8 +127,8 @@ class CsvModelReader {
       if (flag != nullptr) (columns[c].name == "start" ? state.start : state.initial) = *flag;
     }
     if (!keys_[*number].try_emplace(state.key, static_cast<std::uint32_t>(mdp.states.size())).second) {
-      report_.error("E0241", place, "state '" + state.key + "' is there twice",
-                    states_by_mdp_ ? "a state stands once per MDP" : "a state stands in one row");
+      report_.error("E0241", place, "state '" + state.key + "' is given twice",
+                    states_by_mdp_ ? "list a state only once per MDP" : "give each state one row");
       return;
     }
     mdp.states.push_back(std::move(state));

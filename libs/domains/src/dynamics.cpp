@@ -142,7 +142,7 @@ double read_discount(TomlReader& mdp) {
   mdp.report().error(
       "E0110", value.place(),
       "'discount' must be 1 or at most " + to_toml(TomlValue{kLargestDiscount}) + ", not " + to_toml(value),
-      "write discount = 1: so far ahead nobody can tell the two apart, and neither can arithmetic");
+      "write discount = 1; arithmetic cannot tell a larger discount from 1");
   return 1.0;
 }
 

@@ -52,18 +52,18 @@ class MemberBuilder {
       ends = ends || one.terminal;
       if (one.terminal && one.start) {
         report_.error("E0258", one.place, "terminal state '" + one.key + "' cannot be a start",
-                      "nothing happens any more in a terminal state");
+                      "a terminal state has no actions");
       }
       if (!one.initial) continue;
       if (initial != nullptr) {
         report_.error("E0259", one.place, "there is a second initial state; the first is '" + initial->key + "'",
-                      "a robot enters in one state; others can be starts");
+                      "mark only one state as initial; others can be starts");
       }
       initial = initial == nullptr ? &one : initial;
     }
     if (!ends) {
       report_.error("E0256", raw_.place, "there is no terminal state" + (raw_.name.empty() ? "" : in_mdp()),
-                    "say which states end an episode: nothing can be shown of one that never ends");
+                    "mark the states that end an episode; a demonstration has to end");
     }
   }
 
@@ -87,7 +87,7 @@ class MemberBuilder {
       if (has_rows[s] || state(s).terminal) continue;
       report_.error("E0255", state(s).place,
                     "state '" + state(s).key + "'" + in_mdp() + " is not terminal, but has no transition",
-                    "mark it as terminal, or say what can be done there");
+                    "mark it as terminal, or add a transition from it");
     }
   }
 
@@ -128,7 +128,7 @@ class MemberBuilder {
     const RawTransition& one = outcomes[i];
     if (!(one.probability > 0.0 && one.probability <= 1.0 + kSumSlack)) {
       report_.error("E0247", place(one.probability_at), "a probability must be above 0 and at most 1",
-                    "leave out what cannot happen");
+                    "leave out impossible outcomes");
       return false;
     }
     const bool again = i > 0 && outcomes[i - 1].next == one.next &&
@@ -136,7 +136,7 @@ class MemberBuilder {
     if (!again) return true;
     report_.error("E0246", place(one.at),
                   "state '" + state(one.state).key + "', action '" + model_.actions.all()[one.action] +
-                      "' and next state '" + state(one.next).key + "' are there twice",
+                      "' and next state '" + state(one.next).key + "' are given twice",
                   "write one transition with the sum of the probabilities");
     return false;
   }
@@ -217,7 +217,7 @@ class MemberBuilder {
     if (count == 0) return;
     report_.warning("W0205", first->place,
                     "left out " + std::to_string(count) + " states" + in_mdp() +
-                        " from which no end can surely be reached, with all actions that may lead there",
+                        " from which an end cannot be reached with certainty, with all actions that may lead there",
                     "the first is '" + first->key + "'; if the robot stays there for ever, mark it as terminal");
   }
 
@@ -265,14 +265,14 @@ class MemberBuilder {
       const auto s = static_cast<std::size_t>(&one - raw_.states.data());
       if (!(one.start || one.initial) || live_[s]) continue;
       report_.infeasible("E0260", one.place,
-                         "from the start '" + one.key + "'" + in_mdp() + " no end can surely be reached",
+                         "from the start '" + one.key + "'" + in_mdp() + " an end cannot be reached with certainty",
                          "mark the states that end an episode as terminal, or start elsewhere");
       return false;
     }
     for (std::size_t s = 0; s < raw_.states.size(); ++s) {
       if (live_[s] && kept_[s]) return true;
     }
-    report_.infeasible("E0260", raw_.place, "from no state" + in_mdp() + " can an end surely be reached",
+    report_.infeasible("E0260", raw_.place, "no state" + in_mdp() + " can reach an end with certainty",
                        "mark the states that end an episode as terminal");
     return false;
   }

@@ -183,7 +183,7 @@ class FamilyBuilder {
     }
     if (num_finished_ > 0) {
       report_.infeasible("E0221", place_of_cell(world_, world_.start),
-                         "there is nothing to do: the start is already the end" + in_some(num_finished_),
+                         "there is nothing to do: the episode ends at the start" + in_some(num_finished_),
                          first(*first_finished_));
     }
     if (num_dead_ > 0) {

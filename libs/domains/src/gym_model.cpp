@@ -165,7 +165,8 @@ class GymReader {
     if (!rewards_) rewards_ = is_vector ? GymRewards::kVectors : GymRewards::kNumbers;
     if (is_vector) {
       if (rewards_ == GymRewards::kVectors) return vector_row(reward);
-      malformed(reward.place(), "here the reward is a list, but a number before", "write all rewards in one way");
+      malformed(reward.place(), "this reward is a list, but an earlier one is a number",
+                "write all rewards in one way");
       return std::nullopt;
     }
     if (rewards_ == GymRewards::kNumbers) return model_.features.number_of({reward.number()});

@@ -30,7 +30,7 @@ class JsonModelReader {
     if (!check_keys(root, {"schema", "features", "variables", "mdps"})) return;
     const auto schema = member(root, "schema", Kind::kString);
     if (schema && schema->string() != kSchema) {
-      report_.error("E0235", schema->place(), "'" + schema->string() + "' is no model of this version",
+      report_.error("E0235", schema->place(), "'" + schema->string() + "' is not a model of this version",
                     "write \"schema\": \"" + std::string{kSchema} + "\"");
     }
     const auto features = member(root, "features", Kind::kList);
@@ -78,7 +78,7 @@ class JsonModelReader {
       for (const std::string_view one : known) {
         if (one == key.string()) return;
       }
-      report_.error("E0235", key.place(), "nobody reads a key \"" + key.string() + "\"",
+      report_.error("E0235", key.place(), "unknown key \"" + key.string() + "\"",
                     name_hint(key.string(), {known.begin(), known.end()}));
     });
     return report_.num_errors() == before;
@@ -99,7 +99,8 @@ class JsonModelReader {
     });
     for (std::size_t k = 0; k < features_.size(); ++k) {
       if (std::count(order_.begin(), order_.end(), k) == 1) continue;
-      report_.error("E0253", list.place(), "feature '" + features_[k] + "' of the domain file must be here once",
+      report_.error("E0253", list.place(),
+                    "feature '" + features_[k] + "' of the domain file must be listed exactly once",
                     "list the features in the order in which \"features\" of transitions has them");
     }
   }
@@ -115,7 +116,7 @@ class JsonModelReader {
     mdp.place = value.place();
     if (const auto name = value.find("name"); name && is(*name, "\"name\"", Kind::kString)) mdp.name = name->string();
     if (!mdp_names_.insert(mdp.name).second) {
-      report_.error("E0241", value.place(), "MDP '" + mdp.name + "' is there twice", "give every MDP its own \"name\"");
+      report_.error("E0241", value.place(), "MDP '" + mdp.name + "' is given twice", "give every MDP its own \"name\"");
     }
     keys_.clear();
     const auto states = member(value, "states", Kind::kList);
@@ -150,8 +151,8 @@ class JsonModelReader {
     state.start = flag(value, "start");
     state.initial = flag(value, "initial");
     if (!keys_.try_emplace(state.key, static_cast<std::uint32_t>(mdp.states.size())).second) {
-      return report_.error("E0241", state.place, "state '" + state.key + "' is there twice",
-                           "a state stands once per MDP");
+      return report_.error("E0241", state.place, "state '" + state.key + "' is given twice",
+                           "list a state only once per MDP");
     }
     mdp.states.push_back(std::move(state));
     if (!model_.variables.empty()) read_variables(value, mdp);

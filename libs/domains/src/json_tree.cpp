@@ -67,7 +67,7 @@ class JsonTreeBuilder : public nlohmann::json_sax<Json> {
   bool key(string_t& value) override {
     if (!open_.empty()) {
       const auto [at, is_new] = keys_.back().try_emplace(value, 0);
-      if (!is_new) return complain(token_begin(), "key \"" + value + "\" is there twice", "remove one of them");
+      if (!is_new) return complain(token_begin(), "key \"" + value + "\" is given twice", "remove one of them");
       ++tree_.nodes_[open_.back()].text;
     }
     return add_string(value);
@@ -138,7 +138,7 @@ class JsonTreeBuilder : public nlohmann::json_sax<Json> {
     if (open_.size() == JsonTree::kMaxDepth) {
       return complain(token_begin(),
                       "lists and objects are nested deeper than " + std::to_string(JsonTree::kMaxDepth) + " levels",
-                      "no model needs that");
+                      "use a flatter structure");
     }
     if (!add(kind, 0.0)) return false;
     open_.push_back(tree_.nodes_.size() - 1);

@@ -17,8 +17,7 @@ std::optional<std::uint32_t> action_number(RawModel& model, const std::string& n
                                            ModelReport& report) {
   if (const auto known = model.actions.find(name)) return known;
   if (model.actions_are_declared) {
-    report.error("E0243", place, "action '" + name + "' is none of those in [mdp] actions",
-                 name_hint(name, model.actions.all()));
+    report.error("E0243", place, "action '" + name + "' is not in [mdp] actions", name_hint(name, model.actions.all()));
     return std::nullopt;
   }
   if (model.actions.size() == kMaxModelActions) {

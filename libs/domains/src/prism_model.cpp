@@ -140,7 +140,7 @@ class PrismReader {
     }
     const ModelPlace header_place = lines.place();
     if ((*header)[0] > files_.transitions->text.size()) {  // and most states have a line
-      report_.error("E0237", header_place, "the first line promises more states than the file can have",
+      report_.error("E0237", header_place, "the first line declares more states than the file can have",
                     "the file may be cut off: export it again");
       return false;
     }
@@ -156,7 +156,7 @@ class PrismReader {
     }
     if (!report_.has_errors() && num_lines_ != (*header)[2]) {
       report_.error("E0237", header_place,
-                    "the first line promises " + std::to_string((*header)[2]) + " transitions, but there are " +
+                    "the first line declares " + std::to_string((*header)[2]) + " transitions, but there are " +
                         std::to_string(num_lines_),
                     "the file may be cut off: export it again");
     }
@@ -214,7 +214,7 @@ class PrismReader {
     if (of_choice->second == action && of_action->second == choice) return true;
     report_.error("E0238", lines.place(4),
                   "choices and actions of state " + std::to_string(from) +
-                      " do not match: each choice is one action, and no other is",
+                      " do not match: each choice must be a different action",
                   "give every choice of a state an action of its own");
     return false;
   }
@@ -279,7 +279,7 @@ class PrismReader {
     if (*number >= num_states_ || seen[*number]) {
       report_.error(*number >= num_states_ ? "E0240" : "E0241", lines.place(),
                     *number >= num_states_ ? "there is no state " + std::to_string(*number)
-                                           : "state " + std::to_string(*number) + " is there twice",
+                                           : "state " + std::to_string(*number) + " is given twice",
                     "states are numbered 0 to " + std::to_string(num_states_ - 1));
       return;
     }

@@ -116,7 +116,7 @@ class LegendReader {
     } else if (content.wall) {
       SymbolContent rest = content;
       rest.wall = false;
-      if (!rest.is_floor()) report_.error("E0223", symbol.place, "nothing else can be where a wall is");
+      if (!rest.is_floor()) report_.error("E0223", symbol.place, "a wall cell cannot contain anything else");
     }
     if (symbol.is_optional() && content.start) {
       report_.error("E0213", symbol.place, "the start cannot be optional");

@@ -150,7 +150,7 @@ class ModelReader {
         std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
     if (!lies_below || !is_plain) {
       report_.error("E0232", place, "'" + name + "' cannot be a file of a model",
-                    "name a file beside the domain file or below, relative to it, that is not hidden");
+                    "give a path relative to the domain file, to a file in its folder or below that is not hidden");
       return false;
     }
     static const std::vector<std::string> kEndings{".csv", ".json", ".tra", ".sta", ".lab", ".srew", ".trew"};
@@ -181,8 +181,7 @@ class ModelReader {
       text.resize(static_cast<std::size_t>(in.gcount()));
       return text;
     }
-    report_.error("E0233", place, "the file '" + name + "' cannot be read",
-                  "it is looked for beside the domain file: " + path.string());
+    report_.error("E0233", place, "the file '" + name + "' cannot be read", "it is expected at " + path.string());
     return std::nullopt;
   }
 
@@ -224,7 +223,7 @@ class ModelReader {
       const auto name = reader.string("name", list->size() > 1 ? Presence::kRequired : Presence::kOptional);
       const auto [at, is_new] = lines.try_emplace(name.value_or(""), element.place().line);
       if (name && !is_new) {
-        report_.error("E0231", reader.content().find("name")->place(), "MDP '" + *name + "' is there twice",
+        report_.error("E0231", reader.content().find("name")->place(), "MDP '" + *name + "' is given twice",
                       "the first one is at line " + std::to_string(at->second));
       }
       visit(reader, name.value_or(""));
@@ -297,7 +296,7 @@ class ModelReader {
           read_gym_mdp(*text, name, initial, reading_.dynamics.feature_names(), reading_.model, model_report_);
       if (!now) return;
       if (kind && now != kind) {
-        model_report_.error("E0235", {text}, "here rewards are of another kind than in the first file",
+        model_report_.error("E0235", {text}, "these rewards are not of the same kind as those of the first file",
                             "write vectors in all of them, or numbers");
         return;
       }
@@ -342,10 +341,11 @@ class ModelReader {
   // The features are those that the domain file declares with their reward, or, without any, named after it.
   bool declare_features(std::vector<double>& values, std::map<double, std::size_t>& feature_of) {
     if (values.empty() || values.size() > IntegerVector::kMaxDimension) {
-      report_.error("E0261", reading_.place,
-                    "the model has " + std::to_string(values.size()) +
-                        " different rewards other than 0; each is a feature, of which there are 1 to 8",
-                    values.empty() ? "say what the robot is after" : "write feature vectors in the place of rewards");
+      report_.error(
+          "E0261", reading_.place,
+          "the model has " + std::to_string(values.size()) +
+              " different rewards other than 0; each is a feature, of which there are 1 to 8",
+          values.empty() ? "give at least one transition a reward" : "write feature vectors in place of rewards");
       return false;
     }
     auto& features = reading_.dynamics.features;

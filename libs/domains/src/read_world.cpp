@@ -40,7 +40,7 @@ class RowsReader {
       if (other == text.end()) continue;
       found = true;
       report_.error("E0203", report_.document().inside(row, static_cast<std::size_t>(other - text.begin())),
-                    "this row contains a character outside ASCII", "use one ASCII character per cell");
+                    "this row contains a non-ASCII character", "use one ASCII character per cell");
     }
     return found;
   }
@@ -58,7 +58,7 @@ class RowsReader {
         report_.error("E0202", row.place(),
                       "this row has " + std::to_string(row.string()->size()) + " cells, the first one has " +
                           std::to_string(width),
-                      "all rows must be of one length, one ASCII character per cell");
+                      "all rows must have the same length, with one ASCII character per cell");
       }
     }
     if (report_.num_errors() > errors_before) return false;
@@ -159,7 +159,7 @@ class RowsReader {
                     number + " optional things make about " + power_of_two() + " MDPs; at most 65536 are built",
                     "toggle cells together: optional = \"NAME\"; or build some of them: [family] worlds = NUMBER");
     } else if (world_.groups.size() > kMaxThinnedGroups) {
-      report_.error("E0218", rows.place(), number + " optional things; at most 64 are told apart",
+      report_.error("E0218", rows.place(), number + " optional things; at most 64 are supported",
                     "toggle cells together: optional = \"NAME\"");
     }
   }

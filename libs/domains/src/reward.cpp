@@ -54,7 +54,7 @@ class RewardReader {
     table.know("weights");
     if (const TomlValue* weights = table.content().find("weights")) {
       report_.error("E0263", weights->place(), "the weights follow from the rewards of the model",
-                    "leave them out, or write feature vectors in the place of rewards");
+                    "leave them out, or write feature vectors in place of rewards");
     }
   }
 
@@ -216,7 +216,7 @@ class RewardReader {
     auto text = words(reader, key, Presence::kOptional);
     if (!text.empty() && text.find("{n}") == std::string::npos) {
       report_.error("E0316", reader.content().find(key)->place(),
-                    "'" + std::string{key} + "' does not say how often: {n} is missing", "for instance \"{n} steps\"");
+                    "'" + std::string{key} + "' has no {n} where the number goes", "for instance \"{n} steps\"");
     }
     return text;
   }
@@ -233,7 +233,7 @@ class RewardReader {
     }
     auto result = text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
     if (result.size() < text.size()) {
-      report_.warning("W0305", value.place(), "blanks before or after these words are left out",
+      report_.warning("W0305", value.place(), "blanks before or after these words are removed",
                       "write \"" + result + "\"");
     }
     return result;

@@ -114,7 +114,7 @@ std::vector<Case> cases() {
          "G\", \"....\"]"}},
        "E0203 6:9",
        "one ASCII character per cell"},
-      {"ragged", {{"[\"S.rG\"]", "[\"S.rG\", \"...\"]"}}, "E0202 6:17", "one length"},
+      {"ragged", {{"[\"S.rG\"]", "[\"S.rG\", \"...\"]"}}, "E0202 6:17", "the same length"},
       {"undeclared", {{"S.rG", "S?rG"}}, "E0203 6:11", "'.'"},
       {"undeclared_twice", {{"S.rG", "S??G"}}, "E0203 6:11, W0201 10:1"},
       {"undeclared_unseen", {{"S.rG", "S\\tG"}}, "E0203 6:9, W0201 10:1", "'.'"},
@@ -217,7 +217,11 @@ std::vector<Case> cases() {
       {"huge_weight", {{"rubble = -2", "rubble = -1e308"}}, "E0315 20:11"},
       {"subnormal_weight", {{"rubble = -2", "rubble = -5e-324"}}, "E0315 20:11"},
       {"text_weight", {{"rubble = -2", "rubble = \"-2\""}}, "E0108 20:22"},
-      {"positive_cycle", {{"step = -1", "step = 1"}}, "E0321 20:11", "negative sum", true},
+      {"positive_cycle",
+       {{"step = -1", "step = 1"}},
+       "E0321 20:11",
+       "make the total reward of this cycle negative",
+       true},
       {"zero_cycle", {{"step = -1", "step = 0"}}, "E0322 20:11", "cost", true},
       {"prior_zero", {prior, {"step = 1", "step = 0"}}, "E0331 20:16"},
       {"prior_nan", {prior, {"step = 1", "step = nan"}}, "E0314 20:25"},
@@ -294,7 +298,7 @@ const std::map<std::string, std::string> kMessages{
     {"wrong_type", "'discount' must be a number, not a string"},
     {"discount_zero", "'discount' must be greater than 0.0 and at most 1.0, not 0.0"},
     {"discount_near_one", "'discount' must be 1 or at most 0.999999, not 0.9999999"},
-    {"words_with_blanks", "blanks before or after these words are left out"},
+    {"words_with_blanks", "blanks before or after these words are removed"},
     {"feature_without_name", "'' cannot be the name of a feature"},
     {"unknown_action", "an action cannot be 'fly'"},
     {"no_weights", "key 'weights' is missing in [reward]"},
@@ -311,16 +315,16 @@ const std::map<std::string, std::string> kMessages{
     {"condition_end", "bad condition: expected a condition such as leave:X, '!' or '('"},
     {"no_such_terrain", "condition names an unknown terrain or station 'rubbel'"},
     {"too_many_variants", "17 optional things make about 131072 MDPs; at most 65536 are built"},
-    {"finished", "there is nothing to do: the start is already the end in 2 of 2 variants"},
+    {"finished", "there is nothing to do: the episode ends at the start in 2 of 2 variants"},
     {"no_moves", "the robot has no action to move with"},
     {"feature_twice", "feature 'rubble' is declared twice"},
     {"missing_weight", "feature 'rubble' has no weight"},
     {"zero_weights", "all weights are zero, so nothing matters to the robot"},
     {"positive_cycle",
-     "the robot can go round in circles for ever-growing reward: (1,1) right (2,1) left (1,1); in 2 of 2 variants, "
+     "the robot can collect unlimited reward by going in circles: (1,1) right (2,1) left (1,1); in 2 of 2 variants, "
      "first in: rubble@{}"},
     {"zero_cycle",
-     "the robot can go round in circles for nothing: (1,1) right (2,1) left (1,1); in 2 of 2 variants, first in: "
+     "the robot can go in circles at no cost: (1,1) right (2,1) left (1,1); in 2 of 2 variants, first in: "
      "rubble@{}"},
     {"prior_clash", "the prior { step = 1 } contradicts the weights: (0,1) . (-2,-1) is negative"},
     {"family_worlds_zero", "'worlds' must be at least 1 and at most 65536, not 0"},
@@ -328,7 +332,7 @@ const std::map<std::string, std::string> kMessages{
     {"family_seed_alone", "'seed' draws worlds, but 'worlds' does not say how many"},
     {"family_unknown_key", "unknown key 'world' in [family]"},
     {"family_more_than_all", "there are only 2 worlds, and all of them are built"},
-    {"family_too_many_things", "65 optional things; at most 64 are told apart"}};
+    {"family_too_many_things", "65 optional things; at most 64 are supported"}};
 
 TEST(DomainErrors, SayWhatIsWrongInWords) {
   std::size_t num_seen = 0;

@@ -124,7 +124,8 @@ std::vector<IntegerVector> rounded(const Mdp& mdp, std::span<const double> featu
       const double units = features[s * d + k] * static_cast<double>(scale);
       if (!(std::abs(units) < kMostUnits)) {
         throw Error{ErrorKind::kInfeasible,
-                    "somebody would wander for too long: expected feature counts must stay below 2^53 units of 1/" +
+                    "some people would expect paths that are too long: expected feature counts must stay below 2^53 "
+                    "units of 1/" +
                         std::to_string(scale) + "; make ending likelier, or give a smaller discount"};
       }
       counts[s][k] = std::llround(units);

@@ -50,7 +50,7 @@ Cone cut_finite_region(const Mdp& mdp) {
         continue;
       }
       auto rest = region.clipped(HalfSpace{-*gain});
-      if (!rest) infeasible("under any reward weights some cycle gains");
+      if (!rest) infeasible("under any reward weights, some cycle gains reward");
       region = std::move(*rest);
       cut = true;
       break;

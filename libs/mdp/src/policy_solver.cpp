@@ -112,7 +112,7 @@ std::optional<std::vector<double>> PolicySolver::optimal_values() const {
       is_evaluated = true;
     }
   }
-  throw Error{ErrorKind::kInfeasible, "policy iteration does not come to an end"};
+  throw Error{ErrorKind::kInfeasible, "policy iteration does not converge"};
 }
 
 ChoiceMask PolicySolver::tight_choices(std::span<const double> values) const {

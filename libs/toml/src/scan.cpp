@@ -87,7 +87,7 @@ class Scanner {
     if (text_.substr(0, 3) == "\xEF\xBB\xBF" && at_ == 0) {
       return here("E0105", "the file starts with a byte order mark", "save it as plain UTF-8");
     }
-    return here("E0105", "character beyond ASCII outside strings and comments", "put keys and text into \"quotes\"");
+    return here("E0105", "non-ASCII character outside strings and comments", "put keys and text into \"quotes\"");
   }
 
   [[nodiscard]] Diagnostic too_deep() const {
