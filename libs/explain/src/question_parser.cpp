@@ -263,7 +263,7 @@ class Parser {
     }
     const auto found = lexicon_.happenings(words_of_phrase());
     if (found.empty()) {
-      fail_at(place, "E1103", "'" + phrase_text() + "' is no action and no feature of this robot",
+      fail_at(place, "E1103", "'" + phrase_text() + "' is neither an action nor a feature of this robot",
               "kith knows " + listed(lexicon_.happening_names()));
     }
     if (found.size() > 1) {
@@ -310,7 +310,7 @@ class Parser {
                       : !domain_.has_map() ? "without a map, worlds differ as a whole: ask 'in world N'"
                       : things.empty()     ? "all its worlds are the same"
                                            : "optional in this domain: " + listed(things);
-    fail_at(place, "E1108", "'" + phrase_text() + "' is not something that only some worlds have", hint);
+    fail_at(place, "E1108", "'" + phrase_text() + "' is not optional in this domain", hint);
   }
 
   // "state 0", "state on the bank at a1": the longest stretch of words that is a name, or the next word.
@@ -467,7 +467,7 @@ class Parser {
               "its features are " + listed(domain_.feature_names()));
     }
     if (question_.instead || question_.is_about_a_step() || question_.world) {
-      fail_at(whole, "E1106", "'how much' takes a feature only: what it counts is the same everywhere",
+      fail_at(whole, "E1106", "'how much' takes only a feature: its weight is the same everywhere",
               "for instance: how much " + lexicon_.name_of(*question_.happening));
     }
   }

@@ -120,8 +120,8 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
   all.reserve(known.size());
   for (const auto& [sentence, half_space] : known) all.push_back(sentence);
   const auto nearest = nearest_word(plain(text), all);
-  fail("E1109", "'" + text + "' is no constraint on this robot's reward",
-       nearest.empty() ? "write its normal, such as (-1,0,2), or a sentence that kith find without one lists"
+  fail("E1109", "'" + text + "' is not a constraint on this robot's reward",
+       nearest.empty() ? "write its normal, such as (-1,0,2), or a sentence that `kith find DOMAIN` lists"
                        : "did you mean '" + nearest + "'?",
        false);
 }
@@ -182,7 +182,7 @@ HalfSpace parse_constraint(const Atlas& atlas, const std::string& text) {
   const auto& domain = atlas.domain();
   if (sign_of_dot(constraint.normal(), domain.weights().integer) < 0) {
     fail("E1110", "this robot's reward contradicts " + normal_text(domain, constraint),
-         "it holds the other way round: " + described(domain, constraint.opposite()), true);
+         "the opposite holds: " + described(domain, constraint.opposite()), true);
   }
   if (atlas.prior_cone().implies(constraint)) {
     fail("E1110", described(domain, constraint) + " is known to everybody beforehand", "see [prior] of the domain file",
