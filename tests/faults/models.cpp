@@ -77,7 +77,7 @@ std::string without_dates(std::string text) {
 }
 
 int teams_taken_up(const std::string& messages) {
-  const auto at = messages.find(" teams were there already");
+  const auto at = messages.find(" teams were already finished");
   const auto of = messages.rfind(" of ", at);
   if (at == std::string::npos || of == std::string::npos) return 0;
   auto begin = of;

@@ -119,7 +119,7 @@ int finish_shard(const StudyOptions& options, StudyRun& run, RunFacts facts, dou
                             {"seconds", seconds}});
   }
   if (!console.json() || !run.failures().empty()) report_failures(run.study(), run.failures(), console);
-  console.info(fmt::format("shard {}: {} in {:.2f} s; put the shards together with: kith merge DIR... -o DIR", name,
+  console.info(fmt::format("shard {}: {} in {:.2f} s; merge the shards with: kith merge DIR... -o DIR", name,
                            counted(run.num_done(), "team"), seconds));
   return run.failures().empty() ? 0 : exit_code(ErrorKind::kPartial);
 }
@@ -174,7 +174,7 @@ int run_study(const StudyOptions& options, Console& console) {
     console.warning(text);
   }
   if (run.num_resumed() > 0) {
-    const auto text = fmt::format("{} of {} teams were there already", run.num_resumed(), run.num_teams());
+    const auto text = fmt::format("{} of {} teams were already finished", run.num_resumed(), run.num_teams());
     facts.log.push_back(utc_now() + " " + text);
     console.info(text);
   }

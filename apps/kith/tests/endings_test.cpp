@@ -276,7 +276,7 @@ TEST_F(RunFolder, WithANamedPipeInItKeepsNobodyWaiting) {
        std::vector<std::vector<std::string>>{{"analyze", run_}, {"analyze", run_, "--model", "knowledge ~ strategy"}}) {
     const auto ran = run_kith(command, {.prepare = guard});
     EXPECT_EQ(ran.code, 3);
-    EXPECT_THAT(ran.err, AllOf(HasSubstr("teams.csv"), HasSubstr("no regular file")));
+    EXPECT_THAT(ran.err, AllOf(HasSubstr("teams.csv"), HasSubstr("not a regular file")));
   }
 }
 
@@ -298,7 +298,7 @@ TEST_F(RunFolder, DoesNotWaitForAReaderOfItsReport) {
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const auto ran = run_kith({"report", run_, "-o", pipe}, {.prepare = guard});
   EXPECT_EQ(ran.code, 5);
-  EXPECT_THAT(ran.err, HasSubstr("nobody reads this pipe"));
+  EXPECT_THAT(ran.err, HasSubstr("no program reads from this pipe"));
 }
 
 TEST(Validate, ReadsAPipe) {

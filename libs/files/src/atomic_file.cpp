@@ -113,7 +113,7 @@ void AtomicFile::open_directly() {
   descriptor_ = uninterrupted([&] { return open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); });
   if (descriptor_ < 0 && errno == ENXIO) {
     throw Error{ErrorKind::kIo,
-                "cannot write " + path_.string() + ": nobody reads this pipe, or there is no such device"};
+                "cannot write " + path_.string() + ": no program reads from this pipe, or the device does not exist"};
   }
   if (descriptor_ < 0) fail("write", errno);
   const int flags = fcntl(descriptor_, F_GETFL);
@@ -198,7 +198,8 @@ void require_regular_file(int descriptor, const std::filesystem::path& path) {
   struct stat status = {};
   if (fstat(descriptor, &status) < 0) fail("read", path, errno);
   if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
-  if (!S_ISREG(status.st_mode)) throw Error{ErrorKind::kIo, "cannot read " + path.string() + ": it is no regular file"};
+  if (!S_ISREG(status.st_mode))
+    throw Error{ErrorKind::kIo, "cannot read " + path.string() + ": it is not a regular file"};
 }
 
 }  // namespace

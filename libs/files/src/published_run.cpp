@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRunAgain = "repeat the command that ran the study";
+constexpr const char* kRunAgain = "rerun the command that ran the study";
 constexpr const char* kChecksum = "checksum";
 
 bool is_there(const fs::path& path) {
@@ -44,9 +44,9 @@ void check_folder(const fs::path& folder) {
   if (is_there(folder / kManifestFile)) return;
   if (unfinished || is_there(folder / "inputs")) {
     refuse_run(ErrorKind::kInvalidInput, "E0603", folder, "the study has not finished: it has no manifest.json",
-               "if it was interrupted, repeat the command that started it");
+               "if it was interrupted, rerun the command that started it");
   }
-  refuse_run(ErrorKind::kInvalidInput, "E0602", folder, "this is no run folder: it has no manifest.json",
+  refuse_run(ErrorKind::kInvalidInput, "E0602", folder, "this is not a run folder: it has no manifest.json",
              Remedy::kRunStudy);
 }
 
@@ -111,7 +111,7 @@ PublishedRun PublishedRun::open(const fs::path& folder) {
   }
   if (text_in(*manifest, "schema") != "kith.manifest/2") {
     refuse_run(ErrorKind::kInvalidInput, "E0605", folder / kManifestFile,
-               "this is no manifest that this version of kith reads (kith.manifest/2)", kRunAgain);
+               "this is not a manifest that this version of kith can read (kith.manifest/2)", kRunAgain);
   }
   check_finished(folder, *manifest);
   run.digest_ = text_in(*manifest, "run");
@@ -145,7 +145,7 @@ std::string PublishedRun::read(const std::string& name) const {
                kRunAgain);
   }
   if (!fs::is_regular_file(file, error))
-    refuse_run(ErrorKind::kInvalidInput, "E0604", file, "this is no regular file", kRunAgain);
+    refuse_run(ErrorKind::kInvalidInput, "E0604", file, "this is not a regular file", kRunAgain);
   auto text = read_file(file);
   if (sha256(text) != found->second) {
     refuse_run(ErrorKind::kMismatch, "E0607", file,

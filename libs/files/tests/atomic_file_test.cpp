@@ -172,7 +172,7 @@ TEST_F(AtomicFileTest, DoesNotWaitForAReaderOfANamedPipe) {
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   alarm(60);  // a guard: opening would wait for ever
-  EXPECT_THAT(io_error([&] { write_file_atomically(pipe, "x"); }), HasSubstr("nobody reads this pipe"));
+  EXPECT_THAT(io_error([&] { write_file_atomically(pipe, "x"); }), HasSubstr("no program reads from this pipe"));
   alarm(0);
   const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   write_file_atomically(pipe, "x");
@@ -198,8 +198,8 @@ TEST_F(AtomicFileTest, IsReadFromARegularFileOnlyUnlessAnythingWillDo) {
   const auto pipe = folder_ / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   alarm(60);  // a guard: opening would wait for ever
-  EXPECT_THAT(io_error([&] { (void)read_file(pipe); }), HasSubstr("it is no regular file"));
-  EXPECT_THAT(io_error([] { (void)read_file("/dev/zero"); }), HasSubstr("it is no regular file"));
+  EXPECT_THAT(io_error([&] { (void)read_file(pipe); }), HasSubstr("it is not a regular file"));
+  EXPECT_THAT(io_error([] { (void)read_file("/dev/zero"); }), HasSubstr("it is not a regular file"));
   std::thread writer{[&] { std::ofstream{pipe} << "through a pipe"; }};
   EXPECT_EQ(read_file(pipe, Readable::kAnything), "through a pipe");
   writer.join();

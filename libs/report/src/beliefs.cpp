@@ -218,10 +218,9 @@ std::optional<Json> belief_spheres(const RunFiles& run, const ReportDesign& desi
     }
     Camera camera{atlas, size, count, RandomStream{spec.seed}.split("report").split(address.team)};
     if (!agrees(run_team(atlas, cache, spec, address, &camera), data.teams[team])) {
-      notes.push_back(
-          "The belief spheres are left out: team " + std::to_string(address.team) +
-          ", taught again from the frozen inputs, does not come out as in tables/teams.csv. The tables were "
-          "changed, or made by another version of kith.");
+      notes.push_back("The belief spheres are left out: team " + std::to_string(address.team) +
+                      ", rerun from the frozen inputs, does not match tables/teams.csv. The tables were "
+                      "changed, or made by another version of kith.");
       return std::nullopt;
     }
     const auto slots = camera.num_slots();

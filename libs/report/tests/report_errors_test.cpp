@@ -60,7 +60,7 @@ TEST_F(ReportErrors, NameAFolderThatIsNoRun) {
   fs::create_directories(run_);
   expect("E0602 run:0", "the folder is empty");
   std::ofstream{run_ / "notes.txt"} << "text";
-  expect("E0602 run:0", "no run folder");
+  expect("E0602 run:0", "not a run folder");
 }
 
 TEST_F(ReportErrors, NameARunThatHasNotFinished) {
@@ -119,7 +119,7 @@ TEST_F(ReportErrors, NameTheRowOfATeamThatTheStudyDoesNotHave) {
   expect("E0620 periods.csv:5", "there is no team 33");
   edit(table("periods.csv"), "\ncommon,NP,1,33,", "\ncommon,NN,1,3,");
   testing::reseal(run_);
-  expect("E0620 periods.csv:5", "does not say the same of team 3");
+  expect("E0620 periods.csv:5", "contradicts what inputs/study.toml says of team 3");
 }
 
 TEST_F(ReportErrors, NameTheRowOfAValueThatCannotBe) {
@@ -140,7 +140,7 @@ TEST_F(ReportErrors, NameRowsOfATeamThatAreNotTogether) {
   const auto row = text.substr(begin, text.find('\n', begin) + 1 - begin);
   std::ofstream{table("responses.csv")} << text + row;
   testing::reseal(run_);
-  expect("E0622 responses.csv:7", "rows of team 3 are not together");
+  expect("E0622 responses.csv:7", "rows of team 3 are not adjacent");
 }
 
 TEST_F(ReportErrors, NameTheRowOfTextInANumericColumn) {

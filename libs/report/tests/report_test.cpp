@@ -132,7 +132,7 @@ TEST_F(InventedReport, HasHeadlinesOfGroupsAndBaseline) {
 
 TEST_F(InventedReport, LeavesOutSpheresThatDoNotFitTheTables) {
   EXPECT_FALSE(document_->contains("beliefs"));
-  EXPECT_THAT(document_->at("notes").dump(), HasSubstr("does not come out as in tables/teams.csv"));
+  EXPECT_THAT(document_->at("notes").dump(), HasSubstr("does not match tables/teams.csv"));
 }
 
 TEST_F(InventedReport, CountsCensoredTeams) {

@@ -164,13 +164,13 @@ std::optional<Journal> Journal::open(const fs::path& path, const JournalIdentity
   };
   const auto whose = identify(path);
   if (whose && *whose != identity) {
-    throw Error{ErrorKind::kUsage, path.string() + " holds the work of another study, shard or program"};
+    throw Error{ErrorKind::kUsage, path.string() + " belongs to another study, shard or program"};
   }
   auto state = whose ? sound_state() : nullptr;
   if (!state) {
     if (!salvage_journal(path, identity, whose.has_value())) return std::nullopt;
     state = sound_state();
-    if (!state) throw Error{ErrorKind::kIo, "cannot write " + path.string() + ": what was written reads otherwise"};
+    if (!state) throw Error{ErrorKind::kIo, "cannot write " + path.string() + ": reading it back gave different data"};
     state->recovered = true;
   }
   state->database.execute("PRAGMA synchronous = FULL");
@@ -184,7 +184,7 @@ Journal Journal::read(const fs::path& path) {
   const auto alone = identify(path);
   if (!identity || alone != identity) {
     throw Error{ErrorKind::kIo, file.string() + " is damaged",
-                Advice{"repeat the command that ran the study, which recovers what can be read", Remedy::kStartOver}};
+                Advice{"rerun the command that ran the study, which recovers what can be read", Remedy::kStartOver}};
   }
   return Journal{std::make_unique<State>(std::move(database), *std::move(identity))};
 }
@@ -274,7 +274,7 @@ void Journal::for_each(const std::function<void(std::size_t team, std::string_vi
     const auto team = static_cast<std::size_t>(number);
     if (!is_intact(team, rows.blob(1), state_->key)) {
       throw Error{ErrorKind::kIo, "the record of team " + std::to_string(team) + " in " + path().string() +
-                                      " is damaged; the command that ran the study teaches it again"};
+                                      " is damaged; rerun the command that ran the study to repeat the team"};
     }
     visit(team, rows.blob(1));
   }

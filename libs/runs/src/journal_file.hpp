@@ -14,7 +14,8 @@ inline constexpr int kJournalPageSize = 4096;
 [[nodiscard]] bool is_there(const std::filesystem::path& path);
 
 // The file that holds the journal at `path` right now: the one that a salvage has just made, or the one of that name.
-// Nothing if there is neither. @throws kith::Error (kIo) if it is no regular file, which could be waited for forever.
+// Nothing if there is neither. @throws kith::Error (kIo) if it is not a regular file, which could be waited for
+// forever.
 [[nodiscard]] std::optional<std::filesystem::path> current_file(const std::filesystem::path& path);
 
 // A new journal at `path`, complete and on the disk before it has its name.

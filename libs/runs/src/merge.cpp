@@ -53,19 +53,19 @@ void compare(const fs::path& folder, const JournalIdentity& one, const JournalId
   }
   if (one.program != program) {
     complaints.add("E0632", folder, "this shard was run by kith " + one.program + ", and this is " + program,
-                   "run and merge all shards with one program: another one may give other results");
+                   "run and merge all shards with the same program; others may give different results");
   }
   if (one.arithmetic != first.arithmetic || one.arithmetic != arithmetic_fingerprint()) {
     complaints.add("E0639", folder,
                    "this shard was run on a machine whose mathematical library rounds differently (" + one.arithmetic +
                        "; here " + arithmetic_fingerprint() + ")",
-                   "run and merge all shards on machines of one kind");
+                   "run and merge all shards on machines of the same kind");
   }
   if (one.shard.count != first.shard.count) {
     complaints.add(
         "E0633", folder,
         "this is shard " + name_of(one.shard) + ", but " + first_in.string() + " is shard " + name_of(first.shard),
-        "all shards must be parts of the same number");
+        "all shards must have the same number of parts");
   }
 }
 
@@ -125,14 +125,14 @@ std::optional<Journal> open_shard(const fs::path& folder, Complaints& complaints
   settle_for_reading(folder);
   const auto identity = Journal::identify(folder / kJournalFile);
   if (!identity) {
-    complaints.add(ErrorKind::kMismatch, "E0637", folder, "the journal is damaged: it does not say whose work it holds",
-                   kGoOn);
+    complaints.add(ErrorKind::kMismatch, "E0637", folder,
+                   "the journal is damaged: it does not say to which study it belongs", kGoOn);
     return std::nullopt;
   }
   std::error_code ignored;
   if (fs::exists(folder / kManifestFile, ignored) && published_digest(folder) != identity->inputs.digest()) {
     complaints.add(ErrorKind::kMismatch, "E0638", folder,
-                   "its manifest.json is not of the study that its journal holds, or is damaged", kGoOn);
+                   "its manifest.json does not belong to the study of its journal, or is damaged", kGoOn);
     return std::nullopt;
   }
   try {

@@ -87,7 +87,7 @@ std::optional<std::string> run_digest(const fs::path& folder) {
   if (fs::exists(folder / kManifestFile, ignored)) {
     refuse_run(ErrorKind::kMismatch, "E0605", folder / kManifestFile,
                "the manifest is damaged or was changed: it does not have the checksum at its end",
-               "repeat the command that ran the study");
+               "rerun the command that ran the study");
   }
   const auto identity = Journal::identify(folder / kJournalFile);
   return identity ? std::optional{identity->inputs.digest()} : std::nullopt;
@@ -263,7 +263,7 @@ StudyReading read_run_folder(const fs::path& path, const StudyKinds& kinds) {
   if (expected && *expected != freeze(reading).digest()) {
     refuse_run(ErrorKind::kMismatch, "E0607", path / "inputs",
                "the inputs are not those of the run: they do not give the digest in its manifest or journal",
-               "repeat the command that ran the study; if it was replacing other results, that finishes it");
+               "rerun the command that ran the study; if it was replacing other results, that finishes it");
   }
   return reading;
 }

@@ -130,11 +130,11 @@ void StudyRun::State::note_damage(const Journal& one) {
     }
     notes.push_back(
         file + " was damaged: " + std::to_string(one.num_done()) + " teams were recovered from it, " +
-        (lost.empty() ? "all of them" : std::to_string(lost.size()) + " are taught again (" + team_list(lost) + ")") +
+        (lost.empty() ? "all of them" : std::to_string(lost.size()) + " are rerun (" + team_list(lost) + ")") +
         "; it is kept as " + file + ".damaged");
   }
   for (const auto team : one.damaged()) {
-    notes.push_back("the record of " + describe(team) + " in " + file + " is damaged; the team is taught again");
+    notes.push_back("the record of " + describe(team) + " in " + file + " is damaged; the team is rerun");
   }
 }
 
@@ -178,7 +178,7 @@ void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
                 Advice{std::string{"finish the run "} + (same_program ? "on a machine like that" : "with that program"),
                        Remedy::kStartOver}};
   }
-  notes.push_back("the results in " + path.string() + " were made " + by + "; all teams are taught anew");
+  notes.push_back("the results in " + path.string() + " were made " + by + "; all teams are rerun");
 }
 
 void StudyRun::State::open_journal() {
@@ -205,7 +205,7 @@ void StudyRun::State::open_journal() {
   }
   if (options.resume == Resume::kRequire) {
     throw Error{ErrorKind::kUsage,
-                path.string() + " holds the work of another study, shard, program or machine (kith " + found->program +
+                path.string() + " belongs to another study, shard, program or machine (kith " + found->program +
                     "); there is nothing to resume",
                 Remedy::kAllowStart};
   }
@@ -222,8 +222,7 @@ void StudyRun::State::take_up_rank_journals() {
         journal->absorb(*part);
       } else {
         notes.push_back(file.string() +
-                        " is damaged, and no record of this study can be read from it; what it held is "
-                        "taught again");
+                        " is damaged, and no record of this study can be read from it; its teams are rerun");
       }
     }
     Journal::remove(file);
@@ -368,7 +367,7 @@ std::optional<StudySummary> StudyRun::publish(RunFacts facts) {
     if (count == state.identity.teams || may_miss) return;
     throw Error{ErrorKind::kMismatch, state.journal->path().string() + " holds " + std::to_string(count) + " of " +
                                           std::to_string(state.identity.teams) +
-                                          " teams; repeat the command that ran the study"};
+                                          " teams; rerun the command that ran the study"};
   };
   state.folder->publish(study(), summed, facts);
   state.journal->close();

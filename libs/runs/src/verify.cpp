@@ -46,8 +46,8 @@ std::optional<Manifest> read_manifest(const fs::path& folder, const std::string&
   if (!fs::exists(path, ignored)) {  // not finished
     if (fs::exists(folder / "tables", ignored)) {
       result.mismatches.push_back(mismatch("E0641", folder / "tables",
-                                           "there are tables, but no manifest.json that says what they are",
-                                           "repeat the command that ran the study, which writes them anew"));
+                                           "there are tables, but no manifest.json that describes them",
+                                           "rerun the command that ran the study to rewrite them"));
     }
     return std::nullopt;
   }
@@ -55,7 +55,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder, const std::string&
   if (fact_in_manifest(text, "run") != digest) {
     result.mismatches.push_back(mismatch("E0641", path,
                                          "this is not the manifest of the run, or it was changed after it was written",
-                                         "repeat the command that ran the study"));
+                                         "rerun the command that ran the study"));
     return std::nullopt;
   }
   const auto document = Json::parse(text);
@@ -75,7 +75,7 @@ void check_files(const fs::path& folder, const std::map<std::string, std::string
     if (hash_of_file(folder / name) == hash) continue;
     result.mismatches.push_back(mismatch(
         "E0641", folder / name, "the file is not the one that the run wrote: its hash is not that in manifest.json",
-        "repeat the command that ran the study"));
+        "rerun the command that ran the study"));
   }
 }
 
@@ -92,8 +92,8 @@ void check_tables(const fs::path& folder, const Study& study, const Journal& jou
     const auto found = named.find("tables/" + file);
     if (found != named.end() && std::move(hash).hex() == found->second) continue;
     result.mismatches.push_back(mismatch("E0642", folder / "tables" / file,
-                                         "the table that the manifest names does not follow from the journal",
-                                         "repeat the command that ran the study"));
+                                         "the table that the manifest names does not match the journal",
+                                         "rerun the command that ran the study"));
   }
 }
 
@@ -106,8 +106,8 @@ void check_complete(const Journal& journal, const Study& study, Verification& re
     if (known[team - 1] || !journal.identity().shard.contains(team)) continue;
     result.mismatches.push_back(
         mismatch("E0644", journal.path(),
-                 describe_team(study, team_address(study, team)) + " is missing, though the run is said to be finished",
-                 "repeat the command that ran the study"));
+                 describe_team(study, team_address(study, team)) + " is missing although the run is marked as finished",
+                 "rerun the command that ran the study"));
   }
 }
 
@@ -123,7 +123,7 @@ std::vector<std::uint32_t> choose(const Journal& journal, double share, const St
     } else {
       result.mismatches.push_back(mismatch(
           "E0643", journal.path(), "the record of " + describe_team(study, team_address(study, team)) + " is damaged",
-          "repeat the command that ran the study"));
+          "rerun the command that ran the study"));
     }
   }
   const auto n = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(share * static_cast<double>(teams.size()))),
@@ -151,7 +151,7 @@ Verification verify_run(const fs::path& folder, const StudyReading& reading, con
   }
   if (!journal.check()) {
     result.mismatches.push_back(
-        mismatch("E0643", journal.path(), "the file is damaged", "repeat the command that ran the study"));
+        mismatch("E0643", journal.path(), "the file is damaged", "rerun the command that ran the study"));
   }
   const auto manifest = read_manifest(folder, inputs.digest(), result);
   if (manifest) check_files(folder, manifest->files, result);
@@ -165,7 +165,7 @@ Verification verify_run(const fs::path& folder, const StudyReading& reading, con
                                          "the journal holds " + (is_shard ? "shard " + name : "the whole study") +
                                              ", but the manifest is about " +
                                              (manifest->shard.empty() ? "the whole study" : "shard " + manifest->shard),
-                                         "repeat the command that ran the study"));
+                                         "rerun the command that ran the study"));
   }
   if (manifest && !is_shard && result.mismatches.empty()) check_tables(folder, study, journal, manifest->files, result);
 
@@ -181,7 +181,7 @@ Verification verify_run(const fs::path& folder, const StudyReading& reading, con
     if (bytes != journal.find(team)) {
       result.mismatches.push_back(mismatch("E0640", journal.path(),
                                            describe_team(study, outcome.address) + " does not come out the same again",
-                                           "another program, or a defect of this machine; see kith doctor"));
+                                           "the program differs or this machine is faulty; run kith doctor"));
     }
     if (options.on_progress) options.on_progress(result.checked, teams.size(), 0);
   });

@@ -156,7 +156,7 @@ TEST_F(StudyRunTest, RefusesUnfinishedWorkOfAnotherProgramAndReplacesFinished) {
   {
     StudyRun again{folder_, quick_study(), newer};
     EXPECT_EQ(again.num_resumed(), 0u);
-    EXPECT_THAT(again.notes(), ElementsAre(HasSubstr("taught anew")));
+    EXPECT_THAT(again.notes(), ElementsAre(HasSubstr("all teams are rerun")));
   }
   EXPECT_EQ(tables_in(folder_), expected());  // as long as nothing new is published
 }

@@ -25,7 +25,7 @@ std::optional<IntegerVector> read_normal(const TomlValue& element, const TomlTab
     if (good) normal[static_cast<std::size_t>(feature - features.begin())] = *value;
   }
   if (good && normal.is_zero()) {
-    report.error("E0410", element.place(), "this prior says nothing", "write for instance { step = -1 }");
+    report.error("E0410", element.place(), "this prior is empty", "write for instance { step = -1 }");
     good = false;
   }
   return good ? std::optional{normal} : std::nullopt;

@@ -66,7 +66,7 @@ class SpecReader {
     if (spec_.replicates == 1) {
       const auto* value = root_.value("replicates", Presence::kOptional);
       report_.warning("W0402", value != nullptr ? value->place() : TomlPlace{},
-                      "one team per cell shows nothing about spread");
+                      "with one team per cell, variance cannot be estimated");
     }
   }
 
@@ -292,7 +292,7 @@ class SpecReader {
       const RandomStream random{0};
       for (std::uint64_t i = 0; i < kTries; ++i) (void)type.model->draw(type.parameters, random.split(i));
     } catch (const Error& error) {
-      report_.infeasible("E0409", table.place(), "hardly any learner meets the limits of " + table.name(),
+      report_.infeasible("E0409", table.place(), "hardly any drawn learner satisfies the limits of " + table.name(),
                          error.what());
     }
   }

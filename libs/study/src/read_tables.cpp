@@ -57,11 +57,11 @@ class TeamKeys {
     }
     if (!agrees(row, team)) {
       refuse_row(file_, row.line, "E0620",
-                 "the row does not say the same of team " + std::to_string(number) + " as inputs/study.toml",
+                 "the row contradicts what inputs/study.toml says of team " + std::to_string(number),
                  "the table and inputs/study.toml must come from the same run");
     }
     if (team < last_) {
-      refuse_row(file_, row.line, "E0622", "the rows of team " + std::to_string(number) + " are not together",
+      refuse_row(file_, row.line, "E0622", "the rows of team " + std::to_string(number) + " are not adjacent",
                  "sort the table by the column team, and leave the order within a team as it was");
     }
     last_ = team;

@@ -180,7 +180,7 @@ class StudyParser {
       report_.error("E0415", place_of_size(factors),
                     "the study has " + std::to_string(teams) + " teams (" + product + " x replicates " +
                         std::to_string(base.replicates) + "); at most " + std::to_string(kMaxTeams) + " are numbered",
-                    "use fewer replicates, vary fewer keys, or split the study into several with seeds of their own");
+                    "use fewer replicates, vary fewer keys, or split the study into several with different seeds");
     }
   }
 
