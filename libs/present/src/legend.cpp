@@ -51,7 +51,7 @@ std::string name_of(const Domain& domain, const Shown& what, const LegendEntry& 
   if (what.station) add(symbol.station);
   if (!what.content.destination_of.empty()) add("destination of " + what.content.destination_of);
   if (what.content.goal) add(symbol.goal_name.empty() ? "goal" : symbol.goal_name + " goal");
-  for (const auto item : what.items) add(domain.item_names()[item] + " at its first place");
+  for (const auto item : what.items) add(domain.item_names()[item] + " at its initial place");
   return text.empty() ? "floor" : text;
 }
 
@@ -86,7 +86,7 @@ std::string legend(const Domain& domain, std::size_t indent) {
     line += (line.empty() ? "" : "   ") + entry;
   }
   text += line;
-  const std::string item = domain.item_names().empty() ? "" : "   * item elsewhere than at first";
+  const std::string item = domain.item_names().empty() ? "" : "   * item elsewhere";
   return blank + text + "\n" + blank + "@ robot" + item + "   ^ v < > moves   o end of a leg\n";
 }
 
