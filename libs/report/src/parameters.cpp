@@ -31,10 +31,10 @@ constexpr std::array kMeanings{
     Meaning{"learner.*.kind", "learner model: how people of this type learn and answer"},
     Meaning{"learner.*.prior", "half-spaces that people of this type know from the start"},
     Meaning{"teacher.particles", "particles of each of the teacher's beliefs"},
-    Meaning{"teacher.counterfactuals", "weights drawn from the belief to imagine what people expect (N)"},
+    Meaning{"teacher.counterfactuals", "weights drawn from the belief to simulate what people expect (N)"},
     Meaning{"teacher.counterfactual_sampling",
             "how they are drawn: 'systematic' by mass, 'spread' far from each other"},
-    Meaning{"teacher.assumed_ability", "ability (beta) that the teacher ascribes to everybody"},
+    Meaning{"teacher.assumed_ability", "ability (beta) that the teacher assumes for everybody"},
     Meaning{"teacher.likelihood", "form of the likelihood of a half-space: 'discontinuous' or 'continuous'"},
     Meaning{"teacher.process_noise", "bandwidth factor of the kernel that moves particles after resampling (eta)"},
     Meaning{"teacher.response_noise", "blur of the teacher's beliefs after test answers, in radians per axis (nu)"},
@@ -48,9 +48,9 @@ constexpr std::array kMeanings{
             "whose expectations say what a demonstration conveys to a person: the teacher's counterfactuals, or the "
             "person's own ('self')"},
     Meaning{"stop.max_periods", "periods after which a session ends at the latest"},
-    Meaning{"stop.consecutive_correct", "periods in a row that everybody must answer all right"},
+    Meaning{"stop.consecutive_correct", "consecutive periods in which everybody must answer all tests correctly"},
     Meaning{"stop.duplicate_sets", "different sets of tests in a period"},
-    Meaning{"record.level", "how much of every team is written down"},
+    Meaning{"record.level", "how much is recorded about every team"},
 };
 
 // Whether the key is one that the pattern stands for.

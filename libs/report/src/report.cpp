@@ -144,7 +144,7 @@ Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& d
 void note_data(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points,
                std::vector<std::string>& notes) {
   for (const auto& what : run.published.missing())
-    notes.push_back("The run is incomplete, and all results describe only the teams that are there: " + what + ".");
+    notes.push_back("The run is incomplete, and all results describe only the teams that are present: " + what + ".");
   const auto censored = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed; });
   if (censored > 0) {
     notes.push_back(std::to_string(censored) + " of " + std::to_string(data.teams.size()) +
@@ -216,7 +216,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   auto tables = tables_of(run, design, data, atlas, points, notes);
   step("analysing");
   const auto analysis = analyse(run, notes);
-  step("teaching three teams again");
+  step("rerunning three teams");
   auto beliefs = belief_spheres(run, design, data, atlas, options.sphere_particles, notes);
   const auto& spec = run.spec();
   Json document{{"schema", "kith.report/1"},
