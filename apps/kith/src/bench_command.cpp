@@ -53,7 +53,7 @@ Baseline read_baseline(const std::string& file, Console& console) {
   if (!reading.diagnostics.empty()) throw Error{reading.diagnostics};
   const auto& baseline = reading.baseline;
   const auto compare = [&](const char* what, std::string_view before, std::string_view now) {
-    if (before != now) console.warning(fmt::format("the baseline has another {}: {}", what, before));
+    if (before != now) console.warning(fmt::format("the baseline has a different {}: {}", what, before));
   };
   compare("processor", baseline.processor, processor_name());
   compare("compiler", baseline.compiler, build_info::kCompiler);
@@ -72,10 +72,10 @@ void warn_about_machine(const BenchOutcome& outcome, Console& console) {
   const double cores = static_cast<double>(usable_cores());
   const double waited = bench::waited(outcome.result);
   if (outcome.load_before > 0.3 * cores || waited > 0.05) {
-    console.warning(fmt::format(
-        "the machine is busy: load {:.1f} on {:.0f} cores before, {:.0f} % of the time spent waiting; studies take "
-        "longer than they would, ratios hold",
-        outcome.load_before, cores, 100.0 * waited));
+    console.warning(
+        fmt::format("the machine is busy: load {:.1f} on {:.0f} cores before, {:.0f} % of the time spent waiting; "
+                    "times of studies are too long, but ratios are reliable",
+                    outcome.load_before, cores, 100.0 * waited));
   }
   if (std::string_view{build_info::kBuildType} != "Release")
     console.warning(fmt::format("this is a {} build", build_info::kBuildType));

@@ -67,11 +67,11 @@ std::string bench_text(const BenchOutcome& outcome, const Console& console) {
   for (const auto& growth : outcome.result.growths) text += growth_text(growth, console);
   if (outcome.result.cases.empty()) return text;
   text += case_table(outcome, console);
-  text += console.dim(fmt::format(
-      "\nMedians; +-: half the distance of the quartiles. Studies: time that passed; else processor time of one "
-      "thread.\n"
-      "Ratio: the rival's time over kith's. Peak memory, rivals included: {:.0f} MiB. Who is who: kith bench --list\n",
-      peak_memory_mib()));
+  text += console.dim(
+      fmt::format("\nMedians; +-: half the interquartile range. Studies: wall time; others: CPU time of one thread.\n"
+                  "Ratio: the rival's time over kith's. Peak memory, rivals included: {:.0f} MiB. For the rivals: kith "
+                  "bench --list\n",
+                  peak_memory_mib()));
   return text;
 }
 

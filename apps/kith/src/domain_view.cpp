@@ -89,7 +89,7 @@ std::string DomainView::policy() const {
   const auto& mdp = domain_.mdp(mdp_);
   if (!domain_.has_map()) return text + policy_table();
   if (!mdp.is_deterministic() || mdp.discount() != 1.0)
-    return text + "  not shown: only that of certain, undiscounted MDPs is\n";
+    return text + "  not shown: only policies of deterministic, undiscounted MDPs are\n";
   const auto solution = plan_exactly(mdp, domain_.weights().integer).solution.value();
   const auto start = domain_.initial_state(mdp_);
   const auto path = canonical_trajectory(mdp, solution.canonical_choice, start);

@@ -60,7 +60,7 @@ class Inspection {
   }
 
   void bec() {
-    heading("What makes the policy: its behaviour equivalence class");
+    heading("What determines the policy: its behaviour equivalence class");
     constraints(atlas_.policy_bec_half_spaces(), "  ");
     out_ += fmt::format("  {}; the prior has {}\n", area_text(atlas_.policy_bec_area()),
                         area_text(atlas_.prior_cone().measure()));
@@ -97,9 +97,9 @@ class Inspection {
     }
     const auto& coverage = atlas_.coverage();
     heading("What people could expect the robot to do");
-    out_ += fmt::format("  {} paths that are best for somebody: {:.2f} per start state, at most {}\n",
+    out_ += fmt::format("  {} paths that are optimal for some weights: {:.2f} per start state, at most {}\n",
                         coverage.vertices, coverage.mean, coverage.max);
-    out_ += fmt::format("  {} ways to behave in all of them (policy cells)\n", atlas_.cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_.cells().size());
   }
 
   void demos() {
@@ -112,7 +112,7 @@ class Inspection {
       const auto& counts = atlas_.feature_counts(demo);
       out_ += fmt::format("  start {}: {} ({}, return {:.4f}{})\n", starts[i].value(),
                           actions_text(domain_, path.actions), counts_text(domain_, counts), return_of(domain_, counts),
-                          atlas_.is_unique(demo) ? "" : ", not the only best path");
+                          atlas_.is_unique(demo) ? "" : ", one of several best paths");
       out_ += start_and_path(domain_, atlas_.id(demo), path, 4);
       constraints(atlas_.constraints().half_spaces(atlas_.one_step(demo)), "    ");
     }
@@ -155,7 +155,7 @@ class Inspection {
               in_words(domain_, HalfSpace{robot - paths[i]}) + "\n";
     }
     note_cut(paths.size());
-    out_ += fmt::format("  {} ways to behave in all start states (policy cells)\n", atlas_.cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_.cells().size());
   }
 
   [[nodiscard]] std::size_t limited(std::size_t n) const { return options_.all ? n : std::min(n, kListLength); }

@@ -12,7 +12,7 @@ namespace {
 // Time for an orderly end: people and schedulers expect an answer within a second.
 constexpr long kPatienceNanoseconds = 800'000'000;
 constexpr std::string_view kFarewell =
-    "kith: warning: interrupted in the middle of a long step; what was saved before is kept\n";
+    "kith: warning: interrupted in the middle of a long step; saved results are kept\n";
 
 volatile std::sig_atomic_t received = 0;
 timer_t patience = {};

@@ -213,7 +213,7 @@ int main(int argc, char** argv) {
   } catch (const kith::cli::BrokenPipe&) {
     return kith::cli::kBrokenPipeCode;
   } catch (...) {
-    kith::cli::write_log("kith: error: something failed, and so did saying what: out of memory, or no output\n");
+    kith::cli::write_log("kith: error: a failure could not be reported: out of memory, or no output\n");
     return kith::cli::exit_code(kith::ErrorKind::kIo);
   }
 }

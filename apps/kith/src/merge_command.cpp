@@ -30,8 +30,7 @@ int run_merge(const MergeOptions& options, Console& console) {
   auto reading = read_run_folder(folders.front());
   if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
   if (freeze(reading) != shards.journals.front().identity().inputs) {
-    throw Error{ErrorKind::kMismatch,
-                folders.front().string() + ": its inputs are not those that its journal is about"};
+    throw Error{ErrorKind::kMismatch, folders.front().string() + ": its inputs do not match its journal"};
   }
   StudyRunOptions how;
   how.program = program_name();
@@ -45,7 +44,7 @@ int run_merge(const MergeOptions& options, Console& console) {
   facts.domain = published_fact(folders.front(), "domain").value_or(run.study().variants.front().domain);
   for (const auto& note : run.notes()) console.warning(note);
   const auto text =
-      fmt::format("put together {} of {}", counted(shards.journals.size(), "shard"), counted(run.num_teams(), "team"));
+      fmt::format("merged {} of {}", counted(shards.journals.size(), "shard"), counted(run.num_teams(), "team"));
   facts.log.push_back(utc_now() + " " + text);
   console.detail(text);
   return publish_run(run, std::move(facts), place, console);

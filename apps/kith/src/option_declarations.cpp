@@ -65,12 +65,10 @@ void add_common(CLI::App& command, CommonOptions& common) {
 
 void add_validate(CLI::App& app, Options& options) {
   auto& command = *app.add_subcommand("validate", "Check domain and study files");
-  command
-      .add_option("files", options.validate.files,
-                  "Files to check, or names of what comes with kith; '-' is standard input")
+  command.add_option("files", options.validate.files, "Files or built-in names to check; '-' is standard input")
       ->required()
       ->type_name("FILE");
-  command.add_flag("--strict", options.validate.strict, "Let warnings count as errors");
+  command.add_flag("--strict", options.validate.strict, "Treat warnings as errors");
   add_common(command, options.common);
 }
 
@@ -295,7 +293,7 @@ void add_fit(CLI::App& app, Options& options) {
   takes_word(*command.add_option("--method", fit.method, "How to fit")->capture_default_str(), "HOW",
              {"likelihood", "grid"});
   takes_word(
-      *command.add_option("--answers", fit.answers, "What of an answer counts: the path, or whether it is right")
+      *command.add_option("--answers", fit.answers, "What counts of an answer: its path, or only whether it is right")
            ->capture_default_str(),
       "WHAT", {"path", "verdict"});
   takes_integer(*command.add_option("--types", fit.types, "Types of people without labels (default: as labelled)"), 1,
@@ -364,8 +362,8 @@ void add_power(CLI::App& app, Options& options) {
 }
 
 void add_status(CLI::App& app, Options& options) {
-  auto& command = *app.add_subcommand("status", "Say how far a study is: done, failed, left, and for how long");
-  command.add_option("folder", options.status.folder, "Run folder, also of a run that goes on")
+  auto& command = *app.add_subcommand("status", "Show the progress of a study: teams done, failed and left");
+  command.add_option("folder", options.status.folder, "Run folder, also while the study is running")
       ->required()
       ->type_name("DIR");
   add_common(command, options.common);
@@ -375,7 +373,7 @@ void add_verify(CLI::App& app, Options& options) {
   auto& verify = options.verify;
   auto& command = *app.add_subcommand("verify", "Repeat a run from its frozen inputs and compare all bytes");
   command.add_option("folder", verify.folder, "Run folder")->required()->type_name("DIR");
-  command.add_option("--sample", verify.sample, "Share of the teams to teach again, above 0, at most 1")
+  command.add_option("--sample", verify.sample, "Share of the teams to rerun, above 0, at most 1")
       ->capture_default_str()
       ->check([](const std::string& text) { return text == "1" ? "" : wrong_fraction(text); })
       ->type_name("P");
@@ -386,7 +384,7 @@ void add_verify(CLI::App& app, Options& options) {
 
 void add_merge(CLI::App& app, Options& options) {
   auto& merge = options.merge;
-  auto& command = *app.add_subcommand("merge", "Put the shards of a study together and write its tables");
+  auto& command = *app.add_subcommand("merge", "Merge the shards of a study and write its tables");
   command.add_option("folders", merge.folders, "Run folders of all shards, in any order")->required()->type_name("DIR");
   command.add_option("-o,--out", merge.out, "Run folder to create or to update")->type_name("DIR");
   command.add_flag("--yes", merge.yes, "Replace the results of a different study in the run folder");

@@ -20,9 +20,9 @@ std::string_view words_for(Remedy remedy) {
     case Remedy::kRunShard:
       return "make one with: kith study STUDY --shard I/N -o DIR";
     case Remedy::kMergeShards:
-      return "put all shards together with: kith merge DIR... -o DIR";
+      return "merge all shards with: kith merge DIR... -o DIR";
     case Remedy::kMergePart:
-      return "merge what is there with --allow-partial";
+      return "merge what is available with --allow-partial";
     case Remedy::kAnalyseTable:
       return "analyse a table of your own with: kith analyze FILE --model ...";
     case Remedy::kLikelihoodMethod:

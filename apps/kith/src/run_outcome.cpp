@@ -17,7 +17,7 @@ void report_failures(const Study& study, const std::vector<TeamFailure>& failure
     console.warning(describe_team(study, team_address(study, team)) + " failed: " + message);
   }
   if (!failures.empty()) {
-    console.warning(counted(failures.size(), "team") + " failed; the same command tries them again");
+    console.warning(counted(failures.size(), "team") + " failed; rerun the command to retry them");
   }
 }
 

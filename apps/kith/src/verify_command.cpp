@@ -23,7 +23,8 @@ int run_verify(const VerifyCommandOptions& options, Console& console) {
   auto reading = read_run_folder(folder);
   if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
   if (!Journal::exists(folder / kJournalFile)) {
-    throw Error{ErrorKind::kIo, options.folder + " has no journal (" + kJournalFile + "); the same study gives it one"};
+    throw Error{ErrorKind::kIo,
+                options.folder + " has no journal (" + kJournalFile + "); rerun the study to create one"};
   }
   watch_signals();
   Progress progress{options.progress, console};
@@ -43,7 +44,7 @@ int run_verify(const VerifyCommandOptions& options, Console& console) {
     throw Error{ErrorKind::kMismatch, counted(result.mismatches.size(), "mismatch"), result.mismatches};
   }
   if (result.stopped) {
-    throw Error{ErrorKind::kPartial, fmt::format("interrupted after {} teams, all of them the same", result.checked)};
+    throw Error{ErrorKind::kPartial, fmt::format("interrupted after {} teams, all identical", result.checked)};
   }
   if (console.json()) {
     console.print_json(Json{{"schema", "kith.verify/1"},

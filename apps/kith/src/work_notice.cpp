@@ -11,8 +11,8 @@ namespace kith::cli {
 
 WorkNotice::WorkNotice(const Console& console, std::string what) {
   if (console.quiet() || !console.log_is_terminal()) return;
-  const auto wait = [line =
-                         "kith: info: " + std::move(what) + " takes a while; Ctrl-C ends it\n"](std::stop_token end) {
+  const auto wait = [line = "kith: info: " + std::move(what) +
+                            " takes a while; press Ctrl-C to stop it\n"](std::stop_token end) {
     constexpr std::chrono::seconds kPatience{2};
     std::mutex mutex;
     std::condition_variable_any ended;

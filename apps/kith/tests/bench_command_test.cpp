@@ -191,7 +191,7 @@ TEST(Bench, SaysWhereTheBaselineDiffers) {
   auto document = Json::parse(baseline_of(1000.0));
   document.at("processor") = "an abacus";
   EXPECT_THAT(run_kith(quick_with({"--baseline", "-"}), {{}, document.dump(), ""}).err,
-              HasSubstr("the baseline has another processor: an abacus"));
+              HasSubstr("the baseline has a different processor: an abacus"));
 }
 
 TEST(Bench, CannotReadABaselineThatIsNotThere) {
