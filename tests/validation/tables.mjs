@@ -1,0 +1,489 @@
+// The tables, figures and claims of the page, made of runs and of what was published.
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { COMMANDS, commandLine } from './runs.mjs';
+import { calibrationFigures, calibrationTables } from './calibration_tables.mjs';
+import { figure, fixed, grouped, interval, percent, probability, signed, withError, withInterval } from './format.mjs';
+import {
+  brownForsythe, errorOfMean, errorOfSd, groupBy, jackknife, mean, Moments, partialEtaSquared, pOfT, sd,
+} from './statistics.mjs';
+import { readTables } from './toml.mjs';
+
+const GROUP = ['individual-low', 'individual-high', 'common', 'joint'];
+const BELIEFS = { group: ['common', 'joint'], individual: ['individual-low', 'individual-high'] };
+const OTHERS = GROUP.filter((strategy) => strategy !== 'common');
+const COMPOSITIONS = ['NNN', 'NNP', 'NPP', 'PPP'];
+const OUTCOMES = ['periods', 'knowledge'];
+const DIGITS = { periods: 2, knowledge: 3 };
+const QUANTITIES = { mean: '', sd: 'sd of ' };
+const POOLS = { group: 'group strategies', baseline: 'baseline' };
+const DOMAINS = ['two-goals', 'cookie-crumb', 'colored-tiles', 'skateboard'];
+
+const once = (make) => {
+  const made = new Map();
+  return (...key) => {
+    const name = key.join('|');
+    if (!made.has(name)) made.set(name, make(...key));
+    return made.get(name);
+  };
+};
+
+export function makeContent(runs, source) {
+  const published = JSON.parse(readFileSync(join(source, 'tests/validation/published.json'), 'utf8'));
+  const targets = readTables(readFileSync(join(source, 'studies/paper-targets.toml'), 'utf8'));
+  const { paper, reference } = published;
+
+  // Teams of a run for the jackknife: who was taught is (composition, replicate).
+  const teamsOf = once((run, outcome) =>
+    runs.table(run, 'teams').map((row) => ({
+      stratum: row.composition, person: row.replicate, cell: row.strategy, value: row[outcome],
+    })),
+  );
+  const pool = (cells, strategies, compositions = COMPOSITIONS) =>
+    compositions
+      .flatMap((composition) => strategies.map((strategy) => cells[`${composition} ${strategy}`]))
+      .reduce((total, one) => total.plus(one));
+
+  // {"mean group", "sd group", "mean baseline", "mean group/NNN", "mean common", ...: {value, se}}.
+  const summary = once((run, outcome) =>
+    jackknife(teamsOf(run, outcome), (cells) => {
+      const estimates = {};
+      const add = (name, moments) => Object.assign(estimates, { [`mean ${name}`]: moments.mean(), [`sd ${name}`]: moments.sd() });
+      for (const [name, strategies] of [['group', GROUP], ['baseline', ['baseline']], ...GROUP.map((one) => [one, [one]])]) {
+        add(name, pool(cells, strategies));
+        for (const composition of COMPOSITIONS) add(`${name}/${composition}`, pool(cells, strategies, [composition]));
+      }
+      // How much composition moves the mean, and how much the teams of one composition differ.
+      for (const strategy of GROUP) {
+        const means = COMPOSITIONS.map((composition) => cells[`${composition} ${strategy}`].mean());
+        estimates[`range ${strategy}`] = Math.max(...means) - Math.min(...means);
+        estimates[`within ${strategy}`] = Math.sqrt(mean(COMPOSITIONS.map((c) => cells[`${c} ${strategy}`].variance())));
+      }
+      const strategyMeans = GROUP.map((strategy) => estimates[`mean ${strategy}`]);
+      estimates['strategy range'] = Math.max(...strategyMeans) - Math.min(...strategyMeans);
+      const byBelief = (prefix, kind) => mean(BELIEFS[kind].map((strategy) => estimates[`${prefix} ${strategy}`]));
+      estimates['range difference'] = byBelief('range', 'group') - byBelief('range', 'individual');
+      const logRatio = (compositions) =>
+        Math.log(pool(cells, BELIEFS.group, compositions).variance() / pool(cells, BELIEFS.individual, compositions).variance());
+      estimates['log ratio all'] = logRatio(COMPOSITIONS);
+      for (const composition of COMPOSITIONS) estimates[`log ratio ${composition}`] = logRatio([composition]);
+      estimates['gain of groups'] = estimates['mean group'] - estimates['mean baseline'];
+      estimates['ratio of baseline'] = estimates['mean baseline'] / estimates['mean group'];
+      return estimates;
+    }),
+  );
+
+  // A contrast of strategies within the same people: mean difference with its standard error.
+  const contrast = (run, outcome, plus, minus, compositions = COMPOSITIONS) => {
+    const teams = teamsOf(run, outcome).filter((team) => compositions.includes(team.stratum));
+    const differences = [...groupBy(teams, (team) => `${team.stratum} ${team.person}`).values()].map((people) => {
+      const of = (strategies) => mean(people.filter((team) => strategies.includes(team.cell)).map((team) => team.value));
+      return of(plus) - of(minus);
+    });
+    const value = mean(differences);
+    const byComposition = groupBy(
+      differences.map((difference, i) => ({ difference, stratum: i })),
+      ({ stratum }) => Math.floor(stratum / (differences.length / compositions.length)),
+    );
+    const squared = mean([...byComposition.values()].map((rows) => sd(rows.map((row) => row.difference)) ** 2));
+    const se = Math.sqrt(squared / differences.length);
+    return { value, se, df: differences.length - compositions.length, p: pOfT(value / se, differences.length - compositions.length) };
+  };
+
+  const target = (quantity, statistic, teams) =>
+    targets.target.find((one) => one.quantity === quantity && (one.statistic ?? 'mean') === statistic && one.teams === teams);
+  // A published figure with its standard error, and the tolerance of the calibration as text and width.
+  const publishedFigure = (quantity, statistic, teams) => {
+    const { value, tolerance, within_factor: factor } = target(quantity, statistic, teams);
+    const n = paper.teams[teams];
+    const deviation = target(quantity, 'sd', teams).value;
+    const se = statistic === 'mean' ? deviation / Math.sqrt(n) : errorOfSd(deviation, n);
+    const width = tolerance ?? value * (factor - 1);
+    return { value, se, tolerance: factor ? `factor ${factor}` : `+- ${tolerance}`, width };
+  };
+  const misfit = (quantity, statistic, teams, run = 'large') => {
+    const here = summary(run, quantity)[`${statistic} ${teams}`];
+    const there = publishedFigure(quantity, statistic, teams);
+    return { value: (here.value - there.value) / there.se, se: here.se / there.se };
+  };
+
+  // A row of a table of `kith analyze`, by the term in its first column.
+  const row = (run, finding, caption, name) => {
+    const table = runs.finding(`analysis, ${run}`, finding).tables.find((one) => one.caption === caption);
+    const found = table?.rows.find((one) => one.term === name);
+    if (!found) throw new Error(`'${finding}' of kith analyze has no term '${name}' in a table '${caption}'`);
+    return found;
+  };
+  const term = (run, outcome, name) => row(run, outcome, 'Analysis of variance (type II)', name);
+  const termWithin = (outcome, name) => row('large', `${outcome}-paired`, 'Analysis of variance within people', name);
+  const publishedF = (outcome, name) =>
+    targets.finding.find((one) => one.effect === `${outcome}: ${name.replace(':', ' x ')}`);
+
+  // Mean log area of a team's periods of a component, without the first.
+  const areas = once(() => {
+    const result = [];
+    const rows = runs.table('large', 'periods').filter((row) => row.strategy !== 'baseline');
+    for (const periods of groupBy(rows, (row) => `${row.strategy} ${row.composition} ${row.replicate}`).values()) {
+      for (const [kc, shown] of groupBy(periods, (row) => row.kc)) {
+        if (shown.length < 2) continue;
+        const { strategy, composition, replicate } = shown[0];
+        result.push({ strategy, kc, people: `${composition} ${replicate}`, value: mean(shown.slice(1).map((row) => Math.log(row.area_sr))) });
+      }
+    }
+    return result;
+  });
+  const areaMean = (strategy, kc) => {
+    const values = areas().filter((row) => row.strategy === strategy && row.kc === kc).map((row) => row.value);
+    return { value: mean(values), se: errorOfMean(values) };
+  };
+  const areaDifference = (strategy, kc) => {
+    const pairs = groupBy(areas().filter((row) => row.kc === kc && [strategy, 'joint'].includes(row.strategy)), (row) => row.people);
+    const values = [...pairs.values()].filter((rows) => rows.length === 2).map((rows) => {
+      const of = (name) => rows.find((row) => row.strategy === name).value;
+      return of('joint') - of(strategy);
+    });
+    return { value: mean(values), se: errorOfMean(values) };
+  };
+
+  const learned = (type, column) => {
+    const values = runs.table('large', 'learners').filter((row) => row.strategy === 'baseline' && row.type === type).map((row) => row[column]);
+    return { value: mean(values), se: errorOfMean(values) };
+  };
+
+  const factsHere = once(() => {
+    const facts = runs.json('facts');
+    const states = groupBy(facts.demos, (demo) => demo.start.mdp);
+    const counts = [0, 1].map((charger) => [...new Set([...states].filter(([mdp]) => mdp % 2 === charger).map(([, demos]) => demos.length))].join(' or '));
+    const lengths = facts.demos.map((demo) => demo.actions.length);
+    return {
+      'worlds, demonstration candidates': `${facts.mdps}, ${grouped(facts.demonstrations)}`,
+      'states without, with a charger': counts.join(', '),
+      "lengths of the robot's paths": `${Math.min(...lengths)} .. ${Math.max(...lengths)}`,
+      'starts with more than one optimal path': grouped(facts.demos.filter((demo) => !demo.unique).length),
+      'minimal BEC': facts.bec.constraints.map((normal) => `(${normal})`).join(', '),
+      'its solid angle with the prior, sr': fixed(facts.bec.area_sr, 7),
+      'areas of the knowledge components, sr': facts.knowledge_components.map(({ area_sr: area }) => fixed(area, area > 0.1 ? 6 : 7)).join(', '),
+      'mask counters': facts.mask_counters.map(grouped).join(', '),
+      'coverage sets: vertices, mean, largest': `${grouped(facts.coverage.vertices)}, ${fixed(facts.coverage.mean, 2)}, ${facts.coverage.max}`,
+    };
+  });
+
+  const tables = {
+    commands: () => ({
+      columns: ['run', 'command'],
+      rows: Object.keys(COMMANDS).map((name) => [name, `\`${commandLine(name)}\``]),
+    }),
+
+    facts: () => ({
+      columns: ['fact', 'reference', 'kith'],
+      rows: Object.entries(reference.facts).map(([name, value]) => [name, value, { text: factsHere()[name] ?? 'missing' }]),
+    }),
+
+    'published-figures': () => ({
+      columns: ['figure', 'published', 'its standard error', 'kith', 'off by, in published standard errors', 'tolerance', 'tolerance in published standard errors'],
+      rows: ['mean', 'sd'].flatMap((statistic) =>
+        OUTCOMES.flatMap((outcome) =>
+          Object.entries(POOLS).map(([teams, label]) => {
+            const there = publishedFigure(outcome, statistic, teams);
+            const digits = DIGITS[outcome];
+            return [
+              `${QUANTITIES[statistic]}${outcome}, ${label}`,
+              fixed(there.value, 2),
+              fixed(there.se, outcome === 'periods' ? 2 : 4),
+              withError(summary('large', outcome)[`${statistic} ${teams}`], digits + 1),
+              figure(misfit(outcome, statistic, teams), 1, signed),
+              there.tolerance,
+              fixed(there.width / there.se, 1),
+            ];
+          }),
+        ),
+      ),
+    }),
+
+    compositions: () => ({
+      columns: ['composition', ...OUTCOMES.flatMap((outcome) => Object.values(POOLS).map((label) => `${outcome}, ${label}`))],
+      rows: COMPOSITIONS.map((composition) => [
+        composition,
+        ...OUTCOMES.flatMap((outcome) =>
+          Object.keys(POOLS).map((teams) => withError(summary('large', outcome)[`mean ${teams}/${composition}`], DIGITS[outcome])),
+        ),
+      ]),
+    }),
+
+    effects: () => ({
+      columns: ['effect', 'published F', 'its partial eta squared', 'kith: partial eta squared', 'F', 'p', 'p within people', '15 teams per cell: F', 'p (15)'],
+      rows: OUTCOMES.flatMap((outcome) =>
+        ['strategy', 'composition', 'strategy:composition'].map((name) => {
+          const there = publishedF(outcome, name);
+          const eta = there?.f ? partialEtaSquared(there.f, ...there.df) : null;
+          const large = term('large', outcome, name);
+          const small = term('small', outcome, name);
+          return [
+            `${outcome}: ${name.replace(':', ' x ')}`,
+            there?.f ? fixed(there.f, 2) : 'n.s.',
+            eta ? `${fixed(eta.value, 3)} ${interval(eta.low, eta.high, 3)}` : '',
+            withInterval(large.partial_eta_squared, large.lower_limit, large.upper_limit, 4),
+            { text: fixed(large.f, 2), value: large.f },
+            { text: probability(large.p_value), value: large.p_value },
+            name === 'composition' ? '' : { text: probability(termWithin(outcome, name).p_value), value: termWithin(outcome, name).p_value },
+            { text: fixed(small.f, 2), value: small.f },
+            { text: probability(small.p_value), value: small.p_value },
+          ];
+        }),
+      ),
+    }),
+
+    strategies: () => ({
+      columns: ['strategy', ...OUTCOMES.flatMap((outcome) => [outcome, `sd of ${outcome}`])],
+      rows: GROUP.map((strategy) => [
+        strategy,
+        ...OUTCOMES.flatMap((outcome) => ['mean', 'sd'].map((statistic) => withError(summary('large', outcome)[`${statistic} ${strategy}`], DIGITS[outcome] + 1))),
+      ]),
+    }),
+
+    hypotheses: () => ({
+      columns: ['outcome', 'teams', 'group beliefs - individual beliefs', '95 % interval', 'p'],
+      rows: OUTCOMES.flatMap((outcome) =>
+        [['all', COMPOSITIONS], ...COMPOSITIONS.map((one) => [one, [one]])].map(([label, compositions]) => {
+          const one = contrast('large', outcome, BELIEFS.group, BELIEFS.individual, compositions);
+          return [
+            outcome,
+            label,
+            withError(one, DIGITS[outcome] + 1, signed),
+            { text: interval(one.value - 1.96 * one.se, one.value + 1.96 * one.se, DIGITS[outcome] + 1), value: one.value - 1.96 * one.se, se: one.se },
+            { text: probability(one.p), value: one.p },
+          ];
+        }),
+      ),
+    }),
+
+    variation: () => ({
+      columns: ['strategy', 'periods: range of composition means', 'sd within compositions', 'knowledge: range of composition means', 'sd within compositions (knowledge)'],
+      rows: GROUP.map((strategy) => [
+        strategy,
+        ...OUTCOMES.flatMap((outcome) => [
+          withError(summary('large', outcome)[`range ${strategy}`], DIGITS[outcome]),
+          withError(summary('large', outcome)[`within ${strategy}`], DIGITS[outcome] + 1),
+        ]),
+      ]),
+    }),
+
+    'variance-ratios': () => ({
+      columns: ['teams', ...OUTCOMES.flatMap((outcome) => [`${outcome}: variance ratio, 95 % interval`, `Brown-Forsythe F, four strategies (${outcome})`, `p (${outcome})`])],
+      rows: [['all', COMPOSITIONS], ...COMPOSITIONS.map((one) => [one, [one]])].map(([label, compositions]) => [
+        label,
+        ...OUTCOMES.flatMap((outcome) => {
+          const { value, se } = summary('large', outcome)[`log ratio ${label}`];
+          const teams = teamsOf('large', outcome).filter((team) => compositions.includes(team.stratum));
+          const test = brownForsythe(GROUP.map((strategy) => teams.filter((team) => team.cell === strategy).map((team) => team.value)));
+          const [low, high] = [Math.exp(value - 1.96 * se), Math.exp(value + 1.96 * se)];
+          return [
+            withInterval(Math.exp(value), low, high, 3),
+            { text: fixed(test.f, 2), value: test.f },
+            { text: probability(test.p), value: test.p },
+          ];
+        }),
+      ]),
+    }),
+
+    areas: () => ({
+      columns: ['strategy', 'mean area per period, sr', ...[1, 2, 3].flatMap((kc) => [`component ${kc}: log area`, `joint minus this (${kc})`])],
+      rows: GROUP.map((strategy) => [
+        strategy,
+        withError(summary('large', 'area_sr')[`mean ${strategy}`], 3),
+        ...[1, 2, 3].flatMap((kc) => [
+          withError(areaMean(strategy, kc), 3),
+          strategy === 'joint' ? '' : withError(areaDifference(strategy, kc), 3, signed),
+        ]),
+      ]),
+    }),
+
+    gains: () => ({
+      columns: ['learners', 'quantity', 'published distribution', 'its mean', 'mean after rejection'],
+      rows: ['N', 'P'].flatMap((type) => {
+        const { label, ability, confirm_gain: confirm, correct_gain: correct } = paper.gains[type];
+        const half = (scale) => scale * Math.sqrt(2 / Math.PI);
+        return [
+          [label, 'initial ability', `normal(${ability.join(', ')})`, fixed(ability[0], 4), withError(learned(type, 'ability'), 4)],
+          [label, 'confirm_gain', `half-normal(${confirm})`, fixed(half(confirm), 4), withError(learned(type, 'confirm_gain'), 4)],
+          [label, 'correct_gain', `half-normal(${correct})`, fixed(half(correct), 4), withError(learned(type, 'correct_gain'), 4)],
+        ];
+      }),
+    }),
+
+    reference: () => ({
+      columns: ['', ...['0.9', '1.0'].flatMap((scale) => [`kith, ${scale}`, `reference, ${scale}`]), 'published'],
+      rows: OUTCOMES.flatMap((outcome) =>
+        Object.entries(POOLS).flatMap(([teams, label]) => {
+          const digits = DIGITS[outcome];
+          return ['mean', 'sd'].map((statistic, k) => [
+            `${QUANTITIES[statistic]}${outcome}, ${label}`,
+            ...['0.9', '1.0'].flatMap((scale) => {
+              const [there, deviation] = reference.study[scale][`${outcome} ${teams}`];
+              const n = reference['study teams'][teams];
+              const se = k ? errorOfSd(deviation, n) : deviation / Math.sqrt(n);
+              return [
+                withError(summary(`scale ${scale}`, outcome)[`${statistic} ${teams}`], digits),
+                `${fixed(k ? deviation : there, digits)} +- ${fixed(se, digits)}`,
+              ];
+            }),
+            fixed(publishedFigure(outcome, statistic, teams).value, 2),
+          ]);
+        }),
+      ),
+    }),
+
+    ...Object.fromEntries(
+      OUTCOMES.map((outcome) => [
+        `domains-${outcome}`,
+        () => ({
+          columns: ['domain', 'baseline', ...GROUP, 'common - the other three', 'group beliefs - individual beliefs'],
+          rows: DOMAINS.map((domain) => [
+            domain,
+            ...['baseline', ...GROUP].map((strategy) => withError(summary(domain, outcome)[`mean ${strategy}`], DIGITS[outcome])),
+            withError(contrast(domain, outcome, ['common'], OTHERS), DIGITS[outcome], signed),
+            withError(contrast(domain, outcome, BELIEFS.group, BELIEFS.individual), DIGITS[outcome], signed),
+          ]),
+        }),
+      ]),
+    ),
+
+    priors: () => ({
+      columns: ['learners start with', ...OUTCOMES.flatMap((outcome) => Object.values(POOLS).map((label) => `${outcome}, ${label}`)), 'largest difference of periods between group strategies'],
+      rows: [['no prior', 'less known'], ["the teacher's prior", 'large'], ['that, and that rubble costs something', 'more known']].map(([label, run]) => [
+        label,
+        ...OUTCOMES.flatMap((outcome) => Object.keys(POOLS).map((teams) => withError(summary(run, outcome)[`mean ${teams}`], DIGITS[outcome]))),
+        withError(summary(run, 'periods')['strategy range'], 2),
+      ]),
+    }),
+
+    ...calibrationTables(runs),
+
+    power: () => {
+      const paired = runs.json('findings, paired').replication;
+      const unpaired = runs.json('findings, unpaired').replication;
+      const share = ({ significant, low, high }, { studies }) => ({
+        text: `${percent(significant / studies, 1)} (${percent(low).replace(' %', '')} .. ${percent(high).replace(' %', '')})`,
+        value: (100 * significant) / studies,
+        se: (100 * (high - low)) / (2 * 1.96),
+      });
+      return {
+        columns: ['finding', 'published', 'significant here', 'with other people in every strategy', 'power by F', 'power imposed'],
+        rows: paired.findings.map((finding, i) => [
+          finding.effect,
+          `${finding.published_significant ? `p < ${String(finding.alpha).replace(/^0/, '')}` : 'n.s.'}${finding.published_f ? `, F = ${fixed(finding.published_f, 2)}` : ''}`,
+          share(finding, paired),
+          share(unpaired.findings[i], unpaired),
+          finding.analytic_power === null ? '' : { text: fixed(finding.analytic_power, 2), value: finding.analytic_power },
+          finding.imposed_power === null
+            ? ''
+            : withError({ value: finding.imposed_power.power, se: (finding.imposed_power.high - finding.imposed_power.low) / (2 * 1.96) }, 2),
+        ]),
+      };
+    },
+  };
+
+  const large = (outcome, name) => summary('large', outcome)[name];
+  const eta = (outcome, name) => ({ value: term('large', outcome, name).partial_eta_squared, se: (term('large', outcome, name).upper_limit - term('large', outcome, name).lower_limit) / 3.92 });
+  const publishedMean = (outcome, teams) => publishedFigure(outcome, 'mean', teams).value;
+  const figures = {
+    version: () => ({ text: runs.json('version').version }),
+    'misfit.knowledge.group': () => figure(misfit('knowledge', 'mean', 'group'), 1, signed),
+    'misfit.knowledge.baseline': () => figure(misfit('knowledge', 'mean', 'baseline'), 1, signed),
+    'misfit.periods.group': () => figure(misfit('periods', 'mean', 'group'), 1, signed),
+    'misfit.periods.baseline': () => figure(misfit('periods', 'mean', 'baseline'), 1, signed),
+    'ratio': () => figure(large('periods', 'ratio of baseline'), 2),
+    'ratio.published': () => fixed(publishedMean('periods', 'baseline') / publishedMean('periods', 'group'), 2),
+    'gap': () => figure(large('knowledge', 'gain of groups'), 3),
+    'gap.published': () => fixed(publishedMean('knowledge', 'group') - publishedMean('knowledge', 'baseline'), 2),
+    'lessons.group': () => figure(large('periods', 'mean group'), 2),
+    'lessons.alone': () => figure({ value: large('periods', 'mean baseline').value / 3, se: large('periods', 'mean baseline').se / 3 }, 2),
+    'sd.knowledge': () => figure(large('knowledge', 'sd group'), 3),
+    'sd.knowledge.published': () => fixed(publishedFigure('knowledge', 'sd', 'group').value, 2),
+    'eta.composition': () => figure(eta('periods', 'composition'), 2),
+    'eta.composition.published': () => fixed(partialEtaSquared(publishedF('periods', 'composition').f, 3, 224).value, 3),
+    'eta.strategy.knowledge.published': () => fixed(partialEtaSquared(publishedF('knowledge', 'strategy').f, 3, 224).value, 3),
+    'strategy.periods.range': () => withError(large('periods', 'strategy range'), 2),
+    'strategy.knowledge.range': () => withError(large('knowledge', 'strategy range'), 3),
+    'range.difference': () => withError(large('periods', 'range difference'), 2, signed),
+    'agreement.paired': () => ({ text: fixed(runs.json('findings, paired').replication.mean_agreement, 1), value: runs.json('findings, paired').replication.mean_agreement }),
+    'agreement.unpaired': () => ({ text: fixed(runs.json('findings, unpaired').replication.mean_agreement, 1), value: runs.json('findings, unpaired').replication.mean_agreement }),
+    ...Object.fromEntries(
+      [['periods', 'strategy'], ['periods', 'composition'], ['knowledge', 'strategy'], ['knowledge', 'composition'], ['knowledge', 'strategy x composition']].map(([outcome, name]) => [
+        `power.${outcome}.${name.replaceAll(' ', '')}`,
+        () => {
+          const one = runs.json('findings, paired').replication.findings.find((finding) => finding.effect === `${outcome}: ${name}`);
+          return { text: fixed(one.analytic_power, 2), value: one.analytic_power };
+        },
+      ]),
+    ),
+    ...calibrationFigures(runs),
+    'reference.knowledge': () => {
+      const gaps = ['0.9', '1.0'].flatMap((scale) =>
+        Object.keys(POOLS).map((teams) => reference.study[scale][`knowledge ${teams}`][0] - summary(`scale ${scale}`, 'knowledge')[`mean ${teams}`].value),
+      );
+      const text = [Math.min(...gaps), Math.max(...gaps)].map((gap) => fixed(gap, 3));
+      return { text: text[0] === text[1] ? text[0] : `${text[0]} to ${text[1]}`, value: mean(gaps), se: summary('scale 0.9', 'knowledge')['mean group'].se };
+    },
+  };
+
+  const orderOf = (value) => GROUP.map((strategy) => [strategy, value(strategy)]).sort((a, b) => a[1] - b[1]).map(([strategy]) => strategy);
+  const insignificant = (outcome, name) => term('large', outcome, name).p_value > 0.05;
+  const claims = {
+    'facts-agree': () => Object.entries(reference.facts).every(([name, value]) => factsHere()[name] === value),
+    'common-conveys-least': () =>
+      orderOf((strategy) => summary('large', 'area_sr')[`mean ${strategy}`].value)[3] === 'common' &&
+      [1, 2].every((kc) => orderOf((strategy) => areaMean(strategy, kc).value)[3] === 'common'),
+    'joint-conveys-most': () =>
+      orderOf((strategy) => summary('large', 'area_sr')[`mean ${strategy}`].value)[0] === 'joint' && orderOf((strategy) => areaMean(strategy, 2).value)[0] === 'joint',
+    'low-as-informative-in-1': () => Math.abs(areaDifference('individual-low', 1).value) < 2 * areaDifference('individual-low', 1).se,
+    'no-interaction': () => OUTCOMES.every((outcome) => insignificant(outcome, 'strategy:composition')),
+    'strategy-hardly-matters': () =>
+      large('periods', 'strategy range').value < 0.2 &&
+      large('knowledge', 'strategy range').value < 0.02 &&
+      OUTCOMES.every((outcome) => term('large', outcome, 'strategy').upper_limit < 0.01 && term('small', outcome, 'strategy').p_value > 0.05),
+    'high-conveys-most-in-3': () => orderOf((strategy) => areaMean(strategy, 3).value)[0] === 'individual-high',
+    'no-difference-of-beliefs': () =>
+      OUTCOMES.every((outcome) => contrast('large', outcome, BELIEFS.group, BELIEFS.individual).p > 0.05),
+    'differences-are-small': () =>
+      OUTCOMES.every((outcome) =>
+        [COMPOSITIONS, ...COMPOSITIONS.map((one) => [one])].every((compositions) => {
+          const { value, se } = contrast('large', outcome, BELIEFS.group, BELIEFS.individual, compositions);
+          return Math.abs(value) + 1.96 * se < { periods: 0.25, knowledge: 0.02 }[outcome];
+        }),
+      ),
+    'variances-agree-on-periods': () => Math.abs(large('periods', 'log ratio all').value) < 1.96 * large('periods', 'log ratio all').se,
+    'knowledge-varies-most-under-common': () =>
+      large('knowledge', 'log ratio all').value > 1.96 * large('knowledge', 'log ratio all').se &&
+      orderOf((strategy) => large('knowledge', `sd ${strategy}`).value)[3] === 'common',
+    'composition-too-strong': () => {
+      const { f, df } = publishedF('periods', 'composition');
+      return term('large', 'periods', 'composition').lower_limit > partialEtaSquared(f, ...df).high;
+    },
+    'confirm-gain-smaller': () => {
+      const ratio = learned('N', 'confirm_gain').value / (paper.gains.N.confirm_gain * Math.sqrt(2 / Math.PI));
+      return ratio > 0.62 && ratio < 0.71;
+    },
+    'means-reproduced-or-not': () =>
+      [['periods', 'mean', 'group'], ['periods', 'sd', 'baseline'], ['knowledge', 'sd', 'baseline']].every((one) => Math.abs(misfit(...one).value) < 2) &&
+      misfit('knowledge', 'mean', 'group').value > 2 && misfit('knowledge', 'mean', 'baseline').value < -2 &&
+      misfit('periods', 'mean', 'baseline').value < -2,
+    'ranges-agree': () => Math.abs(large('periods', 'range difference').value) < 1.96 * large('periods', 'range difference').se,
+    'all-complete': () => runs.table('large', 'teams').every((row) => row.status === 'complete'),
+    'never-all-findings': () => runs.json('findings, paired').replication.all_agree === 0 && runs.json('findings, unpaired').replication.all_agree === 0,
+    exceptions: () =>
+      ['paired', 'unpaired'].every((pairing) => {
+        const { studies, findings } = runs.json(`findings, ${pairing}`).replication;
+        const unlike = findings.filter((one) => one.significant > studies / 2 !== one.published_significant).map((one) => one.effect);
+        return unlike.join() === ['knowledge: strategy x composition', 'knowledge: strategy in NNN', 'knowledge: strategy in PPP', 'area_sr: strategy', 'knowledge: group - baseline'].join();
+      }),
+    'common-teaches-less-elsewhere': () =>
+      DOMAINS.every((domain) => contrast(domain, 'knowledge', ['common'], OTHERS).value < 0) &&
+      DOMAINS.filter((domain) => contrast(domain, 'knowledge', ['common'], OTHERS).p < 0.05).join() === 'two-goals,cookie-crumb',
+    'periods-agree-elsewhere': () =>
+      DOMAINS.every((domain) => contrast(domain, 'periods', ['common'], OTHERS).p > 0.05 && contrast(domain, 'periods', BELIEFS.group, BELIEFS.individual).p > 0.05),
+    'prior-matters-little': () =>
+      ['less known', 'more known'].every((run) => Math.abs(summary(run, 'knowledge')['mean group'].value - large('knowledge', 'mean group').value) < 0.02),
+  };
+  return { tables, figures, claims };
+}

@@ -1,0 +1,98 @@
+// Regenerates docs/validation.md, or checks that it is what this program computes.
+//
+//   node tests/validation/validation.mjs KITH --write
+//   node tests/validation/validation.mjs KITH --check
+//
+//   --page FILE   another page than docs/validation.md
+//   --only NAMES  only these tables and figures, separated by commas
+//   --keep DIR    keep the runs, and use those of the same program that are there
+//
+// Exits with 0 if the page agrees, 1 if it does not, 2 for a wrong command line. Results are
+// deterministic, so any difference fails; each is printed with its size in Monte-Carlo standard errors.
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { compareTables, describe, findTypedFigures, parsePage, printPage, printTable } from './page.mjs';
+import { Runs } from './runs.mjs';
+import { makeContent } from './tables.mjs';
+
+const source = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+
+function readArguments() {
+  const { values, positionals } = parseArgs({
+    allowPositionals: true,
+    options: {
+      write: { type: 'boolean' }, check: { type: 'boolean' }, page: { type: 'string' }, only: { type: 'string' }, keep: { type: 'string' },
+    },
+  });
+  if (positionals.length !== 1 || Boolean(values.write) === Boolean(values.check)) {
+    throw new Error('give the program kith, and either --write or --check');
+  }
+  return { kith: resolve(positionals[0]), ...values };
+}
+
+function lookUp(list, what, name) {
+  if (!Object.hasOwn(list, name)) throw new Error(`the page has a ${what} '${name}', which tables.mjs does not define`);
+  return list[name]();
+}
+
+// Fills the parts of a page anew; returns them with what differs, a list of lines.
+function regenerate(parts, content, wanted) {
+  const differences = [];
+  const fresh = parts.map((part) => {
+    if (!wanted(part.name)) return part;
+    if (part.kind === 'table') {
+      const table = lookUp(content.tables, 'table', part.name);
+      differences.push(...compareTables(part.name, part.text, table).map(describe));
+      return { ...part, text: printTable(table) };
+    }
+    if (part.kind === 'figure') {
+      const made = lookUp(content.figures, 'figure', part.name);
+      const { text, ...rest } = typeof made === 'string' ? { text: made } : made;
+      if (text !== part.text) differences.push(describe({ figure: part.name, printed: part.text, now: text, ...rest }));
+      return { ...part, text };
+    }
+    if (part.kind === 'claim' && !lookUp(content.claims, 'claim', part.name)) part.broken = true;
+    return part;
+  });
+  return { fresh, differences, broken: fresh.filter((part) => part.broken).map((part) => part.name) };
+}
+
+function main({ kith, write, page: given, only, keep }) {
+  const page = resolve(given ?? join(source, 'docs/validation.md'));
+  const before = readFileSync(page, 'utf8');
+  const names = only?.split(',');
+  const wanted = (name) => !names || names.includes(name);
+  const folder = keep ? resolve(keep) : mkdtempSync(join(tmpdir(), 'validation-'));
+  try {
+    const runs = new Runs(kith, source, folder, (line) => console.error(line));
+    const { fresh, differences, broken } = regenerate(parsePage(before), makeContent(runs, source), wanted);
+    const problems = [...findTypedFigures(before), ...broken.map((name) => `the sentence before 'holds: ${name}' is no longer true`)];
+    if (write) writeFileSync(page, printPage(fresh));
+    for (const line of [...differences.map((one) => one.line), ...problems]) console.log(line);
+    const beyond = differences.filter((one) => one.beyond).length;
+    console.log(`${page}: ${differences.length} figures ${write ? 'changed' : 'differ'}, ${beyond} of them beyond chance`);
+    if (write) return problems.length ? 1 : 0;
+    problems.push(...differences);
+    if (problems.length) console.log('After an intended change: node tests/validation/validation.mjs KITH --write');
+    return problems.length ? 1 : 0;
+  } finally {
+    if (!keep) rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+let options;
+try {
+  options = readArguments();
+} catch (error) {
+  console.error(`${error.message}\nusage: node validation.mjs KITH --write|--check [--page FILE] [--only NAMES] [--keep DIR]`);
+  process.exit(2);
+}
+try {
+  process.exitCode = main(options);
+} catch (error) {
+  console.error(error.message);
+  process.exitCode = 1;
+}
