@@ -336,7 +336,7 @@ TEST(ExplainCommand, ListsKindsWithTheirParameters) {
       }
     }
   }
-  EXPECT_THAT(run_kith({"explain", "strategy"}).err, HasSubstr("did you mean 'strategies'?"));
+  EXPECT_THAT(run_kith({"explain", "strategy"}).err, HasSubstr("learners, strategies and beliefs are topics"));
 }
 
 // Every id that a source can report is explained, and only once.

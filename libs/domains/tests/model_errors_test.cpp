@@ -54,7 +54,7 @@ std::vector<ModelCase> model_cases() {
        "[[model.mdp]]\nname = \"a\"\nfile = \"ice.json\"\n[[model.mdp]]\nname = \"a\"", "E0231 domain.toml 11:8",
        "twice", "line 7"},
       {"file_above", csv, toml, "\"states.csv\"", "\"../states.csv\"", "E0232 domain.toml 7:10",
-       "cannot be a file of a model", "beside"},
+       "cannot be a file of a model", "relative to the domain file"},
       {"file_elsewhere", csv, toml, "\"states.csv\"", "\"/etc/states.csv\"", "E0232 domain.toml 7:10"},
       {"file_hidden", csv, toml, "\"states.csv\"", "\".ssh/states.csv\"", "E0232 domain.toml 7:10", "", "hidden"},
       {"file_of_another_kind", csv, toml, "\"states.csv\"", "\"passwords\"", "E0232 domain.toml 7:10",

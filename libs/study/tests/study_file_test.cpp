@@ -245,7 +245,7 @@ TEST(StudyFile, ChecksOverridesLikeTheFile) {
   EXPECT_THAT(ids(parse(kStudy, {"seed.x=1"})), ElementsAre("E0114"));
   const auto wrong_type = parse(kStudy, {"seed=\"8\""});
   ASSERT_THAT(ids(wrong_type), ElementsAre("E0108"));
-  EXPECT_EQ(wrong_type.diagnostics.front().file, "--set");
+  EXPECT_EQ(wrong_type.diagnostics.front().file, "override");
   EXPECT_THAT(ids(parse(kStudy, {"teacher.particels=8"})), ElementsAre("E0107"));
 }
 
