@@ -25,10 +25,10 @@ namespace {
 // The largest |miss| that still counts as met.
 bool is_met(const TargetOutcome& outcome) { return std::abs(outcome.miss) <= 1.0; }
 
-// The standard error of a figure, in the unit of its miss.
+// The standard error of a figure, in tolerances.
 double error_in_tolerances(const Target& target, const TargetOutcome& outcome) {
-  if (!target.is_factor) return outcome.standard_error / target.tolerance;
-  return outcome.model > 0.0 ? outcome.standard_error / outcome.model / std::log(target.tolerance) : 0.0;
+  const double tolerance = target.is_factor ? std::log(target.tolerance) : target.tolerance;
+  return compared_error(target, outcome.model, outcome.standard_error) / tolerance;
 }
 constexpr double kLargeError = 0.5;
 
@@ -37,60 +37,65 @@ std::string figure(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) >= 100.0 ? 0 : std::abs(value) >= 1.0 ? 2 : 3);
 }
 
-std::string range_text(const ParameterRange& range) {
-  if (range.open_low && range.open_high) return fmt::format("{:.3g} .. {:.3g} and beyond", range.low, range.high);
-  return fmt::format("{}{:.3g} .. {:.3g}{}", range.open_low ? "below " : "", range.low, range.high,
-                     range.open_high ? " and above" : "");
-}
-
-// Which of the ranges end because the parameter may not go further.
-ParameterRange within_limits(ParameterRange range, const FreeParameter& parameter) {
-  const double slack = 0.03 * (parameter.max - parameter.min);
-  range.open_low = range.open_low && range.low > parameter.min + slack;
-  range.open_high = range.open_high && range.high < parameter.max - slack;
-  return range;
+// Whether an interval ends because the parameter may not go further, or because the search did not.
+std::string range_text(const ParameterRange& range, const FreeParameter& parameter) {
+  const auto interval = fmt::format("{:.3g} .. {:.3g}", range.low, range.high);
+  const bool at_min = range.open_low && range.low <= parameter.min;
+  const bool at_max = range.open_high && range.high >= parameter.max;
+  if (at_min && at_max) return interval + " (the whole range: no limit)";
+  std::string note;
+  const auto add = [&](const std::string& text) { note += (note.empty() ? "" : ", ") + text; };
+  if (at_min) add("no lower limit in the range");
+  if (at_max) add("no upper limit in the range");
+  if (range.open_low && !at_min) add("or less: the last design ended here");
+  if (range.open_high && !at_max) add("or more: the last design ended here");
+  return note.empty() ? interval : interval + " (" + note + ")";
 }
 
 std::string parameters_table(const TargetSet& set, const Calibration& result, const Console& console) {
   TextTable table{"lrrl"};
-  table.add({"parameter", "study", "calibrated", "about as good (others adjusted)"});
+  table.add({"parameter", "study", "calibrated", "95 % interval (others adjusted)"});
   for (std::size_t k = 0; k < set.parameters.size(); ++k) {
     table.add({set.parameters[k].name, fmt::format("{}", set.parameters[k].present),
-               fmt::format("{}", result.best.values[k]),
-               range_text(within_limits(result.ranges[k], set.parameters[k]))});
+               fmt::format("{}", result.best.values[k]), range_text(result.ranges[k], set.parameters[k])});
   }
   return table.text(console);
 }
 
 std::string targets_table(const TargetSet& set, const Calibration& result, const Console& console) {
-  TextTable table{"lrrrrl"};
-  table.add({"target", "published", "model", "(se)", "off by", ""});
+  TextTable table{"lrlrrrll"};
+  table.add({"target", "published", "(se)", "model", "(se)", "off by", "", "wish"});
   for (std::size_t t = 0; t < set.targets.size(); ++t) {
     const auto& target = set.targets[t];
     const auto& outcome = result.best.targets[t];
-    const auto published = figure(target.value) + (target.is_factor ? " x/ " : " +- ") + figure(target.tolerance);
-    table.add({to_string(target), published, figure(outcome.model), fmt::format("({:.2g})", outcome.standard_error),
-               fmt::format("{:+.2f}", outcome.miss), is_met(outcome) ? "met" : "missed"});
+    const auto published = target.standard_error ? fmt::format("({:.2g})", *target.standard_error) : "(not given)";
+    const auto wish = (target.is_factor ? "x/ " : "+- ") + figure(target.tolerance);
+    table.add({to_string(target), figure(target.value), published, figure(outcome.model),
+               fmt::format("({:.2g})", outcome.standard_error), fmt::format("{:+.1f} se", outcome.misfit),
+               is_met(outcome) ? "met" : "missed", wish});
   }
   return table.text(console) +
          console.dim(
-             "off by: in tolerances (for a factor: on the log scale). se: standard error of the\n"
-             "model's figure (jackknife over replicates)") +
+             "off by: in standard errors of the difference, published and simulated together; without a\n"
+             "published one, the tolerance counts as two. model (se): jackknife over replicates.\n"
+             "wish: the tolerance") +
          "\n";
 }
 
 std::string candidates_table(const TargetSet& set, const Calibration& result, const Console& console) {
-  TextTable table{"lrr" + std::string(set.parameters.size(), 'r')};
-  std::vector<std::string> header{"confirmed with new teams", "discrepancy", "(se)"};
+  TextTable table{"lr" + std::string(set.parameters.size(), 'r')};
+  std::vector<std::string> header{"confirmed with new teams", "misfit"};
   for (const auto& parameter : set.parameters) header.push_back(parameter.name);
   table.add(header);
   for (const auto& candidate : result.candidates) {
-    std::vector<std::string> row{candidate.label, fmt::format("{:.4f}", candidate.discrepancy),
-                                 fmt::format("({:.1g})", candidate.standard_error)};
+    std::vector<std::string> row{candidate.label, fmt::format("{:.2f}", candidate.misfit)};
     for (const double value : candidate.values) row.push_back(fmt::format("{}", value));
     table.add(row);
   }
-  return table.text(console);
+  return table.text(console) +
+         console.dim(
+             "misfit: chi-squared with the model discrepancy; settings within 3.84 do not differ in one parameter") +
+         "\n";
 }
 
 std::string sensitivity_table(const TargetSet& set, const Calibration& result, const Console& console) {
@@ -113,6 +118,22 @@ std::string sensitivity_table(const TargetSet& set, const Calibration& result, c
          "\n";
 }
 
+std::string discrepancy_sentence(const Calibration& result) {
+  if (!result.misfit_p) {
+    return "The targets determine as many parameters as there are targets, so they cannot show whether the model\n"
+           "disagrees with them; intervals assume that it does not.\n";
+  }
+  const auto test =
+      fmt::format("chi-squared {:.1f}, {:.1f} degrees of freedom, {}", result.least_misfit, result.degrees_of_freedom,
+                  *result.misfit_p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", *result.misfit_p));
+  if (result.discrepancy <= 0.0)
+    return "The model misses these targets by no more than chance explains (" + test + ").\n";
+  return fmt::format(
+      "The model misses these targets by about {:.1f} published standard errors beyond chance\n({}); "
+      "intervals include that discrepancy.\n",
+      result.discrepancy, test);
+}
+
 std::string conflict_sentences(const TargetSet& set, const Calibration& result) {
   const auto missed = std::count_if(result.best.targets.begin(), result.best.targets.end(),
                                     [](const TargetOutcome& outcome) { return !is_met(outcome); });
@@ -127,14 +148,13 @@ std::string conflict_sentences(const TargetSet& set, const Calibration& result) 
         "uncertain: simulate more teams (--teams, --confirm).\n",
         uncertain, set.targets.size());
   }
+  text += discrepancy_sentence(result);
   constexpr std::size_t kShown = 4;
   for (std::size_t i = 0; i < std::min(kShown, result.conflicts.size()); ++i) {
     const auto& conflict = result.conflicts[i];
     text += fmt::format(
-        "The {} and the {} can each be met exactly, but not both: {} {:.1f} {}.\n",
-        to_string(set.targets[conflict.first]), to_string(set.targets[conflict.second]),
-        conflict.closest > 1.0 ? "no setting brings both within tolerance; one misses by" : "one misses by at least",
-        conflict.closest, "tolerances");
+        "The {} and the {} conflict: each can be met alone, but together one misses by at least {:.1f} se.\n",
+        to_string(set.targets[conflict.first]), to_string(set.targets[conflict.second]), conflict.closest);
   }
   return text;
 }
@@ -159,7 +179,7 @@ std::string frontier_table(const TargetSet& set, const Calibration& result, cons
     table.add(row);
   }
   return "\nTrade-off: no setting is better than another of these in both.\n" + table.text(console) +
-         console.dim("error: root mean square of how far the means miss, in tolerances") + "\n";
+         console.dim("error: root mean square of how far the means miss, in published standard errors") + "\n";
 }
 
 std::string report(const TargetSet& set, const Calibration& result, const Console& console) {
@@ -175,30 +195,39 @@ Json calibration_json(const TargetSet& set, const CalibrationPoint& point) {
   for (std::size_t k = 0; k < set.parameters.size(); ++k) values[set.parameters[k].name] = point.values[k];
   Json targets = Json::array();
   for (const auto& one : point.targets)
-    targets.push_back({{"model", one.model}, {"standard_error", one.standard_error}, {"miss", one.miss}});
+    targets.push_back(
+        {{"model", one.model}, {"standard_error", one.standard_error}, {"misfit", one.misfit}, {"miss", one.miss}});
   return {{"label", point.label},
           {"values", values},
           {"teams_per_cell", point.teams_per_cell},
-          {"discrepancy", point.discrepancy},
-          {"standard_error", point.standard_error},
+          {"misfit", point.misfit},
           {"targets", targets}};
 }
 
 Json target_json(const Target& target) {
-  return {{"quantity", name_of(target.quantity)},
-          {"statistic", target.statistic == Statistic::kMean ? "mean" : "sd"},
-          {"teams", to_string(target.teams)},
-          {"value", target.value},
-          {target.is_factor ? "within_factor" : "tolerance", target.tolerance},
-          {"priority", target.priority},
-          {"source", target.source}};
+  Json json{{"statistic", target.effect                          ? "F"
+                          : target.statistic == Statistic::kMean ? "mean"
+                                                                 : "sd"},
+            {"value", target.value},
+            {"standard_error", target.standard_error ? Json(*target.standard_error) : Json(nullptr)},
+            {target.is_factor ? "within_factor" : "tolerance", target.tolerance},
+            {"priority", target.priority},
+            {"source", target.source}};
+  if (target.effect) {
+    json["effect"] = to_string(*target.effect);
+    json["df"] = {target.df1, target.df2};
+  } else {
+    json["quantity"] = name_of(target.quantity);
+    json["teams"] = to_string(target.teams);
+  }
+  return json;
 }
 
 Json parameters_json(const TargetSet& set, const Calibration& result) {
   Json parameters = Json::array();
   for (std::size_t k = 0; k < set.parameters.size(); ++k) {
     const auto& parameter = set.parameters[k];
-    const auto range = within_limits(result.ranges[k], parameter);
+    const auto& range = result.ranges[k];
     parameters.push_back({{"name", parameter.name},
                           {"keys", parameter.keys},
                           {"min", parameter.min},
@@ -247,6 +276,10 @@ Json document_of(const std::string& study, std::uint64_t seed, const TargetSet& 
           {"teams", result.teams_simulated},
           {"parameters", parameters_json(set, result)},
           {"targets", targets},
+          {"discrepancy", result.discrepancy},
+          {"least_misfit", result.least_misfit},
+          {"degrees_of_freedom", result.degrees_of_freedom},
+          {"misfit_p", result.misfit_p ? Json(*result.misfit_p) : Json(nullptr)},
           {"best", calibration_json(set, result.best)},
           {"candidates", candidates},
           {"conflicts", conflicts},

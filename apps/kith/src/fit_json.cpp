@@ -8,10 +8,18 @@ namespace {
 constexpr const char* kSchema = "kith.fit/1";
 
 // An end that the data leave open is null.
-Json parameter(double value, const FitInterval& interval) {
+Json maximum(double value, const FitInterval& interval) {
   return {{"estimate", value},
           {"lower", interval.lower_open ? Json(nullptr) : Json(interval.lower)},
           {"upper", interval.upper_open ? Json(nullptr) : Json(interval.upper)}};
+}
+
+// The headline, and the maximum of the likelihood beside it.
+Json parameter(const TypeReport& type, double PopulationParameters::*parameter, const FitInterval& interval) {
+  return {{"estimate", type.median.*parameter},
+          {"lower", type.lower.*parameter},
+          {"upper", type.upper.*parameter},
+          {"maximum_likelihood", maximum(type.fit.parameters.*parameter, interval)}};
 }
 
 Json parameter(const ParameterPosterior& posterior) {
@@ -23,21 +31,18 @@ Json parameter(const ParameterPosterior& posterior) {
 }
 
 Json type_to_json(const TypeReport& type) {
-  const auto& p = type.fit.parameters;
+  using Parameters = PopulationParameters;
   const auto& known = type.identifiability;
   return {{"name", type.name},
           {"people", type.fit.people},
           {"share", type.share},
           {"log_likelihood", type.fit.log_likelihood},
-          {"ability_mean", parameter(p.ability_mean, type.fit.ability_mean)},
-          {"ability_sd", parameter(p.ability_sd, type.fit.ability_sd)},
-          {"confirm_gain_scale", parameter(p.confirm_scale, type.fit.confirm_scale)},
-          {"correct_gain_scale", parameter(p.correct_scale, type.fit.correct_scale)},
-          {"typical",
-           {{"ability_mean", type.typical.ability_mean},
-            {"ability_sd", type.typical.ability_sd},
-            {"confirm_gain_scale", type.typical.confirm_scale},
-            {"correct_gain_scale", type.typical.correct_scale}}},
+          {"estimates", "posterior medians"},
+          {"ability_mean", parameter(type, &Parameters::ability_mean, type.fit.ability_mean)},
+          {"ability_sd", parameter(type, &Parameters::ability_sd, type.fit.ability_sd)},
+          {"confirm_gain_scale", parameter(type, &Parameters::confirm_scale, type.fit.confirm_scale)},
+          {"correct_gain_scale", parameter(type, &Parameters::correct_scale, type.fit.correct_scale)},
+          {"at_edge", type.at_edge},
           {"identifiability",
            {{"gains_apart", known.gains_apart},
             {"gains_statistic", known.gains.statistic},
@@ -84,6 +89,7 @@ Json to_json(const FitReport& report, const std::vector<Diagnostic>& notes) {
                                             {"difference_se", model.difference_se}});
   }
   document["sentences"] = report.sentences;
+  document["why_estimates_differ"] = report.why_estimates_differ;
   document["notes"] = Json::array();
   for (const auto& note : notes) document["notes"].push_back(to_json(note));
   return document;

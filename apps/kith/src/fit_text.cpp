@@ -15,9 +15,29 @@ std::string interval_text(const FitInterval& interval) {
   return lower + " to " + upper;
 }
 
+constexpr const char* kPopulationColumns = "lrrlrlrlrl";
+const std::vector<std::string> kPopulationHeader{"type",         "people", "mean ability", "", "sd", "",
+                                                 "confirm gain", "",       "correct gain", ""};
+
 std::string populations(const FitReport& report, const Console& console) {
-  TextTable table{"lrrlrlrlrl"};
-  table.add({"type", "people", "mean ability", "", "sd", "", "confirm gain", "", "correct gain", ""});
+  TextTable table{kPopulationColumns};
+  table.add(kPopulationHeader);
+  for (const auto& type : report.types) {
+    std::vector<std::string> row{type.name, fmt::format("{:.0f}", type.fit.people)};
+    for (const auto parameter : {&PopulationParameters::ability_mean, &PopulationParameters::ability_sd,
+                                 &PopulationParameters::confirm_scale, &PopulationParameters::correct_scale}) {
+      row.push_back(fmt::format("{:.3f}", type.median.*parameter));
+      row.push_back(fmt::format("{:.3f} to {:.3f}", type.lower.*parameter, type.upper.*parameter));
+    }
+    table.add(row);
+  }
+  return console.bold("Populations") + ": posterior medians, used in the [learner] sections below\n" +
+         table.text(console) + console.dim("gains: scale of a half-normal; intervals: 95 % of the posterior") + "\n";
+}
+
+std::string maxima(const FitReport& report, const Console& console) {
+  TextTable table{kPopulationColumns};
+  table.add(kPopulationHeader);
   for (const auto& type : report.types) {
     const auto& p = type.fit.parameters;
     table.add({type.name, fmt::format("{:.0f}", type.fit.people), fmt::format("{:.3f}", p.ability_mean),
@@ -26,10 +46,13 @@ std::string populations(const FitReport& report, const Console& console) {
                interval_text(type.fit.confirm_scale), fmt::format("{:.3f}", p.correct_scale),
                interval_text(type.fit.correct_scale)});
   }
-  return console.bold("Populations") + "\n" + table.text(console) +
-         console.dim(
-             "gains: scale of a half-normal; intervals of 95 % by profile likelihood; ?: the data set no limit") +
-         "\n";
+  auto text = "\n" + console.bold("Maximum of the likelihood") + ", for comparison\n" + table.text(console) +
+              console.dim("95 % intervals by profile likelihood; ?: no limit within the values searched") + "\n";
+  for (const auto& type : report.types) {
+    for (const auto& sentence : type.at_edge)
+      text += "  " + (report.types.size() > 1 ? type.name + ": " : "") + sentence + "\n";
+  }
+  return text + "  " + report.why_estimates_differ + "\n";
 }
 
 std::string what_can_be_told(const FitReport& report, const Console& console) {
@@ -92,8 +115,8 @@ char letter_of(const TypeReport& type, std::size_t k) {
 }  // namespace
 
 std::string text_of(const FitReport& report, const Console& console) {
-  auto text = populations(report, console) + what_can_be_told(report, console) + models(report, console) +
-              people(report, console);
+  auto text = populations(report, console) + maxima(report, console) + what_can_be_told(report, console) +
+              models(report, console) + people(report, console);
   text += "\n" + console.bold("For a study file") + "\n";
   for (std::size_t k = 0; k < report.types.size(); ++k) {
     text += (k == 0 ? "" : "\n") + learner_section(letter_of(report.types[k], k), report.types[k]);

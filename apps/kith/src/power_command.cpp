@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -13,7 +14,6 @@
 #include "kith/explain/words.hpp"
 #include "kith/planning/power.hpp"
 #include "kith/present/json.hpp"
-#include "kith/study/study_memory.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
 #include "work_notice.hpp"
@@ -64,6 +64,46 @@ std::vector<std::size_t> sizes_of(const PowerCommandOptions& options) {
   std::sort(teams.begin(), teams.end());
   teams.erase(std::unique(teams.begin(), teams.end()), teams.end());
   return teams;
+}
+
+std::string list_of(const std::vector<std::size_t>& sizes) { return fmt::format("{}", fmt::join(sizes, ",")); }
+
+void check_pool(const PowerCommandOptions& options, std::size_t pool, const std::vector<std::size_t>& teams) {
+  const auto least = 2 * teams.back();
+  if (pool >= least) return;
+  const auto which = options.teams.empty() ? fmt::format("--teams is {} by default", list_of(teams))
+                                           : fmt::format("the largest of --teams is {}", teams.back());
+  throw Error{ErrorKind::kUsage,
+              fmt::format("--pool {} is too small: studies are drawn from the pool, so it needs at least twice the "
+                          "teams of the largest study ({}); use --pool {} or smaller --teams",
+                          pool, which, least)};
+}
+
+// What the analyses take for granted, in sentences.
+std::vector<std::string> assumptions(const StudySpec& spec, bool paired) {
+  std::vector<std::string> sentences{
+      "Each team contributes one value (knowledge is the mean over its members), so members are not counted as "
+      "independent."};
+  if (paired) {
+    sentences.emplace_back(
+        "Every strategy teaches the same people (--paired), so strategies are compared within people: analysis of "
+        "variance with the Greenhouse-Geisser correction, and paired t tests. \"By F\" does not apply.");
+  } else {
+    sentences.emplace_back("Every cell teaches different people, so teams are independent.");
+    const bool same = spec.pairing == Pairing::kReplicate && spec.strategies.size() > 1;
+    if (same) {
+      sentences.emplace_back(
+          "The study file has pairing = \"replicate\": to analyse strategies that teach the same people, add "
+          "--paired.");
+    }
+  }
+  return sentences;
+}
+
+std::string assumptions_text(const StudySpec& spec, bool paired, const Console& console) {
+  std::string text = "Assumptions:\n";
+  for (const auto& sentence : assumptions(spec, paired)) text += "  " + sentence + "\n";
+  return console.dim(text);
 }
 
 // --- text -------------------------------------------------------------------------
@@ -143,6 +183,27 @@ std::string replication_text(const std::vector<PublishedFinding>& findings, cons
                      result.all_agree, result.studies, result.mean_agreement, findings.size());
 }
 
+// Here the simulated people are those of the study, and the analysis may not know.
+std::string replication_assumptions(const StudySpec& spec, bool paired, const Console& console) {
+  std::string text = "Assumptions:\n  " + assumptions(spec, paired).front() + "\n";
+  const bool same = spec.pairing == Pairing::kReplicate && spec.strategies.size() > 1;
+  if (same && !paired) {
+    text +=
+        "  The study teaches the same people with every strategy (pairing = \"replicate\") and the tests treat teams "
+        "as\n"
+        "  independent, as the published ones do: tests of strategy find too little. Add --paired to test within\n"
+        "  people, or --set design.pairing=none to simulate different people.\n";
+  } else if (same) {
+    text += "  Every strategy teaches the same people; strategies are compared within people.\n";
+  } else if (paired) {
+    text +=
+        "  --paired compares teams of equal number, but this study teaches different people (pairing = \"none\").\n";
+  } else {
+    text += "  Every cell teaches different people, so teams are independent.\n";
+  }
+  return console.dim(text);
+}
+
 // --- JSON -------------------------------------------------------------------------
 
 template <typename T>
@@ -213,20 +274,18 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   pool_spec.replicates = options.pool.value_or(std::max(kDefaultPool, 2 * power.teams.back()));
   pool_spec.seed = power.seed;
   pool_spec.record = RecordLevel::kTeam;
-  if (pool_spec.replicates < 2 * power.teams.back())
-    throw Error{ErrorKind::kUsage, "--pool must be at least twice the largest of --teams"};
+  check_pool(options, pool_spec.replicates, power.teams);
   const Study pool_study{{pool_spec}};
-  require_study_memory(pool_study, options.threads, num_teams(pool_study));  // the list of teams is long, too
+  require_pool_memory(pool_study, options.threads, num_teams(pool_study));  // before the time is measured
   if (!console.quiet()) console.info(work_text(atlas, pool_spec, options.threads, num_teams(pool_study)));
-  const auto addresses = team_addresses(pool_study);
-  const auto run = run_teams(atlas, pool_study, addresses,
-                             {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
-                                progress.update(done, total);
-                                return stop_signal() == 0;
-                              }});
+  const auto pools = simulate_pools(
+      atlas, pool_study, {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
+                            progress.update(done, total);
+                            return stop_signal() == 0;
+                          }});
   progress.finish();
-  if (run.teams.size() < addresses.size()) return computed_nothing(console);
-  const TeamPool pool{pool_spec, run.teams};
+  if (!pools) return computed_nothing(console);
+  const auto& pool = pools->front();
   const auto curves = power_curves(pool, effects, power);
   if (console.json()) {
     Json list = Json::array();
@@ -239,6 +298,7 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
                             {"alpha", power.alpha},
                             {"target", power.target},
                             {"paired", power.paired},
+                            {"assumptions", assumptions(spec, power.paired)},
                             {"effects", list}});
     return 0;
   }
@@ -248,7 +308,7 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
                 console.dim(fmt::format("significance level {:g}; {} studies of each size, drawn from {} teams per "
                                         "cell;\nintervals include the error from both",
                                         power.alpha, power.draws, pool_spec.replicates)) +
-                "\n");
+                "\n" + assumptions_text(spec, power.paired, console));
   return 0;
 }
 
@@ -270,6 +330,7 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
   replication.studies = options.studies;
   replication.seed = options.seed.value_or(spec.seed);
   replication.threads = options.threads;
+  replication.paired = options.paired;
   replication.on_progress = [&](std::size_t done, std::size_t total) {
     progress.update(done, total);
     return stop_signal() == 0;
@@ -285,12 +346,14 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
     auto document = Json{{"schema", "kith.power/1"},
                          {"study", options.study},
                          {"seed", replication.seed},
-                         {"teams_per_cell", spec.replicates}};
+                         {"teams_per_cell", spec.replicates},
+                         {"paired", options.paired}};
     document["replication"] = replication_json(set.findings, *result);
     console.print_json(document);
     return 0;
   }
-  console.print(replication_text(set.findings, *result, spec, console));
+  console.print(replication_text(set.findings, *result, spec, console) +
+                replication_assumptions(spec, options.paired, console));
   return 0;
 }
 

@@ -164,11 +164,14 @@ void add_power(CLI::App& app, Options& options) {
            ->delimiter(',')
            ->allow_extra_args(false),
       2, 100'000);
-  takes_integer(*command.add_option("--pool", power.pool, "Teams per cell to draw studies from (default: 1000)"), 4,
-                1'000'000);
+  takes_integer(
+      *command.add_option("--pool", power.pool,
+                          "Teams per cell to draw studies from, at least twice the largest of --teams (default: 1000)"),
+      4, 1'000'000);
   takes_integer(*command.add_option("--draws", power.draws, "Studies drawn for each size")->capture_default_str(), 10,
                 1'000'000);
-  command.add_flag("--paired", power.paired, "Every strategy teaches the same people");
+  command.add_flag("--paired", power.paired,
+                   "Every strategy teaches the same people; compare strategies within people");
   auto* findings =
       command
           .add_option("--findings", power.findings,

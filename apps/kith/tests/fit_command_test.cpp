@@ -38,6 +38,8 @@ TEST_F(FitCommand, SaysWhatItFoundAndWhatCannotBeTold) {
   EXPECT_THAT(ran.out, HasSubstr("What these data can tell"));
   EXPECT_THAT(ran.out, HasSubstr("these data cannot tell the gains apart"));
   EXPECT_THAT(ran.out, HasSubstr("[learner.N]"));
+  EXPECT_THAT(ran.out, HasSubstr("posterior medians, used in the [learner] sections below"));
+  EXPECT_THAT(ran.out, HasSubstr("posterior medians and the maximum of the likelihood differ where"));
   EXPECT_THAT(ran.err, HasSubstr("W0704"));
   EXPECT_THAT(ran.err, HasSubstr("computing the likelihood of 12 people takes about "));
   EXPECT_THAT(fit({"--method", "grid"}).err, HasSubstr("computing the likelihood of 12 people takes about "));
@@ -53,7 +55,13 @@ TEST_F(FitCommand, WritesTheSameJsonToFileAndOutput) {
   EXPECT_EQ(document["schema"], "kith.fit/1");
   EXPECT_EQ(document["people"].size(), 12u);
   EXPECT_TRUE(document["types"][0]["ability_mean"]["estimate"].is_number());
-  const auto& upper = document["types"][0]["confirm_gain_scale"]["upper"];
+  for (const auto* key : {"ability_mean", "ability_sd", "confirm_gain_scale", "correct_gain_scale"}) {
+    const auto& parameter = document["types"][0][key];
+    EXPECT_LE(parameter["lower"], parameter["estimate"]) << key;
+    EXPECT_GE(parameter["upper"], parameter["estimate"]) << key;
+  }
+  EXPECT_TRUE(document["why_estimates_differ"].is_string());
+  const auto& upper = document["types"][0]["confirm_gain_scale"]["maximum_likelihood"]["upper"];
   EXPECT_TRUE(upper.is_null() || upper.is_number());
   EXPECT_EQ(document["notes"].size(), 1u);
 

@@ -65,8 +65,8 @@ TEST(Limits, ATableHasAnEnd) {
 }
 
 TEST(Limits, APoolOfTeamsFitsIntoMemory) {
-  const auto ran = run_kith({"power", "quick", "--pool", "1000000", "--teams", "2"}, memory("500M"));
-  expect_refusal(ran, 4, "", "keeping 2000000 teams and teaching on");
+  const auto ran = run_kith({"power", "quick", "--pool", "1000000", "--teams", "2"}, memory("60M"));
+  expect_refusal(ran, 4, "", "keeping the outcomes of 2000000 teams and teaching on");
 }
 
 // Said before the search of hours that comes first.

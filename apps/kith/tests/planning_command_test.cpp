@@ -69,6 +69,8 @@ TEST(CalibrateCommand, PrintsOneDocumentTheSameOnAnyNumberOfThreads) {
   EXPECT_LE(document["parameters"][0]["low"], document["parameters"][0]["value"]);
   EXPECT_GE(document["parameters"][0]["high"], document["parameters"][0]["value"]);
   EXPECT_EQ(document["targets"].size(), 1u);
+  EXPECT_EQ(document["discrepancy"], 0.0);  // one target cannot show any
+  EXPECT_TRUE(document["best"]["targets"][0]["misfit"].is_number());
   EXPECT_GE(document["candidates"].size(), 2u);
 }
 
@@ -118,6 +120,17 @@ TEST(PowerCommand, DrawsACurveAndPrintsADocument) {
   EXPECT_EQ(document["effects"][0]["points"].size(), 2u);
 }
 
+TEST(PowerCommand, StatesWhatItAssumes) {
+  std::vector<std::string> arguments{"power", "quick", "--teams", "3", "--pool", "12", "--draws", "20"};
+  EXPECT_THAT(run_small(arguments).out,
+              AllOf(HasSubstr("Each team contributes one value"), HasSubstr("Every cell teaches different people"),
+                    HasSubstr("add --paired")));
+  arguments.emplace_back("--paired");
+  EXPECT_THAT(run_small(arguments).out, HasSubstr("strategies are compared within people"));
+  arguments.emplace_back("--json");
+  EXPECT_EQ(Json::parse(run_small(arguments).out)["assumptions"].size(), 2u);
+}
+
 TEST(PowerCommand, RepeatsAStudy) {
   const Scratch scratch;
   const auto findings = file_with(scratch, "findings.toml", kFinding);
@@ -157,7 +170,8 @@ TEST(PowerCommand, SaysWhatIsWrong) {
       {{"power", "quick", "--alpha", "1e-300"}, "--alpha must be a number from 0.000001"},
       {{"analyze", "run", "--alpha", "1e-300"}, "--alpha must be a number from 0.000001"},
       {{"power", "quick", "--target", "x"}, "--target must be a number from 0.000001 to 0.999999, not 'x'"},
-      {{"power", "quick", "--teams", "10", "--pool", "12"}, "--pool must be at least twice"},
+      {{"power", "quick", "--teams", "10", "--pool", "12"}, "the largest of --teams is 10); use --pool 20"},
+      {{"power", "quick", "--pool", "12"}, "--teams is 5,10,15,20,30,50,100 by default); use --pool 200"},
       {{"power", "quick", "--findings", targets}, "E0813"}};
   for (const auto& [arguments, message] : refused) {
     const auto ran = run_kith(arguments);

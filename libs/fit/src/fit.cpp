@@ -1,6 +1,7 @@
 #include "kith/fit/fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <set>
 
@@ -66,17 +67,47 @@ std::vector<Members> mixed_members(const MixtureFit& mixture) {
   return result;
 }
 
-double median(const std::vector<PopulationParameters>& draws, double PopulationParameters::*parameter) {
-  std::vector<double> values;
-  for (const auto& draw : draws) values.push_back(draw.*parameter);
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+constexpr std::array kParameters{&PopulationParameters::ability_mean, &PopulationParameters::ability_sd,
+                                 &PopulationParameters::confirm_scale, &PopulationParameters::correct_scale};
+
+// Quantiles of each parameter over the draws, between order statistics where needed.
+PopulationParameters quantiles(const std::vector<PopulationParameters>& draws, double probability) {
+  PopulationParameters result;
+  for (const auto parameter : kParameters) {
+    std::vector<double> values;
+    for (const auto& draw : draws) values.push_back(draw.*parameter);
+    std::sort(values.begin(), values.end());
+    const double place = probability * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const auto above = std::min(below + 1, values.size() - 1);
+    const double share = place - static_cast<double>(below);
+    result.*parameter = values[below] + share * (values[above] - values[below]);
+  }
+  return result;
 }
 
-PopulationParameters medians(const std::vector<PopulationParameters>& draws) {
-  return {median(draws, &PopulationParameters::ability_mean), median(draws, &PopulationParameters::ability_sd),
-          median(draws, &PopulationParameters::confirm_scale), median(draws, &PopulationParameters::correct_scale)};
+// Where the maximum of the likelihood lies at an edge of what is searched; the search stops a little before it.
+std::vector<std::string> edge_sentences(const PopulationParameters& best) {
+  constexpr std::array<const char*, kParameters.size()> kNames{"mean ability", "sd of ability", "scale of confirm gain",
+                                                               "scale of correct gain"};
+  constexpr double kNear = 0.02;
+  std::vector<std::string> sentences;
+  for (std::size_t k = 0; k < kParameters.size(); ++k) {
+    const double value = best.*kParameters[k];
+    const double low = kSmallestPopulation.*kParameters[k], high = kLargestPopulation.*kParameters[k];
+    const bool at_low = value <= (1.0 + kNear) * low, at_high = value >= (1.0 - kNear) * high;
+    if (!at_low && !at_high) continue;
+    sentences.push_back("the likelihood is largest at the edge of the values searched for the " +
+                        std::string{kNames[k]} + " (" + figure(low, 3) + " to " + figure(high, 3) +
+                        "): " + figure(value, 3) + " is not an estimate");
+  }
+  return sentences;
 }
+
+constexpr const char* kWhyTheyDiffer =
+    "posterior medians and the maximum of the likelihood differ where the answers say little: the median averages over "
+    "all values that explain the answers, weighted by a prior (half-normal of scale 0.1 on sd and gains), and the "
+    "maximum is the single likeliest point";
 
 // Contraction below this is called nothing.
 constexpr double kNothing = 0.1;
@@ -89,8 +120,8 @@ std::string learned_about(const std::string& what, double contraction) {
 }
 
 void describe(Identifiability& result) {
-  const std::string figures =
-      "twice the log-likelihood ratio " + figure(result.gains.statistic, 2) + ", p = " + figure(result.gains.p, 3);
+  const std::string p = result.gains.p < 0.001 ? "p < 0.001" : "p = " + figure(result.gains.p, 3);
+  const std::string figures = "twice the log-likelihood ratio " + figure(result.gains.statistic, 2) + ", " + p;
   result.sentences.push_back(result.gains_apart
                                  ? "the scales of the two gains differ (" + figures + ")"
                                  : "these data cannot tell the gains apart: one scale for both explains the answers "
@@ -118,19 +149,25 @@ class Fitting {
     for (std::size_t k = 0; k < members_.size(); ++k) add_identifiability(k);
     compare_models();
     warn_of_noise();
+    report_.why_estimates_differ = kWhyTheyDiffer;
     return std::move(report_);
   }
 
  private:
   void add_type(const Members& members) {
-    TypeReport type{.name = members.name, .fit = {}, .typical = {}, .share = members.share, .identifiability = {}};
+    TypeReport type;
+    type.name = members.name;
+    type.share = members.share;
     type.fit = fit_with_intervals(surface_, members.weights, limits_, GainModel::kFree);
     type.identifiability.gains = compare_gain_scales(surface_, members.weights, limits_);
     auto& masses = masses_.emplace_back();
     const auto random = RandomStream{options_.seed}.split("populations").split(members.name);
     const auto draws = draw_populations(surface_, members.weights, limits_, type.fit, options_.num_draws, random);
     for (const auto& population : draws) masses.push_back(masses_of(surface_, population, limits_, GainModel::kFree));
-    type.typical = medians(draws);
+    type.lower = quantiles(draws, 0.025);
+    type.median = quantiles(draws, 0.5);
+    type.upper = quantiles(draws, 0.975);
+    type.at_edge = edge_sentences(type.fit.parameters);
     report_.types.push_back(std::move(type));
   }
 
@@ -239,12 +276,16 @@ FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options) {
   const auto table = log_likelihoods(
       logs, grid_of(options),
       {.replicates = options.replicates, .seed = options.seed, .slip = options.slip, .parallel = options.parallel});
-  if (!table.complete) return {.complete = false, .types = {}, .people = {}, .cross_validation = {}, .sentences = {}};
+  if (!table.complete) {
+    FitReport stopped;
+    stopped.complete = false;
+    return stopped;
+  }
   return Fitting{logs, options, table}.run();
 }
 
 std::string learner_section(char letter, const TypeReport& type) {
-  const auto& p = type.typical;
+  const auto& p = type.median;
   std::string text = std::string{"[learner."} + letter + "]\n";
   text += "label = \"" + type.name + " (fitted to " + figure(type.fit.people, 0) + " people)\"\n";
   text += "ability = { mean = " + figure(p.ability_mean, 3) + ", sd = " + figure(p.ability_sd, 3) + ", min = 0.51 }\n";

@@ -23,10 +23,12 @@ struct Bounds {
   double upper;
 };
 constexpr double kMeanUnit = 0.1;  // one unit of the search is this much of the mean
-const std::array<Bounds, kNumParameters> kBounds{{{0.5 / kMeanUnit, 1.0 / kMeanUnit},
-                                                  {std::log(0.003), std::log(0.3)},
-                                                  {std::log(0.001), std::log(0.5)},
-                                                  {std::log(0.001), std::log(0.5)}}};
+const std::array<Bounds, kNumParameters> kBounds{{
+    {kSmallestPopulation.ability_mean / kMeanUnit, kLargestPopulation.ability_mean / kMeanUnit},
+    {std::log(kSmallestPopulation.ability_sd), std::log(kLargestPopulation.ability_sd)},
+    {std::log(kSmallestPopulation.confirm_scale), std::log(kLargestPopulation.confirm_scale)},
+    {std::log(kSmallestPopulation.correct_scale), std::log(kLargestPopulation.correct_scale)},
+}};
 
 Point to_point(const PopulationParameters& p) {
   return {p.ability_mean / kMeanUnit, std::log(p.ability_sd), std::log(p.confirm_scale), std::log(p.correct_scale)};

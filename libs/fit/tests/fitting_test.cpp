@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -116,7 +118,23 @@ TEST(Fitting, FindsThatLabelledTypesDiffer) {
     EXPECT_LE(person.posterior.ability.mean, person.posterior.ability.upper);
     EXPECT_TRUE(person.type_probabilities.empty());
   }
+  for (const auto& type : report.types) {
+    EXPECT_LE(type.lower.confirm_scale, type.median.confirm_scale);
+    EXPECT_LE(type.median.confirm_scale, type.upper.confirm_scale);
+    // Ten people who answer little: where the maximum is at an edge, it says so.
+    const auto& best = type.fit.parameters;
+    const bool edge = best.ability_sd < 1.02 * kSmallestPopulation.ability_sd ||
+                      best.confirm_scale < 1.02 * kSmallestPopulation.confirm_scale ||
+                      best.confirm_scale > 0.98 * kLargestPopulation.confirm_scale ||
+                      best.correct_scale < 1.02 * kSmallestPopulation.correct_scale ||
+                      best.correct_scale > 0.98 * kLargestPopulation.correct_scale;
+    EXPECT_EQ(type.at_edge.empty(), !edge);
+  }
+  EXPECT_FALSE(report.why_estimates_differ.empty());
   const auto section = learner_section('N', report.types[0]);
+  char median[16];
+  static_cast<void>(std::snprintf(median, sizeof median, "%.3f", report.types[0].median.confirm_scale));
+  EXPECT_NE(section.find(median), std::string::npos);
   EXPECT_EQ(section.rfind("[learner.N]\n", 0), 0u);
   const auto pasted = parse_study(testing::study_text("N", 3, section), "pasted.toml");
   EXPECT_TRUE(pasted.study.has_value());

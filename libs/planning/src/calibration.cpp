@@ -8,10 +8,17 @@
 #include "evaluation.hpp"
 #include "frontier.hpp"
 #include "kith/planning/space_filling.hpp"
+#include "kith/stats/distributions.hpp"
+#include "misfit.hpp"
 #include "surfaces.hpp"
 
 namespace kith {
 namespace {
+
+constexpr double kChiSquared = 3.841458820694124;  // 95 %, one degree of freedom
+constexpr double kNoWorse = 1.0;  // a loss of misfit that is worth fewer changes: a parameter within its standard error
+constexpr double kLittle = 0.1;   // a loss that is worth fewer digits
+constexpr double kLeastDegrees = 0.5;
 
 // The last design decides: it gets the teams in full, each one before half as many.
 std::size_t teams_in_round(const CalibrationOptions& options, std::size_t round) {
@@ -30,12 +37,13 @@ class Calibrator {
     auto box = Box::whole(present_.size());
     for (std::size_t round = 0; round < options_.rounds; ++round) {
       if (!design(box, round)) return std::nullopt;
-      surfaces_ = fit_in(box);
+      surfaces_.emplace(fit_in(box));
+      estimate(round);
       if (round == 0) describe_sensitivities();
       if (round + 1 < options_.rounds) box = smaller(box, round);
     }
     if (!confirm(box) || !explore_frontier()) return std::nullopt;
-    // The answer was confirmed to do as well as the best, whatever the quadratics say of it.
+    // The answer was confirmed to do as well as the best, whatever the quadratics say of it, and it is rounded.
     for (std::size_t k = 0; k < result_.ranges.size(); ++k) {
       result_.ranges[k].low = std::min(result_.ranges[k].low, result_.best.values[k]);
       result_.ranges[k].high = std::max(result_.ranges[k].high, result_.best.values[k]);
@@ -78,23 +86,28 @@ class Calibrator {
     return {set_.targets, box, points, evaluations};
   }
 
-  [[nodiscard]] Objective objective() const {
-    return [this](std::span<const double> unit) { return surfaces_->discrepancy_at(unit); };
+  // The discrepancy that the surfaces leave, and the misfit that follows.
+  void estimate(std::size_t number) {
+    estimate_ = estimate_discrepancy(*surfaces_, stream("discrepancy", number));
+    misfit_.emplace(*surfaces_, estimate_.discrepancy);
   }
 
-  // Around the best twentieth of the box, at least a quarter as wide as before, and a little beyond it.
+  // Around the settings that may still be the best, at least a quarter as wide as before, and a little beyond.
   [[nodiscard]] Box smaller(const Box& box, std::size_t round) const {
     constexpr std::size_t kSample = 8192;
+    constexpr double kPossible = 12.0;  // more than intervals need, which end at 3.84
     auto points = latin_hypercube(kSample, present_.size(), 1, stream("shrink", round));
     std::vector<double> values;
     for (auto& point : points) {
       point = box.place(point);
-      values.push_back(surfaces_->discrepancy_at(point));
+      values.push_back(misfit_->at(point));
     }
     std::vector<std::size_t> order(kSample);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    order.resize(kSample / 20);
+    const double limit = misfit_->at(estimate_.unit) + kPossible;
+    const auto possible = std::count_if(values.begin(), values.end(), [&](double value) { return value <= limit; });
+    order.resize(std::max(kSample / 50, static_cast<std::size_t>(possible)));
     Box next = box;
     for (std::size_t k = 0; k < present_.size(); ++k) {
       std::vector<double> coordinates;
@@ -104,7 +117,7 @@ class Calibrator {
         return coordinates[static_cast<std::size_t>(q * static_cast<double>(coordinates.size() - 1))];
       };
       const double before = box.high[k] - box.low[k];
-      const double low = quantile(0.02), high = quantile(0.98);
+      const double low = quantile(0.01), high = quantile(0.99);
       const double half = std::max((high - low) / 2.0 + 0.05 * before, before / 8.0);
       next.low[k] = std::clamp((low + high) / 2.0 - half, 0.0, 1.0);
       next.high[k] = std::clamp((low + high) / 2.0 + half, 0.0, 1.0);
@@ -127,20 +140,20 @@ class Calibrator {
   // --- candidates --------------------------------------------------------------
 
   // As many parameters as possible as the study has them, the others moved to where that costs least.
-  [[nodiscard]] std::vector<double> frugal(const Box& box, const std::vector<double>& best, double allowed) const {
+  [[nodiscard]] std::vector<double> frugal(const Box& box, const std::vector<double>& best) const {
     const auto present = to_unit(set_.parameters, present_);
     Fixed fixed(present_.size());
     auto point = best;
     while (true) {
       std::optional<std::size_t> cheapest;
       std::vector<double> cheapest_point;
-      double cheapest_value = surfaces_->discrepancy_at(best) + allowed;
+      double cheapest_value = misfit_->at(best) + kNoWorse;
       for (std::size_t k = 0; k < present_.size(); ++k) {
         if (fixed[k] || present[k] < box.low[k] || present[k] > box.high[k]) continue;
         auto trial = fixed;
         trial[k] = present[k];
-        const auto there = minimum(objective(), box, trial, stream("frugal", k));
-        const double value = surfaces_->discrepancy_at(there);
+        const auto there = misfit_->minimum(trial, stream("frugal", k));
+        const double value = misfit_->at(there);
         if (value > cheapest_value) continue;
         cheapest = k;
         cheapest_point = there;
@@ -152,36 +165,33 @@ class Calibrator {
     }
   }
 
-  void find_ranges(const Box& box, const std::vector<double>& best, double allowed) {
-    constexpr std::size_t kSample = 16'384;
-    auto low = best, high = best;
-    const double limit = surfaces_->discrepancy_at(best) + allowed;
-    for (const auto& fraction : latin_hypercube(kSample, present_.size(), 1, stream("ranges"))) {
-      const auto point = box.place(fraction);
-      if (surfaces_->discrepancy_at(point) > limit) continue;
-      for (std::size_t k = 0; k < point.size(); ++k) {
-        low[k] = std::min(low[k], point[k]);
-        high[k] = std::max(high[k], point[k]);
-      }
-    }
-    const auto low_values = to_values(set_.parameters, low), high_values = to_values(set_.parameters, high);
+  void find_ranges(const Box& box) {
+    const auto& best = estimate_.unit;
+    const double limit = misfit_->at(best) + kChiSquared;
+    constexpr double kEdge = 1e-9;
     for (std::size_t k = 0; k < best.size(); ++k) {
-      const double edge = 0.02 * (box.high[k] - box.low[k]);
-      result_.ranges.push_back(
-          {low_values[k], high_values[k], low[k] - box.low[k] < edge, box.high[k] - high[k] < edge});
+      const auto interval = profile_interval(*misfit_, box, best, k, limit);
+      auto low = best, high = best;
+      low[k] = interval.low;
+      high[k] = interval.high;
+      const auto& parameter = set_.parameters[k];
+      ParameterRange range{to_values(set_.parameters, low)[k], to_values(set_.parameters, high)[k],
+                           interval.reaches_low, interval.reaches_high};
+      if (interval.reaches_low && box.low[k] <= kEdge) range.low = parameter.min;
+      if (interval.reaches_high && box.high[k] >= 1.0 - kEdge) range.high = parameter.max;
+      result_.ranges.push_back(range);
     }
   }
 
-  // How far one parameter alone may move from a point without a loss beyond the noise, in its own unit.
-  [[nodiscard]] double free_width(const Box& box, const std::vector<double>& unit, std::size_t k,
-                                  double allowed) const {
+  // How far one parameter alone may move from a point at little loss, in its own unit.
+  [[nodiscard]] double free_width(const Box& box, const std::vector<double>& unit, std::size_t k) const {
     constexpr std::size_t kSteps = 200;
-    const double limit = surfaces_->discrepancy_at(unit) + allowed;
+    const double limit = misfit_->at(unit) + kLittle;
     auto low = unit, high = unit;
     for (std::size_t i = 0; i <= kSteps; ++i) {
       auto point = unit;
       point[k] = box.low[k] + (box.high[k] - box.low[k]) * static_cast<double>(i) / static_cast<double>(kSteps);
-      if (surfaces_->discrepancy_at(point) > limit) continue;
+      if (misfit_->at(point) > limit) continue;
       low[k] = std::min(low[k], point[k]);
       high[k] = std::max(high[k], point[k]);
     }
@@ -189,14 +199,14 @@ class Calibrator {
   }
 
   // Numbers that people can read: no more digits than matter; what the study has stays as it is.
-  [[nodiscard]] std::vector<double> readable(const Box& box, const std::vector<double>& unit, double allowed) const {
+  [[nodiscard]] std::vector<double> readable(const Box& box, const std::vector<double>& unit) const {
     auto values = to_values(set_.parameters, unit);
     for (std::size_t k = 0; k < values.size(); ++k) {
       const auto& parameter = set_.parameters[k];
       if (std::abs(values[k] - present_[k]) <= 1e-9 * std::abs(present_[k])) {
         values[k] = present_[k];
       } else {
-        const double width = free_width(box, unit, k, allowed);
+        const double width = free_width(box, unit, k);
         values[k] = std::clamp(rounded(values[k], 0.0, width, parameter.integer), parameter.min, parameter.max);
       }
     }
@@ -207,7 +217,7 @@ class Calibrator {
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < evaluations_.size(); ++i) {
-      const double value = discrepancy(set_.targets, misses_of(set_.targets, evaluations_[i].figures));
+      const double value = misfit_->of(misses_of(set_.targets, evaluations_[i].figures));
       if (value < least) {
         least = value;
         best = i;
@@ -239,10 +249,6 @@ class Calibrator {
     return true;
   }
 
-  // A loss that is worth fewer digits or fewer changes: within the noise, and at most a fiftieth of a tolerance of the
-  // most important target.
-  [[nodiscard]] static double worth(double noise) { return std::min(noise, 0.02); }
-
   // @pre these values were confirmed.
   [[nodiscard]] const Evaluation& confirmed_at(const std::vector<double>& values) const {
     std::size_t i = 0;
@@ -251,30 +257,39 @@ class Calibrator {
   }
 
   // The designs share their people, so all figures are off alike: the surfaces are moved to what more teams say at the
-  // first minimum, and the minimum is looked for again.
+  // minimum, and the minimum is looked for again; twice, because it may move.
   bool confirm(const Box& box) {
-    const auto first = minimum(objective(), box, Fixed(present_.size()), stream("minimum"));
-    const double first_noise = surfaces_->noise_at(first, stream("noise"));
-    const auto first_values = readable(box, first, worth(first_noise));
+    const auto first_values = readable(box, estimate_.unit);
     lab_.expect(lab_.done() + lab_.cost(5, options_.confirm_teams) +
                 lab_.cost(options_.frontier_points, frontier_teams()));
     if (!confirm_some({{"the study as it is", present_},
-                       {"best simulated", readable(box, best_simulated(), worth(first_noise))},
+                       {"best simulated", readable(box, best_simulated())},
                        {"first minimum", first_values}}))
       return false;
-    surfaces_->correct(to_unit(set_.parameters, first_values), confirmed_at(first_values));
-    const auto best = minimum(objective(), box, Fixed(present_.size()), stream("minimum", 1));
-    const double noise = surfaces_->noise_at(best, stream("noise", 1));
-    find_ranges(box, best, noise);
-    if (!confirm_some({{"fewest changes", readable(box, frugal(box, best, worth(noise)), worth(noise))},
-                       {"minimum", readable(box, best, worth(noise))}}))
+    correct(first_values, 0);
+    const auto values = readable(box, estimate_.unit);
+    if (!confirm_some({{"fewest changes", readable(box, frugal(box, estimate_.unit))}, {"minimum", values}}))
       return false;
+    correct(values, 1);
+    find_ranges(box);
+    for (std::size_t i = 0; i < confirmed_.size(); ++i)
+      result_.candidates[i].misfit = misfit_->of(misses_of(set_.targets, confirmed_[i].figures));
     choose();
     for (std::size_t t = 0; t < set_.targets.size(); ++t) {
       result_.surface_error.push_back(surfaces_->error_of(t));
       result_.explained.push_back(surfaces_->surface(t).explained());
     }
+    result_.discrepancy = estimate_.discrepancy;
+    result_.least_misfit = estimate_.misfit;
+    result_.degrees_of_freedom = estimate_.degrees_of_freedom;
+    if (estimate_.degrees_of_freedom >= kLeastDegrees)
+      result_.misfit_p = chi_squared_upper(estimate_.misfit, estimate_.degrees_of_freedom);
     return true;
+  }
+
+  void correct(const std::vector<double>& values, std::size_t number) {
+    surfaces_->correct(to_unit(set_.parameters, values), confirmed_at(values));
+    estimate(options_.rounds + number);
   }
 
   [[nodiscard]] std::size_t changes(const CalibrationPoint& point) const {
@@ -288,18 +303,16 @@ class Calibrator {
                          [](const TargetOutcome& one) { return std::abs(one.miss) > 1.0; });
   }
 
-  // Of those that do not differ from the best beyond the noise, and miss no more targets, the one that changes least.
+  // Of those about as good as the best that miss no more tolerances, the one that changes least.
   void choose() {
     const auto& all = result_.candidates;
     std::size_t least = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].discrepancy < all[least].discrepancy) least = i;
+      if (all[i].misfit < all[least].misfit) least = i;
     }
     auto chosen = least;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const double worse = all[i].discrepancy - all[least].discrepancy;
-      const bool as_good = worse <= difference_error(set_.targets, confirmed_[i], confirmed_[least]) &&
-                           missed(all[i]) <= missed(all[least]);
+      const bool as_good = all[i].misfit - all[least].misfit <= kNoWorse && missed(all[i]) <= missed(all[least]);
       if (as_good && changes(all[i]) < changes(all[chosen])) chosen = i;
     }
     result_.best = all[chosen];
@@ -319,8 +332,10 @@ class Calibrator {
     const auto evaluations = lab_.run(settings, frontier_teams(), random_.split("confirm").address());
     if (!evaluations) return false;
     std::vector<CalibrationPoint> points{result_.candidates};
-    for (std::size_t i = 0; i < settings.size(); ++i)
+    for (std::size_t i = 0; i < settings.size(); ++i) {
       points.push_back(point_of(set_.targets, (*evaluations)[i], settings[i], "on the frontier"));
+      points.back().misfit = misfit_->of(misses_of(set_.targets, (*evaluations)[i].figures));
+    }
     result_.frontier = not_dominated(set_.targets, std::move(points), *quantities);
     return true;
   }
@@ -334,20 +349,12 @@ class Calibrator {
   std::vector<Evaluation> evaluations_;
   std::vector<Evaluation> confirmed_;  // of the candidates
   std::optional<Surfaces> surfaces_;   // of the last box
+  std::optional<Misfit> misfit_;       // by these surfaces
+  DiscrepancyEstimate estimate_;
   Calibration result_;
 };
 
 }  // namespace
-
-double discrepancy(std::span<const Target> targets, std::span<const double> misses) {
-  if (targets.size() != misses.size()) throw std::invalid_argument{"discrepancy: one miss per target"};
-  double sum = 0.0;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const double weight = std::pow(3.0, 1.0 - static_cast<double>(targets[i].priority));
-    sum += weight * (std::max(0.0, std::abs(misses[i]) - 1.0) + 0.01 * misses[i] * misses[i]);
-  }
-  return sum;
-}
 
 std::size_t most_teams_per_cell(const CalibrationOptions& options) {
   std::size_t teams = 0;

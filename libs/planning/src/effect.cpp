@@ -70,7 +70,7 @@ std::optional<std::string> read_term(const std::vector<std::string>& words, cons
     effect.kind = Effect::Kind::kContrast;
     for (const auto* word : {&words[0], &words[2]}) {
       const auto selection = parse_selection(*word, spec);
-      if (!selection) return "'" + *word + "' are no teams of this study";
+      if (!selection) return "the study has no teams '" + *word + "'";
       (word == &words[0] ? effect.first : effect.second) = *selection;
     }
     if (effect.first == effect.second) return "an effect compares different teams";

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "kith/planning/calibration.hpp"
+#include "kith/planning/power.hpp"
 #include "kith/study/study.hpp"
 
 namespace kith {
@@ -15,20 +17,20 @@ struct Evaluation {
   std::vector<std::vector<double>> without;  // [replicates][targets]
 };
 
-// @pre the teams are those of one variant, `replicates` in each cell.
-[[nodiscard]] Evaluation evaluate(std::span<const Target> targets, std::span<const TeamRecord> teams,
-                                  std::size_t replicates);
+[[nodiscard]] Evaluation evaluate(std::span<const Target> targets, const TeamPool& pool);
+
+// Jackknife covariance of the figures of one setting, on the scale of comparison and in published standard errors,
+// shape [targets, targets].
+[[nodiscard]] Eigen::MatrixXd covariance_of(std::span<const Target> targets, const Evaluation& evaluation);
 
 // Standard error of a statistic from its values without each replicate.
 [[nodiscard]] double jackknife_error(std::span<const double> without);
 
+// How far figures are off, in published standard errors.
 [[nodiscard]] std::vector<double> misses_of(std::span<const Target> targets, std::span<const double> figures);
 
 [[nodiscard]] CalibrationPoint point_of(std::span<const Target> targets, const Evaluation& evaluation,
                                         std::vector<double> values, std::string label);
-
-// Standard error of the difference of two settings' discrepancies, simulated with the same seeds.
-[[nodiscard]] double difference_error(std::span<const Target> targets, const Evaluation& a, const Evaluation& b);
 
 // Simulates settings; counts the teams.
 class Laboratory {

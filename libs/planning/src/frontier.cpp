@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "kith/planning/space_filling.hpp"
+#include "misfit.hpp"
 
 namespace kith {
 
@@ -33,7 +33,8 @@ double error_of(std::span<const Target> targets, std::span<const double> misses,
 
 std::vector<Conflict> find_conflicts(std::span<const Target> targets, const Surfaces& surfaces,
                                      const RandomStream& random) {
-  constexpr double kMet = 0.1;  // tolerances; "met" for what could be, and a conflict is at least as large
+  constexpr double kMet = 0.5;       // published standard errors: a target that can be met alone
+  constexpr double kConflict = 1.0;  // and what is beyond the error of the published figures
   const auto dimension = surfaces.box().low.size();
   const auto closest = [&](std::size_t i, std::size_t j) {
     const Objective worse = [&](std::span<const double> unit) {
@@ -50,7 +51,7 @@ std::vector<Conflict> find_conflicts(std::span<const Target> targets, const Surf
   for (std::size_t a = 0; a < reachable.size(); ++a) {
     for (std::size_t b = a + 1; b < reachable.size(); ++b) {
       const Conflict conflict{reachable[a], reachable[b], closest(reachable[a], reachable[b])};
-      if (conflict.closest > kMet) conflicts.push_back(conflict);
+      if (conflict.closest > kConflict) conflicts.push_back(conflict);
     }
   }
   std::stable_sort(conflicts.begin(), conflicts.end(),
@@ -62,13 +63,14 @@ std::vector<std::vector<double>> frontier_settings(const TargetSet& set, const S
                                                    const TradeOff& quantities, std::size_t n,
                                                    const RandomStream& random) {
   const auto dimension = set.parameters.size();
+  const Misfit misfit{surfaces, 0.0};  // decides between settings that are equal in both quantities
   std::vector<std::vector<double>> settings;
   for (std::size_t i = 0; i < n; ++i) {
     const double share = n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 0.5;
     const Objective weighted = [&](std::span<const double> unit) {
       const auto misses = surfaces.misses_at(unit);
       return (1.0 - share) * error_of(set.targets, misses, quantities.first) +
-             share * error_of(set.targets, misses, quantities.second) + 1e-3 * surfaces.discrepancy_at(unit);
+             share * error_of(set.targets, misses, quantities.second) + 1e-4 * misfit.at(unit);
     };
     const auto best = minimum(weighted, surfaces.box(), Fixed(dimension), random);
     settings.push_back(to_values(set.parameters, best));
@@ -80,8 +82,9 @@ std::vector<FrontierPoint> not_dominated(std::span<const Target> targets, std::v
                                          const TradeOff& quantities) {
   std::vector<FrontierPoint> all;
   for (auto& point : points) {
-    std::vector<double> misses;
-    for (const auto& outcome : point.targets) misses.push_back(outcome.miss);
+    std::vector<double> figures;
+    for (const auto& outcome : point.targets) figures.push_back(outcome.model);
+    const auto misses = misses_of(targets, figures);
     const double first = error_of(targets, misses, quantities.first);
     const double second = error_of(targets, misses, quantities.second);
     all.push_back({std::move(point), first, second});

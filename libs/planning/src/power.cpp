@@ -11,7 +11,6 @@
 #include "kith/stats/distributions.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/power.hpp"
-#include "kith/study/study_memory.hpp"
 #include "study_tests.hpp"
 
 namespace kith {
@@ -238,7 +237,7 @@ Draw whole(const TeamPool& pool) {
 
 // The power that a study of this size has for effects of the published sizes.
 void add_published_power(Replication& result, std::span<const PublishedFinding> findings, const TeamPool& pool,
-                         std::size_t teams, std::uint64_t seed) {
+                         std::size_t teams, const ReplicationOptions& replication) {
   for (std::size_t i = 0; i < findings.size(); ++i) {
     const auto& finding = findings[i];
     if (!finding.f || finding.effect.kind == Effect::Kind::kContrast) continue;
@@ -250,7 +249,8 @@ void add_published_power(Replication& result, std::span<const PublishedFinding> 
     PowerOptions options;
     options.teams = {teams};
     options.alpha = finding.alpha;
-    options.seed = seed;
+    options.seed = replication.seed;
+    options.paired = replication.paired;
     const auto curves = power_curves(pool, std::span{&imposed, 1}, options);
     outcome.imposed_power = curves.front().points.front();
     outcome.analytic_power = outcome.imposed_power->analytic_power;
@@ -271,21 +271,17 @@ std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpe
     variant.record = RecordLevel::kTeam;
     study.variants.push_back(std::move(variant));
   }
-  require_study_memory(study, options.threads, num_teams(study));
-  const auto addresses = team_addresses(study);
-  const auto run = run_teams(atlas, study, addresses, {.threads = options.threads, .on_progress = options.on_progress});
-  if (run.teams.size() < addresses.size()) return std::nullopt;
+  const auto pools = simulate_pools(atlas, study, {.threads = options.threads, .on_progress = options.on_progress});
+  if (!pools) return std::nullopt;
 
   Replication result;
   result.studies = options.studies;
   result.findings.resize(findings.size());
   std::vector<Effect> effects;
   for (const auto& finding : findings) effects.push_back(finding.effect);
-  const auto per_study = addresses.size() / options.studies;
   double agreements = 0.0;
-  for (std::size_t k = 0; k < options.studies; ++k) {
-    const TeamPool pool{spec, std::span{run.teams}.subspan(k * per_study, per_study)};
-    const StudyTests tests{pool, spec.replicates, false};
+  for (const auto& pool : *pools) {
+    const StudyTests tests{pool, spec.replicates, options.paired};
     std::vector<EffectData> data;
     for (const auto& effect : effects) data.emplace_back(pool, effect);
     const auto p = p_values(tests, effects, data, whole(pool));
@@ -305,21 +301,7 @@ std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpe
     outcome.high = interval.high;
   }
   // All teams of all studies together are the pool for imposed effects.
-  StudySpec pooled = spec;
-  pooled.replicates = spec.replicates * options.studies;
-  std::vector<TeamRecord> teams;
-  teams.reserve(run.teams.size());
-  const auto cells = spec.strategies.size() * spec.compositions.size();
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    for (std::size_t k = 0; k < options.studies; ++k) {
-      for (std::size_t r = 0; r < spec.replicates; ++r) {
-        teams.push_back(run.teams[k * per_study + cell * spec.replicates + r]);
-        teams.back().address.replicate = k * spec.replicates + r + 1;
-      }
-    }
-  }
-  if (options.studies >= 2)
-    add_published_power(result, findings, TeamPool{pooled, teams}, spec.replicates, options.seed);
+  if (options.studies >= 2) add_published_power(result, findings, TeamPool::joined(*pools), spec.replicates, options);
   return result;
 }
 

@@ -20,13 +20,6 @@ std::vector<std::size_t> group_positions(const TeamPool& pool) {
   return groups;
 }
 
-bool in(const TeamPool& pool, const TeamSelection& teams, std::size_t s, std::size_t c) {
-  TeamAddress address;
-  address.strategy = pool.strategies()[s];
-  address.composition = pool.compositions()[c];
-  return teams.contains(address);
-}
-
 double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -138,8 +131,8 @@ void EffectData::impose(const TeamPool& pool, const Effect& effect) {
     for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
       for (std::size_t c = 0; c < num_compositions_; ++c) {
         auto& shift = shift_[s * num_compositions_ + c];
-        if (in(pool, effect.first, s, c)) shift += *effect.imposed / 2.0;
-        if (in(pool, effect.second, s, c)) shift -= *effect.imposed / 2.0;
+        if (is_selected(pool, effect.first, s, c)) shift += *effect.imposed / 2.0;
+        if (is_selected(pool, effect.second, s, c)) shift -= *effect.imposed / 2.0;
       }
     }
     return;
@@ -198,6 +191,11 @@ StudyTests::StudyTests(const TeamPool& pool, std::size_t teams, bool paired)
 
 std::array<double, 3> StudyTests::two_way(const EffectData& data, const Draw& draw) const {
   const auto num_compositions = pool_.compositions().size();
+  if (paired_) {
+    std::vector<std::size_t> all(num_compositions);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return within_people(all, data, draw);
+  }
   std::vector<double> values;
   values.reserve(groups_.size() * num_compositions * teams_);
   for (const auto s : groups_) {
@@ -215,9 +213,78 @@ std::array<double, 3> StudyTests::two_way(const EffectData& data, const Draw& dr
   return p;
 }
 
+namespace {
+
+// p of an F test whose degrees of freedom are multiplied by epsilon; 1 without an error.
+double f_test(double squares, double df, double error_squares, double error_df, double epsilon) {
+  if (!(df > 0.0) || !(error_df > 0.0) || !(error_squares > 0.0)) return 1.0;
+  const double f = (squares / df) / (error_squares / error_df);
+  return f_upper(f, epsilon * df, epsilon * error_df);
+}
+
+}  // namespace
+
+// People are blocks, nested in compositions; every block has each strategy once, so all terms are orthogonal.
+std::array<double, 3> StudyTests::within_people(const std::vector<std::size_t>& compositions, const EffectData& data,
+                                                const Draw& draw) const {
+  const auto k = groups_.size(), n = teams_;
+  const auto num_strategies = static_cast<double>(k), num_people = static_cast<double>(n);
+  const auto num_compositions = static_cast<double>(compositions.size());
+  const auto at = [&](std::size_t c, std::size_t s, std::size_t person) {
+    const auto row = groups_[s] * pool_.compositions().size() + compositions[c];
+    return data.at(groups_[s], compositions[c], draw[row][person]);
+  };
+  std::vector<std::vector<double>> cell(compositions.size(), std::vector<double>(k, 0.0));
+  std::vector<std::vector<double>> block(compositions.size(), std::vector<double>(n, 0.0));
+  std::vector<double> composition_mean(compositions.size(), 0.0), strategy_mean(k, 0.0);
+  double mean = 0.0;
+  for (std::size_t c = 0; c < compositions.size(); ++c) {
+    for (std::size_t s = 0; s < k; ++s) {
+      for (std::size_t person = 0; person < n; ++person) {
+        const double value = at(c, s, person);
+        cell[c][s] += value / num_people;
+        block[c][person] += value / num_strategies;
+      }
+      composition_mean[c] += cell[c][s] / num_strategies;
+      strategy_mean[s] += cell[c][s] / num_compositions;
+    }
+    mean += composition_mean[c] / num_compositions;
+  }
+  const auto square = [](double x) { return x * x; };
+  double strategy = 0.0, composition = 0.0, interaction = 0.0, people = 0.0;
+  std::vector<std::vector<double>> covariance(k, std::vector<double>(k, 0.0));  // of residuals, times their df
+  std::vector<double> residual(k);
+  for (std::size_t s = 0; s < k; ++s) strategy += num_people * num_compositions * square(strategy_mean[s] - mean);
+  for (std::size_t c = 0; c < compositions.size(); ++c) {
+    composition += num_strategies * num_people * square(composition_mean[c] - mean);
+    for (std::size_t s = 0; s < k; ++s)
+      interaction += num_people * square(cell[c][s] - composition_mean[c] - strategy_mean[s] + mean);
+    for (std::size_t person = 0; person < n; ++person) {
+      people += num_strategies * square(block[c][person] - composition_mean[c]);
+      for (std::size_t s = 0; s < k; ++s)
+        residual[s] = at(c, s, person) - block[c][person] - cell[c][s] + composition_mean[c];
+      for (std::size_t i = 0; i < k; ++i) {
+        for (std::size_t j = 0; j < k; ++j) covariance[i][j] += residual[i] * residual[j];
+      }
+    }
+  }
+  double trace = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < k; ++i) {
+    trace += covariance[i][i];
+    for (std::size_t j = 0; j < k; ++j) squares += square(covariance[i][j]);
+  }
+  // The residuals are centred over strategies, so this is the estimate of Greenhouse and Geisser.
+  const double epsilon = squares > 0.0 ? trace * trace / ((num_strategies - 1.0) * squares) : 1.0;
+  const double people_df = num_compositions * (num_people - 1.0), error_df = (num_strategies - 1.0) * people_df;
+  return {f_test(strategy, num_strategies - 1.0, trace, error_df, epsilon),
+          f_test(composition, num_compositions - 1.0, people, people_df, 1.0),
+          f_test(interaction, (num_strategies - 1.0) * (num_compositions - 1.0), trace, error_df, epsilon)};
+}
+
 double StudyTests::within(const Effect& effect, const EffectData& data, const Draw& draw) const {
   const auto& all = pool_.compositions();
   const auto c = static_cast<std::size_t>(std::find(all.begin(), all.end(), effect.composition) - all.begin());
+  if (paired_) return std::min(1.0, within_people({c}, data, draw)[0] * static_cast<double>(all.size()));
   std::vector<double> values;
   for (const auto s : groups_) {
     const auto& row = draw[s * all.size() + c];
@@ -232,7 +299,7 @@ std::vector<double> StudyTests::outcomes(const TeamSelection& teams, const Effec
   std::vector<double> values;
   for (std::size_t s = 0; s < pool_.strategies().size(); ++s) {
     for (std::size_t c = 0; c < num_compositions; ++c) {
-      if (!in(pool_, teams, s, c)) continue;
+      if (!is_selected(pool_, teams, s, c)) continue;
       const auto& row = draw[s * num_compositions + c];
       for (std::size_t k = 0; k < teams_; ++k) values.push_back(data.at(s, c, row[k]));
     }
@@ -240,10 +307,31 @@ std::vector<double> StudyTests::outcomes(const TeamSelection& teams, const Effec
   return values;
 }
 
+std::vector<double> StudyTests::means_of_people(const TeamSelection& teams, const EffectData& data,
+                                                const Draw& draw) const {
+  const auto num_compositions = pool_.compositions().size();
+  std::vector<double> means;
+  for (std::size_t c = 0; c < num_compositions; ++c) {
+    std::vector<double> sums(teams_, 0.0);
+    double strategies = 0.0;
+    for (std::size_t s = 0; s < pool_.strategies().size(); ++s) {
+      if (!is_selected(pool_, teams, s, c)) continue;
+      strategies += 1.0;
+      for (std::size_t k = 0; k < teams_; ++k) sums[k] += data.at(s, c, draw[s * num_compositions + c][k]);
+    }
+    if (strategies == 0.0) continue;
+    for (const double sum : sums) means.push_back(sum / strategies);
+  }
+  return means;
+}
+
 double StudyTests::contrast(const Effect& effect, const EffectData& data, const Draw& draw) const {
-  const auto a = outcomes(effect.first, data, draw), b = outcomes(effect.second, data, draw);
-  const bool same_people = paired_ && effect.first.strategy && effect.second.strategy &&
-                           effect.first.composition == effect.second.composition;
+  if (!paired_) {
+    const auto test = welch_t_test(outcomes(effect.first, data, draw), outcomes(effect.second, data, draw));
+    return test ? test->test.p : 1.0;
+  }
+  const auto a = means_of_people(effect.first, data, draw), b = means_of_people(effect.second, data, draw);
+  const bool same_people = effect.first.composition == effect.second.composition;
   const auto test = same_people ? paired_t_test(a, b) : welch_t_test(a, b);
   return test ? test->test.p : 1.0;
 }
@@ -272,7 +360,7 @@ double effect_size(const TeamPool& pool, const Effect& effect) {
       for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
         const double mean = mean_of(pool.cell(effect.quantity, s, c));
         for (const int side : {0, 1}) {
-          if (!in(pool, side == 0 ? effect.first : effect.second, s, c)) continue;
+          if (!is_selected(pool, side == 0 ? effect.first : effect.second, s, c)) continue;
           sum[side] += mean;
           n[side] += 1.0;
         }
@@ -281,14 +369,30 @@ double effect_size(const TeamPool& pool, const Effect& effect) {
     return sum[0] / n[0] - sum[1] / n[1];
   }
   const auto compositions = compositions_of(pool, effect);
-  const auto effects = term_effects(cell_means(pool, effect, groups, compositions), effect.kind);
-  const double variance = variance_within(pool, effect.quantity, groups, compositions);
-  const double cells = static_cast<double>(groups.size() * compositions.size());
-  const auto df = static_cast<double>(term_df(effect, groups.size(), compositions.size()));
+  return eta_squared(cell_means(pool, effect, groups, compositions),
+                     variance_within(pool, effect.quantity, groups, compositions), pool.replicates(), effect);
+}
+
+TermCells cells_of(const TeamPool& pool, const Effect& effect) {
+  return {group_positions(pool), compositions_of(pool, effect)};
+}
+
+double eta_squared(const std::vector<std::vector<double>>& means, double variance, std::size_t replicates,
+                   const Effect& effect) {
+  const auto effects = term_effects(means, effect.kind);
+  const double cells = static_cast<double>(means.size() * means.front().size());
+  const auto df = static_cast<double>(term_df(effect, means.size(), means.front().size()));
   // The cells' means vary by chance too: df * variance / (cells * replicates) of the mean square is noise.
-  const double noise = df * variance / (cells * static_cast<double>(pool.replicates()));
+  const double noise = df * variance / (cells * static_cast<double>(replicates));
   const double square = std::max(0.0, mean_square(effects) - noise);
   return variance > 0.0 ? square / (square + variance) : 0.0;
+}
+
+bool is_selected(const TeamPool& pool, const TeamSelection& teams, std::size_t strategy, std::size_t composition) {
+  TeamAddress address;
+  address.strategy = pool.strategies()[strategy];
+  address.composition = pool.compositions()[composition];
+  return teams.contains(address);
 }
 
 namespace {
@@ -305,7 +409,7 @@ Spread spread_of(const TeamPool& pool, const Effect& effect, const TeamSelection
   const EffectData data{pool, effect};
   for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
     for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
-      if (!in(pool, teams, s, c)) continue;
+      if (!is_selected(pool, teams, s, c)) continue;
       spread.cells += 1.0;
       for (std::size_t r = 0; r < pool.replicates(); ++r) {
         const double value = data.at(s, c, r);
@@ -323,13 +427,11 @@ Spread spread_of(const TeamPool& pool, const Effect& effect, const TeamSelection
 
 std::optional<double> analytic_power(const TeamPool& pool, const Effect& effect, double size, std::size_t teams,
                                      double alpha, bool paired) {
+  if (paired) return std::nullopt;  // depends on the correlation within people
   const auto groups = group_positions(pool).size();
   const auto compositions = compositions_of(pool, effect).size();
   const auto n = static_cast<double>(teams);
   if (effect.kind == Effect::Kind::kContrast) {
-    const bool same_people = paired && effect.first.strategy && effect.second.strategy &&
-                             effect.first.composition == effect.second.composition;
-    if (same_people) return std::nullopt;  // depends on the correlation within people
     const auto a = spread_of(pool, effect, effect.first), b = spread_of(pool, effect, effect.second);
     const double va = a.variance / (n * a.cells), vb = b.variance / (n * b.cells);
     if (!(va + vb > 0.0)) return std::nullopt;

@@ -43,6 +43,10 @@ class StudyTests {
   [[nodiscard]] double p_value(const Effect& effect, const EffectData& data, const Draw& draw) const;
   // Those of the two-way analysis of variance: strategy, composition, interaction; missing terms are 1.
   [[nodiscard]] std::array<double, 3> two_way(const EffectData& data, const Draw& draw) const;
+  // The same with the strategies within people: Greenhouse-Geisser for terms with the strategy.
+  // @param compositions  positions of those that count.
+  [[nodiscard]] std::array<double, 3> within_people(const std::vector<std::size_t>& compositions,
+                                                    const EffectData& data, const Draw& draw) const;
 
   // Positions of the strategies that are not the baseline.
   [[nodiscard]] const std::vector<std::size_t>& groups() const { return groups_; }
@@ -52,6 +56,9 @@ class StudyTests {
   [[nodiscard]] double contrast(const Effect& effect, const EffectData& data, const Draw& draw) const;
   [[nodiscard]] std::vector<double> outcomes(const TeamSelection& teams, const EffectData& data,
                                              const Draw& draw) const;
+  // Means over the selected strategies of each group of people, composition by composition.
+  [[nodiscard]] std::vector<double> means_of_people(const TeamSelection& teams, const EffectData& data,
+                                                    const Draw& draw) const;
 
   const TeamPool& pool_;
   std::size_t teams_;
@@ -62,6 +69,21 @@ class StudyTests {
   std::vector<std::size_t> term_kinds_;          // 0 strategy, 1 composition, 2 interaction
   Factor within_;
 };
+
+// The cells that a term of the analysis of variance is about: positions of group strategies and of compositions.
+struct TermCells {
+  std::vector<std::size_t> groups, compositions;
+};
+[[nodiscard]] TermCells cells_of(const TeamPool& pool, const Effect& effect);
+
+// Partial eta squared of a term, corrected for bias.
+// @param means  of the cells, shape [groups][compositions]. @param variance  within cells.
+[[nodiscard]] double eta_squared(const std::vector<std::vector<double>>& means, double variance, std::size_t replicates,
+                                 const Effect& effect);
+
+// Whether a cell of the pool is selected.
+[[nodiscard]] bool is_selected(const TeamPool& pool, const TeamSelection& teams, std::size_t strategy,
+                               std::size_t composition);
 
 // The effect's size in the pool: partial eta squared, corrected for bias, or the difference.
 [[nodiscard]] double effect_size(const TeamPool& pool, const Effect& effect);

@@ -1,21 +1,13 @@
 #include "surfaces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "kith/planning/space_filling.hpp"
-#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {
-
-constexpr double kSmallest = 1e-12;
-
-double scaled(const Target& target, double figure) {
-  return target.is_factor ? std::log(std::max(figure, kSmallest)) : figure;
-}
 
 // One step length per coordinate, halved when no step helps.
 void improve(const Objective& objective, const Box& box, const Fixed& fixed, std::vector<double>& point,
@@ -49,23 +41,48 @@ Surfaces::Surfaces(std::span<const Target> targets, Box box, std::span<const std
   for (const auto& point : points) local.push_back(box_.local(point));
   std::vector<double> values(points.size());
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = scaled(targets[t], evaluations[i].figures[t]);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = compared(targets[t], evaluations[i].figures[t]);
     surfaces_.emplace_back(local, values);
+  }
+  // Mean correlation over the settings, each by its own jackknife.
+  const auto n = static_cast<Eigen::Index>(targets.size());
+  correlation_ = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& evaluation : evaluations) {
+    const auto covariance = covariance_of(targets, evaluation);
+    mean += covariance / static_cast<double>(evaluations.size());
+    const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(1e-12).cwiseSqrt();
+    correlation_ += sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
+  }
+  // A little less than estimated, so that it can be inverted whatever the number of replicates.
+  constexpr double kShare = 0.95;
+  correlation_ *= kShare / static_cast<double>(evaluations.size());
+  correlation_.diagonal().setOnes();
+  set_covariance(mean);
+}
+
+void Surfaces::set_covariance(const Eigen::MatrixXd& simulation) {
+  covariance_ = correlation_ + simulation;
+  for (Eigen::Index t = 0; t < covariance_.rows(); ++t) {
+    const double error = miss_error(static_cast<std::size_t>(t));
+    covariance_(t, t) += error * error;
   }
 }
 
 void Surfaces::correct(std::span<const double> unit, const Evaluation& exact) {
   const auto local = box_.local(unit);
   for (std::size_t t = 0; t < targets_.size(); ++t)
-    offsets_[t] = scaled(targets_[t], exact.figures[t]) - surfaces_[t].at(local);
+    offsets_[t] = compared(targets_[t], exact.figures[t]) - surfaces_[t].at(local);
+  set_covariance(covariance_of(targets_, exact));
 }
 
 std::vector<double> Surfaces::misses_at(std::span<const double> unit) const {
   const auto local = box_.local(unit);
   std::vector<double> misses;
+  misses.reserve(targets_.size());
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     const double value = surfaces_[t].at(local) + offsets_[t];
-    misses.push_back(miss(targets_[t], targets_[t].is_factor ? std::exp(value) : value));
+    misses.push_back((value - compared(targets_[t], targets_[t].value)) / published_error(targets_[t]));
   }
   return misses;
 }
@@ -75,47 +92,11 @@ double Surfaces::miss_error(std::size_t target) const {
   const auto d = static_cast<double>(box_.low.size());
   const double terms = 1.0 + 2.0 * d + d * (d - 1.0) / 2.0;
   const double leverage = std::min(1.0, terms / static_cast<double>(num_points_));
-  const auto& one = targets_[target];
-  const double tolerance = one.is_factor ? std::log(one.tolerance) : one.tolerance;
-  return std::sqrt(leverage) * surfaces_[target].error() / tolerance;
-}
-
-double Surfaces::discrepancy_at(std::span<const double> unit) const {
-  // The middles of ten slices of equal probability of a standard normal, for the mean over one target's error; the
-  // discrepancy is a sum over targets.
-  constexpr std::array<double, 5> kSlices{0.1257, 0.3853, 0.6745, 1.0364, 1.6449};
-  const auto misses = misses_at(unit);
-  double sum = 0.0;
-  for (std::size_t t = 0; t < misses.size(); ++t) {
-    const double error = miss_error(t);
-    for (const double slice : kSlices) {
-      for (const double sign : {-1.0, 1.0}) {
-        const double miss = misses[t] + sign * slice * error;
-        sum += 0.1 * discrepancy(targets_.subspan(t, 1), std::span{&miss, 1});
-      }
-    }
-  }
-  return sum;
+  return std::sqrt(leverage) * surfaces_[target].error() / published_error(targets_[target]);
 }
 
 double Surfaces::error_of(std::size_t target) const {
   return surfaces_[target].error() * (targets_[target].is_factor ? targets_[target].value : 1.0);
-}
-
-double Surfaces::noise_at(std::span<const double> unit, RandomStream random) const {
-  constexpr std::size_t kDraws = 400;
-  const auto misses = misses_at(unit);
-  const double here = discrepancy(targets_, misses);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kDraws; ++i) {
-    auto moved = misses;
-    for (std::size_t t = 0; t < moved.size(); ++t) {
-      moved[t] += miss_error(t) * standard_normal(random);
-    }
-    const double change = discrepancy(targets_, moved) - here;
-    sum += change * change;
-  }
-  return std::sqrt(sum / static_cast<double>(kDraws));
 }
 
 std::vector<double> minimum(const Objective& objective, const Box& box, const Fixed& fixed,

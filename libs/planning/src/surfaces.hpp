@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -12,7 +13,8 @@
 
 namespace kith {
 
-// One quadratic per target over a box. Figures that have to be met within a factor are fitted on the log scale.
+// One quadratic per target over a box. Figures that have to be met within a factor are fitted on the log scale. Misses
+// are in published standard errors.
 class Surfaces {
  public:
   // @param points  unit coordinates. @pre as many evaluations, at least three.
@@ -25,16 +27,14 @@ class Surfaces {
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] const ResponseSurface& surface(std::size_t target) const { return surfaces_[target]; }
   [[nodiscard]] std::vector<double> misses_at(std::span<const double> unit) const;
-  // The discrepancy expected at a point, the surfaces' errors being normal: a setting at the edge of a tolerance is
-  // worse than one in the middle, because it may be outside.
-  [[nodiscard]] double discrepancy_at(std::span<const double> unit) const;
-  // How much the discrepancy at a point is uncertain: root mean square of its change when every figure is off by a
-  // normal error as large as that of the surface's prediction, which averages over the points.
-  [[nodiscard]] double noise_at(std::span<const double> unit, RandomStream random) const;
+  // Covariance of the misses by chance, shape [targets, targets]: of the published figures (correlated as those of
+  // simulated teams are), of the simulation at the point of correct(), and of the surfaces.
+  [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
   // The surface's error in the figure's own unit; of a logarithmic one, at the target's value.
   [[nodiscard]] double error_of(std::size_t target) const;
 
  private:
+  void set_covariance(const Eigen::MatrixXd& simulation);
   // Standard error of the prediction of a target's miss.
   [[nodiscard]] double miss_error(std::size_t target) const;
 
@@ -43,6 +43,8 @@ class Surfaces {
   std::size_t num_points_ = 0;
   std::vector<ResponseSurface> surfaces_;
   std::vector<double> offsets_;  // on the scale of the surfaces
+  Eigen::MatrixXd correlation_;  // of the targets' figures
+  Eigen::MatrixXd covariance_;
 };
 
 // A function to be made small, and the least value found.

@@ -14,6 +14,7 @@ constexpr const char* kTargetsSchema = "kith.targets/1";
 // Larger figures are typing errors, and what is computed of them would not be finite.
 constexpr double kLargest = 1e9;
 constexpr double kLargestF = 1e6;
+constexpr double kSmallestError = 1e-100;
 constexpr double kLargestDf1 = 1e6;
 
 const std::vector<std::string>& quantity_words() {
@@ -101,20 +102,22 @@ class TargetsParser {
   void read_target(TomlReader& table) {
     Target target;
     target.priority = set_.targets.size() + 1;
-    if (const auto word = table.word("quantity", Presence::kRequired, quantity_words()))
-      target.quantity = static_cast<Quantity>(*word);
-    if (const auto word = table.word("statistic", Presence::kOptional, {"mean", "sd"}))
+    if (const auto word = table.word("statistic", Presence::kOptional, {"mean", "sd", "F"}))
       target.statistic = static_cast<Statistic>(*word);
-    if (const auto text = table.string("teams", Presence::kRequired)) {
-      const auto selection = parse_selection(*text, spec());
-      if (selection) {
-        target.teams = *selection;
-      } else {
-        report_.error("E0801", place_of(table, "teams"), "the study has no teams '" + *text + "'",
-                      "known: " + selections_of(spec()));
-      }
+    const bool is_f = target.statistic == Statistic::kF;
+    if (is_f) {
+      read_term(table, target);
+    } else {
+      read_teams(table, target);
     }
-    if (const auto value = table.real("value", Presence::kRequired, {-kLargest, kLargest})) target.value = *value;
+    if (const auto value =
+            table.real("value", Presence::kRequired, {is_f ? 0.0 : -kLargest, is_f ? kLargestF : kLargest}))
+      target.value = *value;
+    if (is_f && target.effect && target.df2 > 0.0) {
+      const double non_centrality = target.value * target.df1 * (target.df2 - 2.0) / target.df2 - target.df1;
+      target.standard_error = f_moments(target.df1, target.df2, std::max(0.0, non_centrality)).sd;
+    }
+    read_standard_error(table, target);
     read_tolerance(table, target);
     if (const auto priority = table.integer("priority", Presence::kOptional, {1, 1000}))
       target.priority = static_cast<std::size_t>(*priority);
@@ -125,16 +128,94 @@ class TargetsParser {
     set_.targets.push_back(std::move(target));
   }
 
+  void read_teams(TomlReader& table, Target& target) {
+    if (const auto word = table.word("quantity", Presence::kRequired, quantity_words()))
+      target.quantity = static_cast<Quantity>(*word);
+    if (const auto text = table.string("teams", Presence::kRequired)) {
+      const auto selection = parse_selection(*text, spec());
+      if (selection) {
+        target.teams = *selection;
+      } else {
+        report_.error("E0801", place_of(table, "teams"), "the study has no teams '" + *text + "'",
+                      "known: " + selections_of(spec()));
+      }
+    }
+    for (const auto* key : {"effect", "df"}) {
+      if (!table.has(key)) continue;
+      (void)table.value(key, Presence::kOptional);
+      report_.error("E0815", place_of(table, key), "'" + std::string{key} + "' belongs to statistic = \"F\"");
+    }
+  }
+
+  // A published F: effect = "periods: composition", df = [3, 224].
+  void read_term(TomlReader& table, Target& target) {
+    constexpr const char* kForm = "write effect = \"periods: composition\", df = [3, 224]";
+    if (const auto text = table.string("effect", Presence::kRequired)) {
+      auto reading = parse_effect(*text, spec());
+      if (!reading.effect) {
+        report_.error("E0809", place_of(table, "effect"), reading.problem, reading.hint);
+      } else if (reading.effect->kind == Effect::Kind::kContrast || reading.effect->imposed) {
+        report_.error("E0815", place_of(table, "effect"), "an F belongs to a term such as strategy or composition",
+                      kForm);
+      } else {
+        target.effect = *reading.effect;
+        target.quantity = target.effect->quantity;
+      }
+    }
+    if (const auto* df = table.array("df", Presence::kRequired)) {
+      constexpr double kLeastDf2 = 5.0;  // below, the F distribution has no variance
+      if (df->size() == 2) {
+        const auto df1 = read_real((*df)[0], "'df'", {1.0, kLargestDf1}, report_);
+        const auto df2 = read_real((*df)[1], "'df'", {kLeastDf2, kLargest}, report_);
+        if (df1 && df2) {
+          target.df1 = *df1;
+          target.df2 = *df2;
+        }
+      } else {
+        report_.error("E0815", place_of(table, "df"), "'df' needs two numbers", kForm);
+      }
+    }
+  }
+
+  // standard_error, or what it is computed from: sd and n of a mean, n of a standard deviation.
+  void read_standard_error(TomlReader& table, Target& target) {
+    const auto error =
+        table.real("standard_error", Presence::kOptional, {.min = 0.0, .max = kLargest, .open_min = true});
+    const auto sd = table.real("sd", Presence::kOptional, {.min = 0.0, .max = kLargest, .open_min = true});
+    const auto n = table.integer("n", Presence::kOptional, {2, 1'000'000'000});
+    const bool is_mean = target.statistic == Statistic::kMean, is_sd = target.statistic == Statistic::kSd;
+    const bool derived = table.has("sd") || table.has("n");
+    if (derived && (table.has("standard_error") || target.statistic == Statistic::kF || table.has("sd") != is_mean ||
+                    !table.has("n"))) {
+      report_.error("E0814", table.place(), table.name() + " does not say what its standard error is",
+                    "write standard_error = 0.1; or sd = 1.68 and n = 240 for a mean, or n = 240 for a standard "
+                    "deviation");
+      return;
+    }
+    if (error) target.standard_error = *error;
+    if (sd && n && is_mean) target.standard_error = *sd / std::sqrt(static_cast<double>(*n));
+    if (n && is_sd && target.value > 0.0)
+      target.standard_error = target.value / std::sqrt(2.0 * static_cast<double>(*n - 1));
+    if (target.standard_error && !(*target.standard_error > kSmallestError))
+      report_.error("E0814", table.place(), table.name() + " has a standard error that is too small to count with");
+  }
+
   void read_tolerance(TomlReader& table, Target& target) {
     const auto tolerance =
         table.real("tolerance", Presence::kOptional, {.min = 0.0, .max = kLargest, .open_min = true});
     const auto factor =
         table.real("within_factor", Presence::kOptional, {.min = 1.0, .max = kLargest, .open_min = true});
-    if (table.has("tolerance") == table.has("within_factor")) {
-      report_.error("E0802", table.place(), table.name() + " needs either tolerance or within_factor",
-                    "write tolerance = 0.3 (a difference) or within_factor = 1.6 (a ratio)");
+    const bool both = table.has("tolerance") && table.has("within_factor");
+    const bool none = !table.has("tolerance") && !table.has("within_factor");
+    const bool is_f = target.statistic == Statistic::kF;  // has a standard error unless it is wrong
+    if (both || (none && !target.standard_error && !is_f)) {
+      report_.error("E0802", table.place(),
+                    both ? table.name() + " needs either tolerance or within_factor, not both"
+                         : table.name() + " needs a tolerance, within_factor or a standard error",
+                    "write tolerance = 0.3 (a difference), within_factor = 1.6 (a ratio) or standard_error = 0.1");
     }
     target.is_factor = factor.has_value();
+    if (none && target.standard_error) target.tolerance = 2.0 * *target.standard_error;
     if (tolerance) target.tolerance = *tolerance;
     if (factor) target.tolerance = *factor;
     if (factor && target.value <= 0.0)

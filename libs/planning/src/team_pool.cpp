@@ -9,24 +9,18 @@ constexpr std::size_t kNumQuantities = 4;
 
 }  // namespace
 
-TeamPool::TeamPool(const StudySpec& spec, std::span<const TeamRecord> teams)
-    : compositions_{spec.compositions}, replicates_{spec.replicates} {
-  for (const auto& strategy : spec.strategies) strategies_.push_back(strategy.name);
-  if (teams.size() != strategies_.size() * compositions_.size() * replicates_)
-    throw std::invalid_argument{"TeamPool: not all teams of the study"};
-  values_.assign(kNumQuantities, {});
-  std::size_t i = 0;
-  for (const auto& strategy : strategies_) {
-    for (const auto& composition : compositions_) {
-      for (std::size_t r = 1; r <= replicates_; ++r, ++i) {
-        const auto& address = teams[i].address;
-        if (address.strategy != strategy || address.composition != composition || address.replicate != r)
-          throw std::invalid_argument{"TeamPool: teams are not in the order of the tables"};
-        for (std::size_t q = 0; q < kNumQuantities; ++q)
-          values_[q].push_back(value_of(teams[i], static_cast<Quantity>(q)));
-      }
-    }
-  }
+TeamPool TeamPool::empty(const StudySpec& spec) {
+  TeamPool pool;
+  for (const auto& strategy : spec.strategies) pool.strategies_.push_back(strategy.name);
+  pool.compositions_ = spec.compositions;
+  pool.replicates_ = spec.replicates;
+  const auto teams = pool.strategies_.size() * pool.compositions_.size() * pool.replicates_;
+  pool.values_.assign(kNumQuantities, std::vector<double>(teams));
+  return pool;
+}
+
+void TeamPool::set(std::size_t position, const TeamRecord& team) {
+  for (std::size_t q = 0; q < kNumQuantities; ++q) values_[q].at(position) = value_of(team, static_cast<Quantity>(q));
 }
 
 TeamPool::TeamPool(std::vector<std::string> strategies, std::vector<std::string> compositions,
@@ -45,6 +39,30 @@ TeamPool::TeamPool(std::vector<std::string> strategies, std::vector<std::string>
     }
   }
   values_.assign(kNumQuantities, all);
+}
+
+TeamPool TeamPool::joined(std::span<const TeamPool> pools) {
+  if (pools.empty()) throw std::invalid_argument{"TeamPool: nothing to join"};
+  TeamPool all;
+  all.strategies_ = pools.front().strategies_;
+  all.compositions_ = pools.front().compositions_;
+  for (const auto& pool : pools) {
+    if (pool.strategies_ != all.strategies_ || pool.compositions_ != all.compositions_)
+      throw std::invalid_argument{"TeamPool: pools of different designs"};
+    all.replicates_ += pool.replicates_;
+  }
+  all.values_.assign(kNumQuantities, {});
+  for (std::size_t q = 0; q < kNumQuantities; ++q) {
+    for (std::size_t s = 0; s < all.strategies_.size(); ++s) {
+      for (std::size_t c = 0; c < all.compositions_.size(); ++c) {
+        for (const auto& pool : pools) {
+          const auto cell = pool.cell(static_cast<Quantity>(q), s, c);
+          all.values_[q].insert(all.values_[q].end(), cell.begin(), cell.end());
+        }
+      }
+    }
+  }
+  return all;
 }
 
 std::span<const double> TeamPool::cell(Quantity quantity, std::size_t strategy, std::size_t composition) const {

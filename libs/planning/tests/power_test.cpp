@@ -9,6 +9,7 @@
 #include "kith/random/distributions.hpp"
 #include "kith/stats/power.hpp"
 #include "small_study.hpp"
+#include "study_tests.hpp"
 
 namespace kith {
 namespace {
@@ -131,6 +132,92 @@ TEST(Power, RefusesNonsense) {
   auto options = sizes({3}, 10);
   options.alpha = 1.0;
   EXPECT_THROW((void)power_curves(pool, effects, options), std::invalid_argument);
+}
+
+// Outcomes of people who differ much and are taught by every strategy; `raised` is what joint adds.
+TeamPool paired_pool(std::size_t replicates, std::uint64_t seed, double raised = 0.0) {
+  RandomStream random{seed};
+  std::vector<std::vector<std::vector<double>>> values(kStrategies.size());
+  for (std::size_t c = 0; c < kCompositions.size(); ++c) {
+    for (auto& by_composition : values) by_composition.emplace_back();
+    for (std::size_t r = 0; r < replicates; ++r) {
+      const double people = 2.0 * standard_normal(random);
+      for (std::size_t s = 0; s < kStrategies.size(); ++s)
+        values[s][c].push_back(people + standard_normal(random) + (kStrategies[s] == "joint" ? raised : 0.0));
+    }
+  }
+  return {kStrategies, kCompositions, values};
+}
+
+TEST(Power, WithinPeopleKeepsTheLevel) {
+  const auto pool = paired_pool(2'000, 6);
+  std::vector<Effect> effects{strategy_effect(), strategy_effect(), strategy_effect(), strategy_effect()};
+  effects[1].kind = Effect::Kind::kComposition;
+  effects[2].kind = Effect::Kind::kInteraction;
+  effects[3].kind = Effect::Kind::kStrategyWithin;
+  effects[3].composition = "NN";
+  auto options = sizes({6}, 600);
+  options.paired = true;
+  for (const auto& curve : power_curves(pool, effects, options)) {
+    // As in EqualsTheLevelWithoutAnEffect. Bonferroni and Greenhouse-Geisser may stay below.
+    const double least = curve.effect.kind == Effect::Kind::kStrategyWithin ? 0.0 : 0.05 - 4.0 * 0.015;
+    EXPECT_GE(curve.points[0].power, least) << to_string(curve.effect);
+    EXPECT_LE(curve.points[0].power, 0.05 + 4.0 * 0.015) << to_string(curve.effect);
+  }
+}
+
+TEST(Power, OfPairsIsHigherWherePeopleDiffer) {
+  const auto pool = paired_pool(400, 7, 0.8);
+  std::vector<Effect> effects{strategy_effect(), strategy_effect()};
+  effects[1].kind = Effect::Kind::kContrast;
+  effects[1].first.strategy = "joint";
+  effects[1].second.strategy = "common";
+  auto options = sizes({10}, 200);
+  const auto apart = power_curves(pool, effects, options);
+  options.paired = true;
+  const auto paired = power_curves(pool, effects, options);
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    EXPECT_GT(paired[e].points[0].power, apart[e].points[0].power + 0.2) << to_string(effects[e]);
+    EXPECT_FALSE(paired[e].points[0].analytic_power);
+  }
+}
+
+TEST(Power, WithinPeopleOfTwoStrategiesIsThePairedT) {
+  const auto all = paired_pool(40, 8, 0.5);
+  std::vector<std::vector<std::vector<double>>> values(2);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const auto cell = all.cell(Quantity::kPeriods, s + 1, 0);
+    values[s] = {{cell.begin(), cell.end()}};
+  }
+  const TeamPool pool{{"common", "joint"}, {"NN"}, values};
+  Effect contrast = strategy_effect();
+  contrast.kind = Effect::Kind::kContrast;
+  contrast.first.strategy = "common";
+  contrast.second.strategy = "joint";
+  const StudyTests tests{pool, 12, true};
+  Draw draw(2, std::vector<std::uint32_t>{3, 1, 4, 15, 9, 2, 6, 5, 35, 8, 7, 30});
+  const EffectData data{pool, contrast};
+  EXPECT_NEAR(tests.p_value(strategy_effect(), data, draw), tests.p_value(contrast, data, draw), 1e-12);
+}
+
+TEST(SimulatePools, KeepsWhatTheTeamsCameTo) {
+  const auto spec = testing::small_study({}).study->variants.front();
+  const Study study{{spec, spec}};
+  const auto pools = simulate_pools(testing::item_delivery(), study, {.threads = 2, .on_progress = {}});
+  ASSERT_TRUE(pools);
+  const auto addresses = team_addresses(study);
+  const auto run = run_teams(testing::item_delivery(), study, addresses, {.threads = 1, .on_progress = {}});
+  for (std::size_t i = 0; i < addresses.size(); ++i) {
+    const auto& pool = (*pools)[addresses[i].variant];
+    const std::size_t s = addresses[i].strategy == kBaseline ? 0 : 1;
+    EXPECT_EQ(pool.cell(Quantity::kPeriods, s, 0)[addresses[i].replicate - 1],
+              static_cast<double>(run.teams[i].periods));
+    EXPECT_EQ(pool.cell(Quantity::kKnowledge, s, 0)[addresses[i].replicate - 1], run.teams[i].knowledge);
+  }
+  const auto stopped =
+      simulate_pools(testing::item_delivery(), study,
+                     {.threads = 1, .on_progress = [](std::size_t done, std::size_t) { return done < 2; }});
+  EXPECT_FALSE(stopped);
 }
 
 TEST(ReplicateFindings, FindsThatTeachingEverybodyAloneTakesLonger) {

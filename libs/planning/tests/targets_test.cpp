@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "error_ids.hpp"
-#include "kith/planning/calibration.hpp"
 #include "small_study.hpp"
 
 namespace kith {
@@ -67,6 +66,9 @@ const std::vector<std::pair<std::string, std::string>>& broken_files() {
                      "keys = [\"learner.N.ability_scale\", \"learner.*.ability_scale\"]")},
       {"E0808", with("ability_scale\"]", "ability_scael\"]")},
       {"E0809", with("group - baseline", "group - nobody")},
+      {"E0814", with("tolerance = 0.5", "tolerance = 0.5\nsd = 1.0")},
+      {"E0814", with("tolerance = 0.5", "sd = 1.0\nn = 10\nstandard_error = 0.2\ntolerance = 1")},
+      {"E0815", with("tolerance = 0.5", "tolerance = 0.5\ndf = [3, 224]")},
       {"E0810", with("significant = true", "significant = true\nf = 4.0")},
   };
   return kFiles;
@@ -137,7 +139,8 @@ TEST(TargetsFile, OfThePaperIsGood) {
   const auto reading =
       parse_targets(text, "paper-targets.toml", [](const auto& overrides) { return load_study("paper", {overrides}); });
   ASSERT_TRUE(reading.targets);
-  EXPECT_EQ(reading.targets->targets.size(), 8u);
+  EXPECT_EQ(reading.targets->targets.size(), 10u);
+  for (const auto& target : reading.targets->targets) EXPECT_TRUE(target.standard_error) << to_string(target);
   EXPECT_EQ(reading.targets->parameters.size(), 6u);
 }
 
@@ -154,17 +157,18 @@ TEST(Effect, IsWrittenAsItIsRead) {
 
 TEST(Effect, IsRefusedWithAReason) {
   const auto paper = *load_study("paper").study;
-  const std::vector<std::pair<std::string, std::string>> refused{{"strategy", "names no quantity"},
-                                                                 {"speed: strategy", "no quantity 'speed'"},
-                                                                 {"periods: strategy in XXX", "no composition 'XXX'"},
-                                                                 {"periods: joint - nobody", "'nobody' are no teams"},
-                                                                 {"periods: joint - joint", "different teams"},
-                                                                 {"periods: joint - common eta2 = 0.1", "own unit"},
-                                                                 {"periods: strategy = 0.1", "eta2"},
-                                                                 {"periods: strategy eta2 = 1.5", "between 0 and 1"},
-                                                                 {"periods: joint - common = 0", "must not be 0"},
-                                                                 {"periods: joint - common = many", "no number"},
-                                                                 {"periods: whatever it is", "not understood"}};
+  const std::vector<std::pair<std::string, std::string>> refused{
+      {"strategy", "names no quantity"},
+      {"speed: strategy", "no quantity 'speed'"},
+      {"periods: strategy in XXX", "no composition 'XXX'"},
+      {"periods: joint - nobody", "the study has no teams 'nobody'"},
+      {"periods: joint - joint", "different teams"},
+      {"periods: joint - common eta2 = 0.1", "own unit"},
+      {"periods: strategy = 0.1", "eta2"},
+      {"periods: strategy eta2 = 1.5", "between 0 and 1"},
+      {"periods: joint - common = 0", "must not be 0"},
+      {"periods: joint - common = many", "no number"},
+      {"periods: whatever it is", "not understood"}};
   for (const auto& [text, problem] : refused) {
     const auto reading = parse_effect(text, paper.variants.front());
     EXPECT_FALSE(reading.effect) << text;
@@ -174,20 +178,42 @@ TEST(Effect, IsRefusedWithAReason) {
               HasSubstr("fewer than two compositions"));
 }
 
-TEST(Discrepancy, IsZeroAtTheTargetsAndGrowsWithEveryMiss) {
-  const auto set = *parse_targets(kTargets, "targets.toml", small_study).targets;
-  EXPECT_EQ(discrepancy(set.targets, std::vector<double>{0.0, 0.0}), 0.0);
-  for (const double z : {0.3, 0.9, 1.1, 4.0}) {
-    for (const std::size_t i : {0u, 1u}) {
-      std::vector<double> misses(2, 0.0), more(2, 0.0);
-      misses[i] = z;
-      more[i] = -z - 0.01;
-      EXPECT_LT(discrepancy(set.targets, misses), discrepancy(set.targets, more));
-    }
-  }
-  // Beyond the tolerance the first target outweighs an equal miss of the second.
-  EXPECT_GT(discrepancy(set.targets, std::vector<double>{2.0, 0.0}),
-            discrepancy(set.targets, std::vector<double>{0.0, 3.0}));
+TEST(TargetsFile, ReadsStandardErrorsAndWhatTheyAreComputedFrom) {
+  const auto read = [](const std::string& text) { return parse_targets(text, "targets.toml", small_study).targets; };
+  const auto mean = read(with("tolerance = 0.5", "sd = 1.68\nn = 240"));
+  ASSERT_TRUE(mean);
+  EXPECT_DOUBLE_EQ(*mean->targets[0].standard_error, 1.68 / std::sqrt(240.0));
+  EXPECT_DOUBLE_EQ(mean->targets[0].tolerance, 2.0 * 1.68 / std::sqrt(240.0));  // none wished: two standard errors
+  const auto sd = read(with("within_factor = 2.0", "within_factor = 2.0\nn = 51"));
+  ASSERT_TRUE(sd);
+  EXPECT_DOUBLE_EQ(*sd->targets[1].standard_error, 0.1 / std::sqrt(100.0));
+  EXPECT_DOUBLE_EQ(published_error(sd->targets[1]), 0.1);  // of the logarithm
+  const auto given = read(with("tolerance = 0.5", "tolerance = 0.5\nstandard_error = 0.1"));
+  ASSERT_TRUE(given);
+  EXPECT_DOUBLE_EQ(published_error(given->targets[0]), 0.1);
+  EXPECT_DOUBLE_EQ(published_error(given->targets[1]), std::log(2.0) / 2.0);  // without one, half a tolerance
+}
+
+TEST(TargetsFile, ReadsPublishedFs) {
+  const auto paper = [](const auto& overrides) { return load_study("paper", overrides); };
+  const std::string text =
+      "schema = \"kith.targets/1\"\n[[target]]\nstatistic = \"F\"\neffect = \"periods: composition\"\n"
+      "value = 4.67\ndf = [3, 224]\n";
+  const auto reading = parse_targets(text, "targets.toml", paper);
+  ASSERT_TRUE(reading.targets) << reading.diagnostics.front().message;
+  const auto& target = reading.targets->targets.front();
+  EXPECT_EQ(to_string(target), "F of periods: composition");
+  // The standard deviation of the non-central F whose mean is the published value: computed by hand.
+  EXPECT_NEAR(*target.standard_error, 2.4, 0.05);
+  auto contrast = text;
+  contrast.replace(contrast.find("periods: composition"), 20, "periods: joint - common");
+  EXPECT_EQ(parse_targets(contrast, "targets.toml", paper).diagnostics.front().id, "E0815");
+}
+
+TEST(FMoments, AreThoseOfTheCentralFWithoutNonCentrality) {
+  const auto moments = f_moments(3.0, 24.0, 0.0);
+  EXPECT_DOUBLE_EQ(moments.mean, 24.0 / 22.0);
+  EXPECT_NEAR(moments.sd, std::sqrt(2.0 * 24.0 * 24.0 * 25.0 / (3.0 * 22.0 * 22.0 * 20.0)), 1e-12);
 }
 
 TEST(Miss, IsCountedInTolerances) {

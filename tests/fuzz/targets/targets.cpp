@@ -14,6 +14,7 @@ namespace {
 void check(const TargetSet& set) {
   for (const auto& target : set.targets) {
     fuzzing::require(std::isfinite(target.value) && target.tolerance > 0.0, "a target has a value and a tolerance");
+    fuzzing::require(published_error(target) > 0.0, "a target has a standard error");
     fuzzing::require(!std::isnan(miss(target, target.value)), "no figure is off itself by an unknown distance");
   }
   for (const auto& parameter : set.parameters) {

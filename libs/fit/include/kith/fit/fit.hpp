@@ -40,12 +40,17 @@ struct Identifiability {
 /// One population.
 struct TypeReport {
   std::string name;  ///< The label, "all", or "type 1", ...
+  /// The headline, and what learner_section() writes: medians of the posterior of the population's parameters
+  /// (FitOptions::num_draws draws, see draw_populations()). Unlike the maximum of the likelihood they do not lie at an
+  /// edge of what is searched.
+  PopulationParameters median;
+  PopulationParameters lower;  ///< 2.5 % quantiles of the same draws.
+  PopulationParameters upper;  ///< 97.5 %.
+  /// The population of the largest likelihood, with profile likelihood intervals.
   PopulationFit fit;
-  /// Medians of the populations that the answers leave possible: unlike the best one never at an edge, so that people
-  /// drawn from it are like people.
-  PopulationParameters typical;
   double share = 1.0;
   Identifiability identifiability;
+  std::vector<std::string> at_edge;  ///< Sentences: where the likelihood is largest at an edge of what is searched.
 };
 
 /// One person.
@@ -66,13 +71,14 @@ struct FitReport {
   std::vector<PersonReport> people;
   std::vector<CrossValidation> cross_validation;  ///< "full" first; empty if there are too few people.
   std::vector<std::string> sentences;             ///< What the comparison of models says.
+  std::string why_estimates_differ;               ///< Medians of the posterior and maximum of the likelihood.
 };
 
 /// Fits people and populations by likelihood: see docs/fitting.md.
 /// @throws kith::Error (kInfeasible, E0710) with fewer than 3 people, or a type with fewer than 2.
 [[nodiscard]] FitReport fit_learners(const ResponseLogs& logs, const FitOptions& options);
 
-/// A section of a study file for a population: "[learner.N]" and its keys with the typical values, ready to paste.
+/// A section of a study file for a population: "[learner.N]" and its keys with the posterior medians, ready to paste.
 [[nodiscard]] std::string learner_section(char letter, const TypeReport& type);
 
 }  // namespace kith

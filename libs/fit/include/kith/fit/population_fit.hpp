@@ -19,6 +19,10 @@ struct PopulationParameters {
   friend bool operator==(const PopulationParameters&, const PopulationParameters&) = default;
 };
 
+/// The edges of what fit_population() searches.
+inline constexpr PopulationParameters kSmallestPopulation{0.5, 0.003, 0.001, 0.001};
+inline constexpr PopulationParameters kLargestPopulation{1.0, 0.3, 0.5, 0.5};
+
 /// What is known to be impossible: abilities and gains outside are not drawn.
 struct PopulationLimits {
   double ability_min = 0.5;

@@ -13,12 +13,16 @@
 
 namespace kith {
 
-/// What came out of many teams in every cell of a design: what studies are drawn from.
+/// The outcomes of many teams in every cell of a design, one number per team and quantity: what studies are drawn from.
 class TeamPool {
  public:
-  /// @param teams  of one variant, spec.replicates in every cell, in the order of the tables.
-  /// @throws std::invalid_argument otherwise.
-  TeamPool(const StudySpec& spec, std::span<const TeamRecord> teams);
+  /// A pool whose outcomes are all 0, spec.replicates in every cell.
+  [[nodiscard]] static TeamPool empty(const StudySpec& spec);
+  /// Stores the outcomes of a team. @param position  0-based, in the order of the tables.
+  void set(std::size_t position, const TeamRecord& team);
+  /// All teams of pools of one design, cell by cell, in the order of the pools.
+  /// @throws std::invalid_argument without pools or if their designs differ.
+  [[nodiscard]] static TeamPool joined(std::span<const TeamPool> pools);
   /// A pool of given outcomes of one quantity, the same for every quantity.
   /// @param values  shape [strategies][compositions][replicates].
   TeamPool(std::vector<std::string> strategies, std::vector<std::string> compositions,
@@ -31,11 +35,24 @@ class TeamPool {
   [[nodiscard]] std::span<const double> cell(Quantity quantity, std::size_t strategy, std::size_t composition) const;
 
  private:
+  TeamPool() = default;
+
   std::vector<std::string> strategies_;
   std::vector<std::string> compositions_;
   std::size_t replicates_ = 0;
   std::vector<std::vector<double>> values_;  // [quantities][cells * replicates]
 };
+
+/// Whether so many teams of this study can be simulated at a time by simulate_pools() without running out of memory.
+/// @param threads  0: as many as there are cores.
+/// @throws kith::Error (kInfeasible, E1201) if not.
+void require_pool_memory(const Study& study, std::size_t threads, std::size_t teams);
+
+/// Simulates all teams of a study and keeps their outcomes only: 32 bytes a team.
+/// @return one pool per variant; nothing if on_progress stopped it.
+/// @throws kith::Error as require_pool_memory().
+[[nodiscard]] std::optional<std::vector<TeamPool>> simulate_pools(const Atlas& atlas, const Study& study,
+                                                                  const RunOptions& options);
 
 struct PowerOptions {
   std::vector<std::size_t> teams{5, 10, 15, 20, 30, 50, 100};  ///< Per cell; ascending, each >= 2.
@@ -75,7 +92,11 @@ struct PowerCurve {
 ///
 /// Each drawn study takes n teams per cell from the pool without replacement and is analysed as kith analyses studies:
 /// two-way analysis of variance (type II) of the group strategies, one-way within a composition with Bonferroni,
-/// Welch's t test of a contrast (paired, if the same people were taught). An imposed effect is added to
+/// Welch's t test of a contrast. If every strategy teaches the same people, strategy is a factor within people:
+/// analysis of variance with people as blocks, degrees of freedom by Greenhouse and Geisser [greenhouse1959]; the
+/// composition is tested on means over each group of people, and contrasts on differences (or, between compositions,
+/// means) of the same people. A team is one observation; its members are never counted as independent.
+/// An imposed effect is added to
 /// the pool's residuals in place of what the cells differ by. Draws share teams, so that their mean is less certain
 /// than its number of draws says: the pool's share of the variance is estimated by the infinitesimal jackknife of
 /// subsampling with its Monte Carlo bias removed [wager2014], and bounded by n / N of the binomial one, N the pool's
@@ -104,6 +125,7 @@ struct Replication {
 
 struct ReplicationOptions {
   std::size_t studies = 200;
+  bool paired = false;  ///< Analyse strategies as taught to the same people, see power_curves().
   std::uint64_t seed = 1;
   std::size_t threads = 0;  ///< Changes the speed, never a result.
   std::function<bool(std::size_t done, std::size_t total)> on_progress{};

@@ -14,24 +14,46 @@
 
 namespace kith {
 
-enum class Statistic { kMean, kSd };
+enum class Statistic {
+  kMean,
+  kSd,
+  kF,  ///< Of a term of the group strategies' analysis of variance.
+};
 
 /// One published figure that a study should meet.
 struct Target {
   Quantity quantity = Quantity::kPeriods;
   Statistic statistic = Statistic::kMean;  ///< Over the selected teams, pooled; the standard deviation with n - 1.
-  TeamSelection teams;
+  TeamSelection teams;                     ///< Not of kF.
   double value = 0.0;
   double tolerance = 1.0;    ///< > 0: as far as the model may be off; a factor > 1 if `is_factor`.
   bool is_factor = false;    ///< Off by a factor instead of a difference.
-  std::size_t priority = 1;  ///< 1 is the most important.
+  std::size_t priority = 1;  ///< 1 is the most important: the frontier is between the first two quantities.
   std::string source;
+  /// Of the published value, in its own unit, > 0. Missing: the tolerance is taken for two standard errors.
+  std::optional<double> standard_error = std::nullopt;
+  std::optional<Effect> effect = std::nullopt;  ///< Of kF: an analysis-of-variance term.
+  double df1 = 0.0;                             ///< Of kF, as published.
+  double df2 = 0.0;                             ///< > 4
 };
-/// "periods of group, mean"
+/// "periods of group, mean", "F of periods: composition"
 [[nodiscard]] std::string to_string(const Target& target);
 /// How far a model's figure is off, in tolerances, with its sign: (model - value) / tolerance, or
 /// log(model / value) / log(tolerance). Within the tolerance: [-1, 1].
 [[nodiscard]] double miss(const Target& target, double model);
+/// The scale on which figures are compared: the figure itself, or its logarithm for a target met within a factor.
+[[nodiscard]] double compared(const Target& target, double figure);
+/// A standard error of a figure of this size, on that scale.
+[[nodiscard]] double compared_error(const Target& target, double figure, double standard_error);
+/// The published standard error on that scale; half a tolerance where none is published. > 0.
+[[nodiscard]] double published_error(const Target& target);
+/// Expected value and standard deviation of a published F at a non-centrality >= 0: those of the non-central F
+/// distribution with df1 and df2 > 4 degrees of freedom [johnson1995, chapter 30].
+struct FMoments {
+  double mean = 0.0;
+  double sd = 0.0;
+};
+[[nodiscard]] FMoments f_moments(double df1, double df2, double non_centrality);
 
 /// A parameter that calibration may move: one number that sets one or several keys of the study.
 struct FreeParameter {
