@@ -14,6 +14,10 @@ constexpr std::size_t kMostTerms = 63;  // six factors with all their interactio
 
 Formula formula_of(const std::string& text) {
   auto reading = parse_formula(text);
+  if (!reading.formula.random_intercepts.empty()) {
+    throw Error{ErrorKind::kUsage, fmt::format("model '{}': random intercepts cannot be fitted yet; leave out (1|{})",
+                                               text, fmt::join(reading.formula.random_intercepts.front(), ":"))};
+  }
   if (reading.errors.empty()) return std::move(reading.formula);
   const auto& error = reading.errors.front();
   throw Error{ErrorKind::kUsage, fmt::format("model '{}', character {}: {}{}", text, error.column, error.message,

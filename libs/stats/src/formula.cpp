@@ -1,7 +1,6 @@
 #include "kith/stats/formula.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace kith {
 namespace {
@@ -9,9 +8,11 @@ namespace {
 using Term = std::vector<std::size_t>;  // ascending indices of factors
 
 constexpr std::size_t kMostTerms = 1'000;
+constexpr std::size_t kMostRandomIntercepts = 10;
 constexpr int kDeepest = 100;  // parentheses
+constexpr const char* kRandomHint = "write (1|team), (1|team:member) or (1|team/member)";
 
-enum class TokenKind { kName, kNumber, kTilde, kPlus, kStar, kColon, kOpen, kClose, kEnd };
+enum class TokenKind { kName, kNumber, kTilde, kPlus, kStar, kColon, kSlash, kBar, kOpen, kClose, kEnd };
 
 struct Token {
   TokenKind kind = TokenKind::kEnd;
@@ -30,6 +31,20 @@ bool is_number(std::string_view text) {
 
 bool is_plain_name(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), is_name_byte) && !is_number(text);
+}
+
+std::string quoted(const std::string& name) { return is_plain_name(name) ? name : "`" + name + "`"; }
+
+std::string joined(const std::vector<std::string>& columns) {
+  std::string text;
+  for (const auto& column : columns) text += (text.empty() ? "" : ":") + quoted(column);
+  return text;
+}
+
+std::vector<std::string> columns_of(const Formula& formula, const Term& term) {
+  std::vector<std::string> columns;
+  for (const auto factor : term) columns.push_back(formula.factors.at(factor));
+  return columns;
 }
 
 // Characters up to an offset, however many bytes each has.
@@ -53,6 +68,8 @@ class Parser {
     if (!failed() && token_.kind != TokenKind::kEnd) {
       if (token_.kind == TokenKind::kTilde) {
         fail("a second '~'", "a formula has one response");
+      } else if (token_.kind == TokenKind::kBar) {
+        fail("'|' outside parentheses", kRandomHint);
       } else if (token_.kind == TokenKind::kClose) {
         fail("')' without '('", "");
       } else {
@@ -64,6 +81,8 @@ class Parser {
     std::erase_if(terms, [](const Term& term) { return term.empty(); });
     std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.size() < b.size(); });
     formula_.terms = std::move(terms);
+    check_random_intercepts();
+    if (failed()) return {{}, std::move(errors_)};
     return {std::move(formula_), {}};
   }
 
@@ -115,9 +134,9 @@ class Parser {
   }
 
   void read_operator(char c) {
-    static constexpr std::string_view kOperators = "~+*:()";
-    static constexpr TokenKind kKinds[] = {TokenKind::kTilde, TokenKind::kPlus, TokenKind::kStar,
-                                           TokenKind::kColon, TokenKind::kOpen, TokenKind::kClose};
+    static constexpr std::string_view kOperators = "~+*:/|()";
+    static constexpr TokenKind kKinds[] = {TokenKind::kTilde, TokenKind::kPlus, TokenKind::kStar, TokenKind::kColon,
+                                           TokenKind::kSlash, TokenKind::kBar,  TokenKind::kOpen, TokenKind::kClose};
     const auto index = kOperators.find(c);
     token_.text = std::string{c};
     if (index == std::string_view::npos) {
@@ -126,6 +145,8 @@ class Parser {
     }
     token_.kind = kKinds[index];
     ++next_;
+    if (token_.kind == TokenKind::kSlash && !in_groups_)
+      fail("'/' outside a random intercept", "write a + a:b for levels of b within those of a");
   }
 
   void read_response() {
@@ -147,11 +168,14 @@ class Parser {
 
   // product: crossing { "*" crossing }, where a * b means a + b + a:b
   std::vector<Term> read_product(int depth) {
+    const auto random_before = formula_.random_intercepts.size();
     auto terms = read_crossing(depth);
     while (!failed() && token_.kind == TokenKind::kStar) {
+      require_no_random_since(random_before);
       advance();
       const auto right = read_crossing(depth);
       const auto both = cross(terms, right);
+      require_no_random_since(random_before);
       unite(terms, right);
       unite(terms, both);
     }
@@ -160,15 +184,24 @@ class Parser {
 
   // crossing: operand { ":" operand }
   std::vector<Term> read_crossing(int depth) {
+    const auto random_before = formula_.random_intercepts.size();
     auto terms = read_operand(depth);
     while (!failed() && token_.kind == TokenKind::kColon) {
+      require_no_random_since(random_before);
       advance();
       terms = cross(terms, read_operand(depth));
+      require_no_random_since(random_before);
     }
     return terms;
   }
 
-  // operand: name | "1" | "(" sum ")"
+  // A random intercept is no operand of * and :.
+  void require_no_random_since(std::size_t before) {
+    if (formula_.random_intercepts.size() == before) return;
+    fail_at(random_place_, "a random intercept cannot be part of a product", "add it to the terms with +");
+  }
+
+  // operand: name | "1" | "(" sum ")" | "(" "1" "|" groups ")"
   std::vector<Term> read_operand(int depth) {
     if (failed()) return {};
     if (token_.kind == TokenKind::kName) return read_factor();
@@ -188,7 +221,12 @@ class Parser {
       }
       const auto open = token_.place;
       advance();
+      if (token_.kind == TokenKind::kNumber && token_.text == "1" && next_is('|')) {
+        read_random_intercept(open);
+        return {};
+      }
       auto terms = read_sum(depth + 1);
+      if (token_.kind == TokenKind::kBar) fail("only intercepts can be random, not slopes", kRandomHint);
       if (token_.kind != TokenKind::kClose) {
         if (token_.kind == TokenKind::kEnd) fail_at(open, "'(' without ')'", "");
         fail("an operator is missing before '" + token_.text + "'", "join terms by +, * or :");
@@ -203,6 +241,68 @@ class Parser {
       fail("a factor is missing before '" + token_.text + "'", "");
     }
     return {};
+  }
+
+  [[nodiscard]] bool next_is(char c) const {
+    const auto next = text_.find_first_not_of(" \t", next_);
+    return next != std::string_view::npos && text_[next] == c;
+  }
+
+  // The rest of "(1|a:b)" or "(1|a/b)" from "1" on; a/b means a + a:b.
+  void read_random_intercept(std::size_t open) {
+    random_place_ = open;
+    in_groups_ = true;
+    advance();
+    advance();
+    std::vector<std::string> columns;
+    do {
+      if (token_.kind == TokenKind::kSlash) {
+        add_random_intercept(columns);
+        advance();
+      } else if (token_.kind == TokenKind::kColon) {
+        advance();
+      }
+      read_group(columns);
+    } while (!failed() && (token_.kind == TokenKind::kSlash || token_.kind == TokenKind::kColon));
+    in_groups_ = false;
+    if (token_.kind == TokenKind::kEnd) fail_at(open, "'(' without ')'", "");
+    if (token_.kind != TokenKind::kClose)
+      fail("'" + token_.text + "' in the groups of a random intercept", kRandomHint);
+    if (failed()) return;
+    add_random_intercept(columns);
+    advance();
+  }
+
+  void read_group(std::vector<std::string>& columns) {
+    if (failed()) return;
+    if (token_.kind != TokenKind::kName)
+      return fail("the name of a column is missing after '|', ':' or '/'", kRandomHint);
+    if (token_.text == formula_.response)
+      return fail("the response '" + token_.text + "' cannot be a random intercept as well", "");
+    if (std::find(columns.begin(), columns.end(), token_.text) == columns.end()) columns.push_back(token_.text);
+    advance();
+  }
+
+  void add_random_intercept(const std::vector<std::string>& columns) {
+    auto& known = formula_.random_intercepts;
+    const auto is_same = [&](const std::vector<std::string>& other) {
+      return std::is_permutation(columns.begin(), columns.end(), other.begin(), other.end());
+    };
+    if (std::any_of(known.begin(), known.end(), is_same)) return;
+    if (known.size() == kMostRandomIntercepts) return fail_at(random_place_, "more than 10 random intercepts", "");
+    known.push_back(columns);
+  }
+
+  // Of what is a term already, a random intercept explains nothing.
+  void check_random_intercepts() {
+    for (const auto& columns : formula_.random_intercepts) {
+      for (const auto& term : formula_.terms) {
+        const auto names = columns_of(formula_, term);
+        if (std::is_permutation(names.begin(), names.end(), columns.begin(), columns.end()))
+          fail_at(random_place_, "'" + joined(columns) + "' is both a term and a random intercept",
+                  "leave one of them out");
+      }
+    }
   }
 
   std::vector<Term> read_factor() {
@@ -244,11 +344,11 @@ class Parser {
   std::string_view text_;
   std::size_t next_ = 0;
   Token token_;
+  bool in_groups_ = false;
+  std::size_t random_place_ = 0;  // of the latest random intercept
   Formula formula_;
   std::vector<FormulaError> errors_;
 };
-
-std::string quoted(const std::string& name) { return is_plain_name(name) ? name : "`" + name + "`"; }
 
 }  // namespace
 
@@ -256,13 +356,14 @@ FormulaReading parse_formula(std::string_view text) { return Parser{text}.read()
 
 std::string to_string(const Formula& formula) {
   std::string text = quoted(formula.response) + " ~ ";
-  if (formula.terms.empty()) return text + "1";
-  for (std::size_t t = 0; t < formula.terms.size(); ++t) {
-    if (t > 0) text += " + ";
-    for (std::size_t i = 0; i < formula.terms[t].size(); ++i)
-      text += (i > 0 ? ":" : "") + quoted(formula.factors.at(formula.terms[t][i]));
+  std::string sum;
+  const auto add = [&sum](const std::string& part) { sum += (sum.empty() ? "" : " + ") + part; };
+  for (const auto& term : formula.terms) {
+    add(joined(columns_of(formula, term)));
   }
-  return text;
+  if (sum.empty()) sum = "1";
+  for (const auto& columns : formula.random_intercepts) add("(1|" + joined(columns) + ")");
+  return text + sum;
 }
 
 }  // namespace kith

@@ -45,7 +45,8 @@ bool check_formula(std::string_view text) {
   const auto written = to_string(reading.formula);
   const auto again = parse_formula(written);
   fuzzing::require(again.errors.empty() && again.formula.response == reading.formula.response &&
-                       named_terms(again.formula) == named_terms(reading.formula),
+                       named_terms(again.formula) == named_terms(reading.formula) &&
+                       again.formula.random_intercepts == reading.formula.random_intercepts,
                    "a formula reads as written", written);
   return true;
 }
