@@ -2,14 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "checks.hpp"
 #include "count_cells.hpp"
+#include "count_design.hpp"
 #include "kith/stats/distributions.hpp"
 #include "negative_binomial.hpp"
 
@@ -53,70 +52,9 @@ CountDesign design_of(const CountData& data, std::span<const Factor> factors, st
   return design;
 }
 
-// Products of the columns over the cells for which `take` holds: the rank of the design there, without its many rows.
-template <typename Take>
-Eigen::MatrixXd products_over(const CountData& data, const CountDesign& design, Take take) {
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(design.size, design.size);
-  for (std::size_t c = 0; c < data.cells.size(); ++c) {
-    if (!take(data.cells[c])) continue;
-    for (const auto row : design.columns[c]) {
-      for (const auto column : design.columns[c]) products(row, column) += 1.0;
-    }
-  }
-  return products;
-}
-
 bool has_full_rank(const CountData& data, const CountDesign& design) {
   const auto all = [](const detail::CountCell&) { return true; };
-  return Eigen::FullPivLU<Eigen::MatrixXd>{products_over(data, design, all)}.rank() == design.size;
-}
-
-// Whether the span of the columns of `rows` has a vector v >= 0 other than 0. Projections by turns onto the span and
-// onto the vectors >= 0 never lose any of u'v, which is sum(v) >= |v| at the start u = 1: if |u| falls below 1 there is
-// no such v, and if there is none, u tends to 0.
-bool span_has_a_non_negative_vector(const Eigen::MatrixXd& rows) {
-  constexpr int kMostTurns = 100'000;
-  constexpr double kRounding = 1e-9;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr{rows};
-  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(rows.rows(), rows.cols());
-  Eigen::VectorXd u = Eigen::VectorXd::Ones(rows.rows());
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    const Eigen::VectorXd projected = basis * (basis.transpose() * u);
-    u = projected.cwiseMax(0.0);
-    if (u.norm() < 1.0 - kRounding) return false;
-    if (projected.minCoeff() > -kRounding) return true;
-  }
-  return true;
-}
-
-// Whether a direction of the coefficients leaves the cells with counts alone and lowers cells of zeros, but raises
-// none: then the likelihood has no maximum.
-bool zeros_separate(const CountData& data, const CountDesign& design) {
-  const auto is_positive = [](const detail::CountCell& cell) { return cell.sum > 0.0; };
-  const Eigen::FullPivLU<Eigen::MatrixXd> products{products_over(data, design, is_positive)};
-  if (products.dimensionOfKernel() == 0) return false;
-  const Eigen::MatrixXd directions = products.kernel();
-  const auto num_zeros = std::ranges::count_if(data.cells, std::not_fn(is_positive));
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(num_zeros), directions.cols());
-  Eigen::Index row = 0;
-  for (std::size_t c = 0; c < data.cells.size(); ++c) {
-    if (is_positive(data.cells[c])) continue;
-    for (const auto column : design.columns[c]) rows.row(row) += directions.row(column);
-    ++row;
-  }
-  return span_has_a_non_negative_vector(rows);
-}
-
-double pearson_dispersion(const CountData& data, const CountDesign& design, const CountFit& poisson) {
-  const Eigen::VectorXd mu = detail::linear_predictor(design, poisson.coefficients).array().exp();
-  double chi_squared = 0.0;
-  for (std::size_t c = 0; c < data.cells.size(); ++c) {
-    const auto& cell = data.cells[c];
-    const double mu_c = mu[static_cast<Eigen::Index>(c)];
-    const double off = cell.sum / cell.observations - mu_c;
-    chi_squared += (cell.squares + cell.observations * off * off) / mu_c;
-  }
-  return chi_squared / (data.observations - static_cast<double>(design.size));
+  return Eigen::FullPivLU<Eigen::MatrixXd>{detail::products_over(data, design, all)}.rank() == design.size;
 }
 
 std::vector<RateRatio> ratios_of(std::span<const Factor> factors, const CountFit& fit,
@@ -163,7 +101,7 @@ Estimable<CountModel> fit_count_model(std::span<const double> counts, std::span<
     return Result::impossible("there are no more observations than coefficients");
   if (!has_full_rank(data, design))
     return Result::impossible("the factors cannot be told apart: some levels only occur together");
-  if (zeros_separate(data, design))
+  if (detail::zeros_separate(data, design))
     return Result::impossible("combinations of levels with only zeros leave some ratios without a bound");
   const auto poisson = detail::fit_poisson(data, design);
   const auto fit = poisson ? detail::fit_negative_binomial(data, design) : std::nullopt;
@@ -172,7 +110,7 @@ Estimable<CountModel> fit_count_model(std::span<const double> counts, std::span<
   CountModel model;
   model.log_likelihood = fit->log_likelihood;
   if (fit->alpha > 0.0) model.theta = 1.0 / fit->alpha;
-  model.dispersion = pearson_dispersion(data, design, *poisson);
+  model.dispersion = detail::pearson_dispersion(data, design, *poisson);
   model.coefficients.assign(fit->coefficients.begin(), fit->coefficients.end());
   const Eigen::MatrixXd covariance = detail::expected_information(data, design, *fit)
                                          .ldlt()
