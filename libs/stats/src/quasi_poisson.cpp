@@ -1,0 +1,113 @@
+#include "kith/stats/quasi_poisson.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "checks.hpp"
+#include "count_design.hpp"
+#include "kith/stats/distributions.hpp"
+#include "sub_model.hpp"
+#include "term_hypotheses.hpp"
+
+namespace kith {
+namespace {
+
+// A Poisson fit of some terms.
+struct LogLinearFit {
+  detail::CountData data;
+  detail::CountDesign design;
+  detail::CountFit fit;
+  std::string fault;  // Why there is no fit; empty if there is.
+};
+
+LogLinearFit fit_log_linear(std::span<const double> counts, const FactorDesign& design) {
+  LogLinearFit result{detail::count_data_of(counts, design), detail::count_design_of(design), {}, {}};
+  if (result.data.sum == 0.0) {
+    result.fault = "all counts are zero";
+  } else if (detail::zeros_separate(result.data, result.design)) {
+    result.fault = "combinations of levels with only zeros leave some ratios without a bound";
+  } else if (auto fit = detail::fit_poisson(result.data, result.design)) {
+    result.fit = std::move(*fit);
+  } else {
+    result.fault = "the search for the largest likelihood did not end";
+  }
+  return result;
+}
+
+// What of twice the log-likelihood differs between models: sums of y log(mu) - mu.
+double twice_log_likelihood(const LogLinearFit& model) {
+  const Eigen::VectorXd eta = detail::linear_predictor(model.design, model.fit.coefficients);
+  double sum = 0.0;
+  for (std::size_t c = 0; c < model.data.cells.size(); ++c) {
+    const auto& cell = model.data.cells[c];
+    const double eta_c = eta[static_cast<Eigen::Index>(c)];
+    sum += cell.sum * eta_c - cell.observations * std::exp(eta_c);
+  }
+  return 2.0 * sum;
+}
+
+TermTest f_test_of_term(std::span<const double> counts, std::span<const Factor> factors, const FactorDesign& design,
+                        std::size_t term, double dispersion, double residual_df) {
+  TermTest test{detail::term_name(design, term)};
+  const auto models = detail::type_two_models(design.terms, term);
+  const auto with = make_factor_design(counts.size(), factors, models.with);
+  const auto without = make_factor_design(counts.size(), factors, models.without);
+  const auto larger = fit_log_linear(counts, *with);
+  const auto smaller = fit_log_linear(counts, *without);
+  if (!larger.fault.empty() || !smaller.fault.empty()) {
+    test.test = Estimable<TestResult>::impossible("the model without it could not be fitted");
+    return test;
+  }
+  test.df = with->kept.size() - without->kept.size();
+  if (test.df == 0) {
+    test.test = Estimable<TestResult>::impossible("its levels cannot be told apart from those of other terms");
+    return test;
+  }
+  const auto df = static_cast<double>(test.df);
+  const double difference = std::max(0.0, twice_log_likelihood(larger) - twice_log_likelihood(smaller));
+  const double f = difference / df / dispersion;
+  test.test = TestResult{"F", f, {df, residual_df}, f_upper(f, df, residual_df)};
+  return test;
+}
+
+}  // namespace
+
+Estimable<QuasiPoissonModel> fit_quasi_poisson(std::span<const double> counts, std::span<const Factor> factors,
+                                               std::span<const std::vector<std::size_t>> terms) {
+  using Result = Estimable<QuasiPoissonModel>;
+  require_finite(counts, "fit_quasi_poisson");
+  const auto design = make_factor_design(counts.size(), factors, terms);
+  if (!design) return Result::impossible(design.reason());
+  if (std::ranges::any_of(counts, [](double count) { return count < 0.0; }))
+    return Result::impossible("counts must not be negative");
+  if (counts.size() <= design->kept.size())
+    return Result::impossible("there are no more observations than coefficients");
+  const auto model = fit_log_linear(counts, *design);
+  if (!model.fault.empty()) return Result::impossible(model.fault);
+
+  QuasiPoissonModel result;
+  result.observations = counts.size();
+  result.residual_df = counts.size() - design->kept.size();
+  result.dispersion = detail::pearson_dispersion(model.data, model.design, model.fit);
+  constexpr double kNoSpread = 1e-20;
+  if (result.dispersion <= kNoSpread) return Result::impossible("no spread around the model's values");
+  const auto size = model.design.size;
+  const Eigen::MatrixXd covariance =
+      result.dispersion * Eigen::MatrixXd{detail::expected_information(model.data, model.design, model.fit)
+                                              .ldlt()
+                                              .solve(Eigen::MatrixXd::Identity(size, size))};
+  const auto residual_df = static_cast<double>(result.residual_df);
+  for (std::size_t t = 0; t < design->terms.size(); ++t)
+    result.term_tests.push_back(f_test_of_term(counts, factors, *design, t, result.dispersion, residual_df));
+  const auto& coefficients = model.fit.coefficients;
+  result.fixed = make_fixed_effects(
+      *design, {coefficients.data(), static_cast<std::size_t>(coefficients.size())},
+      {covariance.data(), static_cast<std::size_t>(covariance.size())},
+      [residual_df](std::span<const double>) { return residual_df; }, Link::kLog);
+  return result;
+}
+
+}  // namespace kith
