@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kith/stats/estimable.hpp"
+#include "kith/stats/factor.hpp"
+#include "kith/stats/fixed_effects.hpp"
+#include "kith/stats/term_test.hpp"
+
+namespace kith {
+
+/// A log-linear model of counts of which some are only known to be larger than a bound: negative binomial with variance
+/// mu + mu^2 / theta, or Poisson, the limit of infinite theta, where no finite theta is likelier. A censored count y
+/// contributes log P(Y > y) to the log-likelihood, any other log P(Y = y).
+struct CensoredCountModel {
+  /// On the log scale; degrees of freedom are infinite. Covariance: inverse of the observed information of coefficients
+  /// and log(theta).
+  FixedEffects fixed;
+  std::optional<double> theta;  ///< > 0. Missing: infinite, this is Poisson's model.
+  double log_likelihood = 0.0;
+  std::size_t observations = 0;
+  std::size_t censored = 0;
+  /// Likelihood-ratio test of every term, chi-squared, of type II: between the models of all terms that do not contain
+  /// it, with and without it, each with a theta of its own.
+  std::vector<TermTest> term_tests;
+};
+
+/// Fits the model by maximum likelihood: Newton's method for the coefficients, a root of the derivative of the profile
+/// likelihood for theta.
+///
+/// Not estimable, with a reason: no observations, counts that are not whole and >= 0, everything censored, only zeros,
+/// no more observations than coefficients, or combinations of levels that leave a ratio without a bound (all zero, all
+/// censored).
+///
+/// @param counts  one per observation. @param observed  false: censored, the true count is larger.
+/// @param factors, terms  as in Formula; no terms: the mean alone.
+/// @throws std::invalid_argument if shapes differ.
+[[nodiscard]] Estimable<CensoredCountModel> fit_censored_counts(std::span<const double> counts,
+                                                                const std::vector<bool>& observed,
+                                                                std::span<const Factor> factors,
+                                                                std::span<const std::vector<std::size_t>> terms);
+
+}  // namespace kith
