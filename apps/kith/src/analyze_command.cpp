@@ -8,10 +8,14 @@
 #include "commands.hpp"
 #include "input.hpp"
 #include "kith/analysis/analysis.hpp"
+#include "kith/analysis/exports.hpp"
+#include "kith/analysis/r_script.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/present/json.hpp"
 #include "kith/present/wrapped.hpp"
+#include "kith/table/codebook.hpp"
 #include "kith/table/table_text.hpp"
 #include "work_notice.hpp"
 
@@ -22,12 +26,31 @@ AnalysisOptions analysis_options(const AnalyzeOptions& options) {
   AnalysisOptions result;
   result.alpha = options.alpha;
   result.correction = options.correction == "holm"   ? Correction::kHolm
+                      : options.correction == "fdr"  ? Correction::kFdr
                       : options.correction == "none" ? Correction::kNone
                                                      : Correction::kBonferroni;
   result.seed = options.seed;
   result.permutations = options.permutations;
   result.resamples = options.resamples;
+  for (const auto& text : options.contrasts) result.contrasts.push_back(parse_contrast(text));
+  result.by = options.by;
+  if (!options.smallest_effect.empty()) result.smallest_effect = parse_smallest_effect(options.smallest_effect);
   return result;
+}
+
+void write_texts(const std::filesystem::path& folder, const std::vector<NamedText>& files) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw Error{ErrorKind::kIo, "cannot make the folder " + folder.string() + ": " + failure.message()};
+  for (const auto& file : files) write_file_atomically(folder / file.name, file.text);
+}
+
+// Takes over what a codebook says of a table: what it lists under the table's name, or the only table that it lists.
+void describe(Dataset& data, const std::string& codebook, const std::string& file, const std::string& table) {
+  const auto tables = read_codebook(codebook, file);
+  for (const auto& one : tables) {
+    if (one.file == table || tables.size() == 1) data.describe(one);
+  }
 }
 
 // The table that the model is about: a file, standard input, or one of a run folder.
@@ -38,10 +61,29 @@ Dataset dataset_of(const AnalyzeOptions& options) {
     return Dataset::parse(read_table_text(std::cin, name), name);
   }
   std::error_code failure;
-  if (!fs::is_directory(options.input, failure)) return Dataset::read(options.input);
+  if (!fs::is_directory(options.input, failure)) {
+    auto data = Dataset::read(options.input);
+    const auto beside = fs::path{options.input}.parent_path() / "codebook.json";
+    if (options.codebook.empty() && fs::is_regular_file(beside, failure))
+      describe(data, read_file(beside), beside.string(), fs::path{options.input}.filename().string());
+    return data;
+  }
   const auto run = PublishedRun::open(options.input);
   const auto table = "tables/" + options.table + ".csv";
-  return Dataset::parse(run.read(table), (run.folder() / table).string());
+  auto data = Dataset::parse(run.read(table), (run.folder() / table).string());
+  const std::string codebook = "tables/codebook.json";
+  if (options.codebook.empty() && run.has(codebook))
+    describe(data, run.read(codebook), (run.folder() / codebook).string(), options.table + ".csv");
+  return data;
+}
+
+// The same with what a codebook that was named says of its columns.
+Dataset described_dataset_of(const AnalyzeOptions& options) {
+  auto data = dataset_of(options);
+  if (!options.codebook.empty())
+    describe(data, read_file(options.codebook), options.codebook,
+             std::filesystem::path{options.input}.filename().string());
+  return data;
 }
 
 Analysis analysis_of(const AnalyzeOptions& options) {
@@ -56,9 +98,22 @@ Analysis analysis_of(const AnalyzeOptions& options) {
   }
   std::vector<RowFilter> filters;
   for (const auto& text : options.where) filters.push_back(parse_row_filter(text));
-  ModelQuestion question{options.model, {}};
+  ModelQuestion question{.formula = options.model,
+                         .observed = {},
+                         .response_kind = options.counts    ? ColumnKind::kCount
+                                          : options.ordinal ? ColumnKind::kOrdinal
+                                                            : ColumnKind::kUnspecified,
+                         .identifiers = options.identifiers,
+                         .independent = options.independent};
   if (!options.observed.empty()) question.observed = options.observed;
-  return analyze_table(dataset_of(options).where(filters), question, analysis_options(options));
+  const auto data = described_dataset_of(options).where(filters);
+  auto analysis = analyze_table(data, question, analysis_options(options));
+  if (!options.r.empty()) {
+    const auto project = r_project(data, question, analysis_options(options));
+    write_texts(options.r,
+                {{"data.csv", project.data}, {"codebook.json", project.codebook}, {"analysis.R", project.script}});
+  }
+  return analysis;
 }
 
 // The words of a head on lines no wider than `width`, where they fit.
@@ -112,7 +167,7 @@ std::string text_of(const Finding& finding, bool brief, const Console& console) 
 }
 
 Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
-  return {{"schema", "kith.analyze/2"},
+  return {{"schema", "kith.analyze/3"},
           {"subject", analysis.subject},
           {"alpha", options.alpha},
           {"correction", options.correction},
@@ -129,6 +184,8 @@ Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
 int run_analyze(const AnalyzeOptions& options, Console& console) {
   const WorkNotice notice{console, "analysing " + options.input};
   const auto analysis = analysis_of(options);
+  if (!options.latex.empty()) write_file_atomically(options.latex, latex_text(analysis, options.alpha));
+  if (!options.csv.empty()) write_texts(options.csv, csv_tables(analysis));
   if (console.json()) {
     console.print_json(analysis_json(analysis, options));
     return 0;
@@ -137,8 +194,7 @@ int run_analyze(const AnalyzeOptions& options, Console& console) {
   for (const auto& note : analysis.notes) text += wrapped("Note: " + note + ".", kTextWidth, "      ") + "\n";
   for (const auto& finding : analysis.findings)
     text += (text.empty() ? "" : "\n") + text_of(finding, options.brief, console);
-  if (!analysis.not_analysed.empty()) text += "\n" + console.bold("Not analysed") + "\n";
-  for (const auto& what : analysis.not_analysed) text += wrapped("- " + what, kTextWidth, "  ") + "\n";
+  if (!analysis.not_analysed.empty()) text += "\n" + wrapped(not_analysed_text(analysis), kTextWidth) + "\n";
   console.print(text);
   return 0;
 }

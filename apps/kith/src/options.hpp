@@ -114,11 +114,22 @@ struct ExportOptions {
 };
 
 struct AnalyzeOptions {
-  std::string input;               ///< Run folder, CSV file, or "-" for standard input.
-  std::string model;               ///< A formula; empty: the analyses of a study.
-  std::string table = "teams";     ///< Of a run folder, for the model.
-  std::string observed;            ///< Column that tells counts that were not cut off; empty: none was.
-  std::vector<std::string> where;  ///< Rows to keep, "COLUMN=VALUE" or "COLUMN!=VALUE".
+  std::string input;                     ///< Run folder, CSV file, or "-" for standard input.
+  std::string model;                     ///< A formula; empty: the analyses of a study.
+  std::string table = "teams";           ///< Of a run folder, for the model.
+  std::string observed;                  ///< Column that tells counts that were not cut off; empty: none was.
+  std::vector<std::string> where;        ///< Rows to keep, "COLUMN=VALUE" or "COLUMN!=VALUE".
+  std::vector<std::string> identifiers;  ///< Columns that name who or what a row is about, besides the obvious ones.
+  bool independent = false;              ///< Rows are independent although identifiers repeat.
+  bool counts = false;                   ///< The response is a count.
+  bool ordinal = false;                  ///< The response is a rating, of which only the order counts.
+  std::string latex;                     ///< File for all findings as LaTeX; empty: none.
+  std::string csv;                       ///< Folder for every table as CSV; empty: none.
+  std::string r;                         ///< Folder for data and a script that repeats the analysis in R; empty: none.
+  std::vector<std::string> contrasts;    ///< "NAME [FACTOR]: TERMS", see parse_contrast().
+  std::vector<std::string> by;           ///< Factors at each level of which others are compared.
+  std::string smallest_effect;           ///< "0.5" or "d=0.3"; empty: no tests of equivalence.
+  std::string codebook;                  ///< File that describes the columns; empty: codebook.json beside the table.
   double alpha = 0.05;
   std::string correction = "bonferroni";
   std::uint64_t seed = 1;

@@ -54,20 +54,65 @@ void add_analyze(CLI::App& app, Options& options) {
   command.add_option("--observed", analyze.observed, "Column that is false where a count is censored")
       ->type_name("COLUMN")
       ->needs(model);
+  command
+      .add_option("--identifier", analyze.identifiers,
+                  "Column that names who or what a row is about; rows with the same value belong together (may be "
+                  "repeated)")
+      ->allow_extra_args(false)
+      ->type_name("COLUMN")
+      ->needs(model);
+  command.add_flag("--independent", analyze.independent, "Analyse rows as independent although identifiers repeat")
+      ->needs(model);
+  auto* counts = command.add_flag("--count", analyze.counts, "The response is a count of events")->needs(model);
+  command.add_flag("--ordinal", analyze.ordinal, "The response is a rating, of which only the order counts")
+      ->needs(model)
+      ->excludes(counts);
+  command
+      .add_option("--codebook", analyze.codebook,
+                  "Description of the columns (default: codebook.json beside the table)")
+      ->type_name("FILE")
+      ->needs(model);
+  command
+      .add_option(
+          "--contrast", analyze.contrasts,
+          "Planned comparison of means, such as 'team beliefs: joint + common - individual-low - individual-high' "
+          "(may be repeated)")
+      ->allow_extra_args(false)
+      ->type_name("CONTRAST");
+  command
+      .add_option("--by", analyze.by, "Compare the levels of other factors at each level of this one (may be repeated)")
+      ->allow_extra_args(false)
+      ->type_name("FACTOR");
+  command
+      .add_option(
+          "--smallest-effect", analyze.smallest_effect,
+          "Smallest difference that matters, in units of the response or as d=0.3: tests whether differences are "
+          "smaller")
+      ->type_name("X");
+  command.add_option("--latex", analyze.latex, "Write all findings and tables to this file as LaTeX")
+      ->type_name("FILE");
+  command.add_option("--csv", analyze.csv, "Write every table to this folder as CSV")->type_name("DIR");
+  command.add_option("--r", analyze.r, "Write data, codebook and an R script that repeats the analysis to this folder")
+      ->type_name("DIR")
+      ->needs(model);
   command.add_flag("--brief", analyze.brief, "Findings in words only, without tables");
   command.add_option("--alpha", analyze.alpha, "Significance level; intervals use 1 - alpha")
       ->capture_default_str()
       ->check([](const std::string& text) { return wrong_level(text); })
       ->type_name("P");
-  takes_word(*command.add_option("--correct", analyze.correction, "Correction for multiple tests within compositions")
+  takes_word(*command
+                  .add_option("--correct", analyze.correction,
+                              "Correction for families of tests: compositions, planned contrasts")
                   ->capture_default_str(),
-             "HOW", {"bonferroni", "holm", "none"});
+             "HOW", {"bonferroni", "holm", "fdr", "none"});
   takes_integer(*command.add_option("--permutations", analyze.permutations, "Permutations of permutation tests")
                      ->capture_default_str(),
                 99, 1'000'000);
-  takes_integer(
-      *command.add_option("--resamples", analyze.resamples, "Resamples of bootstrap intervals")->capture_default_str(),
-      100, 1'000'000);
+  takes_integer(*command
+                     .add_option("--resamples", analyze.resamples,
+                                 "No longer used: intervals come from the distributions of the tests")
+                     ->capture_default_str(),
+                100, 1'000'000);
   takes_integer(
       *command.add_option("--seed", analyze.seed, "Seed of permutations and resamples")->capture_default_str(), 0);
   add_common(command, options.common);

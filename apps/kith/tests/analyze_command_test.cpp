@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -49,7 +50,7 @@ TEST_F(AnalyzeCommand, IsBriefWhenAsked) {
 TEST_F(AnalyzeCommand, PrintsOneDocument) {
   const auto ran = run_kith({"analyze", folder(), "--json"});
   const auto document = Json::parse(ran.out);
-  EXPECT_EQ(document.at("schema"), "kith.analyze/2");
+  EXPECT_EQ(document.at("schema"), "kith.analyze/3");
   EXPECT_EQ(document.at("findings").at(0).at("id"), "periods");
   const auto& table = document.at("findings").at(0).at("tables").at(0);
   EXPECT_EQ(table.at("columns").at(0), Json::parse(R"({"field": "term", "name": "term", "kind": "text"})"));
@@ -62,13 +63,50 @@ TEST_F(AnalyzeCommand, TestsAModelOnATableOfARun) {
   const auto ran = run_kith(
       {"analyze", folder(), "--table", "learners", "--model", "p_bec ~ type", "--where", "strategy!=baseline"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("Analysis of variance of p_bec (96 rows)."));
+  // Members of a team belong together, and the codebook says which column is the team.
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("p_bec ~ type + (1|team)"), HasSubstr("96 rows in 32 groups")));
 }
 
 TEST_F(AnalyzeCommand, TestsAModelOnStandardInput) {
   const auto ran = run_kith({"analyze", "-", "--model", "y ~ g"}, {.input = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\n"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("13.50"));
+}
+
+TEST_F(AnalyzeCommand, TestsContrastsThatWerePlanned) {
+  const auto ran = run_kith({"analyze", folder(), "--contrast", "mine: joint - common"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("Planned contrasts of strategy"), HasSubstr("mine: ")));
+  EXPECT_EQ(run_kith({"analyze", folder(), "--contrast", "joint - nobody"}).code, 2);
+  EXPECT_EQ(run_kith({"analyze", folder(), "--contrast", "joint + common"}).code, 2);
+  EXPECT_EQ(run_kith({"analyze", folder(), "--smallest-effect", "none"}).code, 2);
+}
+
+TEST_F(AnalyzeCommand, WritesTablesForPapersAndAScriptForR) {
+  const std::string out = *scratch_ / "out";
+  const auto ran = run_kith({"analyze", folder(), "--model", "knowledge ~ strategy", "--latex", out + ".tex", "--csv",
+                             out + "/csv", "--r", out + "/r", "--brief"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  for (const auto* name :
+       {".tex", "/csv/tables.csv", "/csv/knowledge-1.csv", "/r/data.csv", "/r/codebook.json", "/r/analysis.R"})
+    EXPECT_TRUE(std::filesystem::is_regular_file(out + name)) << name;
+}
+
+// A codebook beside the table, as in run folders: ratings are ordered, not measured.
+TEST_F(AnalyzeCommand, ReadsTheCodebookBesideATable) {
+  std::filesystem::create_directories(*scratch_ / "described");
+  std::string table = "g,ease\n";
+  for (int i = 0; i < 24; ++i) table += (i % 2 == 0 ? "a," : "b,") + std::to_string(1 + i * 7 % 5) + "\n";
+  const auto data = file("described/people.csv", table);
+  file("described/codebook.json",
+       R"({"tables": [{"file": "people.csv", "columns": [{"name": "ease", "kind": "ordinal"}]}]})");
+  const auto ran = run_kith({"analyze", data, "--model", "ease ~ g"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("Proportional odds model of ease"));
+  file("described/codebook.json", "not a codebook");
+  const auto broken = run_kith({"analyze", data, "--model", "ease ~ g"});
+  EXPECT_EQ(broken.code, 3);
+  EXPECT_THAT(broken.err, HasSubstr("E0514"));
 }
 
 TEST_F(AnalyzeCommand, NamesFileAndRowOfBadInput) {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "kith/analysis/exports.hpp"
 #include "kith/core/error.hpp"
+#include "kith/toml/document.hpp"
+#include "model_means.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -32,6 +35,43 @@ std::string without_pairs(const RunTeams& teams) {
   return "the strategies taught different people (design.pairing = \"none\")";
 }
 
+// The [[contrast]]s of the study file that the run was made from. That file was checked when the study was read.
+std::vector<PlannedContrast> contrasts_of(const PublishedRun& run) {
+  const std::string file = "inputs/study.toml";
+  std::vector<PlannedContrast> contrasts;
+  if (!run.has(file)) return contrasts;
+  const auto parsing = parse_toml(run.read(file), file);
+  const auto* value = parsing.document ? parsing.document->root.find("contrast") : nullptr;
+  if (value == nullptr || value->array() == nullptr) return contrasts;
+  const auto text = [](const TomlTable& table, const char* key) {
+    const auto* found = table.find(key);
+    return found != nullptr && found->string() != nullptr ? *found->string() : std::string{};
+  };
+  for (const auto& element : *value->array()) {
+    const auto* table = element.table();
+    const auto* weights = table != nullptr ? table->find("weights") : nullptr;
+    if (weights == nullptr || weights->table() == nullptr) continue;
+    PlannedContrast contrast{
+        .name = text(*table, "name"), .factor = text(*table, "factor"), .response = text(*table, "response")};
+    for (const auto& entry : weights->table()->entries()) {
+      const auto* real = entry.value.real();
+      const auto* integer = entry.value.integer();
+      if (real != nullptr) contrast.weights.push_back({entry.key, *real});
+      if (integer != nullptr) contrast.weights.push_back({entry.key, static_cast<double>(*integer)});
+    }
+    contrasts.push_back(std::move(contrast));
+  }
+  return contrasts;
+}
+
+// The same options with the contrasts of one response.
+AnalysisOptions for_response(AnalysisOptions options, const std::string& response) {
+  const auto is_other = [&](const PlannedContrast& one) { return !one.response.empty() && one.response != response; };
+  options.contrasts.erase(std::remove_if(options.contrasts.begin(), options.contrasts.end(), is_other),
+                          options.contrasts.end());
+  return options;
+}
+
 }  // namespace
 
 Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOptions& options) {
@@ -42,10 +82,21 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
     analysis.notes.push_back("the run is incomplete, and all results describe only the teams that are there: " + what);
   const std::vector<Response> responses{{"periods", &teams.periods}, {"knowledge", &teams.knowledge}};
   // What a design allows is the same for all responses.
+  const auto model = team_model(teams, group_teams(teams), "periods", teams.periods);
+  check_comparisons(model.factors, options);
+  auto planned = options;
+  for (auto& contrast : contrasts_of(run)) {
+    if (is_testable(model.factors, contrast)) {
+      planned.contrasts.push_back(std::move(contrast));
+    } else {
+      analysis.not_analysed.push_back("contrast '" + contrast.name +
+                                      "' of the study: its levels are not all among the teams taught together");
+    }
+  }
   const auto add = [&](auto analyse, const std::string& otherwise) {
     bool any = false;
     for (const auto& [name, values] : responses) {
-      auto finding = analyse(teams, name, *values, options);
+      auto finding = analyse(teams, name, *values, for_response(planned, name));
       if (!finding) continue;
       any = true;
       analysis.findings.push_back(std::move(*finding));
@@ -54,6 +105,11 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
   };
   add(effects, "effects of strategy and composition: needs two group strategies or two compositions");
   add(effects_within, "strategy within each composition: needs two group strategies and two compositions");
+  add(beliefs,
+      "team beliefs against individual beliefs: needs a strategy for the team's belief (common, joint) and one "
+      "for a member's (individual-low, individual-high)");
+  if (auto finding = variation(teams, "periods", teams.periods, options))
+    analysis.findings.push_back(std::move(*finding));
   add(paired, "same people, different strategies: " + without_pairs(teams));
   if (auto finding = demonstrations(teams, run, options)) {
     analysis.findings.push_back(std::move(*finding));
@@ -68,6 +124,7 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
                             .hint = "run a study with two strategies or two compositions",
                             .infeasible = true}}};
   }
+  for (auto& finding : analysis.findings) finding.results = results_paragraph(finding, options.alpha);
   return analysis;
 }
 

@@ -71,6 +71,7 @@ Dataset Dataset::parse(std::string_view text, const std::string& file, std::span
   }
   for (const auto& column : columns) data.columns_.push_back(column.name);
   data.cells_.resize(columns.size());
+  data.kinds_.resize(columns.size());
   auto guard = guard_of(file);
   const auto keep = [&](const CsvRow& row) {
     guard.take(row.cells.size() * kBytesPerCell + row.text.size());
@@ -166,6 +167,16 @@ Factor Dataset::factor(std::string_view column) const {
   return make_factor(std::string{column}, values);
 }
 
+ColumnKind Dataset::kind(std::string_view column) const { return kinds_[index_of(column)]; }
+
+void Dataset::set_kind(std::string_view column, ColumnKind kind) { kinds_[index_of(column)] = kind; }
+
+void Dataset::describe(const TableDescription& table) {
+  for (const auto& column : table.columns) {
+    if (column.kind != ColumnKind::kUnspecified && has(column.name)) set_kind(column.name, column.kind);
+  }
+}
+
 Dataset Dataset::where(std::span<const RowFilter> filters) const {
   std::vector<std::size_t> rows;
   std::vector<std::size_t> columns;
@@ -225,6 +236,7 @@ Dataset Dataset::select(const std::vector<std::size_t>& rows) const {
   Dataset part;
   part.file_ = file_;
   part.columns_ = columns_;
+  part.kinds_ = kinds_;
   part.decimal_comma_ = decimal_comma_;
   part.cells_.resize(cells_.size());
   auto guard = guard_of(file_);

@@ -82,4 +82,10 @@ std::vector<std::string> field_names(const ResultTable& table) {
 
 std::string p_text(double p) { return p < kSmallestShownP ? std::string{"p < 0.001"} : fmt::format("p = {:.3f}", p); }
 
+std::string not_analysed_text(const Analysis& analysis) {
+  std::string text;
+  for (const auto& what : analysis.not_analysed) text += (text.empty() ? "" : "; ") + what;
+  return text.empty() ? text : "Not analysed: " + text + ".";
+}
+
 }  // namespace kith

@@ -76,6 +76,7 @@ std::string findings_json(const Analysis& analysis) {
                         {"question", finding.question},
                         {"model", finding.model},
                         {"sentence", finding.sentence},
+                        {"results", finding.results},
                         {"warnings", finding.warnings},
                         {"tables", std::move(tables)},
                         {"methods", std::move(methods)}});

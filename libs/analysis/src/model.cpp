@@ -1,7 +1,11 @@
 #include "model.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "kith/stats/effect_intervals.hpp"
 #include "kith/stats/formula.hpp"
 #include "kith/stats/resampling.hpp"
 
@@ -34,6 +38,20 @@ std::vector<Estimable<double>> rank_p_values(const ModelData& data) {
 
 }  // namespace
 
+Estimable<Interval> eta_squared_of(const Estimable<TestResult>& test, double alpha) {
+  if (!test) return Estimable<Interval>::impossible(test.reason());
+  if (!std::isfinite(test->statistic)) return Estimable<Interval>::impossible("F is beyond the range of numbers");
+  auto interval = partial_eta_squared_interval(test->statistic, test->df.at(0), test->df.at(1), 1.0 - 2.0 * alpha);
+  // The estimate is too large on average, so that of a small effect can be above the limit.
+  interval.high = std::max(interval.high, interval.estimate);
+  return interval;
+}
+
+Method eta_squared_method(double alpha) {
+  return {fmt::format("{:.3g} % intervals of partial eta squared from the non-central F distribution",
+                      100.0 * (1.0 - 2.0 * alpha))};
+}
+
 std::string formula_text(const ModelData& data) {
   Formula formula{data.response, {}, data.terms, {}};
   for (const auto& factor : data.factors) formula.factors.push_back(factor.name);
@@ -43,11 +61,10 @@ std::string formula_text(const ModelData& data) {
 ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random) {
   const auto type = SumsOfSquares::kTypeII;
   ModelResult result{anova(data.values, data.factors, data.terms, type), {}, {}, rank_p_values(data)};
-  const BootstrapOptions bootstrap{options.resamples, 1.0 - options.alpha};
-  result.eta_squared = bootstrap_partial_eta_squared(data.values, data.factors, data.terms, type, bootstrap,
-                                                     random.split("partial eta squared"));
+  for (const auto& term : result.table.terms) result.eta_squared.push_back(eta_squared_of(term.test, options.alpha));
   const auto permuted = permutation_anova(data.values, data.factors, data.terms, type, options.permutations,
                                           random.split("permutations"));
+  result.linear = fit_linear_model(data.values, data.factors, data.terms);
   for (const auto& term : permuted.terms) {
     result.permutation_p.push_back(term.test ? Estimable<double>{term.test->p}
                                              : Estimable<double>::impossible(term.test.reason()));
@@ -56,6 +73,8 @@ ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, con
 }
 
 Finding analyze_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random) {
+  if (!data.groups.empty()) return analyze_mixed_model(data, options);
+  if (data.is_ordinal) return analyze_ordinal_model(data, options);
   const auto result = fit_model(data, options, random);
   Finding finding;
   finding.id = data.response;

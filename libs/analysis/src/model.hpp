@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "kith/stats/anova.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/factor.hpp"
+#include "kith/stats/linear_model.hpp"
 
 namespace kith {
 
@@ -20,14 +22,18 @@ struct ModelData {
   std::vector<Factor> factors{};                  // used by some term each
   std::vector<std::vector<std::size_t>> terms{};  // as in Formula
   std::vector<bool> observed{};                   // false: a count that was cut off; empty: nothing is cut off
+  std::vector<Factor> groups{};                   // of random intercepts; empty: the values are independent
+  bool is_ordinal = false;                        // ratings: only their order counts
+  bool is_count = false;                          // whole numbers >= 0, analysed by count regressions as well
 };
 
 // Analyses of variance of one model with their intervals and distribution-free counterparts.
 struct ModelResult {
   AnovaTable table;                              // type II
-  std::vector<Estimable<Interval>> eta_squared;  // per term
+  std::vector<Estimable<Interval>> eta_squared;  // per term, with confidence 1 - 2 alpha
   std::vector<Estimable<double>> permutation_p;  // per term
   std::vector<Estimable<double>> rank_p;         // per term; of Kruskal and Wallis for a single factor
+  Estimable<LinearModel> linear = Estimable<LinearModel>::impossible("not computed");  // the same model, for its means
 };
 [[nodiscard]] ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random);
 
@@ -36,6 +42,9 @@ struct ModelResult {
 
 // Every term in words: what was found about it.
 [[nodiscard]] std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha);
+// One of them. `means` is where estimated marginal means come from; may be missing.
+[[nodiscard]] std::string term_sentence(const ModelData& data, std::size_t term, const Estimable<TestResult>& test,
+                                        const Estimable<double>& eta_squared, const FixedEffects* means, double alpha);
 // What is doubtful about the model, and what could not be estimated.
 [[nodiscard]] std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha);
 
@@ -46,6 +55,16 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
 
 // Counts that may be cut off: rate ratios, survival. Adds to the finding if the response is a count.
 void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
+
+// The raw means of every combination of levels; missing if there are too many. Without limits: rows that belong
+// together allow none.
+[[nodiscard]] std::optional<ResultTable> raw_means_table(const ModelData& data, double confidence, bool with_limits);
+
+// A mixed model with data.groups as random intercepts: tests, variances, means and pairs.
+[[nodiscard]] Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& options);
+
+// A proportional odds model of ratings: tests, odds ratios of pairs, how often every rating was given.
+[[nodiscard]] Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& options);
 
 // All of the above.
 [[nodiscard]] Finding analyze_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random);
@@ -60,12 +79,17 @@ template <typename T>
   if (value) return number_cell((*value).*part);
   return {};
 }
+// How the intervals of partial eta squared are made.
+[[nodiscard]] Method eta_squared_method(double alpha);
 // Adds a method unless the finding has it.
 void add_method(Finding& finding, Method method);
 // "a", "a and b", "a, b and c"
 [[nodiscard]] std::string with_and(const std::vector<std::string>& words);
 // "1 team", "4 teams"
 [[nodiscard]] std::string number_and_noun(std::size_t n, const std::string& noun);
+
+// Partial eta squared of an F test with the interval that does not contain 0 exactly if p < alpha.
+[[nodiscard]] Estimable<Interval> eta_squared_of(const Estimable<TestResult>& test, double alpha);
 
 // "F(3, 224) = 0.20, p = 0.898"
 [[nodiscard]] std::string test_text(const TestResult& test);

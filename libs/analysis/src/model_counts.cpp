@@ -3,35 +3,81 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/stats/censored_counts.hpp"
 #include "kith/stats/count_model.hpp"
+#include "kith/stats/quasi_poisson.hpp"
 #include "kith/stats/survival.hpp"
-#include "model.hpp"
+#include "model_means.hpp"
 
 namespace kith {
 namespace {
 
 using Kind = ResultKind;
 
-constexpr double kLittleSpread = 0.9;  // dispersion below which Poisson intervals are misleading
-
-bool are_counts(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(),
-                     [](double value) { return value >= 0.0 && value == std::floor(value); }) &&
-         std::any_of(values.begin(), values.end(), [](double value) { return value > 1.0; });
-}
-
 std::vector<TableCell> chi_squared_row(const std::string& name, const Estimable<TestResult>& test) {
   return {text_cell(name), cell_of(test, &TestResult::statistic),
           test ? count_cell(static_cast<std::size_t>(test->df.front())) : text_cell(""), cell_of(test, &TestResult::p)};
 }
 
-void add_rates(const ModelData& data, double confidence, Finding& finding) {
-  const auto model = fit_count_model(data.values, data.factors, confidence);
+// Tests of terms, and ratios of means with their intervals.
+void add_log_linear(const std::string& family, const std::string& detail, const std::vector<TermTest>& terms,
+                    const FixedEffects& model, const AnalysisOptions& options, Finding& finding) {
+  const bool is_f = !terms.empty() && terms.front().test && terms.front().test->df.size() > 1;
+  ResultTable tests{
+      fmt::format("{} of the {} regression (type II{})", is_f ? "F tests" : "Likelihood-ratio tests", family, detail),
+      {{"term", Kind::kText}, {"df", Kind::kCount}, {is_f ? "F" : "chi-squared"}, {"p-value", Kind::kP}},
+      {}};
+  for (const auto& term : terms)
+    tests.rows.push_back({text_cell(term.name), count_cell(term.df), cell_of(term.test, &TestResult::statistic),
+                          cell_of(term.test, &TestResult::p)});
+  finding.tables.push_back(std::move(tests));
+  auto plain = options;  // contrasts and equivalence are of differences, which the analysis of variance has
+  plain.contrasts.clear();
+  plain.by.clear();
+  std::vector<ResultTable> tables;
+  add_marginal_results(model, plain, false, finding, tables);
+  for (auto& table : tables) {
+    table.caption = "Ratios of means: " + table.caption;
+    finding.tables.push_back(std::move(table));
+  }
+}
+
+// Counts that may be larger than they are known to be.
+void add_censored_rates(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
+  const auto model = fit_censored_counts(data.values, data.observed, data.factors, data.terms);
+  if (!model) {
+    finding.warnings.push_back("the regression of censored counts could not be fitted: " + model.reason());
+    return;
+  }
+  add_log_linear(model->theta ? "censored negative binomial" : "censored Poisson",
+                 model->theta ? fmt::format(", theta {:.2f}", *model->theta) : std::string{}, model->term_tests,
+                 model->fixed, options, finding);
+  add_method(finding, {std::string{model->theta ? "negative binomial" : "Poisson"} +
+                       " regression of censored counts with likelihood-ratio tests"});
+}
+
+// Counts that vary as Poisson's or less.
+void add_quasi_poisson(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
+  const auto model = fit_quasi_poisson(data.values, data.factors, data.terms);
   if (!model) {
     finding.warnings.push_back("the count regression could not be fitted: " + model.reason());
     return;
   }
-  const std::string family = model->theta ? fmt::format("negative binomial, theta {:.2f}", *model->theta) : "Poisson";
+  add_log_linear("quasi-Poisson", fmt::format(", dispersion {:.2f}", model->dispersion), model->term_tests,
+                 model->fixed, options, finding);
+  add_method(finding, {"quasi-Poisson regression with F tests", "mccullagh1989"});
+}
+
+void add_rates(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
+  if (std::find(data.observed.begin(), data.observed.end(), false) != data.observed.end())
+    return add_censored_rates(data, options, finding);
+  const auto model = fit_count_model(data.values, data.factors, 1.0 - options.alpha);
+  if (!model) {
+    finding.warnings.push_back("the count regression could not be fitted: " + model.reason());
+    return;
+  }
+  if (!model->theta) return add_quasi_poisson(data, options, finding);
+  const std::string family = fmt::format("negative binomial, theta {:.2f}", *model->theta);
   ResultTable table{"Rate ratios (" + family + " regression, main effects)",
                     {{"ratio", Kind::kText},
                      {"estimate", Kind::kFraction},
@@ -48,16 +94,7 @@ void add_rates(const ModelData& data, double confidence, Finding& finding) {
       {}};
   for (std::size_t f = 0; f < data.factors.size(); ++f)
     tests.rows.push_back(chi_squared_row(data.factors[f].name, model->factor_tests[f]));
-  add_method(finding,
-             {std::string{model->theta ? "negative binomial" : "Poisson"} + " regression with likelihood-ratio tests"});
-  if (!model->theta) {
-    finding.warnings.push_back(
-        model->dispersion < kLittleSpread
-            ? fmt::format("counts vary less than Poisson counts (dispersion {:.2f}): intervals of rate ratios are too "
-                          "wide and their p-values too large",
-                          model->dispersion)
-            : fmt::format("counts vary as Poisson counts do (dispersion {:.2f})", model->dispersion));
-  }
+  add_method(finding, {"negative binomial regression with likelihood-ratio tests"});
   finding.tables.push_back(std::move(tests));
   finding.tables.push_back(std::move(table));
 }
@@ -116,14 +153,15 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
 }  // namespace
 
 void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
-  if (data.factors.empty() || !are_counts(data.values)) return;
-  add_rates(data, 1.0 - options.alpha, finding);
+  if (data.factors.empty() || !data.is_count) return;
+  add_rates(data, options, finding);
   if (data.observed.empty()) return;
   const auto cut_off = static_cast<std::size_t>(std::count(data.observed.begin(), data.observed.end(), false));
   if (cut_off > 0) {
     finding.warnings.push_back(
-        fmt::format("{} of {} {} were stopped before they finished, so their counts are lower bounds; only the "
-                    "log-rank tests take that into account",
+        fmt::format("{} of {} {} were stopped before they finished, so their counts are lower bounds; the "
+                    "analysis of variance takes them as they are, the regression of counts and the log-rank tests do "
+                    "not",
                     cut_off, data.values.size(), data.observations));
   }
   if (std::all_of(data.values.begin(), data.values.end(), [](double value) { return value > 0.0; }))

@@ -5,23 +5,22 @@
 #include <cmath>
 
 #include "kith/stats/moments.hpp"
-#include "model.hpp"
+#include "model_means.hpp"
 
 namespace kith {
 namespace {
 
-constexpr std::size_t kMostCells = 60;          // more make no table that people read
-constexpr std::size_t kMostLevelsInPairs = 12;  // every one is compared with every other
+constexpr std::size_t kMostCells = 60;  // more make no table that people read
 
 using Kind = ResultKind;
 
-ResultTable means_table(const ModelData& data, double confidence) {
-  ResultTable table{"Means", {}, {}};
+ResultTable cell_means(const ModelData& data, double confidence, bool with_limits) {
+  ResultTable table{"Raw means", {}, {}};
   Factor cells = data.factors.front();
   for (std::size_t f = 1; f < data.factors.size(); ++f) cells = interaction(cells, data.factors[f]);
   for (const auto& factor : data.factors) table.columns.push_back({factor.name, Kind::kText, factor.name});
-  for (const auto* name : {"mean", "sd", "lower limit", "upper limit"}) table.columns.push_back({name, Kind::kNumber});
-  table.columns.insert(table.columns.end() - 4, {"n", Kind::kCount});
+  table.columns.insert(table.columns.end(), {{"n", Kind::kCount}, {"mean"}, {"sd"}});
+  if (with_limits) table.columns.insert(table.columns.end(), {{"lower limit"}, {"upper limit"}});
   const auto groups = split_by(data.values, cells);
   for (std::size_t cell = 0; cell < groups.size(); ++cell) {
     std::vector<TableCell> row;
@@ -36,8 +35,7 @@ ResultTable means_table(const ModelData& data, double confidence) {
                                            : cell_of(interval, &Interval::estimate));
     const auto sd = standard_deviation(groups[cell]);
     row.push_back(sd ? number_cell(*sd) : cell_of(interval, &Interval::low));
-    row.push_back(cell_of(interval, &Interval::low));
-    row.push_back(cell_of(interval, &Interval::high));
+    if (with_limits) row.insert(row.end(), {cell_of(interval, &Interval::low), cell_of(interval, &Interval::high)});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -96,33 +94,6 @@ ResultTable type_three_table(const ModelData& data) {
   return table;
 }
 
-void add_tukey(const ModelData& data, const ModelResult& result, double confidence, std::vector<ResultTable>& tables) {
-  for (const auto& factor : data.factors) {
-    if (factor.levels.size() < 2 || factor.levels.size() > kMostLevelsInPairs || result.table.residual_df == 0)
-      continue;
-    std::vector<double> means;
-    std::vector<std::size_t> counts;
-    for (const auto& group : split_by(data.values, factor)) {
-      means.push_back(group.empty() ? 0.0 : mean(group));
-      counts.push_back(group.size());
-    }
-    const auto df = static_cast<double>(result.table.residual_df);
-    const auto pairs = tukey_hsd(means, counts, result.table.residual_sum_of_squares / df, df, confidence);
-    if (!pairs) continue;
-    ResultTable table{"Pairs of " + factor.name + " (Tukey)",
-                      {{"pair", Kind::kText},
-                       {"difference", Kind::kNumber},
-                       {"lower limit", Kind::kNumber},
-                       {"upper limit", Kind::kNumber},
-                       {"adjusted p-value", Kind::kP}},
-                      {}};
-    for (const auto& pair : *pairs)
-      table.rows.push_back({text_cell(factor.levels[pair.second] + " - " + factor.levels[pair.first]), pair.difference,
-                            pair.low, pair.high, pair.p});
-    tables.push_back(std::move(table));
-  }
-}
-
 ResultTable welch_table(const ModelData& data) {
   ResultTable table{"Test that does not assume equal variances (Welch)",
                     {{"term", Kind::kText}, {"F", Kind::kNumber}, {"p-value", Kind::kP}},
@@ -142,8 +113,7 @@ bool any_known(const std::vector<Estimable<double>>& values) {
   return std::any_of(values.begin(), values.end(), [](const auto& value) { return static_cast<bool>(value); });
 }
 
-void name_methods(const ModelData& data, const ModelResult& result, const AnalysisOptions& options, bool has_pairs,
-                  Finding& finding) {
+void name_methods(const ModelData& data, const ModelResult& result, const AnalysisOptions& options, Finding& finding) {
   const auto has_test = [](const AnovaTerm& term) { return static_cast<bool>(term.test); };
   if (std::none_of(result.table.terms.begin(), result.table.terms.end(), has_test)) return;
   const bool single = data.factors.size() == 1;
@@ -153,9 +123,8 @@ void name_methods(const ModelData& data, const ModelResult& result, const Analys
                                    : both_types ? " (type II and type III sums of squares)"
                                                 : " (type II sums of squares)")});
   const auto has_interval = [](const auto& interval) { return static_cast<bool>(interval); };
-  if (std::any_of(result.eta_squared.begin(), result.eta_squared.end(), has_interval)) {
-    add_method(finding, {fmt::format("bootstrap intervals of partial eta squared ({} resamples)", options.resamples)});
-  }
+  if (std::any_of(result.eta_squared.begin(), result.eta_squared.end(), has_interval))
+    add_method(finding, eta_squared_method(options.alpha));
   if (any_known(result.permutation_p)) {
     add_method(finding,
                {fmt::format("permutation tests of residuals ({} permutations)", options.permutations), "freedman1983"});
@@ -163,25 +132,32 @@ void name_methods(const ModelData& data, const ModelResult& result, const Analys
   if (any_known(result.rank_p))
     add_method(finding, single ? Method{"the Kruskal-Wallis test"} : Method{"aligned rank tests", "wobbrock2011"});
   if (single && welch_anova(data.values, data.factors.front())) add_method(finding, {"Welch's analysis of variance"});
-  if (has_pairs) add_method(finding, {"Tukey's test for pairs of levels"});
 }
 
 }  // namespace
+
+std::optional<ResultTable> raw_means_table(const ModelData& data, double confidence, bool with_limits) {
+  std::size_t cells = 1;
+  for (const auto& factor : data.factors) cells *= factor.levels.size();
+  if (data.factors.empty() || cells > kMostCells) return std::nullopt;
+  return cell_means(data, confidence, with_limits);
+}
 
 void add_anova_results(const ModelData& data, const ModelResult& result, const AnalysisOptions& options,
                        Finding& finding, const std::string& about) {
   std::vector<ResultTable> tables;
   if (data.factors.empty()) return;
-  std::size_t cells = 1;
-  for (const auto& factor : data.factors) cells *= factor.levels.size();
   tables.push_back(anova_table(result));
   tables.push_back(robust_table(data, result));
   if (!result.table.balanced && data.factors.size() > 1) tables.push_back(type_three_table(data));
   if (data.factors.size() == 1) tables.push_back(welch_table(data));
-  if (cells <= kMostCells) tables.push_back(means_table(data, 1.0 - options.alpha));
-  const auto before = tables.size();
-  add_tukey(data, result, 1.0 - options.alpha, tables);
-  name_methods(data, result, options, tables.size() > before, finding);
+  name_methods(data, result, options, finding);
+  if (auto means = raw_means_table(data, 1.0 - options.alpha, true)) tables.push_back(std::move(*means));
+  if (result.linear) {
+    add_marginal_results(result.linear->effects, options, data.factors.size() > 1, finding, tables);
+  } else {
+    finding.warnings.push_back("no estimated marginal means: " + result.linear.reason());
+  }
   for (auto& table : tables) {
     table.caption = about + table.caption;
     finding.tables.push_back(std::move(table));

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kith/stats/moments.hpp"
-#include "model.hpp"
+#include "model_means.hpp"
 
 namespace kith {
 namespace {
@@ -32,19 +32,6 @@ Factor all_cells(const ModelData& data) {
   return cells_of(data, every);
 }
 
-// "from 6.70 (PPP) to 8.53 (NNN)"
-std::string range_text(const ModelData& data, const Factor& factor) {
-  const auto groups = split_by(data.values, factor);
-  std::size_t low = groups.size(), high = groups.size();
-  for (std::size_t level = 0; level < groups.size(); ++level) {
-    if (groups[level].empty()) continue;
-    if (low == groups.size() || mean(groups[level]) < mean(groups[low])) low = level;
-    if (high == groups.size() || mean(groups[level]) > mean(groups[high])) high = level;
-  }
-  return fmt::format("from {} ({}) to {} ({})", formatted(mean(groups[low]), ResultKind::kNumber), factor.levels[low],
-                     formatted(mean(groups[high]), ResultKind::kNumber), factor.levels[high]);
-}
-
 // How large an effect is, in the words of [cohen1988, section 8.2].
 std::string size_text(double eta_squared) {
   if (eta_squared < 0.01) return "negligible";
@@ -67,22 +54,6 @@ std::string at_start(std::string text) {
   return text;
 }
 
-std::string term_sentence(const ModelData& data, const ModelResult& result, std::size_t t, double alpha) {
-  const auto& term = result.table.terms[t];
-  if (!term.test) return fmt::format("The effect of {} cannot be tested: {}.", term.name, term.test.reason());
-  const auto p = p_text(term.test->p);
-  const bool found = term.test->p < alpha;
-  const auto size = term.partial_eta_squared ? size_text(*term.partial_eta_squared) : std::string{};
-  if (data.terms[t].size() > 1) {
-    if (!found) return fmt::format("No interaction of {} was found ({}).", joined_names(data, t), p);
-    return fmt::format("{} interact ({}{}).", at_start(joined_names(data, t)), size.empty() ? "" : size + " effect, ",
-                       p);
-  }
-  if (!found) return fmt::format("No effect of {} was found ({}).", term.name, p);
-  return fmt::format("{} has a {}effect ({}): means range {}.", at_start(term.name), size.empty() ? "" : size + " ", p,
-                     range_text(data, data.factors[data.terms[t].front()]));
-}
-
 void add_cell_warnings(const ModelData& data, const ModelResult& result, double alpha,
                        std::vector<std::string>& warnings) {
   const auto cells = drop_unused(all_cells(data));
@@ -103,8 +74,8 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
   } else if (least != most) {
     warnings.push_back(fmt::format("the design is unbalanced (cells have {} to {} {}){}", least, most,
                                    data.observations,
-                                   data.factors.size() > 1 ? ": type III tests are shown too, and the pairs compare "
-                                                             "means that are not adjusted for other factors"
+                                   data.factors.size() > 1 ? ": type III tests are shown too, and raw means mix the "
+                                                             "effects of several factors"
                                                            : ""));
   }
   if (least < kFewPerCell)
@@ -153,10 +124,37 @@ std::string test_text(const TestResult& test) {
   return fmt::format("{}{} = {:.2f}, {}", test.statistic_name, brackets, test.statistic, p_text(test.p));
 }
 
+std::string term_sentence(const ModelData& data, std::size_t t, const Estimable<TestResult>& test,
+                          const Estimable<double>& eta_squared, const FixedEffects* means, double alpha) {
+  const auto& term = data.terms[t];
+  if (!test)
+    return fmt::format("The {} of {} cannot be tested: {}.", term.size() > 1 ? "interaction" : "effect",
+                       joined_names(data, t), test.reason());
+  const auto p = p_text(test->p);
+  const bool found = test->p < alpha;
+  const auto size = eta_squared ? size_text(*eta_squared) : std::string{};
+  if (term.size() > 1) {
+    if (!found) return fmt::format("No interaction of {} was found ({}).", joined_names(data, t), p);
+    return fmt::format("{} interact ({}{}).", at_start(joined_names(data, t)), size.empty() ? "" : size + " effect, ",
+                       p);
+  }
+  const auto& factor = data.factors[term.front()];
+  if (!found) return fmt::format("No effect of {} was found ({}).", factor.name, p);
+  const auto range = means == nullptr ? std::string{} : range_of_means(*means, factor.name);
+  return fmt::format("{} has a {}effect ({}){}.", at_start(factor.name), size.empty() ? "" : size + " ", p,
+                     range.empty()              ? ""
+                     : data.factors.size() == 1 ? ": means range " + range
+                                                : ": estimated marginal means range " + range);
+}
+
 std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha) {
   std::string text =
       fmt::format("Analysis of variance of {} ({} {}).", data.response, data.values.size(), data.observations);
-  for (std::size_t t = 0; t < data.terms.size(); ++t) text += " " + term_sentence(data, result, t, alpha);
+  for (std::size_t t = 0; t < data.terms.size(); ++t) {
+    const auto& term = result.table.terms[t];
+    text += " " + term_sentence(data, t, term.test, term.partial_eta_squared,
+                                result.linear ? &result.linear->effects : nullptr, alpha);
+  }
   return text;
 }
 

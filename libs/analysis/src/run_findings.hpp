@@ -23,6 +23,12 @@ namespace kith {
 [[nodiscard]] std::optional<Finding> against_baseline(const RunTeams& teams, const std::string& response,
                                                       const std::vector<double>& values,
                                                       const AnalysisOptions& options);
+// Strategies for the team's belief against strategies for one member's, as a planned contrast.
+[[nodiscard]] std::optional<Finding> beliefs(const RunTeams& teams, const std::string& response,
+                                             const std::vector<double>& values, const AnalysisOptions& options);
+// Whether the number of periods varies less under the former.
+[[nodiscard]] std::optional<Finding> variation(const RunTeams& teams, const std::string& response,
+                                               const std::vector<double>& values, const AnalysisOptions& options);
 // How much the demonstrations convey: the manipulation check.
 [[nodiscard]] std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun& run,
                                                     const AnalysisOptions& options);

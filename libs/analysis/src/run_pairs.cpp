@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "kith/stats/effect_intervals.hpp"
 #include "kith/stats/moments.hpp"
 #include "run_findings.hpp"
 
@@ -42,7 +43,7 @@ struct Pair {
   std::string name;
   std::size_t n = 0;
   Estimable<MeanDifference> difference;
-  std::optional<double> d_z = {};  // mean over standard deviation of the differences
+  std::optional<Interval> d_z = {};  // mean over standard deviation of the differences
 };
 
 Pair compare(const Blocks& blocks, std::size_t a, std::size_t b, double confidence) {
@@ -55,14 +56,48 @@ Pair compare(const Blocks& blocks, std::size_t a, std::size_t b, double confiden
   Pair pair{blocks.strategies[a] + " - " + blocks.strategies[b], first.size(),
             paired_t_test(first, second, confidence)};
   if (pair.difference) {
-    const double spread = pair.difference->standard_error * std::sqrt(static_cast<double>(first.size()));
-    pair.d_z = pair.difference->difference / spread;
+    const auto& test = pair.difference->test;
+    const double unit = 1.0 / std::sqrt(static_cast<double>(first.size()));
+    pair.d_z = standardized_interval(test.statistic, test.df.front(), unit, confidence);
   }
   return pair;
 }
 
+// The same tests with corrected degrees of freedom, and whether they need that.
+void add_sphericity(const AnovaTable& table, const Sphericity& sphericity, double alpha, Finding& finding) {
+  ResultTable corrected{"Corrections for sphericity",
+                        {{"term", Kind::kText},
+                         {"p-value, Greenhouse-Geisser", Kind::kP},
+                         {"p-value, Huynh-Feldt", Kind::kP},
+                         {"epsilon, Greenhouse-Geisser", Kind::kFraction},
+                         {"epsilon, Huynh-Feldt", Kind::kFraction},
+                         {"Mauchly's W", Kind::kFraction},
+                         {"p-value, Mauchly", Kind::kP}},
+                        {}};
+  for (const auto& term : table.terms) {
+    auto& row = corrected.rows.emplace_back();
+    row.push_back(text_cell(term.name));
+    for (const double epsilon : {sphericity.greenhouse_geisser, sphericity.huynh_feldt}) {
+      auto& cell = row.emplace_back();
+      if (term.test) cell = correct_for_sphericity(*term.test, epsilon).p;
+    }
+    row.insert(row.end(), {sphericity.greenhouse_geisser, sphericity.huynh_feldt, sphericity.mauchly_w,
+                           cell_of(sphericity.mauchly, &TestResult::p)});
+  }
+  for (const auto& term : table.terms) {
+    if (!term.test) continue;
+    const double p = correct_for_sphericity(*term.test, sphericity.greenhouse_geisser).p;
+    if ((p < alpha) != (term.test->p < alpha))
+      finding.warnings.push_back(fmt::format(
+          "{}: the test that does not assume sphericity disagrees (Greenhouse-Geisser {}, uncorrected {}); prefer it",
+          term.name, p_text(p), p_text(term.test->p)));
+  }
+  finding.tables.push_back(std::move(corrected));
+  add_method(finding, {"Greenhouse-Geisser and Huynh-Feldt corrections", "greenhouse1959"});
+}
+
 // Strategy and its interaction with composition, with differences between people taken out.
-void add_blocked(const Blocks& blocks, Finding& finding) {
+void add_blocked(const Blocks& blocks, double alpha, Finding& finding) {
   std::vector<double> values;
   std::vector<std::string> strategy, composition, block;
   for (std::size_t b = 0; b < blocks.values.size(); ++b) {
@@ -74,8 +109,9 @@ void add_blocked(const Blocks& blocks, Finding& finding) {
       block.push_back(std::to_string(b));
     }
   }
-  const auto table = blocked_anova(values, make_factor("strategy", strategy), make_factor("composition", composition),
-                                   make_factor("people", block));
+  const auto within = make_factor("strategy", strategy), between = make_factor("composition", composition),
+             people = make_factor("people", block);
+  const auto table = blocked_anova(values, within, between, people);
   if (!table) {
     finding.warnings.push_back("no analysis of variance within people: " + table.reason());
     return;
@@ -85,15 +121,22 @@ void add_blocked(const Blocks& blocks, Finding& finding) {
                       {"df", Kind::kText},
                       {"F", Kind::kNumber},
                       {"p-value", Kind::kP},
-                      {"partial eta squared", Kind::kFraction}},
+                      {"partial eta squared", Kind::kFraction},
+                      {"lower limit", Kind::kFraction},
+                      {"upper limit", Kind::kFraction}},
                      {}};
   for (const auto& term : table->terms) {
+    const auto eta_squared = eta_squared_of(term.test, alpha);
     result.rows.push_back({text_cell(term.name), text_cell(fmt::format("{}, {}", term.df, table->residual_df)),
                            cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p),
-                           cell_of(term.partial_eta_squared)});
+                           cell_of(term.partial_eta_squared), cell_of(eta_squared, &Interval::low),
+                           cell_of(eta_squared, &Interval::high)});
   }
   add_method(finding, {"analysis of variance within people"});
+  add_method(finding, eta_squared_method(alpha));
   finding.tables.push_back(std::move(result));
+  if (const auto sphericity = check_sphericity(values, within, between, people); sphericity && within.levels.size() > 2)
+    add_sphericity(*table, *sphericity, alpha, finding);
 }
 
 }  // namespace
@@ -131,6 +174,8 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
                      {"lower limit", Kind::kNumber},
                      {"upper limit", Kind::kNumber},
                      {"d", Kind::kFraction},
+                     {"d, lower limit", Kind::kFraction},
+                     {"d, upper limit", Kind::kFraction},
                      {"p-value", Kind::kP},
                      {"corrected p-value", Kind::kP}},
                     {}};
@@ -145,9 +190,11 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
     row[2] = difference->difference;
     row[3] = difference->low;
     row[4] = difference->high;
-    row[5] = *d_z;
-    row[6] = difference->test.p;
-    row[7] = p;
+    row[5] = d_z->estimate;
+    row[6] = d_z->low;
+    row[7] = d_z->high;
+    row[8] = difference->test.p;
+    row[9] = p;
     if (p < options.alpha)
       found += fmt::format("{}{} {} ({})", found.empty() ? "" : ", ", name,
                            formatted(difference->difference, Kind::kNumber), p_text(p));
@@ -159,14 +206,18 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
   if (tested > 0)
     add_method(finding, {fmt::format("paired t tests with Holm correction for {}", number_and_noun(tested, "pair"))});
   finding.tables.push_back(std::move(table));
-  add_blocked(blocks, finding);
+  add_blocked(blocks, options.alpha, finding);
   return finding;
 }
 
 namespace {
 
-constexpr std::size_t kFewForBootstrap =
-    10;  // values; intervals from resamples of fewer are far too narrow or too wide
+// The interval of Hedges' g that belongs to Welch's test: it excludes 0 exactly if the test rejects.
+std::optional<Interval> hedges_interval(const MeanDifference& difference, double g, double confidence) {
+  const auto& test = difference.test;
+  if (test.statistic == 0.0 || !std::isfinite(test.statistic)) return std::nullopt;
+  return standardized_interval(test.statistic, test.df.front(), g / test.statistic, confidence);
+}
 
 // The means over strategies that taught the same people together, and what the baseline gave for them.
 std::pair<std::vector<double>, std::vector<double>> same_people(const RunTeams& teams,
@@ -287,17 +338,12 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
     auto& sizes = effect.rows.emplace_back(effect.columns.size());
     sizes[0] = text_cell("together - alone");
     sizes[1] = *size;
-    const bool is_few = std::min(group.size(), alone.size()) < kFewForBootstrap;
-    if (is_few) {
-      finding.warnings.push_back(fmt::format(
-          "no interval of Hedges' g: the bootstrap needs at least {} groups of either kind", kFewForBootstrap));
-    } else if (const auto interval = bootstrap_hedges_g(group, alone, {options.resamples, 1.0 - options.alpha},
-                                                        RandomStream{options.seed}.split(finding.id))) {
+    const auto interval = test ? hedges_interval(*test, *size, 1.0 - options.alpha) : std::nullopt;
+    if (interval) {
       sizes[2] = interval->low;
       sizes[3] = interval->high;
     }
-    add_method(finding, {is_few ? "Hedges' g"
-                                : fmt::format("Hedges' g with a bootstrap interval ({} resamples)", options.resamples),
+    add_method(finding, {interval ? "Hedges' g with an interval from the non-central t distribution" : "Hedges' g",
                          "hedges1981"});
     finding.tables.push_back(std::move(effect));
   }

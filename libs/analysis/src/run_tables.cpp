@@ -108,7 +108,8 @@ ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows
   const bool compositions = add(teams.composition);
   for (const auto& key : teams.varied) add(key);
   if (strategies && compositions) data.terms.push_back({0, 1});
-  if (response == "periods") data.observed = selected(teams.completed, rows);
+  data.is_count = response == "periods";
+  if (data.is_count) data.observed = selected(teams.completed, rows);
   return data;
 }
 

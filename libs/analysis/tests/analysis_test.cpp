@@ -115,7 +115,7 @@ TEST(FieldNames, KeepFactorsNamedLikeStatisticsApart) {
   const auto analysis = analyze_table(Dataset::parse("n,y\n1,1\n1,2\n2,3\n2,5\n", "t.csv"), {"y ~ n", {}}, quick());
   const auto document = nlohmann::json::parse(findings_json(analysis));
   for (const auto& table : document.at(0).at("tables")) {
-    if (table.at("caption") != "Means") continue;
+    if (table.at("caption") != "Raw means") continue;
     EXPECT_EQ(table.at("rows").at(0).at("n"), "1");
     EXPECT_EQ(table.at("rows").at(0).at("n_2"), 2);
     return;
@@ -179,12 +179,188 @@ TEST(AnalyzeTable, TreatsCensoredCountsAsSuch) {
   std::string text = "g,n,done\n";
   for (int i = 0; i < 12; ++i) text += "a," + std::to_string(3 + i % 4) + ",true\n";
   for (int i = 0; i < 12; ++i) text += "b," + std::to_string(9) + (i % 2 == 0 ? ",false\n" : ",true\n");
-  const auto analysis = analyze_table(Dataset::parse(text, "t.csv"), {"n ~ g", "done"}, quick());
+  const auto analysis = analyze_table(Dataset::parse(text, "t.csv"), {.formula = "n ~ g", .observed = "done"}, quick());
   const auto found = finding(analysis, "n");
   EXPECT_THAT(found.warnings, Contains(HasSubstr("6 of 24 rows were stopped before they finished")));
   const auto is_log_rank = [](const ResultTable& table) { return table.caption == "Log-rank test"; };
   EXPECT_EQ(std::count_if(found.tables.begin(), found.tables.end(), is_log_rank), 1);
   EXPECT_THAT(methods_of(found), ::testing::IsSupersetOf({"Kaplan-Meier estimates", "the log-rank test"}));
+}
+
+// Counts, ratings and measurements look alike: nobody guesses.
+TEST(AnalyzeTable, TakesWholeNumbersForCountsOnlyWhereSomebodySaysSo) {
+  const auto is_rates = [](const ResultTable& table) {
+    return table.caption.find("quasi-Poisson regression") != std::string::npos;
+  };
+  const auto has_rates = [&](const Analysis& analysis) {
+    const auto& tables = analysis.findings.front().tables;
+    return std::any_of(tables.begin(), tables.end(), is_rates);
+  };
+  auto data = Dataset::parse(kGroups, "t.csv");
+  const auto guessed = analyze_table(data, {"y ~ g"}, quick());
+  EXPECT_FALSE(has_rates(guessed));
+  EXPECT_THAT(guessed.notes, Contains(HasSubstr("y holds whole numbers, which are analysed as measurements")));
+  EXPECT_TRUE(has_rates(analyze_table(data, {.formula = "y ~ g", .response_kind = ColumnKind::kCount}, quick())));
+  data.set_kind("y", ColumnKind::kCount);
+  EXPECT_TRUE(has_rates(analyze_table(data, {"y ~ g"}, quick())));
+  data.set_kind("y", ColumnKind::kNumber);
+  const auto stated = analyze_table(data, {"y ~ g"}, quick());
+  EXPECT_FALSE(has_rates(stated));
+  EXPECT_TRUE(stated.notes.empty());
+}
+
+TEST(AnalyzeTable, RefusesCountsThatAreNone) {
+  const auto data = Dataset::parse("g,y\na,1\na,2\nb,2.5\nb,3\n", "t.csv");
+  try {
+    (void)analyze_table(data, {.formula = "y ~ g", .response_kind = ColumnKind::kCount}, quick());
+    ADD_FAILURE() << "2.5 was taken for a count";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.diagnostics().at(0).id, "E0910");
+    EXPECT_EQ(error.diagnostics().at(0).line, 4u);
+  }
+}
+
+// An unbalanced table in which g and h go together: y depends on h alone. Raw means of g differ by 4.8, adjusted ones
+// not at all.
+std::string confounded() {
+  std::string text = "g,h,y\n";
+  const auto add = [&](const char* g, const char* h, double mean, int n) {
+    for (int i = 0; i < n; ++i)
+      text += std::string{g} + "," + h + "," + std::to_string(mean + (i % 2 == 0 ? 0.5 : -0.5)) + "\n";
+  };
+  add("a", "p", 1.0, 18);
+  add("a", "q", 7.0, 2);
+  add("b", "p", 1.0, 2);
+  add("b", "q", 7.0, 18);
+  return text;
+}
+
+const ResultTable& table_named(const Finding& finding, const std::string& part) {
+  for (const auto& table : finding.tables) {
+    if (table.caption.find(part) != std::string::npos) return table;
+  }
+  throw std::out_of_range{"no table " + part};
+}
+
+double cell_at(const ResultTable& table, const std::string& row, const std::string& column) {
+  for (const auto& cells : table.rows) {
+    if (std::get<std::string>(cells.front()) != row) continue;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (table.columns[c].name == column) return std::get<double>(cells[c]);
+    }
+  }
+  throw std::out_of_range{"no cell " + row + "/" + column};
+}
+
+TEST(AnalyzeTable, ComparesMeansThatAreAdjustedForTheOtherFactors) {
+  const auto found = analyze_table(Dataset::parse(confounded(), "t.csv"), {"y ~ g + h"}, quick()).findings.front();
+  const auto& pairs = table_named(found, "Pairs of g");
+  EXPECT_NEAR(cell_at(pairs, "b - a", "difference"), 0.0, 1e-12);
+  EXPECT_GT(cell_at(pairs, "b - a", "adjusted p-value"), 0.99);
+  const auto& means = table_named(found, "Estimated marginal means of g");
+  EXPECT_NEAR(cell_at(means, "a", "mean"), 4.0, 1e-12);
+  EXPECT_NEAR(cell_at(means, "b", "mean"), 4.0, 1e-12);
+  EXPECT_THAT(found.sentence, HasSubstr("No effect of g was found"));
+  EXPECT_THAT(found.sentence, HasSubstr("estimated marginal means range from 1.000 (p) to 7.000 (q)"));
+  EXPECT_NO_THROW((void)table_named(found, "Raw means"));
+  EXPECT_NEAR(cell_at(table_named(found, "Pairs of h"), "q - p", "d"), 6.0 / std::sqrt(10.0 / 37.0), 1e-9);
+}
+
+TEST(AnalyzeTable, TestsPlannedContrastsAndSimpleEffects) {
+  auto options = quick();
+  options.contrasts = {parse_contrast("ends: c - a"), parse_contrast("middle: b - 0.5*a - 0.5*c")};
+  auto found = analyze_table(Dataset::parse(kGroups, "t.csv"), {"y ~ g"}, options).findings.front();
+  const auto& contrasts = table_named(found, "Planned contrasts of g (Bonferroni correction)");
+  EXPECT_NEAR(cell_at(contrasts, "ends", "difference"), 6.0, 1e-12);
+  EXPECT_NEAR(cell_at(contrasts, "middle", "difference"), 0.0, 1e-12);
+  // t = 6 / sqrt(2 / 3) with 6 degrees of freedom; R: 2 * 2 * pt(-7.348469, 6)
+  EXPECT_NEAR(cell_at(contrasts, "ends", "adjusted p-value"), 2 * 0.0003251, 2e-6);
+  EXPECT_THAT(found.sentence, HasSubstr("ends: 6.000 ["));
+  options = quick();
+  options.by = {"h"};
+  found = analyze_table(Dataset::parse(confounded(), "t.csv"), {"y ~ g*h"}, options).findings.front();
+  const auto& simple = table_named(found, "Pairs of g (at each level of h)");
+  ASSERT_EQ(simple.rows.size(), 2u);
+  EXPECT_EQ(std::get<std::string>(simple.rows[1][0]), "q");
+}
+
+TEST(AnalyzeTable, RefusesContrastsOfOtherLevels) {
+  auto options = quick();
+  options.contrasts = {parse_contrast("a - d")};
+  const auto analyse = [&] { (void)analyze_table(Dataset::parse(kGroups, "t.csv"), {"y ~ g"}, options); };
+  EXPECT_EQ(failure_of(analyse).first, ErrorKind::kUsage);
+  options.contrasts.clear();
+  options.by = {"h"};
+  EXPECT_EQ(failure_of(analyse).first, ErrorKind::kUsage);
+}
+
+// "No effect" is a finding only where effects that matter can be ruled out.
+TEST(AnalyzeTable, TellsEquivalenceFromIgnorance) {
+  auto options = quick();
+  options.smallest_effect = parse_smallest_effect("2");
+  auto found = analyze_table(Dataset::parse(confounded(), "t.csv"), {"y ~ g + h"}, options).findings.front();
+  const auto& same = table_named(found, "Equivalence within 2.000 (pairs of g");
+  EXPECT_EQ(std::get<std::string>(same.rows.at(0).back()), "equivalent");
+  EXPECT_EQ(std::get<std::string>(table_named(found, "(pairs of h").rows.at(0).back()), "different");
+  options.smallest_effect = parse_smallest_effect("0.01");
+  found = analyze_table(Dataset::parse(confounded(), "t.csv"), {"y ~ g + h"}, options).findings.front();
+  EXPECT_EQ(std::get<std::string>(table_named(found, "(pairs of g").rows.at(0).back()), "undecided");
+}
+
+// Teams of three whose members are much alike; g differs between teams.
+std::string members() {
+  std::string text = "team,member,g,y,trust_rating\n";
+  for (int i = 0; i < 36; ++i) {
+    const int team = i / 3;
+    text += std::to_string(team) + "," + std::to_string(i % 3) + (team % 2 == 0 ? ",a," : ",b,") +
+            std::to_string(team * 7 % 12 + 0.1 * (i * 5 % 7)) + "," + std::to_string(1 + (team + i) % 5) + "\n";
+  }
+  return text;
+}
+
+// Members of one team are no independent rows: thirty-six of them know no more about g than twelve teams do.
+TEST(AnalyzeTable, FitsRandomInterceptsWhereAnIdentifierRepeats) {
+  const auto data = Dataset::parse(members(), "t.csv");
+  const auto analysis = analyze_table(data, {"y ~ g"}, quick());
+  const auto found = analysis.findings.front();
+  EXPECT_EQ(found.model, "y ~ g + (1|team)");
+  EXPECT_THAT(analysis.notes, Contains(HasSubstr("rows of t.csv belong together, so the model has random intercepts, "
+                                                 "(1|team); write them into the formula to choose others, or say "
+                                                 "--independent")));
+  const auto& tests = table_named(found, "Tests of the fixed effects (type II, Satterthwaite)");
+  const auto independent = analyze_table(data, {.formula = "y ~ g", .independent = true}, quick()).findings.front();
+  EXPECT_THAT(independent.warnings, Contains(HasSubstr("rows belong together ((1|team)), but are analysed as "
+                                                       "independent, as was asked for")));
+  // Balanced, so the mixed model's test is that of the team means: F(1, 10).
+  std::string means = "team,g,y\n";
+  for (int team = 0; team < 12; ++team) {
+    double sum = 0.0;
+    for (int i = 3 * team; i < 3 * team + 3; ++i) sum += team * 7 % 12 + 0.1 * (i * 5 % 7);
+    means += std::to_string(team) + (team % 2 == 0 ? ",a," : ",b,") + std::to_string(sum / 3.0) + "\n";
+  }
+  const auto of_means = analyze_table(Dataset::parse(means, "t.csv"), {"y ~ g"}, quick()).findings.front();
+  EXPECT_NEAR(cell_at(tests, "g", "F"), number(of_means, 0, "g", "F"), 1e-4 * number(of_means, 0, "g", "F"));
+  EXPECT_NEAR(cell_at(tests, "g", "p-value"), number(of_means, 0, "g", "p-value"), 1e-4);
+  EXPECT_GT(cell_at(table_named(found, "Variances"), "team", "intraclass correlation"), 0.9);
+  EXPECT_THAT(found.sentence, HasSubstr("design effect"));
+}
+
+TEST(AnalyzeTable, TakesRandomInterceptsFromTheFormula) {
+  const auto found = analyze_table(Dataset::parse(members(), "t.csv"), {"y ~ 1 + (1|team)"}, quick()).findings.front();
+  EXPECT_EQ(found.model, "y ~ 1 + (1|team)");
+  EXPECT_NO_THROW((void)table_named(found, "Variances"));
+}
+
+TEST(AnalyzeTable, AnalysesRatingsByTheirOrder) {
+  const auto data = Dataset::parse(members(), "t.csv");
+  const auto found =
+      analyze_table(data, {.formula = "trust_rating ~ g", .independent = true}, quick()).findings.front();
+  EXPECT_THAT(found.sentence, HasSubstr("Proportional odds model of trust_rating"));
+  EXPECT_NO_THROW((void)table_named(found, "Likelihood-ratio tests (proportional odds model"));
+  EXPECT_EQ(table_named(found, "How often every rating").rows.size(), 2u);
+  const auto asked = analyze_table(
+      data, {.formula = "member ~ g", .response_kind = ColumnKind::kOrdinal, .independent = true}, quick());
+  EXPECT_THAT(asked.findings.front().sentence, HasSubstr("Proportional odds model"));
 }
 
 TEST(AnalyzeTable, RefusesWhatItCannotAnalyse) {
@@ -265,8 +441,40 @@ TEST_F(RunTest, AnswersTheQuestionsOfTheStudy) {
        {"periods", "knowledge", "periods-within-composition", "knowledge-within-composition", "periods-paired",
         "knowledge-paired", "demonstrations", "periods-baseline", "knowledge-baseline"})
     EXPECT_TRUE(has_finding(analysis, id)) << id;
+  EXPECT_FALSE(has_finding(analysis, "periods-beliefs"));  // no strategy for one member's belief
   EXPECT_THAT(finding(analysis, "periods").sentence, HasSubstr("(16 teams)"));
   EXPECT_THAT(finding(analysis, "periods").sentence, HasSubstr("Composition has a large effect"));
+}
+
+// [[contrast]] of the study file, as it is frozen in the run folder.
+TEST_F(RunTest, TestsTheContrastsOfTheStudy) {
+  fs::create_directories(folder_ / "inputs");
+  write_file_atomically(folder_ / "inputs" / "study.toml",
+                        "[[contrast]]\nname = \"mine\"\nfactor = \"strategy\"\nresponse = \"periods\"\n"
+                        "weights = { joint = 1.0, common = -1 }\n"
+                        "[[contrast]]\nname = \"alone\"\nweights = { joint = 1.0, baseline = -1.0 }\n");
+  write("teams.csv", teams());
+  const auto analysis = analyse();
+  EXPECT_NEAR(cell_at(table_named(finding(analysis, "periods"), "Planned contrasts of strategy"), "mine", "difference"),
+              -1.0, 1e-12);
+  EXPECT_THROW((void)table_named(finding(analysis, "knowledge"), "Planned contrasts"), std::out_of_range);
+  EXPECT_THAT(analysis.not_analysed, Contains(HasSubstr("contrast 'alone' of the study")));
+}
+
+// "common" becomes "individual-low": 1 period more than "joint", for the same people, and as much spread.
+TEST_F(RunTest, ComparesTeamBeliefsWithIndividualOnes) {
+  auto text = teams();
+  for (std::size_t at = text.find("common"); at != std::string::npos; at = text.find("common", at))
+    text.replace(at, 6, "individual-low");
+  write("teams.csv", text);
+  const auto analysis = analyse();
+  const auto found = finding(analysis, "periods-beliefs");
+  const auto& contrasts = table_named(found, "Planned contrasts of strategy");
+  EXPECT_NEAR(cell_at(contrasts, "team beliefs - individual beliefs", "difference"), -1.0, 1e-12);
+  EXPECT_EQ(table_named(found, "Planned contrasts of strategy at each level of composition").rows.size(), 2u);
+  const auto variation = finding(analysis, "periods-variation");
+  EXPECT_NEAR(cell_at(variation.tables.at(0), "all", "variance ratio"), 1.0, 1e-12);
+  EXPECT_THAT(variation.sentence, HasSubstr("no difference was found"));
 }
 
 TEST_F(RunTest, ComparesStrategiesOnTheSamePeople) {
@@ -313,12 +521,13 @@ TEST_F(RunTest, ComparesTogetherAndAloneOnTheSamePeople) {
   EXPECT_THAT(found.sentence, HasSubstr("The same people were taught both ways: the mean difference is -5.000 within 3 "
                                         "groups (p = 0.013)."));
   EXPECT_THAT(methods_of(found),
-              ::testing::ElementsAre("Welch's t test", "Hedges' g", "a paired t test of the same people"));
-  // Resamples of three values say nothing about Hedges' g.
-  EXPECT_THAT(found.warnings, Contains(HasSubstr("no interval of Hedges' g")));
-  EXPECT_EQ(found.tables[1].rows.at(0).at(2), TableCell{});
+              ::testing::ElementsAre("Welch's t test", "Hedges' g with an interval from the non-central t distribution",
+                                     "a paired t test of the same people"));
+  // The interval belongs to the test, so they say the same: p = 0.01, and 0 is outside.
+  EXPECT_LT(number(found, 0, "together - alone", "p-value"), 0.05);
+  EXPECT_LT(number(found, 1, "together - alone", "upper limit"), 0.0);
   // One sentence for each analysis that the design does not allow, whatever the response.
-  EXPECT_THAT(analysis.not_analysed, ::testing::SizeIs(4));
+  EXPECT_THAT(analysis.not_analysed, ::testing::SizeIs(5));
   EXPECT_THAT(analysis.not_analysed, Contains(HasSubstr("needs at least two group strategies")));
   EXPECT_THAT(analysis.notes, ::testing::ElementsAre("6 teams: 2 strategies x 1 composition"));
 }
@@ -329,20 +538,20 @@ TEST_F(RunTest, SaysThatStrategiesTaughtDifferentPeople) {
     text.insert(at + 1, std::to_string(at) + "/");  // nobody is taught twice
   write("teams.csv", text);
   const auto analysis = analyse();
-  EXPECT_THAT(analysis.not_analysed, ::testing::ElementsAre("same people, different strategies: the strategies taught "
-                                                            "different people (design.pairing = \"none\")"));
+  EXPECT_THAT(analysis.not_analysed,
+              Contains("same people, different strategies: the strategies taught different people "
+                       "(design.pairing = \"none\")"));
   EXPECT_EQ(finding(analysis, "periods-baseline").tables.size(), 2u);
 }
 
 TEST_F(RunTest, NamesTheMethodsThatItUsed) {
   write("teams.csv", teams());
   const auto analysis = analyse();
-  EXPECT_THAT(
-      methods_of(finding(analysis, "periods")),
-      ::testing::IsSupersetOf({"two-way analysis of variance (type II sums of squares)", "aligned rank tests",
-                               "permutation tests of residuals (199 permutations)", "Tukey's test for pairs of levels",
-                               "Kaplan-Meier estimates", "Poisson regression with likelihood-ratio tests",
-                               "log-rank tests stratified by the other factors"}));
+  EXPECT_THAT(methods_of(finding(analysis, "periods")),
+              ::testing::IsSupersetOf({"two-way analysis of variance (type II sums of squares)", "aligned rank tests",
+                                       "permutation tests of residuals (199 permutations)", "estimated marginal means",
+                                       "Kaplan-Meier estimates", "quasi-Poisson regression with F tests",
+                                       "log-rank tests stratified by the other factors"}));
   EXPECT_THAT(methods_of(finding(analysis, "knowledge")), Not(Contains(HasSubstr("log-rank"))));
   EXPECT_THAT(methods_of(finding(analysis, "periods-within-composition")),
               Contains("one-way analyses of variance with Bonferroni correction for 2 compositions"));

@@ -174,7 +174,7 @@ void note_data(const RunFiles& run, const ReportDesign& design, const RunData& d
 Analysis analyse(const RunFiles& run, std::vector<std::string>& notes) try {
   auto analysis = analyze_run(run.folder, {});
   // The notes of the analysis are about the size of the design and missing teams, which the report says itself.
-  for (const auto& what : analysis.not_analysed) notes.push_back("Not analysed: " + what + ".");
+  if (auto text = not_analysed_text(analysis); !text.empty()) notes.push_back(std::move(text));
   return analysis;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::kInfeasible) throw;

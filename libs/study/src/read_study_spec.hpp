@@ -12,6 +12,8 @@ inline const std::vector<std::string> kRecordWords{"team", "period", "particles"
 inline const std::vector<std::string> kSamplingWords{"systematic", "spread"};
 inline const std::vector<std::string> kLikelihoodWords{"discontinuous", "continuous"};
 inline const std::vector<std::string> kCounterfactualWords{"teacher", "self"};
+inline const std::vector<std::string> kContrastFactorWords{"strategy", "composition"};
+inline const std::vector<std::string> kContrastResponseWords{"periods", "knowledge"};
 inline constexpr const char* kStudySchema = "kith.study/1";
 
 /// Reads every key of a study document into a specification; what is wrong goes

@@ -191,6 +191,15 @@ Columns particle_columns(std::size_t num_features) {
   return first + direction_columns(num_features) + last;
 }
 
+// What decides how a column is analysed: rows of one team, or of one member of it, belong together; these are counts.
+ColumnKind kind_of(const std::string& name) {
+  constexpr std::array<std::string_view, 2> kIdentifiers{"team", "member"};
+  constexpr std::array<std::string_view, 3> kCounts{"periods", "demonstrations", "tests"};
+  if (std::find(kIdentifiers.begin(), kIdentifiers.end(), name) != kIdentifiers.end()) return ColumnKind::kIdentifier;
+  if (std::find(kCounts.begin(), kCounts.end(), name) != kCounts.end()) return ColumnKind::kCount;
+  return ColumnKind::kUnspecified;
+}
+
 }  // namespace
 
 std::vector<TableDescription> study_tables(const Study& study) {
@@ -207,6 +216,9 @@ std::vector<TableDescription> study_tables(const Study& study) {
   if (study.variants.front().record == RecordLevel::kParticles) {
     tables.push_back({"particles.csv", "One row per particle, belief and period.",
                       keys + particle_columns(study.variants.front().num_features)});
+  }
+  for (auto& table : tables) {
+    for (auto& one : table.columns) one.kind = kind_of(one.name);
   }
   return tables;
 }

@@ -100,6 +100,20 @@ std::optional<TableWriter> strategies(const StudySpec& spec) {
   return tables;
 }
 
+TomlArray contrasts(const StudySpec& spec) {
+  TomlArray array;
+  for (const auto& contrast : spec.contrasts) {
+    TableWriter table, weights;
+    table.add("name", contrast.name);
+    table.add("factor", contrast.factor);
+    if (!contrast.response.empty()) table.add("response", contrast.response);
+    for (const auto& [level, weight] : contrast.weights) weights.add(level, TomlValue{weight});
+    table.add("weights", std::move(weights));
+    array.emplace_back(std::move(table).take());
+  }
+  return array;
+}
+
 TableWriter teacher(const StudySpec& spec) {
   const auto& options = spec.teaching;
   TableWriter table;
@@ -143,6 +157,7 @@ std::string to_toml(const Study& study, const Domain& domain) {
   root.add("stop", stop);
   record.add("level", kRecordWords[static_cast<std::size_t>(spec.record)]);
   root.add("record", record);
+  if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});
   return to_toml(std::move(root).take());
 }
 

@@ -51,6 +51,33 @@ StudyReading parse(const std::string& text, const std::vector<std::string>& over
   return parse_study(text, "study.toml", {overrides, {}});
 }
 
+TEST(StudyFile, NamesPlannedContrasts) {
+  const std::string text = std::string{kStudy} +
+                           "[[contrast]]\nname = \"together\"\nof = [\"common\"]\nagainst = [\"baseline\"]\n"
+                           "[[contrast]]\nname = \"size\"\nfactor = \"composition\"\nresponse = \"periods\"\n"
+                           "weights = { NN = 2, N = -2 }\n";
+  const auto reading = parse(text);
+  ASSERT_TRUE(reading.study) << reading.diagnostics.front().message;
+  const auto& contrasts = reading.study->variants.front().contrasts;
+  ASSERT_EQ(contrasts.size(), 2u);
+  EXPECT_EQ(contrasts[0], (StudyContrast{"together", "strategy", {{"common", 1.0}, {"baseline", -1.0}}, ""}));
+  EXPECT_EQ(contrasts[1], (StudyContrast{"size", "composition", {{"NN", 2.0}, {"N", -2.0}}, "periods"}));
+  // The frozen study has them too.
+  const auto again = parse(to_toml(*reading.study, *reading.domain));
+  ASSERT_TRUE(again.study);
+  EXPECT_EQ(again.study->variants.front().contrasts, contrasts);
+}
+
+TEST(StudyFile, RefusesContrastsThatCompareNothing) {
+  const auto ids_of = [](const std::string& contrast) {
+    return ids(parse(std::string{kStudy} + "[[contrast]]\nname = \"x\"\n" + contrast));
+  };
+  EXPECT_THAT(ids_of("of = [\"common\"]\nagainst = [\"comon\"]\n"), ElementsAre("E0420"));
+  EXPECT_THAT(ids_of("of = [\"common\"]\nagainst = [\"common\"]\n"), ElementsAre("E0420"));
+  EXPECT_THAT(ids_of("weights = { common = 1 }\n"), ElementsAre("E0420"));
+  EXPECT_THAT(ids_of("weights = { common = 0, baseline = 0 }\n"), ElementsAre("E0420"));
+}
+
 TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   const auto reading = parse(kStudy);
   ASSERT_TRUE(reading.study) << reading.diagnostics.size();

@@ -16,4 +16,20 @@ std::string_view to_string(ColumnType type) noexcept {
   return "text";
 }
 
+std::string_view to_string(ColumnKind kind) noexcept {
+  switch (kind) {
+    case ColumnKind::kIdentifier:
+      return "identifier";
+    case ColumnKind::kCount:
+      return "count";
+    case ColumnKind::kOrdinal:
+      return "ordinal";
+    case ColumnKind::kNumber:
+      return "number";
+    case ColumnKind::kUnspecified:
+      break;
+  }
+  return "";
+}
+
 }  // namespace kith

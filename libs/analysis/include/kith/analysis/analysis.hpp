@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/analysis/contrasts.hpp"
 #include "kith/analysis/dataset.hpp"
 #include "kith/analysis/finding.hpp"
 #include "kith/stats/anova.hpp"
@@ -17,8 +18,11 @@ struct AnalysisOptions {
   double alpha = 0.05;  ///< In (0, 1): below it a p-value counts as evidence; intervals have level 1 - alpha.
   Correction correction = Correction::kBonferroni;  ///< Of families of tests.
   std::size_t permutations = 999;
-  std::size_t resamples = 1'000;  ///< Of bootstrap intervals.
-  std::uint64_t seed = 1;         ///< Of permutations and resamples.
+  std::size_t resamples = 1'000;             ///< Of bootstrap intervals, which no analysis has at present.
+  std::uint64_t seed = 1;                    ///< Of permutations and resamples.
+  std::vector<PlannedContrast> contrasts{};  ///< Compared in every model that has their factor.
+  std::vector<std::string> by{};  ///< Factors at each level of which the levels of the others are compared as well.
+  std::optional<SmallestEffect> smallest_effect{};  ///< Differences are tested for being smaller than this.
 };
 
 /// The analyses of a study of teaching strategies, by the tables in a run folder:
@@ -36,8 +40,12 @@ struct AnalysisOptions {
 
 /// A model to be analysed on any tidy table.
 struct ModelQuestion {
-  std::string formula;                  ///< "knowledge ~ strategy*composition"
-  std::optional<std::string> observed;  ///< Column of true and false: false for a count that was cut off (censored).
+  std::string formula{};                  ///< "knowledge ~ strategy*composition"
+  std::optional<std::string> observed{};  ///< Column of true and false: false for a count that was cut off (censored).
+  /// What the response is; unspecified: what the table says, else a number. Counts also get count regressions.
+  ColumnKind response_kind = ColumnKind::kUnspecified;
+  std::vector<std::string> identifiers{};  ///< Further columns that name who or what a row is about.
+  bool independent = false;                ///< Analyse rows as independent although identifiers repeat.
 };
 /// @throws kith::Error kUsage for a formula that cannot be read, kInvalidInput for columns that are missing or not what
 /// the model needs, kInfeasible (E0905) if no row is complete.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kith/stats/factor.hpp"
+#include "kith/table/codebook.hpp"
 
 namespace kith {
 
@@ -48,6 +49,12 @@ class Dataset {
   /// The column as a factor, levels in the order of appearance. @throws also (E0903) for a missing cell.
   [[nodiscard]] Factor factor(std::string_view column) const;
 
+  /// What the values of a column stand for: unspecified unless somebody said so. @throws as cells() does.
+  [[nodiscard]] ColumnKind kind(std::string_view column) const;
+  void set_kind(std::string_view column, ColumnKind kind);
+  /// Takes over the kinds of a codebook's columns, as far as the table has them.
+  void describe(const TableDescription& table);
+
   /// The rows that pass all filters. @throws as cells() does, and kith::Error (kInfeasible, E0909) with the values that
   /// the column has if no row passes.
   [[nodiscard]] Dataset where(std::span<const RowFilter> filters) const;
@@ -61,6 +68,7 @@ class Dataset {
 
   std::string file_;
   std::vector<std::string> columns_;
+  std::vector<ColumnKind> kinds_;
   std::vector<std::vector<std::optional<std::string>>> cells_;  // shape [columns][rows]
   std::vector<std::size_t> lines_;
   bool decimal_comma_ = false;  // semicolons separate the cells

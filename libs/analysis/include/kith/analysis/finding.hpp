@@ -52,6 +52,7 @@ struct Finding {
   std::string question{};
   std::string model{};                  ///< The formula, or what is compared.
   std::string sentence{};               ///< What was tested, on what, and what it means.
+  std::string results{};                ///< The tests as a results section reports them, see results_paragraph().
   std::vector<std::string> warnings{};  ///< Assumptions that do not hold, and what could not be estimated and why.
   std::vector<ResultTable> tables{};
   std::vector<Method> methods{};  ///< Every procedure whose results the tables hold.
@@ -65,10 +66,13 @@ struct Analysis {
   std::vector<std::string> not_analysed{};  ///< What the design does not allow, and why.
 };
 
-/// The findings as a JSON array, on one line: {"id", "title", "question", "model", "sentence", "warnings", "tables",
-/// "methods"} each. A table is {"caption", "columns": [{"field", "name", "kind"}], "rows": [{FIELD: value}]}; kinds are
-/// "text", "count", "number", "fraction" and "p". Values have all digits; null is what cannot be estimated, and a field
-/// that does not apply to a row (the F of residuals) is absent.
+/// What the design does not allow as one sentence; empty if there is nothing.
+[[nodiscard]] std::string not_analysed_text(const Analysis& analysis);
+
+/// The findings as a JSON array, on one line: {"id", "title", "question", "model", "sentence", "results", "warnings",
+/// "tables", "methods"} each. A table is {"caption", "columns": [{"field", "name", "kind"}], "rows": [{FIELD: value}]};
+/// kinds are "text", "count", "number", "fraction" and "p". Values have all digits; null is what cannot be estimated,
+/// and a field that does not apply to a row (the F of residuals) is absent.
 [[nodiscard]] std::string findings_json(const Analysis& analysis);
 
 }  // namespace kith

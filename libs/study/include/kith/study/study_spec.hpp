@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kith/geometry/half_space.hpp"
@@ -41,6 +42,16 @@ struct FactorSetting {
   friend bool operator==(const FactorSetting&, const FactorSetting&) = default;
 };
 
+/// A comparison planned beforehand, `[[contrast]]` in study files: a weighted sum of the means of some strategies or
+/// compositions.
+struct StudyContrast {
+  std::string name;
+  std::string factor = "strategy";                        ///< Or "composition".
+  std::vector<std::pair<std::string, double>> weights{};  ///< Levels, none twice, with weights that sum to 0.
+  std::string response{};                                 ///< "periods" or "knowledge"; empty: both.
+  friend bool operator==(const StudyContrast&, const StudyContrast&) = default;
+};
+
 /// What study files can name. A program that brings kinds of its own lists them here beside the built-in ones; all of
 /// them have to stay as long as studies that use them.
 struct StudyKinds {
@@ -66,7 +77,8 @@ struct StudySpec {
   TeachingOptions teaching;
   bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
   RecordLevel record = RecordLevel::kPeriod;
-  std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
+  std::vector<FactorSetting> factors;      ///< Empty unless the design varies keys.
+  std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
 };
 
 /// The strategy with this name. @throws std::invalid_argument if there is none.

@@ -16,6 +16,18 @@ enum class ColumnType {
 /// "text", "integer", "real" or "boolean".
 [[nodiscard]] std::string_view to_string(ColumnType type) noexcept;
 
+/// What the values of a column stand for, where that decides how they are analysed.
+enum class ColumnKind {
+  kUnspecified,
+  kIdentifier,  ///< Names a team, a person or the like: rows with the same value belong together.
+  kCount,       ///< Counts of events: whole numbers >= 0.
+  kOrdinal,     ///< Ordered categories, such as answers on a Likert scale.
+  kNumber,      ///< Measurements, whatever they look like.
+};
+
+/// "identifier", "count", "ordinal" or "number"; empty if unspecified.
+[[nodiscard]] std::string_view to_string(ColumnKind kind) noexcept;
+
 /// One column of a table, as its codebook describes it.
 struct Column {
   std::string name = {};  ///< Unique in the table, not empty.
@@ -23,6 +35,7 @@ struct Column {
   std::string description = {};  ///< One sentence for people who analyse the table.
   std::string unit = {};         ///< Such as "sr"; empty if there is none.
   bool required = false;         ///< Whether every row has a value.
+  ColumnKind kind = ColumnKind::kUnspecified;
   friend bool operator==(const Column&, const Column&) = default;
 };
 

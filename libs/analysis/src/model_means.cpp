@@ -1,0 +1,426 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kith/core/error.hpp"
+#include "kith/stats/equivalence.hpp"
+#include "kith/stats/multiple.hpp"
+#include "model_means.hpp"
+
+namespace kith {
+namespace {
+
+using Kind = ResultKind;
+
+constexpr std::size_t kMostLevelsInPairs = 12;  // every one is compared with every other
+constexpr std::size_t kMostSimpleEffects = 12;  // levels of a factor at each of which others are compared
+
+bool is_difference(const FixedEffects& model) { return model.link == Link::kIdentity; }
+
+// What a comparison is, in the singular, as a head of a column.
+const char* comparison_name(Link link) {
+  return link == Link::kIdentity ? "difference" : link == Link::kLog ? "ratio" : "odds ratio";
+}
+
+// Estimate, its limits and what else a row of comparisons has; missing where it cannot be estimated.
+struct Comparison {
+  LinearEstimate estimate;
+  std::string group;  // the level of the `by` factor; may be empty
+};
+
+ResultTable comparison_table(const std::string& caption, const std::string& first, const std::string& by, Link link,
+                             bool with_d, bool is_corrected) {
+  ResultTable table{caption, {}, {}};
+  if (!by.empty()) table.columns.push_back({by, Kind::kText, by});
+  table.columns.push_back({first, Kind::kText});
+  table.columns.push_back({comparison_name(link)});
+  table.columns.insert(table.columns.end(), {{"lower limit"}, {"upper limit"}});
+  if (with_d)
+    table.columns.insert(
+        table.columns.end(),
+        {{"d", Kind::kFraction}, {"d, lower limit", Kind::kFraction}, {"d, upper limit", Kind::kFraction}});
+  table.columns.push_back({is_corrected ? "adjusted p-value" : "p-value", Kind::kP});
+  return table;
+}
+
+void add_row(const Comparison& comparison, const FixedEffects& model, bool by, bool with_d, ResultTable& table) {
+  auto& row = table.rows.emplace_back();
+  if (by) row.push_back(text_cell(comparison.group));
+  row.push_back(text_cell(comparison.estimate.name));
+  const auto shown = response_contrast(model.link, comparison.estimate);
+  if (shown) {
+    row.insert(row.end(), {shown->estimate, shown->low, shown->high});
+  } else {
+    row.insert(row.end(), {is_difference(model) ? cell_of(comparison.estimate.estimate) : TableCell{}, {}, {}});
+  }
+  const auto& inference = comparison.estimate.inference;
+  if (with_d) {
+    if (comparison.estimate.estimate && inference && model.residual_sd) {
+      const double sd = *model.residual_sd;
+      row.insert(row.end(), {*comparison.estimate.estimate / sd, inference->low / sd, inference->high / sd});
+    } else {
+      row.insert(row.end(), {TableCell{}, {}, {}});
+    }
+  }
+  row.push_back(cell_of(inference, &Inference::p));
+}
+
+// Whether any of them could be estimated.
+bool any_estimate(const std::vector<LinearEstimate>& estimates) {
+  return std::any_of(estimates.begin(), estimates.end(),
+                     [](const auto& one) { return static_cast<bool>(one.estimate); });
+}
+
+Adjustment adjustment_of(Correction correction) {
+  switch (correction) {
+    case Correction::kNone:
+      return Adjustment::kNone;
+    case Correction::kHolm:
+      return Adjustment::kHolm;
+    case Correction::kFdr:
+      return Adjustment::kFdr;
+    case Correction::kBonferroni:
+      break;
+  }
+  return Adjustment::kBonferroni;
+}
+
+// Differences against the smallest one that matters.
+class EquivalenceTests {
+ public:
+  EquivalenceTests(const FixedEffects& model, const AnalysisOptions& options) : model_{model}, options_{options} {
+    if (!options.smallest_effect || !is_difference(model)) return;
+    if (options.smallest_effect->standardized && !model.residual_sd) return;
+    margin_ = options.smallest_effect->size * (options.smallest_effect->standardized ? *model.residual_sd : 1.0);
+  }
+  [[nodiscard]] explicit operator bool() const { return margin_ > 0.0; }
+  void add(const std::vector<Comparison>& comparisons) {
+    for (const auto& one : comparisons) {
+      const auto test = test_equivalence(one.estimate, {-margin_, margin_}, options_.alpha);
+      if (!test) continue;
+      const bool is_equivalent = test->p < options_.alpha;
+      (is_equivalent ? equivalent_ : others_) += 1;
+      rows_.push_back({text_cell(one.group.empty() ? one.estimate.name : one.group + ": " + one.estimate.name),
+                       test->estimate, test->narrow.low, test->narrow.high, test->p,
+                       text_cell(std::string{to_string(test->verdict)})});
+    }
+  }
+  void finish(const std::string& what, Finding& finding, std::vector<ResultTable>& tables) {
+    if (rows_.empty()) return;
+    const auto level = fmt::format("{:.3g} %", 100.0 * (1.0 - 2.0 * options_.alpha));
+    const auto margin = formatted(margin_, Kind::kNumber);
+    tables.push_back({fmt::format("Equivalence within {} ({}; two one-sided tests, {} intervals)", margin, what, level),
+                      {{"comparison", Kind::kText},
+                       {"difference"},
+                       {"lower limit"},
+                       {"upper limit"},
+                       {"p-value", Kind::kP},
+                       {"verdict", Kind::kText}},
+                      std::move(rows_)});
+    if (others_ == 0) {
+      finding.sentence += fmt::format(" {} of {} are equivalent: {} smaller than {}.",
+                                      equivalent_ > 1 ? "All differences" : "The levels", what,
+                                      equivalent_ > 1 ? "each is" : "the difference is", margin);
+    } else if (equivalent_ == 0) {
+      finding.sentence += fmt::format(" No difference of {} was shown to be smaller than {}.", what, margin);
+    } else {
+      finding.sentence += fmt::format(" {} of {} differences of {} were shown to be smaller than {}.", equivalent_,
+                                      equivalent_ + others_, what, margin);
+    }
+    add_method(finding, {fmt::format("two one-sided tests of equivalence within {}", margin)});
+  }
+
+ private:
+  const FixedEffects& model_;
+  const AnalysisOptions& options_;
+  double margin_ = 0.0;
+  std::vector<std::vector<TableCell>> rows_;
+  std::size_t equivalent_ = 0, others_ = 0;
+};
+
+ResultTable means_table(const std::string& factor, const MarginalMeans& means, Link link) {
+  ResultTable table{"Estimated marginal means of " + factor,
+                    {{factor, Kind::kText, factor}, {"mean"}, {"lower limit"}, {"upper limit"}, {"n", Kind::kCount}},
+                    {}};
+  for (const auto& mean : means.groups.front().means) {
+    const auto shown = response_mean(link, mean);
+    auto& row = table.rows.emplace_back();
+    row.push_back(text_cell(mean.name));
+    if (shown) {
+      row.insert(row.end(), {shown->estimate, shown->low, shown->high});
+    } else {
+      row.insert(row.end(), {link == Link::kIdentity ? cell_of(mean.estimate) : TableCell{}, {}, {}});
+    }
+    row.push_back(count_cell(mean.observations));
+  }
+  return table;
+}
+
+std::optional<std::size_t> factor_named(const FixedEffects& model, const std::string& name) {
+  const auto& factors = model.design.factors;
+  for (std::size_t f = 0; f < factors.size(); ++f) {
+    if (factors[f].name == name) return f;
+  }
+  return std::nullopt;
+}
+
+bool has_levels(const ModelFactor& factor, const PlannedContrast& contrast) {
+  return std::all_of(contrast.weights.begin(), contrast.weights.end(), [&](const auto& weight) {
+    return std::find(factor.levels.begin(), factor.levels.end(), weight.level) != factor.levels.end();
+  });
+}
+
+// The factor that a contrast is about; nothing if it has none of these levels.
+std::optional<std::size_t> factor_of(const FixedEffects& model, const PlannedContrast& contrast) {
+  if (!contrast.factor.empty()) {
+    const auto named = factor_named(model, contrast.factor);
+    return named && has_levels(model.design.factors[*named], contrast) ? named : std::nullopt;
+  }
+  for (std::size_t f = 0; f < model.design.factors.size(); ++f) {
+    if (has_levels(model.design.factors[f], contrast)) return f;
+  }
+  return std::nullopt;
+}
+
+std::vector<double> weights_of(const ModelFactor& factor, const PlannedContrast& contrast) {
+  std::vector<double> weights(factor.levels.size(), 0.0);
+  for (const auto& [level, weight] : contrast.weights) {
+    const auto found = std::find(factor.levels.begin(), factor.levels.end(), level);
+    weights[static_cast<std::size_t>(found - factor.levels.begin())] = weight;
+  }
+  return weights;
+}
+
+// The planned contrasts of one factor, at each level of `by` if there is one: a family per level.
+std::vector<Comparison> planned(const FixedEffects& model, std::size_t factor, std::optional<std::size_t> by,
+                                const std::vector<MeanContrast>& contrasts, const AnalysisOptions& options) {
+  const std::vector<std::size_t> over{factor};
+  const auto at = by ? std::vector{*by} : std::vector<std::size_t>{};
+  const auto adjustment = contrasts.size() > 1 && !by ? adjustment_of(options.correction) : Adjustment::kNone;
+  std::vector<Comparison> comparisons;
+  for (const auto& group : marginal_means(model, over, at, MarginalWeights::kEqual, 1.0 - options.alpha).groups) {
+    for (auto& estimate : estimate_contrasts(model, group, contrasts, adjustment, 1.0 - options.alpha))
+      comparisons.push_back({std::move(estimate), group.name});
+  }
+  return comparisons;
+}
+
+class Writer {
+ public:
+  Writer(const FixedEffects& model, const AnalysisOptions& options, Finding& finding, std::vector<ResultTable>& tables)
+      : model_{model}, options_{options}, finding_{finding}, tables_{tables}, with_d_{is_difference(model)} {}
+
+  void add_means() {
+    for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
+      const auto& factor = model_.design.factors[f];
+      if (factor.levels.size() < 2 || factor.levels.size() > kMostMeans) continue;
+      tables_.push_back(means_table(factor.name, means_of(f, {}), model_.link));
+    }
+    if (!model_.design.factors.empty()) add_method(finding_, {"estimated marginal means", "searle1980"});
+  }
+
+  void add_pairs() {
+    for (std::size_t f = 0; f < model_.design.factors.size(); ++f) add_pairs_of(f, std::nullopt);
+  }
+
+  void add_simple_effects() {
+    for (const auto& name : options_.by) {
+      const auto by = factor_named(model_, name);
+      if (!by || model_.design.factors[*by].levels.size() > kMostSimpleEffects) continue;
+      for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
+        if (f != *by) add_pairs_of(f, by);
+      }
+    }
+  }
+
+  void add_planned() {
+    for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
+      std::vector<MeanContrast> contrasts;
+      for (const auto& one : options_.contrasts) {
+        if (factor_of(model_, one) == f) contrasts.push_back({one.name, weights_of(model_.design.factors[f], one)});
+      }
+      if (contrasts.empty()) continue;
+      add_planned_of(f, std::nullopt, contrasts);
+      for (const auto& name : options_.by) {
+        const auto by = factor_named(model_, name);
+        if (by && *by != f) add_planned_of(f, by, contrasts);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMostMeans = 60;
+
+  [[nodiscard]] MarginalMeans means_of(std::size_t factor, std::optional<std::size_t> by) const {
+    const std::vector<std::size_t> over{factor};
+    const auto at = by ? std::vector{*by} : std::vector<std::size_t>{};
+    return marginal_means(model_, over, at, MarginalWeights::kEqual, 1.0 - options_.alpha);
+  }
+
+  void add_pairs_of(std::size_t f, std::optional<std::size_t> by) {
+    const auto& factor = model_.design.factors[f];
+    if (factor.levels.size() < 2 || factor.levels.size() > kMostLevelsInPairs) return;
+    const bool is_family = factor.levels.size() > 2;
+    std::vector<Comparison> comparisons;
+    for (const auto& group : means_of(f, by).groups) {
+      auto pairs = estimate_contrasts(model_, group, pairwise_contrasts(group),
+                                      is_family ? Adjustment::kTukey : Adjustment::kNone, 1.0 - options_.alpha);
+      if (!any_estimate(pairs)) continue;
+      for (auto& pair : pairs) comparisons.push_back({std::move(pair), group.name});
+    }
+    const auto by_name = by ? model_.design.factors[*by].name : std::string{};
+    const auto how = by ? fmt::format("at each level of {}", by_name) + (is_family ? "; Tukey-Kramer" : "")
+                        : std::string{is_family ? "Tukey-Kramer" : "t test"};
+    auto what = fmt::format("Pairs of {} ({})", factor.name, how);
+    add_table(what, "pair", by_name, comparisons, true);
+    if (is_family && !comparisons.empty())
+      add_method(finding_, {"Tukey-Kramer tests for pairs of estimated marginal means", "kramer1956"});
+    EquivalenceTests equivalence{model_, options_};
+    if (!equivalence) return;
+    equivalence.add(comparisons);
+    equivalence.finish("pairs of " + factor.name + (by ? " within " + by_name : ""), finding_, tables_);
+  }
+
+  void add_planned_of(std::size_t f, std::optional<std::size_t> by, const std::vector<MeanContrast>& contrasts) {
+    const auto comparisons = planned(model_, f, by, contrasts, options_);
+    const auto by_name = by ? model_.design.factors[*by].name : std::string{};
+    const bool is_family = !by && contrasts.size() > 1 && options_.correction != Correction::kNone;
+    const auto how = is_family ? fmt::format(" ({} correction)", to_string(options_.correction)) : std::string{};
+    add_table(fmt::format("Planned contrasts of {}{}{}", model_.design.factors[f].name,
+                          by ? " at each level of " + by_name : std::string{}, how),
+              "contrast", by_name, comparisons, is_family);
+    if (by) correct_over_levels(comparisons);
+    add_method(finding_, {"planned contrasts of estimated marginal means" + how});
+    // Simple effects are in their table; what is said of them is corrected there.
+    if (!by) {
+      for (const auto& one : comparisons) finding_.sentence += sentence_of_contrast(one);
+    }
+    EquivalenceTests equivalence{model_, options_};
+    if (!equivalence) return;
+    equivalence.add(comparisons);
+    equivalence.finish("planned contrasts" + (by ? " within " + by_name : std::string{}), finding_, tables_);
+  }
+
+  // Adds the p-values corrected for all contrasts at all levels to the table written last, and says which remain.
+  void correct_over_levels(const std::vector<Comparison>& comparisons) {
+    if (options_.correction == Correction::kNone || comparisons.empty()) return;
+    std::vector<double> p_values;
+    for (const auto& one : comparisons) {
+      if (one.estimate.inference) p_values.push_back(one.estimate.inference->p);
+    }
+    const auto corrected = adjust(p_values, options_.correction);
+    auto& table = tables_.back();
+    table.columns.push_back({"corrected p-value", Kind::kP});
+    std::size_t next = 0;
+    std::string found;
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+      const auto& one = comparisons[i];
+      auto& cell = table.rows[i].emplace_back();
+      if (!one.estimate.inference) continue;
+      const double p = corrected[next++];
+      cell = p;
+      if (p >= options_.alpha) continue;
+      found += fmt::format("{}{} at {} ({})", found.empty() ? "" : ", ", one.estimate.name, one.group, p_text(p));
+    }
+    finding_.sentence += found.empty()
+                             ? fmt::format(" At single levels of {}, no contrast differs from 0 ({} correction).",
+                                           table.columns.front().name, to_string(options_.correction))
+                             : fmt::format(" At single levels of {} ({} correction): {}.", table.columns.front().name,
+                                           to_string(options_.correction), found);
+  }
+
+  [[nodiscard]] std::string sentence_of_contrast(const Comparison& one) const {
+    const auto& name = one.estimate.name;
+    const auto shown = response_contrast(model_.link, one.estimate);
+    if (!shown || !one.estimate.inference)
+      return fmt::format(" {} cannot be tested: {}.", name,
+                         one.estimate.estimate ? one.estimate.inference.reason() : one.estimate.estimate.reason());
+    return fmt::format(" {}: {} [{}, {}], {}.", name, formatted(shown->estimate, Kind::kNumber),
+                       formatted(shown->low, Kind::kNumber), formatted(shown->high, Kind::kNumber),
+                       p_text(one.estimate.inference->p));
+  }
+
+  void add_table(const std::string& caption, const std::string& first, const std::string& by,
+                 const std::vector<Comparison>& comparisons, bool is_corrected) {
+    if (comparisons.empty()) return;
+    auto table = comparison_table(caption, first, by, model_.link, with_d_, is_corrected);
+    for (const auto& one : comparisons) {
+      add_row(one, model_, !by.empty(), with_d_, table);
+      if (!one.estimate.estimate)
+        finding_.warnings.push_back(
+            fmt::format("{} cannot be compared: {}", one.estimate.name, one.estimate.estimate.reason()));
+    }
+    tables_.push_back(std::move(table));
+  }
+
+  const FixedEffects& model_;
+  const AnalysisOptions& options_;
+  Finding& finding_;
+  std::vector<ResultTable>& tables_;
+  bool with_d_;
+};
+
+}  // namespace
+
+void add_contrast_results(const FixedEffects& model, const AnalysisOptions& options, Finding& finding,
+                          std::vector<ResultTable>& tables) {
+  Writer{model, options, finding, tables}.add_planned();
+}
+
+std::string range_of_means(const FixedEffects& model, const std::string& factor) {
+  const auto f = factor_named(model, factor);
+  if (!f) return "";
+  const std::vector<std::size_t> over{*f};
+  const auto means = marginal_means(model, over);
+  const MarginalMean *low = nullptr, *high = nullptr;
+  for (const auto& mean : means.groups.front().means) {
+    if (!mean.estimate) return "";  // what is not comparable has no range
+    if (low == nullptr || *mean.estimate < *low->estimate) low = &mean;
+    if (high == nullptr || *mean.estimate > *high->estimate) high = &mean;
+  }
+  if (low == nullptr) return "";
+  const auto text = [&](const MarginalMean& mean) {
+    const auto shown = response_mean(model.link, mean);
+    return fmt::format("{} ({})", formatted(shown ? shown->estimate : *mean.estimate, Kind::kNumber), mean.name);
+  };
+  return fmt::format("from {} to {}", text(*low), text(*high));
+}
+
+void add_marginal_results(const FixedEffects& model, const AnalysisOptions& options, bool with_means, Finding& finding,
+                          std::vector<ResultTable>& tables) {
+  Writer writer{model, options, finding, tables};
+  if (with_means) writer.add_means();
+  writer.add_pairs();
+  writer.add_simple_effects();
+  writer.add_planned();
+}
+
+bool is_testable(const std::vector<Factor>& factors, const PlannedContrast& contrast) {
+  FixedEffects known;
+  for (const auto& factor : factors) known.design.factors.push_back({factor.name, factor.levels});
+  return factor_of(known, contrast).has_value();
+}
+
+void check_comparisons(const std::vector<Factor>& factors, const AnalysisOptions& options) {
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const auto& factor : factors) all.push_back(factor.name);
+    return all;
+  }();
+  for (const auto& by : options.by) {
+    if (std::find(names.begin(), names.end(), by) != names.end()) continue;
+    throw Error{ErrorKind::kUsage, fmt::format("--by {}: the model has no factor of this name, but {}", by,
+                                               names.empty() ? "none" : with_and(names))};
+  }
+  for (const auto& contrast : options.contrasts) {
+    if (is_testable(factors, contrast)) continue;
+    std::string levels;
+    for (const auto& weight : contrast.weights) levels += (levels.empty() ? "'" : ", '") + weight.level + "'";
+    throw Error{ErrorKind::kUsage,
+                fmt::format("contrast '{}': no factor of the model has the levels {}{}", contrast.name, levels,
+                            contrast.factor.empty() ? "" : " (it is to be '" + contrast.factor + "')")};
+  }
+}
+
+}  // namespace kith

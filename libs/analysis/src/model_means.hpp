@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kith/stats/marginal_means.hpp"
+#include "model.hpp"
+
+namespace kith {
+
+// "from 6.70 (PPP) to 8.53 (NNN)": the estimated marginal means of a factor; empty if one of them is not estimable.
+[[nodiscard]] std::string range_of_means(const FixedEffects& model, const std::string& factor);
+
+// Adds the estimated marginal means of every factor, if asked for; all pairs of them (Tukey-Kramer), also at each level
+// of the factors in options.by; the planned contrasts; and, with a smallest effect that matters, tests of equivalence.
+void add_marginal_results(const FixedEffects& model, const AnalysisOptions& options, bool with_means, Finding& finding,
+                          std::vector<ResultTable>& tables);
+
+// Adds the planned contrasts only, with their tests of equivalence.
+void add_contrast_results(const FixedEffects& model, const AnalysisOptions& options, Finding& finding,
+                          std::vector<ResultTable>& tables);
+
+// Whether some factor has all levels of a contrast.
+[[nodiscard]] bool is_testable(const std::vector<Factor>& factors, const PlannedContrast& contrast);
+
+// @throws kith::Error (kUsage) if the options name a factor or levels that the model does not have.
+void check_comparisons(const std::vector<Factor>& factors, const AnalysisOptions& options);
+
+}  // namespace kith

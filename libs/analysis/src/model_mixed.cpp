@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kith/stats/design_effect.hpp"
+#include "kith/stats/mixed_model.hpp"
+#include "model_means.hpp"
+
+namespace kith {
+namespace {
+
+using Kind = ResultKind;
+
+constexpr std::size_t kFewGroups = 10;  // below it variances between groups are hardly known
+
+std::string degrees(double df) { return std::isinf(df) ? "inf" : fmt::format("{:.1f}", df); }
+
+ResultTable tests_table(const std::string& caption, const std::vector<TermTest>& tests, double alpha) {
+  ResultTable table{caption,
+                    {{"term", Kind::kText},
+                     {"df", Kind::kCount},
+                     {"residual df", Kind::kText},
+                     {"F"},
+                     {"p-value", Kind::kP},
+                     {"partial eta squared", Kind::kFraction},
+                     {"lower limit", Kind::kFraction},
+                     {"upper limit", Kind::kFraction}},
+                    {}};
+  for (const auto& term : tests) {
+    const auto eta_squared = eta_squared_of(term.test, alpha);
+    table.rows.push_back({text_cell(term.name), count_cell(term.df),
+                          text_cell(term.test ? degrees(term.test->df.at(1)) : ""),
+                          cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p),
+                          cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
+                          cell_of(eta_squared, &Interval::high)});
+  }
+  return table;
+}
+
+ResultTable variances_table(const MixedModel& model, const std::vector<Factor>& groups) {
+  ResultTable table{"Variances and intraclass correlations",
+                    {{"rows with the same", Kind::kText},
+                     {"groups", Kind::kCount},
+                     {"variance"},
+                     {"intraclass correlation", Kind::kFraction},
+                     {"lower limit", Kind::kFraction},
+                     {"upper limit", Kind::kFraction},
+                     {"p-value", Kind::kP},
+                     {"design effect", Kind::kNumber}},
+                    {}};
+  for (std::size_t k = 0; k < model.components.size(); ++k) {
+    const auto& one = model.components[k];
+    table.rows.push_back({text_cell(one.name), count_cell(one.groups), one.variance, one.intraclass_correlation,
+                          cell_of(one.intraclass_interval, &Interval::low),
+                          cell_of(one.intraclass_interval, &Interval::high), cell_of(one.test, &TestResult::p),
+                          cell_of(design_effect(groups[k], one.intraclass_correlation), &DesignEffect::design_effect)});
+  }
+  std::vector<TableCell> residual(table.columns.size(), text_cell(""));
+  residual[0] = text_cell("(residual)");
+  residual[2] = model.residual_variance;
+  table.rows.push_back(std::move(residual));
+  return table;
+}
+
+std::string likeness_sentence(const MixedModel& model, const ModelData& data) {
+  std::string text;
+  for (std::size_t k = 0; k < model.components.size(); ++k) {
+    const auto& one = model.components[k];
+    const auto effect = design_effect(data.groups[k], one.intraclass_correlation);
+    text += fmt::format(" The intraclass correlation of {} with the same {} is {:.2f}", data.observations, one.name,
+                        one.intraclass_correlation);
+    if (effect && effect->design_effect > 1.0) {
+      text += fmt::format(" (design effect {:.2f}: for the overall mean {} {} are worth {:.0f} independent ones)",
+                          effect->design_effect, data.values.size(), data.observations, effect->effective_observations);
+    }
+    text += ".";
+  }
+  return text;
+}
+
+void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding& finding) {
+  for (const auto& one : model.components) {
+    if (one.variance == 0.0) {
+      finding.warnings.push_back(fmt::format(
+          "the variance between values of {} is estimated as 0: rows that have it in common are no more alike "
+          "than others",
+          one.name));
+    }
+    if (one.groups < kFewGroups) {
+      finding.warnings.push_back(fmt::format(
+          "there are only {} different values of {}, so how much they vary is hardly known", one.groups, one.name));
+    }
+  }
+  if (data.is_ordinal) {
+    finding.warnings.push_back(
+        "ratings are analysed as numbers with equal steps, as ordinal models here have no random intercepts");
+  }
+  if (data.is_count) {
+    finding.warnings.push_back(
+        "the counts are analysed by a linear mixed model, as count regressions here have no random intercepts");
+  }
+}
+
+std::string intercepts_of(const ModelData& data) {
+  std::string text;
+  for (const auto& groups : data.groups) text += (text.empty() ? "(1|" : " + (1|") + groups.name + ")";
+  return text;
+}
+
+}  // namespace
+
+Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& options) {
+  Finding finding{.id = data.response, .model = formula_text(data) + " + " + intercepts_of(data)};
+  finding.title = finding.model;
+  finding.question = "Does " + data.response + " depend on the factors of the model?";
+  MixedModelOptions fit;
+  fit.confidence = 1.0 - options.alpha;
+  const auto model = fit_mixed_model(data.values, data.factors, data.terms, data.groups, fit);
+  finding.sentence = fmt::format("Mixed model of {} ({} {} in {} groups).", data.response, data.values.size(),
+                                 data.observations, data.groups.front().levels.size());
+  if (!model) {
+    finding.sentence += " It cannot be fitted, so nothing is tested: " + model.reason() + ".";
+    if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) finding.tables.push_back(std::move(*means));
+    return finding;
+  }
+  const auto tests = term_tests(model->fixed, SumsOfSquares::kTypeII);
+  for (std::size_t t = 0; t < data.terms.size(); ++t) {
+    const auto eta_squared = eta_squared_of(tests[t].test, options.alpha);
+    finding.sentence += " " + term_sentence(data, t, tests[t].test,
+                                            eta_squared ? Estimable<double>{eta_squared->estimate}
+                                                        : Estimable<double>::impossible(eta_squared.reason()),
+                                            &model->fixed, options.alpha);
+  }
+  finding.sentence += likeness_sentence(*model, data);
+  add_mixed_warnings(*model, data, finding);
+  if (!data.terms.empty()) {
+    finding.tables.push_back(tests_table("Tests of the fixed effects (type II, Satterthwaite)", tests, options.alpha));
+    add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
+    add_method(finding, eta_squared_method(options.alpha));
+  }
+  if (data.terms.size() > 1) {
+    const auto other = term_tests(model->fixed, SumsOfSquares::kTypeIII);
+    const auto differs = [&](std::size_t t) {
+      return other[t].test && tests[t].test && std::abs(other[t].test->p - tests[t].test->p) > 1e-6;
+    };
+    bool any = false;
+    for (std::size_t t = 0; t < tests.size(); ++t) any = any || differs(t);
+    if (any)
+      finding.tables.push_back(
+          tests_table("Tests of the fixed effects (type III, Satterthwaite)", other, options.alpha));
+  }
+  finding.tables.push_back(variances_table(*model, data.groups));
+  if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) finding.tables.push_back(std::move(*means));
+  add_marginal_results(model->fixed, options, true, finding, finding.tables);
+  return finding;
+}
+
+}  // namespace kith

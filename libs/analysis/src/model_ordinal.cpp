@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "kith/stats/cumulative_logit.hpp"
+#include "model_means.hpp"
+
+namespace kith {
+namespace {
+
+using Kind = ResultKind;
+
+// The ratings in ascending order, as levels.
+Factor ratings_of(const ModelData& data) {
+  std::map<double, std::size_t> positions;
+  for (const double value : data.values) positions.emplace(value, 0);
+  Factor ratings{data.response, {}, {}};
+  for (auto& [value, position] : positions) {
+    position = ratings.levels.size();
+    ratings.levels.push_back(fmt::format("{}", value));
+  }
+  for (const double value : data.values) ratings.codes.push_back(positions.at(value));
+  return ratings;
+}
+
+// How often every rating was given, by cell.
+std::optional<ResultTable> shares_table(const ModelData& data, const Factor& ratings) {
+  constexpr std::size_t kMostCells = 30;
+  Factor cells = data.factors.front();
+  for (std::size_t f = 1; f < data.factors.size(); ++f) cells = interaction(cells, data.factors[f]);
+  if (cells.levels.size() > kMostCells) return std::nullopt;
+  ResultTable table{"How often every rating was given", {{"levels", Kind::kText}, {"n", Kind::kCount}}, {}};
+  for (const auto& level : ratings.levels) table.columns.push_back({level, Kind::kCount, "rating_" + level});
+  std::vector<std::vector<std::size_t>> counts(cells.levels.size(), std::vector<std::size_t>(ratings.levels.size()));
+  for (std::size_t i = 0; i < cells.codes.size(); ++i) ++counts[cells.codes[i]][ratings.codes[i]];
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    std::size_t n = 0;
+    for (const auto count : counts[c]) n += count;
+    auto& row = table.rows.emplace_back();
+    row = {text_cell(cells.levels[c]), count_cell(n)};
+    for (const auto count : counts[c]) row.push_back(count_cell(count));
+  }
+  return table;
+}
+
+}  // namespace
+
+Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& options) {
+  Finding finding{.id = data.response, .title = formula_text(data), .model = formula_text(data) + " (ordinal)"};
+  finding.question = "Does " + data.response + " depend on the factors of the model?";
+  finding.sentence =
+      fmt::format("Proportional odds model of {} ({} {}).", data.response, data.values.size(), data.observations);
+  const auto ratings = ratings_of(data);
+  const auto model = fit_cumulative_logit(ratings, data.factors, data.terms, 1.0 - options.alpha);
+  if (!model) {
+    finding.sentence += " It cannot be fitted, so nothing is tested: " + model.reason() + ".";
+  } else {
+    ResultTable tests{"Likelihood-ratio tests (proportional odds model, type II)",
+                      {{"term", Kind::kText}, {"df", Kind::kCount}, {"chi-squared"}, {"p-value", Kind::kP}},
+                      {}};
+    for (std::size_t t = 0; t < model->term_tests.size(); ++t) {
+      const auto& term = model->term_tests[t];
+      finding.sentence += " " + term_sentence(data, t, term.test, Estimable<double>::impossible("of a linear model"),
+                                              nullptr, options.alpha);
+      tests.rows.push_back({text_cell(term.name), count_cell(term.df), cell_of(term.test, &TestResult::statistic),
+                            cell_of(term.test, &TestResult::p)});
+    }
+    if (!tests.rows.empty()) finding.tables.push_back(std::move(tests));
+    add_method(finding, {"proportional odds model with likelihood-ratio tests", "mccullagh1980"});
+    if (model->proportional_odds && model->proportional_odds->p < options.alpha) {
+      finding.warnings.push_back(
+          fmt::format("odds ratios differ between steps of the scale (Brant's test: {}), so one odds ratio per level "
+                      "is a summary only",
+                      test_text(*model->proportional_odds)));
+    }
+    add_marginal_results(model->fixed, options, false, finding, finding.tables);
+  }
+  if (!data.factors.empty()) {
+    if (auto shares = shares_table(data, ratings)) finding.tables.push_back(std::move(*shares));
+  }
+  return finding;
+}
+
+}  // namespace kith

@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "kith/core/error.hpp"
+#include "kith/stats/formula.hpp"
+#include "model_means.hpp"
+#include "prepared_model.hpp"
+#include "row_groups.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kMostLevelsOfAFactor = 200;
+constexpr std::size_t kMostTerms = 63;    // six factors with all their interactions
+constexpr std::size_t kMostRatings = 11;  // steps of a scale from 0 to 10
+
+Formula formula_of(const std::string& text) {
+  auto reading = parse_formula(text);
+  if (reading.errors.empty()) return std::move(reading.formula);
+  const auto& error = reading.errors.front();
+  throw Error{ErrorKind::kUsage, fmt::format("model '{}', character {}: {}{}", text, error.column, error.message,
+                                             error.hint.empty() ? "" : "; " + error.hint)};
+}
+
+// A factor needs levels to compare, and not one per row.
+void check_factor(const Dataset& data, const Factor& factor) {
+  Diagnostic diagnostic{.file = data.file(), .line = 1, .column = 1};
+  if (factor.levels.size() < 2) {
+    diagnostic.id = "E0904";
+    diagnostic.message = fmt::format("column '{}' is '{}' in every row, so there is nothing to compare", factor.name,
+                                     factor.levels.front());
+    diagnostic.hint = "leave it out of the model";
+    diagnostic.infeasible = true;
+  } else if (factor.levels.size() > kMostLevelsOfAFactor) {
+    diagnostic.id = "E0907";
+    diagnostic.message = fmt::format("column '{}' has {} different values; a factor has at most {}", factor.name,
+                                     factor.levels.size(), kMostLevelsOfAFactor);
+    diagnostic.hint = "use columns with few different values as factors";
+  } else {
+    return;
+  }
+  throw Error{{std::move(diagnostic)}};
+}
+
+// Every term is tested against all others, again for every permutation and resample.
+void check_terms(const Formula& formula) {
+  if (formula.terms.size() <= kMostTerms) return;
+  Diagnostic diagnostic{.id = "E0908", .infeasible = true};
+  diagnostic.message =
+      fmt::format("the model has {} terms; the limit is {}, as many as six factors with all interactions have",
+                  formula.terms.size(), kMostTerms);
+  diagnostic.hint = "use + instead of *, or leave factors out";
+  throw Error{{std::move(diagnostic)}};
+}
+
+std::vector<bool> observed_of(const Dataset& data, const std::string& column) {
+  std::vector<bool> observed;
+  for (const auto& value : data.numbers(column)) observed.push_back(*value != 0.0);
+  return observed;
+}
+
+// What the response is: as the question, the table or --observed says, else a number.
+ColumnKind kind_of_response(const Dataset& data, const Formula& formula, const ModelQuestion& question) {
+  if (question.response_kind != ColumnKind::kUnspecified) return question.response_kind;
+  if (question.observed) return ColumnKind::kCount;  // only counts are cut off
+  return data.kind(formula.response);
+}
+
+void check_counts(const Dataset& data, const std::string& column, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] >= 0.0 && values[i] == std::floor(values[i])) continue;
+    throw Error{{Diagnostic{.id = "E0910",
+                            .message = fmt::format("{} in column '{}' is no count", values[i], column),
+                            .file = data.file(),
+                            .line = data.line(i),
+                            .column = 1,
+                            .hint = "counts are whole numbers from 0; leave out --count, or mend the codebook"}}};
+  }
+}
+
+// Whole numbers are not taken for counts or ratings unless somebody says so, but people should know that they can.
+std::optional<std::string> note_on_whole_numbers(const std::string& response, const std::vector<double>& values) {
+  std::set<double> distinct;
+  for (const double value : values) {
+    if (value < 0.0 || value != std::floor(value)) return std::nullopt;
+    if (distinct.size() <= kMostRatings) distinct.insert(value);
+  }
+  if (distinct.size() < 3) return std::nullopt;
+  const bool may_be_ratings = distinct.size() <= kMostRatings && *distinct.rbegin() <= kMostRatings;
+  return fmt::format("{} holds whole numbers, which are analysed as measurements; say --count if they are counts{}",
+                     response, may_be_ratings ? ", --ordinal if they are ratings" : "");
+}
+
+// The words of a name of ratings: "trust_likert", "rating of ease".
+bool is_named_rating(const std::string& column) {
+  for (const auto* word : {"likert", "Likert", "rating", "Rating"}) {
+    if (column.find(word) != std::string::npos) return true;
+  }
+  return false;
+}
+
+bool are_ratings(const std::vector<double>& values) {
+  std::set<double> distinct;
+  for (const double value : values) {
+    if (value < 0.0 || value > kMostRatings || value != std::floor(value)) return false;
+    distinct.insert(value);
+  }
+  return distinct.size() >= 3;
+}
+
+// The random intercepts: those of the formula, or of identifiers that repeat.
+void find_groups(const Dataset& data, const Formula& formula, const ModelQuestion& question, PreparedModel& prepared) {
+  for (const auto& column : question.identifiers) prepared.rows.set_kind(column, ColumnKind::kIdentifier);
+  auto used = formula.factors;
+  used.push_back(formula.response);
+  auto groups = find_row_groups(prepared.rows, used);
+  auto& notes = prepared.notes;
+  const bool is_asked = !formula.random_intercepts.empty();
+  if (!is_asked) notes.insert(notes.end(), groups.notes.begin(), groups.notes.end());
+  if (is_asked) {
+    prepared.intercepts = formula.random_intercepts;
+  } else if (groups.intercepts.empty()) {
+    return;
+  } else if (question.independent) {
+    prepared.warnings.push_back(
+        fmt::format("rows belong together ({}), but are analysed as independent, as was asked for: if rows of a group "
+                    "are alike, p-values are too small",
+                    intercepts_text(groups.intercepts)));
+    return;
+  } else {
+    prepared.intercepts = groups.intercepts;
+    notes.push_back(
+        fmt::format("rows of {} belong together, so the model has random intercepts, {}; write them into "
+                    "the formula to choose others, or say --independent",
+                    data.file(), intercepts_text(groups.intercepts)));
+  }
+  for (const auto& columns : prepared.intercepts) prepared.model.groups.push_back(row_factor(prepared.rows, columns));
+}
+
+}  // namespace
+
+PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, const AnalysisOptions& options) {
+  const auto formula = formula_of(question.formula);
+  check_terms(formula);
+  std::vector<std::string> columns = formula.factors;
+  columns.push_back(formula.response);
+  if (question.observed) columns.push_back(*question.observed);
+  for (const auto& intercept : formula.random_intercepts) {
+    for (const auto& column : intercept) {
+      if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+    }
+  }
+  PreparedModel prepared{.rows = data.complete(columns)};
+  const auto& complete = prepared.rows;
+  if (complete.num_rows() == 0) {
+    throw Error{{Diagnostic{.id = "E0905",
+                            .message = "no row has a value in every column of the model",
+                            .file = data.file(),
+                            .hint = "the model uses the columns " + with_and(columns),
+                            .infeasible = true}}};
+  }
+  auto& model = prepared.model;
+  model.response = formula.response;
+  model.terms = formula.terms;
+  for (const auto& value : complete.numbers(formula.response)) model.values.push_back(*value);
+  for (const auto& name : formula.factors) {
+    model.factors.push_back(complete.factor(name));
+    check_factor(complete, model.factors.back());
+  }
+  check_comparisons(model.factors, options);
+  if (question.observed) model.observed = observed_of(complete, *question.observed);
+  if (const auto dropped = data.num_rows() - complete.num_rows(); dropped > 0)
+    prepared.notes.push_back(
+        fmt::format("{} of {} rows were left out because they lack a value", dropped, data.num_rows()));
+  find_groups(data, formula, question, prepared);
+  auto kind = kind_of_response(data, formula, question);
+  if (kind == ColumnKind::kUnspecified && is_named_rating(formula.response) && are_ratings(model.values))
+    kind = ColumnKind::kOrdinal;
+  model.is_count = kind == ColumnKind::kCount;
+  model.is_ordinal = kind == ColumnKind::kOrdinal;
+  if (model.is_count) check_counts(complete, formula.response, model.values);
+  if (kind == ColumnKind::kUnspecified) {
+    if (auto note = note_on_whole_numbers(formula.response, model.values)) prepared.notes.push_back(std::move(*note));
+  }
+  return prepared;
+}
+
+}  // namespace kith

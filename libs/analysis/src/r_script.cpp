@@ -1,0 +1,352 @@
+#include "kith/analysis/r_script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kith/table/codebook.hpp"
+#include "kith/table/csv_writer.hpp"
+#include "prepared_model.hpp"
+
+namespace kith {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n') {
+      result += "\\n";
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+// A name as R reads it in formulas and behind `$`.
+std::string symbol(const std::string& name) {
+  const bool plain = !name.empty() && (std::isalpha(static_cast<unsigned char>(name.front())) != 0) &&
+                     std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                       return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '.');
+                     });
+  return plain ? name : "`" + name + "`";
+}
+
+std::string vector_of(const std::vector<std::string>& texts) {
+  std::string result = "c(";
+  for (std::size_t i = 0; i < texts.size(); ++i) result += (i == 0 ? "" : ", ") + quoted(texts[i]);
+  return result + ")";
+}
+
+std::string term_text(const ModelData& model, const std::vector<std::size_t>& term, const char* join = ":") {
+  std::string text;
+  for (const auto factor : term) text += (text.empty() ? "" : join) + symbol(model.factors[factor].name);
+  return text;
+}
+
+std::string right_side(const ModelData& model) {
+  std::string text;
+  for (const auto& term : model.terms) text += (text.empty() ? "" : " + ") + term_text(model, term);
+  return text.empty() ? "1" : text;
+}
+
+constexpr const char* kHelpers = R"R(
+# Keeps a table in r-results/ under the caption that kith gives it.
+dir.create("r-results", showWarnings = FALSE)
+keep <- function(caption, table) {
+  cat("\n", caption, "\n", sep = "")
+  print(format(table, digits = 4), row.names = FALSE)
+  file <- paste0(gsub("[^A-Za-z0-9]+", "_", caption), ".csv")
+  write.csv(cbind(caption = caption, table), file.path("r-results", file), row.names = FALSE)
+}
+)R";
+
+class Script {
+ public:
+  Script(const Dataset& data, const PreparedModel& prepared, const ModelQuestion& question,
+         const AnalysisOptions& options)
+      : file_{data.file()}, prepared_{prepared}, model_{prepared.model}, question_{question}, options_{options} {}
+
+  std::string write() {
+    head();
+    if (model_.groups.empty()) {
+      linear();
+    } else {
+      mixed();
+    }
+    if (!model_.terms.empty()) means();
+    if (model_.is_count) counts();
+    beyond();
+    return std::move(text_);
+  }
+
+ private:
+  void line(const std::string& text = "") { text_ += text + "\n"; }
+  [[nodiscard]] std::string response() const { return symbol(model_.response); }
+  [[nodiscard]] std::string level() const { return fmt::format("{}", 1.0 - options_.alpha); }
+  [[nodiscard]] bool is_single() const { return model_.factors.size() == 1 && model_.terms.size() == 1; }
+
+  void head() {
+    line("# Repeats in R, table by table, what kith found in " + file_ + ",");
+    line("# and goes on where kith stops. In the folder of this script:  Rscript analysis.R");
+    line("# Needs (Debian): r-base r-cran-emmeans r-cran-car r-cran-lme4 r-cran-lmertest r-cran-survival r-cran-mass");
+    line();
+    line("library(car)");
+    line("library(emmeans)");
+    if (!model_.groups.empty()) line("library(lmerTest)  # lme4 with Satterthwaite's degrees of freedom");
+    if (model_.is_count) line("library(MASS)");
+    if (!model_.observed.empty()) line("library(survival)");
+    text_ += kHelpers;
+    line();
+    line("data <- read.csv(\"data.csv\", check.names = FALSE, colClasses = \"character\", na.strings = character())");
+    line(fmt::format("data${0} <- as.numeric(data${0})", response()));
+    for (const auto& factor : model_.factors)
+      line(fmt::format("data${0} <- factor(data${0}, levels = {1})", symbol(factor.name), vector_of(factor.levels)));
+    for (const auto& columns : prepared_.intercepts) {
+      for (const auto& column : columns) line(fmt::format("data${0} <- factor(data${0})", symbol(column)));
+    }
+    if (question_.observed) line(fmt::format("data${0} <- tolower(data${0}) == \"true\"", symbol(*question_.observed)));
+  }
+
+  void linear() {
+    line();
+    line(fmt::format("model <- lm({} ~ {}, data = data)", response(), right_side(model_)));
+    if (model_.terms.empty()) return;
+    line("tests <- car::Anova(model, type = 2)");
+    line("terms <- head(rownames(tests), -1)");
+    line("keep(\"Analysis of variance (type II)\",");
+    line("     data.frame(term = terms, df = tests[terms, \"Df\"], sum_of_squares = tests[terms, \"Sum Sq\"],");
+    line("                f = tests[terms, \"F value\"], p_value = tests[terms, \"Pr(>F)\"]))");
+    if (is_single()) {
+      const auto formula = fmt::format("{} ~ {}", response(), symbol(model_.factors.front().name));
+      line(fmt::format("welch <- oneway.test({}, data = data)", formula));
+      line("keep(\"Test that does not assume equal variances (Welch)\",");
+      line(fmt::format("     data.frame(term = {}, f = unname(welch$statistic), p_value = welch$p.value))",
+                       quoted(model_.factors.front().name)));
+      line(fmt::format("kruskal.test({}, data = data)", formula));
+    }
+  }
+
+  void mixed() {
+    std::string intercepts;
+    for (const auto& columns : prepared_.intercepts) {
+      std::string name;
+      for (const auto& column : columns) name += (name.empty() ? "" : ":") + symbol(column);
+      intercepts += " + (1 | " + name + ")";
+    }
+    line();
+    line("# Rows of a group belong together: random intercepts.");
+    line(fmt::format("model <- lmer({} ~ {}{}, data = data)", response(), right_side(model_), intercepts));
+    line("emm_options(lmer.df = \"satterthwaite\", lmerTest.limit = nrow(data), pbkrtest.limit = 0)");
+    if (!model_.terms.empty()) {
+      line("tests <- anova(model, type = 2)");
+      line("keep(\"Tests of the fixed effects (type II, Satterthwaite)\",");
+      line("     data.frame(term = rownames(tests), df = tests[[\"NumDF\"]], f = tests[[\"F value\"]],");
+      line("                p_value = tests[[\"Pr(>F)\"]]))");
+    }
+    line("variances <- as.data.frame(VarCorr(model))");
+    line("groups <- variances$grp != \"Residual\"");
+    line("keep(\"Variances and intraclass correlations\",");
+    line("     data.frame(rows_with_the_same = variances$grp[groups], variance = variances$vcov[groups],");
+    line("                intraclass_correlation = (variances$vcov / sum(variances$vcov))[groups]))");
+  }
+
+  void means() {
+    line();
+    line("# Estimated marginal means and comparisons of them.");
+    if (model_.groups.empty()) {
+      line("residual_sd <- sigma(model)");
+    } else {
+      line("residual_sd <- sqrt(sum(variances$vcov))  # of a single row");
+    }
+    for (const auto& factor : model_.factors) means_of(factor);
+    for (const auto& by : options_.by) {
+      for (const auto& factor : model_.factors) {
+        if (factor.name != by) simple_effects_of(factor, by);
+      }
+    }
+  }
+
+  void means_of(const Factor& factor) {
+    if (factor.levels.size() < 2) return;
+    const bool is_family = factor.levels.size() > 2;
+    line();
+    line(fmt::format("means <- emmeans(model, {}, level = {})", quoted(factor.name), level()));
+    if (model_.factors.size() > 1 || !model_.groups.empty()) {
+      line("shown <- as.data.frame(means)");
+      line(fmt::format("keep({},", quoted("Estimated marginal means of " + factor.name)));
+      line(fmt::format(
+          "     setNames(data.frame(as.character(shown[[1]]), shown$emmean, shown$lower.CL, shown$upper.CL),"));
+      line(fmt::format("              c({}, \"mean\", \"lower_limit\", \"upper_limit\")))", quoted(factor.name)));
+    }
+    // emmeans subtracts later levels from earlier ones; kith, as TukeyHSD(), the other way round.
+    line(fmt::format(
+        "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
+        quoted(is_family ? "tukey" : "none"), level()));
+    line(fmt::format("keep({},",
+                     quoted(fmt::format("Pairs of {} ({})", factor.name, is_family ? "Tukey-Kramer" : "t test"))));
+    line("     data.frame(pair = pairs$contrast, difference = pairs$estimate, lower_limit = pairs$lower.CL,");
+    line("                upper_limit = pairs$upper.CL, d = pairs$estimate / residual_sd,");
+    line("                adjusted_p_value = pairs$p.value))");
+    planned_of(factor);
+    equivalence();
+  }
+
+  void simple_effects_of(const Factor& factor, const std::string& by) {
+    const bool is_family = factor.levels.size() > 2;
+    line();
+    line(fmt::format("means <- emmeans(model, {}, by = {}, level = {})", quoted(factor.name), quoted(by), level()));
+    line(fmt::format(
+        "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
+        quoted(is_family ? "tukey" : "none"), level()));
+    line(fmt::format("keep({},", quoted(fmt::format("Pairs of {} (at each level of {}{})", factor.name, by,
+                                                    is_family ? "; Tukey-Kramer" : ""))));
+    line(fmt::format(
+        "     setNames(data.frame(as.character(pairs[[{}]]), pairs$contrast, pairs$estimate, pairs$lower.CL,",
+        quoted(by)));
+    line(
+        fmt::format("                         pairs$upper.CL, pairs$p.value), c({}, \"pair\", \"difference\", "
+                    "\"lower_limit\",",
+                    quoted(by)));
+    line("              \"upper_limit\", \"adjusted_p_value\")))");
+  }
+
+  void planned_of(const Factor& factor) {
+    std::string list;
+    std::size_t n = 0;
+    for (const auto& contrast : options_.contrasts) {
+      const auto known = [&](const auto& weight) {
+        return std::find(factor.levels.begin(), factor.levels.end(), weight.level) != factor.levels.end();
+      };
+      const bool is_of = (contrast.factor.empty() || contrast.factor == factor.name) &&
+                         std::all_of(contrast.weights.begin(), contrast.weights.end(), known);
+      if (!is_of) continue;
+      std::string weights;
+      for (const auto& level : factor.levels) {
+        double weight = 0.0;
+        for (const auto& one : contrast.weights) {
+          if (one.level == level) weight = one.weight;
+        }
+        weights += fmt::format("{}{}", weights.empty() ? "" : ", ", weight);
+      }
+      list += fmt::format("{}{} = c({})", n == 0 ? "" : ", ", quoted(contrast.name), weights);
+      ++n;
+    }
+    if (n == 0) return;
+    const bool is_family = n > 1 && options_.correction != Correction::kNone;
+    const std::string how = !is_family                                 ? "none"
+                            : options_.correction == Correction::kHolm ? "holm"
+                            : options_.correction == Correction::kFdr  ? "fdr"
+                                                                       : "bonferroni";
+    line(fmt::format(
+        "planned <- as.data.frame(summary(contrast(means, list({})), adjust = {}, infer = TRUE, level = {}))", list,
+        quoted(how), level()));
+    line(fmt::format(
+        "keep({},", quoted(fmt::format(
+                        "Planned contrasts of {}{}", factor.name,
+                        is_family ? fmt::format(" ({} correction)", to_string(options_.correction)) : std::string{}))));
+    line("     data.frame(contrast = planned$contrast, difference = planned$estimate, lower_limit = planned$lower.CL,");
+    line(fmt::format("                upper_limit = planned$upper.CL, {} = planned$p.value))",
+                     is_family ? "adjusted_p_value" : "p_value"));
+  }
+
+  void equivalence() {
+    if (!options_.smallest_effect) return;
+    const auto& smallest = *options_.smallest_effect;
+    line(fmt::format(
+        "test(pairs(means, reverse = TRUE), delta = {}, side = \"equivalence\", adjust = \"none\")",
+        smallest.standardized ? fmt::format("{} * residual_sd", smallest.size) : fmt::format("{}", smallest.size)));
+  }
+
+  void counts() {
+    std::string mains;
+    for (const auto& factor : model_.factors) mains += (mains.empty() ? "" : " + ") + symbol(factor.name);
+    if (mains.empty()) return;
+    line();
+    line("# Counts: quasi-Poisson regression, which estimates the dispersion, and negative binomial regression.");
+    line(fmt::format("quasi <- glm({} ~ {}, family = quasipoisson, data = data)", response(), mains));
+    line("print(summary(quasi))");
+    line(fmt::format("try(print(summary(glm.nb({} ~ {}, data = data))), silent = TRUE)", response(), mains));
+    if (!question_.observed) return;
+    line();
+    line("# Counts that were cut off.");
+    line(fmt::format("print(survfit(Surv({}, {}) ~ {}, data = data))", response(), symbol(*question_.observed), mains));
+    for (std::size_t f = 0; f < model_.factors.size(); ++f) {
+      std::string strata;
+      for (std::size_t g = 0; g < model_.factors.size(); ++g) {
+        if (g != f) strata += (strata.empty() ? "" : ", ") + symbol(model_.factors[g].name);
+      }
+      line(fmt::format("print(survdiff(Surv({}, {}) ~ {}{}, data = data))", response(), symbol(*question_.observed),
+                       symbol(model_.factors[f].name), strata.empty() ? "" : " + strata(" + strata + ")"));
+    }
+  }
+
+  void beyond() {
+    line();
+    line("# Where kith stops. Remove the comment signs of what you need.");
+    if (!model_.groups.empty()) {
+      std::string name;
+      for (const auto& column : prepared_.intercepts.front()) name += (name.empty() ? "" : ":") + symbol(column);
+      if (model_.is_count)
+        line(fmt::format("# glmer({} ~ {} + (1 | {}), family = poisson, data = data)", response(), right_side(model_),
+                         name));
+      if (!model_.factors.empty())
+        line(fmt::format("# lmer({} ~ {} + ({} | {}), data = data)  # random slopes", response(), right_side(model_),
+                         symbol(model_.factors.front().name), name));
+      line("# confint(model, method = \"boot\")");
+    } else {
+      line("# plot(model)  # residuals");
+      line(fmt::format("# library(BayesFactor); anovaBF({} ~ {}, data = data)", response(), right_side(model_)));
+    }
+  }
+
+  std::string file_;
+  const PreparedModel& prepared_;
+  const ModelData& model_;
+  const ModelQuestion& question_;
+  const AnalysisOptions& options_;
+  std::string text_;
+};
+
+std::vector<std::string> columns_of(const PreparedModel& prepared, const ModelQuestion& question) {
+  std::vector<std::string> columns{prepared.model.response};
+  const auto add = [&](const std::string& column) {
+    if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+  };
+  for (const auto& factor : prepared.model.factors) add(factor.name);
+  for (const auto& group : prepared.intercepts) {
+    for (const auto& column : group) add(column);
+  }
+  if (question.observed) add(*question.observed);
+  return columns;
+}
+
+}  // namespace
+
+RProject r_project(const Dataset& data, const ModelQuestion& question, const AnalysisOptions& options) {
+  const auto prepared = prepare_model(data, question, options);
+  RProject project;
+  project.script = Script{data, prepared, question, options}.write();
+  TableDescription table{.file = "data.csv", .description = "The rows of " + data.file() + " that were analysed."};
+  const auto names = columns_of(prepared, question);
+  for (const auto& name : names) {
+    const bool is_response = name == prepared.model.response;
+    Column column{.name = name, .type = is_response ? ColumnType::kReal : ColumnType::kText};
+    column.kind = is_response && prepared.model.is_count ? ColumnKind::kCount : prepared.rows.kind(name);
+    if (!is_response && column.kind == ColumnKind::kCount) column.kind = ColumnKind::kUnspecified;
+    table.columns.push_back(std::move(column));
+  }
+  CsvWriter writer{table.columns, [&](std::string_view part) { project.data += part; }};
+  for (std::size_t i = 0; i < prepared.rows.num_rows(); ++i) {
+    writer.real(prepared.model.values[i]);
+    for (std::size_t c = 1; c < names.size(); ++c) writer.text_or_missing(prepared.rows.cells(names[c])[i]);
+    writer.end_row();
+  }
+  writer.flush();
+  project.codebook = codebook(std::vector{std::move(table)});
+  return project;
+}
+
+}  // namespace kith

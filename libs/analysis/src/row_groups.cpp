@@ -1,0 +1,170 @@
+#include "row_groups.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "model.hpp"
+
+namespace kith {
+namespace {
+
+// With fewer groups their variance cannot be estimated to speak of.
+constexpr std::size_t kFewestGroups = 5;
+
+constexpr std::array<std::string_view, 9> kIdentifierWords{"team",    "person",  "member",  "group", "participant",
+                                                           "subject", "learner", "student", "id"};
+// Of people, who may be numbered anew in every one of the others.
+constexpr std::array<std::string_view, 6> kPeople{"person", "member", "participant", "subject", "learner", "student"};
+constexpr std::array<std::string_view, 2> kCollectives{"team", "group"};
+
+// "participant_id" and "participantID" have the words participant and id.
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words(1);
+  char before = '\0';
+  for (const char c : name) {
+    const bool is_upper = c >= 'A' && c <= 'Z', is_lower = c >= 'a' && c <= 'z';
+    const bool was_lower = before >= 'a' && before <= 'z';
+    if ((is_upper && was_lower) || (!is_upper && !is_lower)) words.emplace_back();
+    if (is_upper || is_lower) words.back() += is_upper ? static_cast<char>(c - 'A' + 'a') : c;
+    before = c;
+  }
+  words.erase(std::remove(words.begin(), words.end(), std::string{}), words.end());
+  return words;
+}
+
+template <std::size_t n>
+bool has_word(const std::string& column, const std::array<std::string_view, n>& wanted) {
+  const auto words = words_of(column);
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
+  });
+}
+
+struct Identifier {
+  std::string column;
+  bool is_stated = false;  // by a codebook or the user, not just by its name
+  Factor factor;
+};
+
+std::size_t num_combinations(const Factor& a, const Factor& b) {
+  std::set<std::pair<std::size_t, std::size_t>> combinations;
+  for (std::size_t i = 0; i < a.codes.size(); ++i) combinations.emplace(a.codes[i], b.codes[i]);
+  return combinations.size();
+}
+
+// Whether the values of `inner` are numbers that begin anew in every `outer`, such as the members 1, 2, 3 of each team.
+bool is_numbered_within(const Identifier& inner, const Identifier& outer) {
+  if (!has_word(inner.column, kPeople) || !has_word(outer.column, kCollectives)) return false;
+  std::map<std::size_t, std::set<std::size_t>> within;
+  for (std::size_t i = 0; i < inner.factor.codes.size(); ++i)
+    within[outer.factor.codes[i]].insert(inner.factor.codes[i]);
+  std::size_t most = 0;
+  for (const auto& [group, members] : within) most = std::max(most, members.size());
+  return within.size() > 1 && inner.factor.levels.size() <= most;
+}
+
+std::vector<Identifier> identifiers_of(const Dataset& rows, const std::vector<std::string>& used) {
+  std::vector<Identifier> identifiers;
+  for (const auto& column : rows.columns()) {
+    if (std::find(used.begin(), used.end(), column) != used.end()) continue;
+    const auto kind = rows.kind(column);
+    const bool is_stated = kind == ColumnKind::kIdentifier;
+    if (!is_stated && (kind != ColumnKind::kUnspecified || !is_identifier_name(column))) continue;
+    const auto& cells = rows.cells(column);
+    const auto has_value = [](const auto& cell) { return cell.has_value(); };
+    if (std::none_of(cells.begin(), cells.end(), has_value)) continue;
+    identifiers.push_back({column, is_stated, row_factor(rows, {column})});
+  }
+  return identifiers;
+}
+
+// Whether the grouping is none of those before, under another name.
+bool is_new(const Factor& grouping, const std::vector<Factor>& known) {
+  return std::none_of(known.begin(), known.end(), [&](const Factor& other) {
+    return grouping.levels.size() == other.levels.size() && num_combinations(grouping, other) == other.levels.size();
+  });
+}
+
+}  // namespace
+
+bool is_identifier_name(const std::string& column) {
+  const auto words = words_of(column);
+  if (words.empty()) return false;
+  auto last = words.back();
+  const auto is_known = [&] {
+    return std::find(kIdentifierWords.begin(), kIdentifierWords.end(), last) != kIdentifierWords.end();
+  };
+  if (is_known()) return true;
+  if (last.size() < 3 || last.compare(last.size() - 2, 2, "id") != 0) return false;
+  last.resize(last.size() - 2);  // "teamid"
+  return is_known();
+}
+
+Factor row_factor(const Dataset& rows, const std::vector<std::string>& columns) {
+  std::vector<std::string> names(rows.num_rows());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const auto& cells = rows.cells(columns[c]);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (c > 0) names[i] += ':';
+      names[i] += cells[i] ? *cells[i] : c > 0 ? std::string{} : fmt::format("row {}", rows.line(i));
+    }
+  }
+  std::string name;
+  for (const auto& column : columns) name += (name.empty() ? "" : ":") + column;
+  return make_factor(name, names);
+}
+
+RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& used) {
+  RowGroups groups;
+  const auto identifiers = identifiers_of(rows, used);
+  std::vector<Factor> known;
+  const auto add = [&](const std::vector<std::string>& columns) {
+    auto grouping = row_factor(rows, columns);
+    if (grouping.levels.size() == rows.num_rows() || grouping.levels.size() < 2 || !is_new(grouping, known)) return;
+    known.push_back(std::move(grouping));
+    groups.intercepts.push_back(columns);
+  };
+  std::vector<const Identifier*> numbered;
+  for (const auto& one : identifiers) {
+    const auto outer = std::find_if(identifiers.begin(), identifiers.end(), [&](const Identifier& other) {
+      return &other != &one && is_numbered_within(one, other);
+    });
+    if (outer != identifiers.end()) {
+      numbered.push_back(&one);
+      continue;
+    }
+    if (!one.is_stated && one.factor.levels.size() < kFewestGroups) {
+      if (one.factor.levels.size() > 1)
+        groups.notes.push_back(fmt::format(
+            "column '{}' is named like an identifier, but has only {} values, so it is taken for no group of rows; "
+            "put it into the model if it matters",
+            one.column, one.factor.levels.size()));
+      continue;
+    }
+    add({one.column});
+  }
+  for (const auto* const inner : numbered) {
+    const auto outer = std::find_if(identifiers.begin(), identifiers.end(), [&](const Identifier& other) {
+      return &other != inner && is_numbered_within(*inner, other);
+    });
+    add({outer->column, inner->column});
+  }
+  return groups;
+}
+
+std::string intercepts_text(const std::vector<std::vector<std::string>>& intercepts) {
+  std::string text;
+  for (const auto& columns : intercepts) {
+    std::string name;
+    for (const auto& column : columns) name += (name.empty() ? "" : ":") + column;
+    text += (text.empty() ? "(1|" : " + (1|") + name + ")";
+  }
+  return text;
+}
+
+}  // namespace kith

@@ -1,0 +1,77 @@
+#include "kith/analysis/exports.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kith/analysis/analysis.hpp"
+#include "kith/analysis/r_script.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+AnalysisOptions few_draws() {
+  AnalysisOptions options;
+  options.permutations = 199;
+  return options;
+}
+
+constexpr const char* kThreeGroups = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\nc,7\nc,8\nc,9\n";
+
+// F(2, 6) = 27 and partial eta squared 0.9 by hand; its interval in R: uniroot() on pf(27, 2, 6, ncp).
+TEST(ResultsParagraph, IsInTheMannerOfTheApa) {
+  const auto analysis = analyze_table(Dataset::parse(kThreeGroups, "t.csv"), {"y ~ g"}, few_draws());
+  EXPECT_EQ(analysis.findings.front().results,
+            "G: F(2, 6) = 27.00, p = .001, partial eta squared = .900, 90 % CI [.545, .930].");
+  EXPECT_EQ(results_paragraph(Finding{}, 0.05), "");
+}
+
+TEST(Latex, EscapesWhatLatexReads) {
+  Analysis analysis{"t.csv", {}};
+  analysis.findings.push_back({.id = "x",
+                               .title = "a_b & 50 %",
+                               .sentence = "p < 0.001",
+                               .tables = {{"A {table}", {{"pair", ResultKind::kText}, {"p"}}, {{"a - b", 0.5}}}}});
+  const auto text = latex_text(analysis, 0.05);
+  EXPECT_THAT(text, AllOf(HasSubstr("a\\_b \\& 50 \\%"), HasSubstr("p $<$ 0.001"), HasSubstr("A \\{table\\}"),
+                          HasSubstr("a - b & 0.500 \\\\"), HasSubstr("\\begin{tabular}{lr}")));
+}
+
+TEST(CsvTables, HaveAllDigitsAndTheFieldNamesOfDocuments) {
+  const auto analysis = analyze_table(Dataset::parse(kThreeGroups, "t.csv"), {"y ~ g"}, few_draws());
+  const auto files = csv_tables(analysis);
+  ASSERT_EQ(files.size(), analysis.findings.front().tables.size() + 1);
+  EXPECT_EQ(files.front().name, "y-1.csv");
+  EXPECT_THAT(files.front().text, AllOf(::testing::StartsWith("term,df,sum_of_squares,f,p_value,partial_eta_squared,"),
+                                        HasSubstr("\ng,2,54.")));
+  EXPECT_THAT(files.back().text, HasSubstr("y-1.csv,y,Analysis of variance (type II)"));
+}
+
+TEST(RProject, HasTheRowsThatWereAnalysedAndAScriptOfTheSameModel) {
+  const auto data = Dataset::parse("g;h h;y\na;p;1,5\na;q;2\nb;p;3\nb;q;4\nb;q;\na;p;7\n", "people.csv");
+  auto options = few_draws();
+  options.by = {"h h"};
+  const auto project = r_project(data, {"y ~ g*`h h`"}, options);
+  EXPECT_EQ(project.data, "y,g,h h\n1.5,a,p\n2,a,q\n3,b,p\n4,b,q\n7,a,p\n");
+  EXPECT_THAT(project.script,
+              AllOf(HasSubstr("model <- lm(y ~ g + `h h` + g:`h h`, data = data)"),
+                    HasSubstr("data$`h h` <- factor(data$`h h`, levels = c(\"p\", \"q\"))"),
+                    HasSubstr("car::Anova(model, type = 2)"), HasSubstr("by = \"h h\""), Not(HasSubstr("lmer("))));
+  EXPECT_THAT(project.codebook, HasSubstr("\"data.csv\""));
+}
+
+TEST(RProject, FitsTheSameRandomIntercepts) {
+  std::string text = "team,g,y\n";
+  for (int i = 0; i < 24; ++i)
+    text += std::to_string(i / 3) + (i / 3 % 2 == 0 ? ",a," : ",b,") + std::to_string(i * 5 % 7) + "\n";
+  const auto project = r_project(Dataset::parse(text, "t.csv"), {"y ~ g"}, few_draws());
+  EXPECT_THAT(project.script, AllOf(HasSubstr("library(lmerTest)"), HasSubstr("lmer(y ~ g + (1 | team), data = data)"),
+                                    HasSubstr("anova(model, type = 2)")));
+  EXPECT_THAT(project.data, ::testing::StartsWith("y,g,team\n0,a,0\n"));
+}
+
+}  // namespace
+}  // namespace kith

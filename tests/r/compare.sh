@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# compare.sh KITH SOURCE_DIR
+#
+# Analyses tables with kith, runs the R scripts that it writes, and compares every number that both have. Exit 77
+# (skipped) where R or one of its packages is missing.
+set -euo pipefail
+kith=$1
+here=$2/tests/r
+
+if ! command -v Rscript >/dev/null; then
+  echo "skipped: there is no Rscript"
+  exit 77
+fi
+for package in car emmeans lme4 lmerTest MASS survival; do
+  if ! Rscript -e "quit(status = !requireNamespace('$package', quietly = TRUE))" >/dev/null 2>&1; then
+    echo "skipped: R has no package $package"
+    exit 77
+  fi
+done
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+"$kith" study paper -o run --quiet --set replicates=4
+# An unbalanced table: some teams are left out.
+awk -F, 'NR == 1 || NR % 7 != 0' run/tables/teams.csv >unbalanced.csv
+
+failed=0
+# compare NAME ARGS: the analysis `kith analyze ARGS` in kith and in R.
+compare() {
+  local name=$1
+  shift
+  "$kith" analyze "$@" --brief --csv "$name/kith" --r "$name/r" >/dev/null
+  if ! (cd "$name/r" && Rscript --vanilla analysis.R >output.txt 2>&1); then
+    echo "$name: the script fails"
+    tail -n 20 "$name/r/output.txt"
+    failed=1
+    return
+  fi
+  if ! Rscript --vanilla "$here/compare.R" "$name/kith" "$name/r/r-results"; then
+    echo "$name: R and kith differ"
+    failed=1
+  fi
+}
+
+compare balanced run --model 'knowledge ~ strategy*composition' --where 'strategy!=baseline' --by composition \
+  --contrast 'team beliefs: joint + common - individual-low - individual-high' --contrast 'joint - common'
+compare unbalanced unbalanced.csv --model 'knowledge ~ strategy + composition' --where 'strategy!=baseline'
+compare single unbalanced.csv --model 'knowledge ~ composition'
+compare members run --table learners --model 'p_bec ~ strategy*type' --where 'strategy!=baseline'
+compare periods run --table progress --model 'p_bec ~ type' --where 'strategy!=baseline'
+compare counts run --model 'periods ~ strategy + composition' --where 'strategy!=baseline' --observed completed
+exit $failed
