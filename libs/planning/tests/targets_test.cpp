@@ -195,7 +195,7 @@ TEST(TargetsFile, ReadsStandardErrorsAndWhatTheyAreComputedFrom) {
 }
 
 TEST(TargetsFile, ReadsPublishedFs) {
-  const auto paper = [](const auto& overrides) { return load_study("paper", overrides); };
+  const auto paper = [](const auto& overrides) { return load_study("paper", {overrides}); };
   const std::string text =
       "schema = \"kith.targets/1\"\n[[target]]\nstatistic = \"F\"\neffect = \"periods: composition\"\n"
       "value = 4.67\ndf = [3, 224]\n";
