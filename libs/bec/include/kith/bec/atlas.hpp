@@ -109,6 +109,7 @@ class Atlas {
   [[nodiscard]] const PolicyCells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::size_t num_hulls() const noexcept { return hulls_.size(); }
   [[nodiscard]] HullIndex hull(DemoIndex demo) const { return demos_[demo.value()].hull; }
+  [[nodiscard]] const Hull& hull(HullIndex h) const { return hulls_[h.value()]; }
   /// Vertices of the coverage set of every start state: in all and at most.
   struct Coverage {
     std::size_t vertices = 0;

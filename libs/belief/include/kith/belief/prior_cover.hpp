@@ -26,6 +26,12 @@ class PriorCover {
   [[nodiscard]] std::size_t dimension() const noexcept { return prior_.dimension(); }
   /// Coordinates of the points, axis by axis, shape [d, size()].
   [[nodiscard]] const std::vector<double>& points() const noexcept { return points_; }
+  /// Shape [d], of length 1. @pre i < size().
+  [[nodiscard]] Direction point(std::size_t i) const {
+    Direction point(static_cast<Eigen::Index>(dimension()));
+    for (std::size_t k = 0; k < dimension(); ++k) point[static_cast<Eigen::Index>(k)] = points_[k * size() + i];
+    return point;
+  }
   /// Unit normals of the prior's facets.
   [[nodiscard]] const std::vector<Direction>& normals() const noexcept { return normals_; }
 

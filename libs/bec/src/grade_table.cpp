@@ -1,0 +1,92 @@
+#include "kith/bec/grade_table.hpp"
+
+#include <algorithm>
+
+#include "kith/core/error.hpp"
+
+namespace kith {
+namespace {
+
+// raw weights . loss, in the units of the domain file.
+double raw_loss(const Domain& domain, const IntegerVector& loss) {
+  return dot(loss, domain.weights().raw) / static_cast<double>(domain.count_scale());
+}
+
+}  // namespace
+
+GradeTable::GradeTable(const Atlas& atlas)
+    : num_components_{atlas.knowledge_components().size()}, num_hulls_{atlas.num_hulls()} {
+  if (!atlas.is_tabulated()) throw Error{ErrorKind::kInfeasible, "grades of policy cells need tabulated behaviours"};
+  grade_starts(atlas);
+  grade_tests(atlas);
+}
+
+void GradeTable::grade_starts(const Atlas& atlas) {
+  const auto& domain = atlas.domain();
+  // How many starts of each component, and of all, are the same question.
+  const std::size_t columns = num_components_ + 1;
+  std::vector<double> counts(num_hulls_ * columns, 0.0);
+  std::vector<double> totals(columns, 0.0);
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    if (!atlas.is_candidate(demo)) continue;
+    for (std::size_t k = 0; k < columns; ++k) {
+      if (k < num_components_ && !atlas.knowledge_components()[k].uses_mdp[atlas.id(demo).mdp.value()]) continue;
+      counts[atlas.hull(demo).value() * columns + k] += 1.0;
+      totals[k] += 1.0;
+    }
+  }
+  const std::size_t num_cells = atlas.cells().size();
+  right_.assign(num_cells * num_hulls_, 0);
+  grades_.assign(num_cells * columns, {});
+  for (std::size_t h = 0; h < num_hulls_; ++h) {
+    const auto& losses = atlas.hull(HullIndex{h}).losses;
+    std::vector<double> regrets;
+    for (const auto& loss : losses) regrets.push_back(raw_loss(domain, loss));
+    const double worst = regrets.empty() ? 0.0 : *std::max_element(regrets.begin(), regrets.end());
+    for (std::size_t cell = 0; cell < num_cells; ++cell) {
+      const auto choice = atlas.cells().choice(PolicyCellIndex{cell}, HullIndex{h});
+      const bool is_right = choice != PolicyCells::kNone && sign_of_dot(domain.weights().integer, losses[choice]) == 0;
+      const double regret = is_right ? 0.0 : choice == PolicyCells::kNone ? worst : regrets[choice];
+      right_[cell * num_hulls_ + h] = is_right ? 1 : 0;
+      for (std::size_t k = 0; k < columns; ++k) {
+        auto& grade = grades_[cell * columns + k];
+        grade.share_right += is_right ? counts[h * columns + k] : 0.0;
+        grade.regret += regret * counts[h * columns + k];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < grades_.size(); ++i) {
+    const double total = std::max(totals[i % columns], 1.0);
+    grades_[i].share_right /= total;
+    grades_[i].regret /= total;
+  }
+}
+
+void GradeTable::grade_tests(const Atlas& atlas) {
+  tests_.resize(num_components_);
+  tests_right_.assign(atlas.cells().size() * num_components_, 0.0);
+  for (std::size_t k = 0; k < num_components_; ++k) {
+    const auto& component = atlas.knowledge_components()[k];
+    std::vector<double> weights(num_hulls_, 0.0);
+    double num_facets = 0.0;  // that something tests
+    for (const auto facet : component.constraints.members()) {
+      std::vector<HullIndex> hulls;
+      for (const auto demo : atlas.tests_for(facet)) {
+        if (component.uses_mdp[atlas.id(demo).mdp.value()]) hulls.push_back(atlas.hull(demo));
+      }
+      if (hulls.empty()) continue;
+      num_facets += 1.0;
+      for (const auto hull : hulls) weights[hull.value()] += 1.0 / static_cast<double>(hulls.size());
+    }
+    for (std::size_t h = 0; h < num_hulls_; ++h) {
+      if (weights[h] > 0.0) tests_[k].push_back({HullIndex{h}, weights[h] / num_facets});
+    }
+    for (std::size_t cell = 0; cell < atlas.cells().size(); ++cell) {
+      for (const auto& test : tests_[k]) {
+        if (is_right(PolicyCellIndex{cell}, test.hull)) tests_right_[cell * num_components_ + k] += test.weight;
+      }
+    }
+  }
+}
+
+}  // namespace kith
