@@ -19,4 +19,10 @@ const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points
   return known != covers_.end() ? *known : covers_.emplace_back(prior, num_points);
 }
 
+const std::shared_ptr<const Exam>& TeachingCache::shared_exam() {
+  constexpr std::size_t kPriorPoints = 1000;  // to find out how difficult starts are
+  if (!exam_) exam_ = std::make_shared<const Exam>(behaviours(), cover(atlas_->prior_cone(), kPriorPoints));
+  return exam_;
+}
+
 }  // namespace kith

@@ -9,6 +9,7 @@
 #include "kith/bec/behaviours.hpp"
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
+#include "kith/teaching/exam.hpp"
 
 namespace kith {
 
@@ -50,6 +51,11 @@ class TeachingCache {
   /// The cover of `prior` by `num_points` points. The reference stays valid as long as this object.
   const PriorCover& cover(const Cone& prior, std::size_t num_points);
 
+  /// The exam of the domain, made when first asked for. The reference stays valid as long as this object.
+  const Exam& exam() { return *shared_exam(); }
+  /// The same, for those that outlive this object.
+  const std::shared_ptr<const Exam>& shared_exam();
+
  private:
   struct Known {
     Known(const Atlas& atlas, std::size_t max_bytes)
@@ -60,6 +66,7 @@ class TeachingCache {
   std::shared_ptr<const Atlas> atlas_;
   std::size_t max_bytes_;
   std::unique_ptr<Known> known_;
+  std::shared_ptr<const Exam> exam_;
   std::list<PriorCover> covers_;  // few: one per prior and filter size of a study
 };
 
