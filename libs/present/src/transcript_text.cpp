@@ -99,6 +99,7 @@ class TranscriptWriter {
   }
 
   [[nodiscard]] std::string name_of_source(const SourceBelief& source) const {
+    if (source.is_everybody()) return "the beliefs about all members";
     if (!source.is_member()) {
       const auto* rule = find_aggregation_rule(source.rule);
       return "the " + source.rule + " belief" + (rule != nullptr ? ": " + std::string{rule->description} : "");

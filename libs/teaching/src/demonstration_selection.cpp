@@ -73,7 +73,7 @@ class Selection {
     conveyed_ = cache_.behaviours().conveyed_by_class(component_, cells);
     auto prospects = prospects_with_gain(taught_region);
     // Fewest new facets first, then the best gain; classes whose members were all visited do not count.
-    std::erase_if(prospects, [&](const Prospect& p) { return !has_unvisited(p.demo_class); });
+    std::erase_if(prospects, [&](const Prospect& p) { return !has_unvisited(atlas_, p.demo_class, visited_); });
     if (prospects.empty()) return std::nullopt;
     const auto fewest = std::min_element(prospects.begin(), prospects.end(), [](const Prospect& a, const Prospect& b) {
                           return a.num_new < b.num_new;
@@ -99,40 +99,21 @@ class Selection {
     return prospects;
   }
 
-  [[nodiscard]] bool has_unvisited(DemoClassIndex c) const {
-    const auto members = atlas_.members(c);
-    return std::any_of(members.begin(), members.end(), [&](DemoIndex d) { return !visited_.contains(d); });
-  }
-
   Demonstration simplest(std::span<const Prospect> prospects, const std::vector<Demonstration>& unit,
                          const RandomStream& random) {
-    std::optional<VisualKey> best_key;
+    std::vector<DemoClassIndex> classes;
+    classes.reserve(prospects.size());
+    for (const auto& prospect : prospects) classes.push_back(prospect.demo_class);
     Demonstration best;
-    for (const auto& prospect : prospects) {
-      for (const auto demo : atlas_.members(prospect.demo_class)) {
-        if (visited_.contains(demo)) continue;
-        VisualKey key{atlas_.domain().complexity(atlas_.id(demo)), 0, 0};
-        if (best_key && key.complexity > best_key->complexity) continue;
-        key.dissimilarity = dissimilarity(demo, unit);
-        if (best_key && key > *best_key) continue;
-        // Hashing is the costly part: only when everything else is equal.
-        key.chance = chance_of(demo, random);
-        if (best_key && key >= *best_key) continue;
-        best_key = key;
-        best.demo = demo;
-        best.gain = prospect.gain;
-        best.num_new = prospect.num_new;
-      }
-    }
+    best.demo = simplest_of(atlas_, classes, visited_, unit, random);
+    const auto chosen = std::find_if(prospects.begin(), prospects.end(), [&](const Prospect& prospect) {
+      return prospect.demo_class == atlas_.demo_class(best.demo);
+    });
+    best.gain = chosen->gain;
+    best.num_new = chosen->num_new;
     best.half_spaces =
         cache_.constraints().half_spaces(cache_.regions().minimal(conveyed_.set(atlas_.demo_class(best.demo))));
     return best;
-  }
-
-  // To the last demonstration, or to its world if it opens the unit: what is typical comes first.
-  [[nodiscard]] int dissimilarity(DemoIndex demo, const std::vector<Demonstration>& unit) const {
-    if (unit.empty()) return atlas_.mean_dissimilarity(demo);
-    return atlas_.domain().dissimilarity(atlas_.id(demo), atlas_.id(unit.back().demo));
   }
 
   const Atlas& atlas_;
@@ -190,7 +171,8 @@ Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const Kn
   ConstraintSet taught = cache.numbers_of(taught_region);
   Selection selection{cache, component, visited};
   std::vector<std::size_t> particles;
-  for (std::uint64_t step = 0;; ++step) {
+  const std::size_t most = options.max_demonstrations;
+  for (std::uint64_t step = 0; most == 0 || step < most; ++step) {
     const auto here = random.split(step);
     particles.clear();
     const auto cells =

@@ -118,9 +118,17 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
   require(options_.counterfactuals >= 1, "counterfactuals must be at least 1");
   require(options_.max_periods >= 1, "max_periods must be at least 1");
   require(options_.consecutive_correct >= 1, "consecutive_correct must be at least 1");
+  require(options_.periods_per_component >= 1, "periods_per_component must be at least 1");
+  require(options_.min_periods >= 1, "min_periods must be at least 1");
+  require(options_.probability > 0.0 && options_.probability < 1.0, "probability must be between 0 and 1");
   require(options_.duplicate_sets >= 1, "duplicate_sets must be at least 1");
   taught_before_ = cache.constraints().half_spaces(cache.regions().minimal(atlas_->prior()));
   taught_with_unit_ = taught_before_;
+  make_bank(cache);
+  if (options_.scaffold == Scaffold::kNone && !components_.empty()) {
+    component_ = components_.size() - 1;
+    std::fill(components_.begin(), components_.end() - 1, ComponentStatus::kSkipped);
+  }
   for (const auto& person : persons_) tie_breaks_.push_back(person.address());
 }
 
@@ -150,10 +158,11 @@ struct Session::Prepared {
   std::vector<HalfSpace> taught_with_unit;
 };
 
-bool Session::propose(TeachingCache& cache) {
+bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) {
   if (finished()) return false;
   require_phase(SessionPhase::kProposal, "choosing a lesson");
   require(&cache.atlas() == atlas_.get(), "the cache is of another atlas");
+  require(truth.empty() || truth.size() == num_members(), "the truth is that of another team");
   std::vector<bool> present;
   for (const Seat seat : seats_) present.push_back(seat != Seat::kAway);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "no lesson can be chosen: everybody is away"};
@@ -164,7 +173,7 @@ bool Session::propose(TeachingCache& cache) {
   std::optional<Prepared> prepared;
   auto component = component_;
   for (; component < components_.size(); ++component) {
-    prepared = prepare(cache, component, others ? *others : belief_);
+    prepared = prepare(cache, component, others ? *others : belief_, truth);
     if (prepared) break;
   }
   events_.emplace_back(LessonProposed{});
@@ -192,8 +201,8 @@ const Lesson* Session::last_of_component(std::size_t component) const {
 }
 
 // The lesson of one component; nothing if there is nothing to teach.
-std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::size_t component,
-                                                  const TeamBelief& belief) const {
+std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::size_t component, const TeamBelief& belief,
+                                                  std::span<const MemberTruth> truth) const {
   const auto random = teacher_.split("lesson").split(periods()).split(component);
   const auto* last = last_of_component(component);
   Prepared next{{}, {}, visited_, taught_with_unit_};
@@ -206,12 +215,15 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
                           .visited = visited_,
                           .tie_breaks = tie_breaks_,
                           .period = periods() + 1,
-                          .component = component};
+                          .component = component,
+                          .bank = bank_ ? &*bank_ : nullptr,
+                          .truth = truth};
   UnitSelector select{cache,
                       view,
                       {.counterfactuals = options_.counterfactuals,
                        .sampling = options_.sampling,
-                       .likelihood = belief.options().likelihood}};
+                       .likelihood = belief.options().likelihood,
+                       .max_demonstrations = options_.max_demonstrations}};
   auto strategy = strategy_->clone();
   auto proposal = strategy->propose(view, select, random.split("demonstrations"));
   next.strategy = std::move(strategy);
@@ -266,6 +278,7 @@ void Session::show() {
   }
   make_room(events_);
   update_with(belief_, present, [&](TeamBelief& belief) { belief.observe_demonstrations(conveyed, lesson_.period); });
+  if (bank_) bank_->watch(lesson_, present);
   events_.emplace_back(LessonShown{});
   phase_ = SessionPhase::kTests;
 }
@@ -344,10 +357,11 @@ const Feedback& Session::close_tests() {
   }
   if (nobody(counts)) throw Error{ErrorKind::kUsage, "the tests cannot be closed: everybody is away"};
   for (const auto& test : lesson_.tests) add_new(feedback.half_spaces, test.covered);
-  feedback.component_learned = everybody && correct_in_a_row_ + 1 >= options_.consecutive_correct;
   make_room(events_);
   update_with(belief_, counts,
               [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
+  inform_bank(feedback, counts);
+  feedback.component_learned = is_enough(everybody);
   events_.emplace_back(TestsClosed{});
   feedback_ = std::move(feedback);
   correct_in_a_row_ = everybody ? correct_in_a_row_ + 1 : 0;
@@ -385,7 +399,7 @@ const Feedback& Session::give_feedback() {
 void Session::conclude_period(bool learned) {
   if (learned) {
     components_[component_] = ComponentStatus::kLearned;
-    taught_before_ = taught_with_unit_;
+    if (!options_.review) taught_before_ = taught_with_unit_;
     correct_in_a_row_ = 0;
     ++component_;
   }
@@ -470,7 +484,8 @@ bool operator==(const Session& a, const Session& b) {
          a.correct_in_a_row_ == b.correct_in_a_row_ && a.components_ == b.components_ && a.seats_ == b.seats_ &&
          a.visited_ == b.visited_ && a.taught_before_ == b.taught_before_ &&
          a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ && a.pending_ == b.pending_ &&
-         a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ && a.belief_ == b.belief_;
+         a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ && a.belief_ == b.belief_ &&
+         a.bank_ == b.bank_;
 }
 
 }  // namespace kith

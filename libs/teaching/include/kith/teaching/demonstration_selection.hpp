@@ -19,6 +19,7 @@ struct SelectionOptions {
   std::size_t counterfactuals = 8;  ///< N >= 1 beliefs per selection.
   CounterfactualSampling sampling = CounterfactualSampling::kSystematic;
   HalfSpaceLikelihood likelihood{0.8};  ///< How the copy of the belief learns from the unit's demonstrations.
+  std::size_t max_demonstrations = 0;   ///< Per unit; 0: as many as have gain.
 };
 
 /// The policy cells of N beliefs drawn from `belief`; ascending, each once.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
@@ -11,13 +12,19 @@ namespace kith {
 
 /// The belief that a lesson was chosen for.
 struct SourceBelief {
-  std::string rule;        ///< Name of the rule of aggregation, such as "common"; empty: a member's belief.
+  /// Name of the rule of aggregation, such as "common"; "everybody": the beliefs about all members; empty: a member's
+  /// belief.
+  std::string rule;
   std::size_t member = 0;  ///< Seat, if it is a member's belief.
 
   [[nodiscard]] static SourceBelief of_member(std::size_t seat) { return {{}, seat}; }
   [[nodiscard]] static SourceBelief of_team(std::string_view rule) { return {std::string{rule}, 0}; }
+  [[nodiscard]] static SourceBelief of_everybody() { return {std::string{kEverybody}, 0}; }
+  [[nodiscard]] bool is_everybody() const noexcept { return rule == kEverybody; }
   [[nodiscard]] bool is_member() const noexcept { return rule.empty(); }
   friend bool operator==(const SourceBelief&, const SourceBelief&) = default;
+
+  static constexpr std::string_view kEverybody = "everybody";
 };
 
 /// A trajectory of the robot that is shown, and what it conveys.

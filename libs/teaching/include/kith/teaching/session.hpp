@@ -13,26 +13,10 @@
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/session_event.hpp"
 #include "kith/teaching/strategy.hpp"
+#include "kith/teaching/teaching_options.hpp"
+#include "kith/teaching/team_bank.hpp"
 
 namespace kith {
-
-/// How a group is taught; every field is a key of the study file.
-struct TeachingOptions {
-  FilterOptions filter{};           ///< particles, eta, resampling threshold of the teacher's beliefs
-  std::size_t counterfactuals = 8;  ///< N
-  CounterfactualSampling sampling = CounterfactualSampling::kSystematic;
-  double assumed_ability = 0.80;  ///< the beta that the teacher ascribes to everybody; 1 is taken as 1 - 1e-9
-  LikelihoodForm likelihood = LikelihoodForm::kDiscontinuous;
-  double response_noise = 0.05;  ///< nu, radians
-  bool reduce_before_update = false;
-  std::size_t max_periods = 50;         ///< >= 1
-  std::size_t consecutive_correct = 1;  ///< periods in a row that everybody must answer all right, >= 1
-  std::size_t duplicate_sets = 1;       ///< test sets per period, >= 1
-  /// The rules of aggregation that there are: their beliefs are kept where the strategy reads them.
-  std::vector<AggregationRule> rules{aggregation_rules().begin(), aggregation_rules().end()};
-  bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
-  bool keep_rules = false;    ///< the same for the beliefs of all rules
-};
 
 /// How a session stands or ended.
 enum class SessionStatus { kRunning, kComplete, kMaxPeriods };
@@ -68,8 +52,8 @@ enum class ComponentStatus { kOpen, kLearned, kSkipped };
 /// keeps the atlas alive if the cache does.
 ///
 /// Each knowledge component is taught until all members present answer all tests of a
-/// period correctly; a component for which no demonstration has gain at the outset is
-/// skipped; an unlearned one is never left before max_periods. Seats do not
+/// period correctly, or as TeachingOptions::mastery says; a component for which no demonstration has gain at the
+/// outset is skipped; another one is never left early before max_periods. Seats do not
 /// matter: members are told apart by their streams only.
 ///
 /// What an answer tells the teacher. A wrong one: the half-space of weights under which its path is better than the
@@ -104,8 +88,10 @@ class Session {
   // --- events ---------------------------------------------------------------
   /// Chooses the next lesson of the current component, or of the first later one that has anything to teach.
   /// @param cache  of the same atlas; makes it faster and changes no result.
+  /// @param truth  the members as they are, which only simulations know, for strategies that ask for it; may be empty.
+  /// A session that was proposed to with a truth is repeated by apply() only if the strategy does not ask for it.
   /// @return false: nothing is left to teach; the session is finished. Also if it was finished before.
-  bool propose(TeachingCache& cache);
+  bool propose(TeachingCache& cache, std::span<const MemberTruth> truth = {});
   void show();
   /// @throws kith::Error (kInvalidInput) unless there is one answer per test, the member takes part and has not
   /// answered yet, and no answer earns more than the robot's optimal behaviour, which no path can.
@@ -138,6 +124,11 @@ class Session {
   [[nodiscard]] bool has_answered(std::size_t member) const { return pending_.at(member).has_value(); }
   /// What the teacher believes about the team.
   [[nodiscard]] const TeamBelief& belief() const noexcept { return belief_; }
+  /// Who the members may be, if the options, the strategy or the stopping rule ask for it; null otherwise.
+  [[nodiscard]] const TeamBank* bank() const noexcept { return bank_ ? &*bank_ : nullptr; }
+  /// MasteryRule::kPosterior: the probability that all members answer a random test of the last component right, when
+  /// its tests were closed last; 0 before.
+  [[nodiscard]] double probability_of_mastery() const noexcept { return mastery_; }
   /// R_n at the end of the last learned component: minimal, with the prior; sorted.
   [[nodiscard]] const std::vector<HalfSpace>& taught_region() const noexcept { return taught_before_; }
 
@@ -157,10 +148,13 @@ class Session {
   void require_seat(std::size_t member) const;
   [[nodiscard]] Given judged(std::size_t member, std::vector<Answer> answers) const;
   [[nodiscard]] Verdict judge(const Test& test, const Answer& answer) const;
-  [[nodiscard]] std::optional<Prepared> prepare(TeachingCache& cache, std::size_t component,
-                                                const TeamBelief& belief) const;
+  [[nodiscard]] std::optional<Prepared> prepare(TeachingCache& cache, std::size_t component, const TeamBelief& belief,
+                                                std::span<const MemberTruth> truth) const;
   void describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) const;
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
+  void make_bank(TeachingCache& cache);
+  void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
+  [[nodiscard]] bool is_enough(bool everybody_right) const;
   void conclude_period(bool learned);
 
   std::shared_ptr<const Atlas> atlas_;
@@ -171,6 +165,9 @@ class Session {
   std::vector<std::uint64_t> tie_breaks_;
   RandomStream teacher_;
   TeamBelief belief_;
+  std::optional<TeamBank> bank_;
+  std::shared_ptr<const Exam> exam_;  // what MasteryRule::kPosterior judges by
+  double mastery_ = 0.0;
 
   SessionStatus status_ = SessionStatus::kRunning;
   SessionPhase phase_ = SessionPhase::kProposal;

@@ -10,11 +10,13 @@
 #include "kith/belief/team_belief.hpp"
 #include "kith/core/baseline.hpp"
 #include "kith/core/parameter.hpp"
+#include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
 #include "kith/teaching/visited_demos.hpp"
 
 namespace kith {
 
+class TeamBank;
 class UnitSelector;
 struct TeachingOptions;
 
@@ -24,6 +26,13 @@ struct PastPeriod {
   std::vector<std::vector<Answer>> answers;  ///< Per member, per test; empty for a member who was away.
   Feedback feedback;
   friend bool operator==(const PastPeriod&, const PastPeriod&) = default;
+};
+
+/// A member as they are, which only simulations know: the bound of what knowing people can be worth.
+struct MemberTruth {
+  const ParticleBelief* belief = nullptr;  ///< The person's own; null if the learner model has none.
+  double shown_ability = 0.8;              ///< beta with which the person learns from demonstrations.
+  double feedback_ability = 0.8;           ///< The same from the feedback that follows, as expected.
 };
 
 /// What a strategy sees when it proposes a unit. It stays valid during the call only.
@@ -38,6 +47,8 @@ struct TeachingView {
   std::span<const std::uint64_t> tie_breaks;  ///< Per member, a hash of the address of the person's stream.
   std::size_t period = 1;                     ///< The coming one: 1, 2, ...
   std::size_t component = 0;                  ///< What is to be taught: index into Atlas::knowledge_components().
+  const TeamBank* bank = nullptr;             ///< If StrategyKind::needs asked for it.
+  std::span<const MemberTruth> truth{};       ///< Per member; empty unless they are simulated.
 };
 
 /// What a strategy proposes to show next.
@@ -71,6 +82,7 @@ class Strategy {
 struct TeamBeliefNeeds {
   bool members = false;
   std::vector<std::string> rules;  ///< Names of rules of aggregation.
+  bool bank = false;               ///< Whether it reads TeachingView::bank.
 };
 
 /// A kind of strategy: one row of the registry, one file.
@@ -80,6 +92,7 @@ struct StrategyKind {
   TeamBeliefNeeds (*needs)(const ParameterValues& parameters);
   std::unique_ptr<Strategy> (*make)(const ParameterValues& parameters);
   std::span<const Parameter> parameters{};  ///< Keys of its table in a study file.
+  bool needs_truth = false;  ///< Whether it reads TeachingView::truth, so that it can teach simulated people only.
 };
 
 /// The built-in kinds, in the order of the documentation. Functions that look a strategy up take a list of kinds, so

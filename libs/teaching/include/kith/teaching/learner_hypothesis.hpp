@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "kith/belief/particle_belief.hpp"
+
+namespace kith {
+
+/// What a person may be like; abilities are those with which the person learns, after any scaling.
+struct LearnerHypothesis {
+  double ability = 0.8;         ///< beta_0, at the start of every knowledge component, in [0.5, 1].
+  double confirm_gain = 0.02;   ///< Added after a period with all answers right, >= 0.
+  double correct_gain = 0.045;  ///< Added after a period with a wrong answer, >= 0.
+  double probability = 1.0;     ///< Before anything was observed, > 0; those of a bank need not sum to 1.
+  friend bool operator==(const LearnerHypothesis&, const LearnerHypothesis&) = default;
+};
+
+/// One person of average ability: (0.8, 0.02, 0.045).
+[[nodiscard]] std::vector<LearnerHypothesis> one_hypothesis();
+/// Abilities 0.62, 0.68, ..., 0.92, each with the gains (0.01, 0.03) and (0.03, 0.055), all equally probable.
+[[nodiscard]] std::vector<LearnerHypothesis> grid_of_hypotheses();
+
+/// What a member may be like, and what the member would then believe.
+struct MemberHypothesis {
+  double weight = 1.0;                     ///< Probability of the hypothesis, >= 0.
+  const ParticleBelief* belief = nullptr;  ///< Never null.
+  double shown_ability = 0.8;              ///< beta while watching demonstrations, in [0.5, 1].
+  double feedback_ability = 0.8;           ///< beta while hearing the feedback, in [0.5, 1].
+};
+
+}  // namespace kith

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kith/belief/aggregation.hpp"
+#include "kith/belief/likelihood.hpp"
+#include "kith/belief/particle_belief.hpp"
+#include "kith/teaching/demonstration_selection.hpp"
+#include "kith/teaching/learner_hypothesis.hpp"
+
+namespace kith {
+
+/// What the components are.
+enum class Scaffold {
+  kFeatures,  ///< Atlas::knowledge_components(), one after the other [jayaraman2024].
+  kNone,      ///< The last of them alone, which has all features; the others count as skipped.
+};
+
+/// What strategies that look ahead maximise; see UnitValue.
+enum class TeachingObjective {
+  kRight,        ///< The tests that the members are expected to answer right.
+  kRegret,       ///< Less regret on the component's starts.
+  kWorstMember,  ///< The tests that the member who is expected to do worst answers right.
+};
+
+/// When a component has been taught enough.
+enum class MasteryRule {
+  kAllRight,   ///< When everybody answered all tests right, `consecutive_correct` periods in a row [jayaraman2024].
+  kFixed,      ///< After `periods_per_component` periods, whatever the answers.
+  kPosterior,  ///< When the probability that all members answer a random test of the component right is at least
+               ///< `probability`; see TeamBank.
+};
+
+/// How a group is taught; every field is a key of the study file.
+struct TeachingOptions {
+  FilterOptions filter{};           ///< particles, eta, resampling threshold of the teacher's beliefs
+  std::size_t counterfactuals = 8;  ///< N
+  CounterfactualSampling sampling = CounterfactualSampling::kSystematic;
+  double assumed_ability = 0.80;  ///< the beta that the teacher ascribes to everybody; 1 is taken as 1 - 1e-9
+  LikelihoodForm likelihood = LikelihoodForm::kDiscontinuous;
+  double response_noise = 0.05;  ///< nu, radians
+  bool reduce_before_update = false;
+  /// Whether every component is taught as if nothing had been taught before it: the taught region starts from the
+  /// prior. Otherwise what the components before conveyed has no gain and is not shown again, understood or not.
+  bool review = false;
+  Scaffold scaffold = Scaffold::kFeatures;
+  std::size_t max_demonstrations = 0;  ///< per lesson; 0: as many as the strategy wants
+  TeachingObjective objective = TeachingObjective::kRight;
+
+  MasteryRule mastery = MasteryRule::kAllRight;
+  std::size_t max_periods = 50;           ///< >= 1
+  std::size_t consecutive_correct = 1;    ///< kAllRight: periods in a row that everybody must answer all right, >= 1
+  std::size_t periods_per_component = 3;  ///< kFixed: >= 1
+  double probability = 0.9;               ///< kPosterior: in (0, 1)
+  std::size_t min_periods = 1;            ///< kPosterior: periods of a component at least, >= 1
+  std::size_t duplicate_sets = 1;         ///< test sets per period, >= 1
+
+  /// The rules of aggregation that there are: their beliefs are kept where the strategy reads them.
+  std::vector<AggregationRule> rules{aggregation_rules().begin(), aggregation_rules().end()};
+  /// What members may be like, as the bank has it that strategies and stopping rules may ask for; see LearnerBank.
+  std::vector<LearnerHypothesis> hypotheses = grid_of_hypotheses();
+  bool keep_bank = false;     ///< the bank is kept even if nobody reads it
+  bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
+  bool keep_rules = false;    ///< the same for the beliefs of all rules
+};
+
+}  // namespace kith

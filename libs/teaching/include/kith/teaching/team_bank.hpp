@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kith/teaching/exam.hpp"
+#include "kith/teaching/learner_bank.hpp"
+
+namespace kith {
+
+/// A LearnerBank about every member of a team.
+class TeamBank {
+ public:
+  /// @param persons  one stream per member.
+  TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
+           const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons);
+
+  [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
+  [[nodiscard]] const LearnerBank& member(std::size_t i) const { return members_[i]; }
+  /// Whether the component of the coming lesson begins with it.
+  [[nodiscard]] bool begins(std::size_t component) const noexcept { return component != component_; }
+
+  /// The members present watched a lesson.
+  void watch(const Lesson& lesson, const std::vector<bool>& present);
+  /// The tests were closed; the feedback that follows is taken in, too.
+  /// @param answers  per member; empty for those who gave none.
+  void close_tests(const Atlas& atlas, const Lesson& lesson, std::span<const std::vector<Answer>> answers,
+                   const Feedback& feedback, const std::vector<bool>& present);
+
+  /// The expected probability that all members present answer a random test of the component right,
+  ///   E_t prod_i sum_h w_ih P_ih(right on t),
+  /// t spread evenly over the facets of the component (GradeTable::tests); where behaviours are not tabulated a facet
+  /// itself is the test, and answered right by the weights that satisfy it.
+  [[nodiscard]] double probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
+                                              const std::vector<bool>& present);
+
+  friend bool operator==(const TeamBank&, const TeamBank&) = default;
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<LearnerBank> members_;
+  std::size_t component_ = kNone;  // of the last lesson
+};
+
+}  // namespace kith

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <vector>
+
+#include "kith/teaching/strategy.hpp"
+#include "kith/teaching/team_bank.hpp"
+#include "planning_parameters.hpp"
+
+namespace kith::detail {
+namespace {
+
+constexpr std::string_view kAnswers = "answers";
+
+// As plan, for people of all the kinds that the bank holds possible, in proportion to what their answers say.
+//
+// Two beliefs about a member are mixed, because each lacks something: those of the bank know how well the member learns
+// but nothing of the answers; the teacher's knows the answers but assumes one ability.
+class PlanForWhoTheyAre : public Strategy {
+ public:
+  explicit PlanForWhoTheyAre(const ParameterValues& parameters)
+      : lookahead_{parameters}, answers_{parameters.real(kAnswers)} {}
+
+  [[nodiscard]] std::unique_ptr<Strategy> clone() const override { return std::make_unique<PlanForWhoTheyAre>(*this); }
+
+  [[nodiscard]] UnitProposal propose(const TeachingView& view, UnitSelector& select, RandomStream random) override {
+    return {SourceBelief::of_everybody(), lookahead_.best_unit(select.cache(), view, members(view), random)};
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::vector<MemberHypothesis>> members(const TeachingView& view) const {
+    if (view.bank == nullptr) return lookahead_.believed(view);
+    std::vector<std::vector<MemberHypothesis>> members(view.bank->size());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (!view.belief.present()[i]) continue;
+      MemberHypothesis mean{answers_, &view.belief.member(i), 0.0, 0.0};
+      for (auto hypothesis : view.bank->member(i).as_members(view.bank->begins(view.component))) {
+        mean.shown_ability += hypothesis.weight * hypothesis.shown_ability;
+        mean.feedback_ability += hypothesis.weight * hypothesis.feedback_ability;
+        hypothesis.weight *= 1.0 - answers_;
+        members[i].push_back(hypothesis);
+      }
+      members[i].push_back(mean);
+    }
+    return members;
+  }
+
+  Lookahead lookahead_;
+  double answers_;
+};
+
+// Those of all strategies that look ahead, and one more.
+std::span<const Parameter> adaptive_parameters() {
+  static const auto parameters = [] {
+    std::vector<Parameter> all(Lookahead::parameters().begin(), Lookahead::parameters().end());
+    all.push_back({.name = kAnswers,
+                   .default_value = 0.5,
+                   .description = "weight of the teacher's belief about a member, which knows the answers, against "
+                                  "those of the hypotheses about the member"});
+    return all;
+  }();
+  return parameters;
+}
+
+}  // namespace
+
+StrategyKind adaptive_kind() {
+  return {"adaptive", "plan while finding out from their answers how well the members learn",
+          [](const ParameterValues&) { return TeamBeliefNeeds{.members = true, .rules = {}, .bank = true}; },
+          [](const ParameterValues& parameters) -> std::unique_ptr<Strategy> {
+            return std::make_unique<PlanForWhoTheyAre>(parameters);
+          },
+          adaptive_parameters()};
+}
+
+}  // namespace kith::detail

@@ -1,0 +1,219 @@
+#include "kith/teaching/learner_bank.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace kith {
+namespace {
+
+constexpr double kHighestAbility = 0.95;  // that gains lead to
+constexpr double kCertain = 1.0 - 1e-9;
+constexpr double kTrust = 0.99;
+constexpr double kSlip = 0.003;
+
+// Per policy cell: 0 if some test has no answer there, 2 if all answers are these, else 1.
+std::vector<char> fit_of_cells(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers) {
+  std::vector<char> fit(atlas.cells().size(), 2);
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const auto hull = atlas.hull(tests[t].demo);
+    const auto& losses = atlas.hull(hull).losses;
+    std::optional<IntegerVector> loss;
+    if (answers[t]) loss = atlas.feature_counts(tests[t].demo) - *answers[t];
+    for (std::size_t c = 0; c < fit.size(); ++c) {
+      const auto choice = atlas.cells().choice(PolicyCellIndex{c}, hull);
+      if (choice == PolicyCells::kNone) {
+        fit[c] = 0;
+      } else if (fit[c] == 2 && !(loss && losses[choice] == *loss)) {
+        fit[c] = 1;
+      }
+    }
+  }
+  return fit;
+}
+
+}  // namespace
+
+std::vector<LearnerHypothesis> one_hypothesis() { return {LearnerHypothesis{}}; }
+
+std::vector<LearnerHypothesis> grid_of_hypotheses() {
+  std::vector<LearnerHypothesis> grid;
+  for (const double ability : {0.62, 0.68, 0.74, 0.80, 0.86, 0.92}) {
+    grid.push_back({ability, 0.01, 0.03, 1.0});
+    grid.push_back({ability, 0.03, 0.055, 1.0});
+  }
+  return grid;
+}
+
+LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
+                         std::vector<LearnerHypothesis> hypotheses, RandomStream random)
+    : likelihood_{likelihood},
+      hypotheses_{std::move(hypotheses)},
+      random_{random},
+      beliefs_(hypotheses_.size(), ParticleBelief{cover, filter}),
+      located_(hypotheses_.size()) {
+  if (hypotheses_.empty()) throw std::invalid_argument{"LearnerBank: there is no hypothesis"};
+  double sum = 0.0;
+  for (const auto& one : hypotheses_) {
+    const bool is_good = one.ability >= 0.5 && one.ability <= 1.0 && one.confirm_gain >= 0.0 &&
+                         one.correct_gain >= 0.0 && one.probability > 0.0;
+    if (!is_good) throw std::invalid_argument{"LearnerBank: a hypothesis is out of range"};
+    sum += one.probability;
+  }
+  for (const auto& one : hypotheses_) {
+    weights_.push_back(one.probability / sum);
+    abilities_.push_back(one.ability);
+  }
+}
+
+void LearnerBank::begin_component() {
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) abilities_[h] = hypotheses_[h].ability;
+}
+
+void LearnerBank::observe(std::size_t h, std::span<const HalfSpace> half_spaces, RandomStream random) {
+  beliefs_[h].observe(half_spaces,
+                      HalfSpaceLikelihood{std::min(abilities_[h], kCertain), likelihood_, beliefs_[h].dimension()},
+                      random.split(h));
+}
+
+void LearnerBank::watch(std::span<const HalfSpace> half_spaces, std::size_t period) {
+  for (std::size_t h = 0; h < beliefs_.size(); ++h) observe(h, half_spaces, random_.split("watch").split(period));
+}
+
+std::span<const std::uint32_t> LearnerBank::cells_of(const Atlas& atlas, std::size_t h) {
+  auto& known = located_[h];
+  const auto& belief = beliefs_[h];
+  if (known.cells.empty() || known.num_resamplings != belief.num_resamplings()) {
+    known.num_resamplings = belief.num_resamplings();
+    known.cells.resize(belief.size());
+    const auto x = belief.x(), y = belief.y(), z = belief.z();
+    for (std::size_t i = 0; i < belief.size(); ++i) {
+      known.cells[i] = static_cast<std::uint32_t>(atlas.cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value());
+    }
+  }
+  return known.cells;
+}
+
+void LearnerBank::see_answers(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
+                              std::span<const Verdict> verdicts) {
+  if (hypotheses_.size() < 2 || tests.empty()) return;  // there is nothing to tell apart
+  std::vector<char> fit;
+  std::vector<HalfSpace> shown;
+  if (atlas.is_tabulated()) {
+    fit = fit_of_cells(atlas, tests, answers);
+  } else {
+    for (const auto& verdict : verdicts)
+      shown.insert(shown.end(), verdict.half_spaces.begin(), verdict.half_spaces.end());
+  }
+  double sum = 0.0;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    double exact = 0.0, any = 0.0;
+    if (atlas.is_tabulated()) {
+      const auto cells = cells_of(atlas, h);
+      const auto masses = beliefs_[h].weights();
+      for (std::size_t i = 0; i < masses.size(); ++i) {
+        any += fit[cells[i]] > 0 ? masses[i] : 0.0;
+        exact += fit[cells[i]] == 2 ? masses[i] : 0.0;
+      }
+    } else {
+      any = 1.0;
+      exact = beliefs_[h].mass_in(shown);
+    }
+    const double share = any > 0.0 ? exact / any : 1.0;
+    weights_[h] *= kTrust * share + kSlip;
+    sum += weights_[h];
+  }
+  for (double& weight : weights_) weight /= sum;
+}
+
+void LearnerBank::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) {
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    const auto& one = hypotheses_[h];
+    const double grown = abilities_[h] + (all_correct ? one.confirm_gain : one.correct_gain);
+    abilities_[h] = std::max(abilities_[h], std::min(grown, kHighestAbility));
+    observe(h, half_spaces, random_.split("feedback").split(period));
+  }
+}
+
+std::vector<MemberHypothesis> LearnerBank::as_members(bool begins) const {
+  std::vector<MemberHypothesis> members;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    const auto& one = hypotheses_[h];
+    const double now = begins ? one.ability : abilities_[h];
+    const double gain = (one.confirm_gain + one.correct_gain) / 2.0;
+    members.push_back({weights_[h], &beliefs_[h], now, std::max(now, std::min(now + gain, kHighestAbility))});
+  }
+  return members;
+}
+
+double LearnerBank::expected_ability() const {
+  double mean = 0.0;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) mean += weights_[h] * hypotheses_[h].ability;
+  return mean;
+}
+
+// The abilities of the bank with the ranges they stand for, ascending.
+std::vector<LearnerBank::AbilityBin> LearnerBank::ability_bins() const {
+  std::vector<AbilityBin> bins;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    const double ability = hypotheses_[h].ability;
+    const auto known = std::find_if(bins.begin(), bins.end(), [&](const auto& bin) { return bin.low == ability; });
+    if (known != bins.end()) {
+      known->probability += weights_[h];
+    } else {
+      bins.push_back({ability, ability, weights_[h]});
+    }
+  }
+  std::sort(bins.begin(), bins.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
+  std::vector<double> centres;
+  for (const auto& bin : bins) centres.push_back(bin.low);
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const double below = i > 0 ? (centres[i] - centres[i - 1]) / 2.0 : 0.0;
+    const double above = i + 1 < bins.size() ? (centres[i + 1] - centres[i]) / 2.0 : 0.0;
+    bins[i].low = centres[i] - (i > 0 ? below : above);
+    bins[i].high = centres[i] + (i + 1 < bins.size() ? above : below);
+  }
+  return bins;
+}
+
+double LearnerBank::ability_quantile(double q) const {
+  const auto bins = ability_bins();
+  double below = 0.0;
+  for (const auto& bin : bins) {
+    if (below + bin.probability >= q && bin.probability > 0.0) {
+      return bin.low + (bin.high - bin.low) * std::clamp((q - below) / bin.probability, 0.0, 1.0);
+    }
+    below += bin.probability;
+  }
+  return bins.back().high;
+}
+
+double LearnerBank::probability_of_ability(double at_least) const {
+  double sum = 0.0;
+  for (const auto& bin : ability_bins()) {
+    const double width = bin.high - bin.low;
+    const double share =
+        width > 0.0 ? std::clamp((bin.high - at_least) / width, 0.0, 1.0) : (bin.low >= at_least ? 1.0 : 0.0);
+    sum += bin.probability * share;
+  }
+  return sum;
+}
+
+std::vector<double> LearnerBank::cell_masses(const Atlas& atlas) {
+  std::vector<double> masses(atlas.cells().size(), 0.0);
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    const auto cells = cells_of(atlas, h);
+    const auto weights = beliefs_[h].weights();
+    for (std::size_t i = 0; i < weights.size(); ++i) masses[cells[i]] += weights_[h] * weights[i];
+  }
+  return masses;
+}
+
+double LearnerBank::mass_in(std::span<const HalfSpace> half_spaces) const {
+  double mass = 0.0;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) mass += weights_[h] * beliefs_[h].mass_in(half_spaces);
+  return mass;
+}
+
+}  // namespace kith

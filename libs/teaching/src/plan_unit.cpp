@@ -1,0 +1,206 @@
+#include "plan_unit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "kith/random/distributions.hpp"
+#include "visual_order.hpp"
+
+namespace kith {
+namespace {
+
+constexpr double kTie = 1e-12;  // values of U within this are equal
+
+// Demonstration classes that convey the same.
+struct Candidate {
+  ConstraintSet conveyed;
+  std::vector<DemoClassIndex> classes;
+};
+
+// Those of the component that convey anything; with members that were not met yet, if there are any such.
+std::vector<Candidate> candidates_of(TeachingCache& cache, const KnowledgeComponent& component,
+                                     std::span<const PolicyCellIndex> cells, const VisitedDemos& visited) {
+  const auto& atlas = cache.atlas();
+  const auto conveyed = cache.behaviours().conveyed_by_class(component, cells);
+  std::vector<Candidate> candidates;
+  const auto collect = [&](bool also_visited) {
+    std::unordered_map<ConstraintSet, std::size_t> by_row, by_minimal;  // most classes share theirs with others
+    for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
+      if (!atlas.belongs_to(c, component)) continue;
+      if (!also_visited && !has_unvisited(atlas, c, visited)) continue;
+      auto row = conveyed.set(c);
+      if (row.empty()) continue;
+      const auto [same, is_new] = by_row.try_emplace(std::move(row), 0);
+      if (is_new) {
+        const auto& minimal = cache.regions().minimal(same->first);
+        const auto place = by_minimal.try_emplace(minimal, candidates.size());
+        if (place.second) candidates.push_back({minimal, {}});
+        same->second = place.first->second;
+      }
+      candidates[same->second].classes.push_back(c);
+    }
+  };
+  collect(false);
+  if (candidates.empty()) collect(true);
+  return candidates;
+}
+
+// T: the minimal set of what was shown, without the prior's own.
+ConstraintSet taught_by(TeachingCache& cache, std::span<const ConstraintSet> shown) {
+  auto all = cache.atlas().prior();
+  for (const auto& conveyed : shown) all |= conveyed;
+  return cache.regions().minimal(all).without(cache.atlas().prior());
+}
+
+// The constraints of a set in the order in which people meet them.
+std::vector<ConstraintIndex> in_order(const ConstraintTable& constraints, const ConstraintSet& set) {
+  auto members = set.members();
+  std::sort(members.begin(), members.end(),
+            [&](ConstraintIndex a, ConstraintIndex b) { return constraints[a].normal() < constraints[b].normal(); });
+  return members;
+}
+
+// U of demonstrations that convey this, for people who take in the first `capacity` constraints of a lesson.
+double value_of_shown(TeachingCache& cache, UnitValue& value, std::span<const ConstraintSet> shown,
+                      std::size_t capacity) {
+  const auto taught = taught_by(cache, shown);
+  if (capacity == 0) return value.of(shown, taught);
+  std::vector<ConstraintSet> taken;
+  ConstraintSet all, missed;
+  for (const auto& conveyed : shown) {
+    auto& own = taken.emplace_back();
+    for (const auto c : in_order(cache.constraints(), conveyed)) {
+      if (!all.contains(c) && all.count() == capacity) {
+        missed.insert(c);
+      } else {
+        all.insert(c);
+        own.insert(c);
+      }
+    }
+  }
+  return value.of(taken, taught.without(missed));
+}
+
+// The first particle at which the cumulative weight exceeds q.
+std::size_t quantile(const ParticleBelief& belief, double q) {
+  const auto weights = belief.weights();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    sum += weights[i];
+    if (sum > q) return i;
+  }
+  return weights.size() - 1;
+}
+
+}  // namespace
+
+ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs, std::size_t n,
+                              RandomStream random) {
+  std::vector<Direction> drawn;
+  const auto& cover = cache.cover(cache.atlas().prior_cone(), beliefs.front()->size());
+  const auto positions = [&](RandomStream stream) {
+    const double offset = uniform01(stream);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < n; ++i) result.push_back((static_cast<double>(i) + offset) / static_cast<double>(n));
+    return result;
+  };
+  const auto at = [](double position, std::size_t size) {
+    return std::min(static_cast<std::size_t>(position * static_cast<double>(size)), size - 1);
+  };
+  for (const double position : positions(random.split("prior"))) {
+    drawn.push_back(cover.point(at(position, cover.size())));
+  }
+  for (const double position : positions(random.split("beliefs"))) {
+    const auto i = at(position, beliefs.size());
+    const double within = position * static_cast<double>(beliefs.size()) - static_cast<double>(i);
+    drawn.push_back(beliefs[i]->point(quantile(*beliefs[i], within)));
+  }
+  ImaginedPeople people;
+  for (const auto& weights : drawn) {
+    const auto cell = cache.behaviours().locate(weights);
+    if (std::find(people.cells.begin(), people.cells.end(), cell) != people.cells.end()) continue;
+    people.cells.push_back(cell);
+    people.weights.push_back(weights);
+  }
+  std::sort(people.cells.begin(), people.cells.end());
+  return people;
+}
+
+Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value, const ImaginedPeople& people,
+               const PlanOptions& options, RandomStream random) {
+  const auto& atlas = view.atlas;
+  const auto& component = atlas.knowledge_components()[view.component];
+  VisitedDemos visited = view.visited;
+  auto candidates = candidates_of(cache, component, people.cells, visited);
+  Unit unit;
+  auto region = cache.numbers_of(view.taught_region);
+  std::vector<ConstraintSet> shown;
+  double reached = 0.0;
+  for (std::uint64_t step = 0; step < options.max_demonstrations && !candidates.empty(); ++step) {
+    std::vector<double> values;
+    shown.emplace_back();
+    for (const auto& candidate : candidates) {
+      shown.back() = candidate.conveyed;
+      values.push_back(value_of_shown(cache, value, shown, options.capacity));
+    }
+    const double best = *std::max_element(values.begin(), values.end());
+    if (step > 0 && !(best > reached + options.min_gain)) break;
+    reached = best;
+    std::vector<DemoClassIndex> classes;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (values[i] < best - kTie) continue;
+      classes.insert(classes.end(), candidates[i].classes.begin(), candidates[i].classes.end());
+    }
+    std::sort(classes.begin(), classes.end());
+    const bool is_new =
+        std::any_of(classes.begin(), classes.end(), [&](auto c) { return has_unvisited(atlas, c, visited); });
+    const VisitedDemos nothing{atlas.num_demos()};
+    Demonstration next;
+    next.demo = simplest_of(atlas, classes, is_new ? visited : nothing, unit.demonstrations, random.split(step));
+    const auto chosen = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+      const auto c = atlas.demo_class(next.demo);
+      return std::find(candidate.classes.begin(), candidate.classes.end(), c) != candidate.classes.end();
+    });
+    shown.back() = chosen->conveyed;
+    const auto effect = cache.regions().effect(region, chosen->conveyed);
+    next.gain = effect.gain;
+    next.num_new = effect.num_new;
+    next.half_spaces = cache.constraints().half_spaces(chosen->conveyed);
+    next.counterfactuals = people.weights;
+    region = cache.regions().minimal(region | chosen->conveyed);
+    visited.insert(next.demo);
+    unit.demonstrations.push_back(std::move(next));
+  }
+  unit.taught_region = cache.constraints().half_spaces(region);
+  return unit;
+}
+
+Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const DemoIndex> demonstrations,
+             const ImaginedPeople& people) {
+  Unit unit;
+  auto region = cache.numbers_of(view.taught_region);
+  for (const auto demo : demonstrations) {
+    const auto conveyed = cache.regions().minimal(cache.behaviours().conveyed(demo, people.cells));
+    if (conveyed.empty()) continue;
+    const auto effect = cache.regions().effect(region, conveyed);
+    unit.demonstrations.push_back({.demo = demo,
+                                   .half_spaces = cache.constraints().half_spaces(conveyed),
+                                   .gain = effect.gain,
+                                   .num_new = effect.num_new,
+                                   .counterfactuals = people.weights});
+    region = cache.regions().minimal(region | conveyed);
+  }
+  unit.taught_region = cache.constraints().half_spaces(region);
+  return unit;
+}
+
+double value_of(TeachingCache& cache, UnitValue& value, const Unit& unit, std::size_t capacity) {
+  std::vector<ConstraintSet> shown;
+  for (const auto& demonstration : unit.demonstrations) shown.push_back(cache.numbers_of(demonstration.half_spaces));
+  return value_of_shown(cache, value, shown, capacity);
+}
+
+}  // namespace kith

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kith/teaching/demonstration_selection.hpp"
+#include "kith/teaching/unit_value.hpp"
+
+namespace kith {
+
+// Whom the candidates of a plan are imagined to be shown to.
+struct ImaginedPeople {
+  std::vector<PolicyCellIndex> cells;  // ascending, each once
+  std::vector<Direction> weights;      // one per cell, in the order of the draws
+};
+
+// `n` systematic draws from the prior and as many from the beliefs together, each belief weighing the same.
+// @param beliefs  in an order that does not depend on seats. Not empty.
+[[nodiscard]] ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
+                                            std::size_t n, RandomStream random);
+
+struct PlanOptions {
+  std::size_t max_demonstrations = 2;  // >= 1
+  double min_gain = 0.0;               // of U, for every demonstration but the first
+  std::size_t capacity = 0;            // different constraints of a lesson that members take in; 0: all
+};
+
+// Greedy: the demonstration of the component with the largest U beside those chosen before, again and again. What was
+// not met yet is preferred; among equals the simplest picture. Without demonstrations if none conveys anything.
+[[nodiscard]] Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
+                             const ImaginedPeople& people, const PlanOptions& options, RandomStream random);
+
+// The unit of these demonstrations, with what they convey to the imagined people; those that convey nothing are left
+// out.
+[[nodiscard]] Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const DemoIndex> demonstrations,
+                           const ImaginedPeople& people);
+
+// U of a unit that a strategy chose.
+[[nodiscard]] double value_of(TeachingCache& cache, UnitValue& value, const Unit& unit, std::size_t capacity = 0);
+
+}  // namespace kith

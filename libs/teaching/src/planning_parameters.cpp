@@ -1,0 +1,97 @@
+#include "planning_parameters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace kith {
+namespace {
+
+constexpr double kAbilityMax = 0.95;
+
+const std::array kParameters{
+    Parameter{.name = "people",
+              .default_value = std::int64_t{8},
+              .description = "people imagined from the prior to find out what a demonstration can convey, and as many "
+                             "from the beliefs about the members",
+              .min = 1,
+              .max = 1000},
+    Parameter{.name = "points",
+              .default_value = std::int64_t{250},
+              .description = "points drawn from the belief about each member to judge a unit by",
+              .min = 1,
+              .max = 100'000},
+    Parameter{.name = "expected_gain",
+              .default_value = 0.0325,
+              .description = "gain of ability by the time of the feedback that is expected of everybody",
+              .max = 0.5},
+    Parameter{.name = "demonstrations",
+              .default_value = std::int64_t{2},
+              .description = "demonstrations per lesson at most; teacher.max_demonstrations takes precedence",
+              .min = 1,
+              .max = 100},
+    Parameter{.name = "capacity",
+              .default_value = std::int64_t{0},
+              .description = "different constraints of a lesson that members are assumed to take in; 0: all",
+              .max = 1000},
+    Parameter{.name = "min_gain",
+              .default_value = 0.0,
+              .description = "a further demonstration is added to a lesson only if it raises the share of tests that "
+                             "members are expected to answer right by more than this"},
+};
+
+}  // namespace
+
+Lookahead::Lookahead(const ParameterValues& values)
+    : people{static_cast<std::size_t>(values.count("people"))},
+      points{static_cast<std::size_t>(values.count("points"))},
+      expected_gain{values.real("expected_gain")},
+      plan{.max_demonstrations = static_cast<std::size_t>(values.count("demonstrations")),
+           .min_gain = values.real("min_gain"),
+           .capacity = static_cast<std::size_t>(values.count("capacity"))} {}
+
+std::span<const Parameter> Lookahead::parameters() { return kParameters; }
+
+PlanOptions Lookahead::plan_for(const TeachingView& view) const {
+  auto options = plan;
+  if (view.options.max_demonstrations > 0) options.max_demonstrations = view.options.max_demonstrations;
+  return options;
+}
+
+std::vector<std::vector<MemberHypothesis>> Lookahead::believed(const TeachingView& view) const {
+  const double ability = view.options.assumed_ability;
+  const double after = std::max(ability, std::min(ability + expected_gain, kAbilityMax));
+  std::vector<std::vector<MemberHypothesis>> members(view.belief.num_members());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (view.belief.present()[i]) members[i].push_back({1.0, &view.belief.member(i), ability, after});
+  }
+  return members;
+}
+
+UnitValue Lookahead::value(TeachingCache& cache, const TeachingView& view,
+                           std::span<const std::vector<MemberHypothesis>> members, RandomStream random) const {
+  return UnitValue{cache,
+                   view.component,
+                   members,
+                   view.tie_breaks,
+                   {.objective = view.options.objective, .likelihood = view.options.likelihood, .points = points},
+                   random};
+}
+
+Unit Lookahead::best_unit(TeachingCache& cache, const TeachingView& view,
+                          std::span<const std::vector<MemberHypothesis>> members, RandomStream random) const {
+  auto units = value(cache, view, members, random.split("points"));
+  std::vector<std::size_t> order(members.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return view.tie_breaks[a] < view.tie_breaks[b]; });
+  std::vector<const ParticleBelief*> beliefs;  // of every member the likeliest
+  for (const auto i : order) {
+    const auto likeliest = std::max_element(members[i].begin(), members[i].end(),
+                                            [](const auto& a, const auto& b) { return a.weight < b.weight; });
+    if (likeliest != members[i].end()) beliefs.push_back(likeliest->belief);
+  }
+  const auto imagined = imagine_people(cache, beliefs, people, random.split("people"));
+  return plan_unit(cache, view, units, imagined, plan_for(view), random.split("looks"));
+}
+
+}  // namespace kith

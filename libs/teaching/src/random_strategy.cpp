@@ -1,0 +1,38 @@
+#include <utility>
+
+#include "curriculum_strategy.hpp"
+#include "visual_order.hpp"
+
+namespace kith::detail {
+namespace {
+
+class RandomDemonstrations : public CurriculumStrategy {
+ public:
+  using CurriculumStrategy::CurriculumStrategy;
+  [[nodiscard]] std::unique_ptr<Strategy> clone() const override {
+    return std::make_unique<RandomDemonstrations>(*this);
+  }
+
+ private:
+  [[nodiscard]] std::vector<DemoIndex> ranking(const TeachingView& view, RandomStream random) const override {
+    std::vector<std::pair<std::uint64_t, DemoIndex>> shuffled;
+    for (const auto demo : candidates(view)) shuffled.emplace_back(chance_of(demo, random), demo);
+    std::sort(shuffled.begin(), shuffled.end());
+    std::vector<DemoIndex> demos;
+    for (const auto& [key, demo] : shuffled) demos.push_back(demo);
+    return demos;
+  }
+};
+
+}  // namespace
+
+StrategyKind random_kind() {
+  return {"random", "show demonstrations at random",
+          [](const ParameterValues&) { return TeamBeliefNeeds{.members = true, .rules = {}}; },
+          [](const ParameterValues& parameters) -> std::unique_ptr<Strategy> {
+            return std::make_unique<RandomDemonstrations>(parameters);
+          },
+          curriculum_parameters()};
+}
+
+}  // namespace kith::detail

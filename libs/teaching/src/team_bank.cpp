@@ -1,0 +1,71 @@
+#include "kith/teaching/team_bank.hpp"
+
+#include <algorithm>
+
+namespace kith {
+
+TeamBank::TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
+                   const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons) {
+  for (const auto& person : persons) members_.emplace_back(cover, filter, likelihood, hypotheses, person.split("bank"));
+}
+
+void TeamBank::watch(const Lesson& lesson, const std::vector<bool>& present) {
+  std::vector<HalfSpace> conveyed;
+  for (const auto& shown : lesson.demonstrations) {
+    conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
+  }
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (begins(lesson.component)) members_[i].begin_component();
+    if (present[i]) members_[i].watch(conveyed, lesson.period);
+  }
+  component_ = lesson.component;
+}
+
+void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<const std::vector<Answer>> answers,
+                           const Feedback& feedback, const std::vector<bool>& present) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!answers[i].empty()) members_[i].see_answers(atlas, lesson.tests, answers[i], feedback.verdicts[i]);
+    if (present[i]) members_[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
+  }
+}
+
+double TeamBank::probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
+                                        const std::vector<bool>& present) {
+  double expected = 0.0;
+  if (atlas.is_tabulated()) {
+    const auto& table = exam.table();
+    std::vector<std::vector<double>> masses;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (present[i]) masses.push_back(members_[i].cell_masses(atlas));
+    }
+    for (const auto& test : table.tests(component)) {
+      std::vector<double> right;
+      for (const auto& mass : masses) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < mass.size(); ++c) {
+          if (table.is_right(PolicyCellIndex{c}, test.hull)) sum += mass[c];
+        }
+        right.push_back(sum);
+      }
+      std::sort(right.begin(), right.end());  // so that seats do not matter
+      double all = 1.0;
+      for (const double p : right) all *= p;
+      expected += test.weight * all;
+    }
+    return expected;
+  }
+  const auto facets = atlas.constraints().half_spaces(atlas.knowledge_components()[component].constraints);
+  for (const auto& facet : facets) {
+    std::vector<double> right;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (present[i]) right.push_back(members_[i].mass_in({&facet, 1}));
+    }
+    std::sort(right.begin(), right.end());
+    double all = 1.0;
+    for (const double p : right) all *= p;
+    expected += all / static_cast<double>(facets.size());
+  }
+  return expected;
+}
+
+}  // namespace kith

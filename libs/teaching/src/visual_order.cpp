@@ -1,0 +1,42 @@
+#include "visual_order.hpp"
+
+#include <optional>
+
+namespace kith {
+namespace {
+
+// To the last demonstration, or to its world if it opens the unit: what is typical comes first.
+int dissimilarity(const Atlas& atlas, DemoIndex demo, const std::vector<Demonstration>& unit) {
+  if (unit.empty()) return atlas.mean_dissimilarity(demo);
+  return atlas.domain().dissimilarity(atlas.id(demo), atlas.id(unit.back().demo));
+}
+
+}  // namespace
+
+bool has_unvisited(const Atlas& atlas, DemoClassIndex c, const VisitedDemos& visited) {
+  const auto members = atlas.members(c);
+  return std::any_of(members.begin(), members.end(), [&](DemoIndex d) { return !visited.contains(d); });
+}
+
+DemoIndex simplest_of(const Atlas& atlas, std::span<const DemoClassIndex> classes, const VisitedDemos& visited,
+                      const std::vector<Demonstration>& unit, const RandomStream& random) {
+  std::optional<VisualKey> best_key;
+  DemoIndex best;
+  for (const auto c : classes) {
+    for (const auto demo : atlas.members(c)) {
+      if (visited.contains(demo)) continue;
+      VisualKey key{atlas.domain().complexity(atlas.id(demo)), 0, 0};
+      if (best_key && key.complexity > best_key->complexity) continue;
+      key.dissimilarity = dissimilarity(atlas, demo, unit);
+      if (best_key && key > *best_key) continue;
+      // Hashing is the costly part: only when everything else is equal.
+      key.chance = chance_of(demo, random);
+      if (best_key && key >= *best_key) continue;
+      best_key = key;
+      best = demo;
+    }
+  }
+  return best;
+}
+
+}  // namespace kith

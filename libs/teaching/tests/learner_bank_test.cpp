@@ -1,0 +1,109 @@
+#include "kith/teaching/learner_bank.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "item_delivery.hpp"
+#include "kith/teaching/cache.hpp"
+
+namespace kith {
+namespace {
+
+using testing::item_delivery;
+
+class LearnerBankTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] LearnerBank bank(const std::vector<LearnerHypothesis>& hypotheses = grid_of_hypotheses()) {
+    const FilterOptions filter{.particles = 300};
+    return {cache_.cover(item_delivery().prior_cone(), filter.particles), filter, LikelihoodForm::kDiscontinuous,
+            hypotheses, RandomStream{2}};
+  }
+  // A lesson of the first component about all of it, with a test of each of its facets.
+  static std::vector<kith::Test> tests() {
+    std::vector<kith::Test> tests;
+    for (const auto facet : item_delivery().knowledge_components()[0].constraints.members()) {
+      const auto starts = item_delivery().tests_for(facet);
+      if (!starts.empty()) tests.push_back({.demo = starts.front(), .covered = {item_delivery().constraints()[facet]}});
+    }
+    return tests;
+  }
+  // After periods in which all answers were the robot's, or none.
+  [[nodiscard]] LearnerBank after(int periods, bool right) {
+    auto one = bank();
+    const auto asked = tests();
+    std::vector<Answer> answers;
+    for (const auto& test : asked) answers.emplace_back(item_delivery().feature_counts(test.demo));
+    if (!right) answers = wrong(asked);
+    const std::vector<Verdict> verdicts(asked.size());
+    const auto shown = item_delivery().constraints().half_spaces(item_delivery().knowledge_components()[0].constraints);
+    one.begin_component();
+    for (int period = 1; period <= periods; ++period) {
+      one.watch(shown, static_cast<std::size_t>(period));
+      one.see_answers(item_delivery(), asked, answers, verdicts);
+      one.hear_feedback(right, shown, static_cast<std::size_t>(period));
+    }
+    return one;
+  }
+  // What somebody answers who is wrong about some test.
+  [[nodiscard]] std::vector<Answer> wrong(std::span<const kith::Test> asked) {
+    const auto& cover = cache_.cover(item_delivery().prior_cone(), 300);
+    for (std::size_t i = 0; i < cover.size(); ++i) {
+      const auto cell = cache_.behaviours().locate(cover.point(i));
+      std::vector<Answer> answers;
+      for (const auto& test : asked) answers.push_back(item_delivery().answer(test.demo, cell));
+      bool is_wrong = false, has_answers = true;
+      for (std::size_t t = 0; t < asked.size(); ++t) {
+        has_answers = has_answers && answers[t].has_value();
+        is_wrong = is_wrong || (has_answers && *answers[t] != item_delivery().feature_counts(asked[t].demo));
+      }
+      if (has_answers && is_wrong) return answers;
+    }
+    throw std::logic_error{"nobody answers a test wrong"};
+  }
+
+  TeachingCache cache_{item_delivery()};
+};
+
+TEST_F(LearnerBankTest, BeginsWithThePriorOverHypotheses) {
+  auto hypotheses = grid_of_hypotheses();
+  hypotheses.front().probability = 12.0;
+  const auto one = bank(hypotheses);
+  EXPECT_NEAR(one.weights().front(), 12.0 / 23.0, 1e-12);
+  EXPECT_NEAR(bank().expected_ability(), 0.77, 1e-12);
+  EXPECT_NEAR(bank().ability_quantile(0.5), 0.77, 1e-9);
+  EXPECT_NEAR(bank().probability_of_ability(0.77), 0.5, 1e-9);
+}
+
+TEST_F(LearnerBankTest, TakesPeopleWhoAnswerRightForAbleOnes) {
+  const auto able = after(3, true);
+  const auto unable = after(3, false);
+  EXPECT_GT(able.expected_ability(), bank().expected_ability() + 0.01);
+  EXPECT_LT(unable.expected_ability(), bank().expected_ability());
+  EXPECT_LT(unable.expected_ability(), able.expected_ability() - 0.02);
+  EXPECT_NEAR(std::accumulate(able.weights().begin(), able.weights().end(), 0.0), 1.0, 1e-12);
+  EXPECT_LT(able.ability_quantile(0.1), able.ability_quantile(0.9));
+}
+
+TEST_F(LearnerBankTest, BelievesThatAblePeopleLearnMore) {
+  const auto one = after(2, true);
+  const auto region = item_delivery().constraints().half_spaces(item_delivery().knowledge_components()[0].constraints);
+  EXPECT_LT(one.belief(0).mass_in(region), one.belief(11).mass_in(region));
+  EXPECT_GT(one.mass_in(region), one.belief(0).mass_in(region));
+}
+
+TEST_F(LearnerBankTest, ForgetsGainsWhenAComponentBegins) {
+  auto one = after(3, false);
+  EXPECT_GT(one.as_members(false)[0].shown_ability, 0.7);
+  EXPECT_DOUBLE_EQ(one.as_members(true)[0].shown_ability, 0.62);
+}
+
+TEST_F(LearnerBankTest, RefusesImpossibleHypotheses) {
+  EXPECT_THROW(bank({}), std::invalid_argument);
+  EXPECT_THROW(bank({{.ability = 0.4}}), std::invalid_argument);
+  EXPECT_THROW(bank({{.probability = 0.0}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kith

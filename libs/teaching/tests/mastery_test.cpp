@@ -1,0 +1,105 @@
+// How long a component is taught, and what it may show.
+#include <gtest/gtest.h>
+
+#include "item_delivery.hpp"
+#include "kith/teaching/session.hpp"
+
+namespace kith {
+namespace {
+
+using testing::item_delivery;
+
+std::vector<RandomStream> two_people() { return {RandomStream{7}.split("anna"), RandomStream{7}.split("ben")}; }
+
+Session session_of_two(TeachingCache& cache, std::string_view strategy, const TeachingOptions& options) {
+  return {cache, options, strategy_named(strategy), two_people(), RandomStream{7}.split("teacher")};
+}
+
+// Everybody answers as the robot would; or nobody answers.
+std::vector<std::vector<Answer>> answers_to(const Session& session, bool right) {
+  std::vector<Answer> answers;
+  for (const auto& test : session.lesson().tests) {
+    answers.push_back(right ? Answer{item_delivery().feature_counts(test.demo)} : Answer{});
+  }
+  return std::vector(session.num_members(), answers);
+}
+
+TEST(Mastery, FixedTeachesEveryComponentEquallyLong) {
+  TeachingCache cache{item_delivery()};
+  for (const bool right : {true, false}) {
+    auto session = session_of_two(cache, "plan", {.mastery = MasteryRule::kFixed, .periods_per_component = 2});
+    while (session.propose(cache)) session.submit(answers_to(session, right));
+    EXPECT_EQ(session.status(), SessionStatus::kComplete);
+    ASSERT_EQ(session.periods(), 6u);
+    for (std::size_t p = 0; p < 6; ++p) EXPECT_EQ(session.history()[p].lesson.component, p / 2);
+  }
+}
+
+TEST(Mastery, PosteriorStopsOnceItIsSureEnough) {
+  TeachingCache cache{item_delivery()};
+  auto periods_for = [&](double probability) {
+    auto session = session_of_two(cache, "plan", {.mastery = MasteryRule::kPosterior, .probability = probability});
+    while (session.propose(cache)) {
+      session.submit(answers_to(session, true));
+      EXPECT_GE(session.probability_of_mastery(), 0.0);
+      EXPECT_LE(session.probability_of_mastery(), 1.0);
+      EXPECT_EQ(session.history().back().feedback.component_learned, session.probability_of_mastery() >= probability);
+    }
+    return session.periods();
+  };
+  EXPECT_LT(periods_for(0.6), periods_for(0.95));
+}
+
+TEST(Mastery, MinPeriodsHoldsBackThePosterior) {
+  TeachingCache cache{item_delivery()};
+  auto session =
+      session_of_two(cache, "joint", {.mastery = MasteryRule::kPosterior, .probability = 0.01, .min_periods = 2});
+  while (session.propose(cache)) session.submit(answers_to(session, true));
+  EXPECT_EQ(session.periods(), 6u);
+}
+
+TEST(Scaffold, NoneTeachesTheLastComponentAlone) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of_two(cache, "joint", {.scaffold = Scaffold::kNone});
+  ASSERT_TRUE(session.propose(cache));
+  EXPECT_EQ(session.lesson().component, 2u);
+  EXPECT_EQ(session.components()[0], ComponentStatus::kSkipped);
+  EXPECT_EQ(session.components()[1], ComponentStatus::kSkipped);
+  session.submit(answers_to(session, true));
+  EXPECT_FALSE(session.propose(cache));
+  EXPECT_EQ(session.status(), SessionStatus::kComplete);
+}
+
+TEST(Review, StartsEveryComponentFromThePrior) {
+  TeachingCache cache{item_delivery()};
+  const auto taught_after_two = [&](bool review) {
+    auto session = session_of_two(cache, "joint", {.review = review});
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_TRUE(session.propose(cache));
+      session.submit(answers_to(session, true));
+    }
+    return session.taught_region();
+  };
+  EXPECT_EQ(taught_after_two(true), item_delivery().prior_cone().minimal_set());
+  EXPECT_NE(taught_after_two(false), item_delivery().prior_cone().minimal_set());
+}
+
+TEST(MaxDemonstrations, LimitsEveryLesson) {
+  TeachingCache cache{item_delivery()};
+  for (const auto* strategy : {"joint", "plan", "pick"}) {
+    auto session = session_of_two(cache, strategy, {.max_demonstrations = 1});
+    while (session.propose(cache)) {
+      EXPECT_EQ(session.lesson().demonstrations.size(), 1u) << strategy;
+      session.submit(answers_to(session, true));
+    }
+  }
+}
+
+TEST(Session, RefusesTheTruthAboutAnotherTeam) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of_two(cache, "oracle", {});
+  EXPECT_THROW(session.propose(cache, std::vector<MemberTruth>(3)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kith
