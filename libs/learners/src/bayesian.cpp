@@ -78,17 +78,48 @@ void BayesianLearner::observe(std::span<const HalfSpace> half_spaces, RandomStre
   belief_.observe(half_spaces, HalfSpaceLikelihood{scaled, form_, belief_.dimension()}, random);
 }
 
+// The half-spaces without those that are too many for the period.
+std::vector<HalfSpace> BayesianLearner::taken_in(std::span<const HalfSpace> half_spaces, std::size_t period) {
+  std::vector<HalfSpace> result;
+  for (const auto& half_space : half_spaces) {
+    auto known = std::find_if(met_.begin(), met_.end(), [&](const auto& before) { return before.first == half_space; });
+    if (known == met_.end()) {
+      auto random = random_.split("capacity").split(period).split(met_.size());
+      const bool is_within = met_.size() < person_.capacity || uniform01(random) < person_.beyond_capacity;
+      known = met_.insert(met_.end(), {half_space, is_within});
+    }
+    if (known->second) result.push_back(half_space);
+  }
+  return result;
+}
+
+void BayesianLearner::learn(std::span<const HalfSpace> half_spaces, std::size_t period, RandomStream random) {
+  if (person_.capacity == 0) return observe(half_spaces, random);
+  observe(taken_in(half_spaces, period), random);
+}
+
 void BayesianLearner::watch(std::span<const HalfSpace> half_spaces, std::size_t period) {
-  observe(half_spaces, random_.split("watch").split(period));
+  met_.clear();
+  if (person_.forgetting > 0.0 && period > 1) {
+    belief_.diffuse(person_.forgetting, random_.split("forget").split(period));
+  }
+  learn(half_spaces, period, random_.split("watch").split(period));
 }
 
 void BayesianLearner::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) {
   ability_ = ability_after(all_correct, person_);
-  observe(half_spaces, random_.split("feedback").split(period));
+  learn(half_spaces, period, random_.split("feedback").split(period));
 }
 
 double BayesianLearner::ability_after(bool all_correct, const BayesianPerson& person) const noexcept {
   return std::min(ability_ + (all_correct ? person.confirm_gain : person.correct_gain), person.ability_max);
+}
+
+std::optional<LearningAbilities> BayesianLearner::learning_abilities(bool begins_component) const {
+  const auto usable = [&](double ability) { return std::min(scaled_ability(ability, person_.ability_scale), kSurest); };
+  const double now = begins_component ? person_.ability : ability_;
+  const double gain = (person_.confirm_gain + person_.correct_gain) / 2.0;
+  return LearningAbilities{usable(now), usable(std::max(now, std::min(now + gain, person_.ability_max)))};
 }
 
 std::vector<Direction> BayesianLearner::imagined_weights(std::size_t n, std::size_t period) const {
@@ -196,7 +227,10 @@ BayesianPerson person_of(const ParameterValues& values, std::span<const double> 
           .confirm_gain = traits[1],
           .correct_gain = traits[2],
           .ability_max = values.real("ability_max"),
-          .ability_scale = values.real("ability_scale")};
+          .ability_scale = values.real("ability_scale"),
+          .capacity = static_cast<std::size_t>(values.count("capacity")),
+          .beyond_capacity = values.real("beyond_capacity"),
+          .forgetting = values.real("forgetting")};
 }
 
 std::unique_ptr<Learner> make_bayesian(const ParameterValues& values, std::span<const double> traits,
@@ -265,6 +299,17 @@ std::vector<Parameter> bayesian_parameters() {
        .description = "factor on the log-odds of the ability whenever something is learned",
        .max = 5.0,
        .min_is_open = true},
+      {.name = "capacity",
+       .default_value = std::int64_t{0},
+       .description = "different constraints that a person takes in per period; 0: all",
+       .max = 1000.0},
+      {.name = "beyond_capacity",
+       .default_value = 0.0,
+       .description = "probability that a constraint beyond the capacity is taken in all the same"},
+      {.name = "forgetting",
+       .default_value = 0.0,
+       .description = "angle in radians by which a belief is blurred between two periods",
+       .max = 3.0},
       particles_parameter(),
       process_noise_parameter(),
   };

@@ -27,6 +27,18 @@ void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, 
   }
 }
 
+std::vector<MemberTruth> truth_about(const Session& session, const Learners& learners) {
+  const bool begins = session.history().empty() || session.history().back().feedback.component_learned;
+  std::vector<MemberTruth> truth;
+  for (const auto& learner : learners) {
+    auto& one = truth.emplace_back();
+    const auto abilities = learner->learning_abilities(begins);
+    if (!abilities) continue;
+    one = {learner->belief(), abilities->shown, abilities->feedback};
+  }
+  return truth;
+}
+
 PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& learners, const PeriodOptions& options) {
   if (learners.size() != session.num_members()) {
     throw std::invalid_argument{"run_period: there must be one learner per seat"};

@@ -33,6 +33,54 @@ TEST(BayesianLearner, AbilityGrowsWithFeedbackUpToItsCapAndReturnsWithANewCompon
   EXPECT_EQ(learner.ability(), 0.7);
 }
 
+// A person of capacity 2 learns what they would from the first two constraints alone; feedback does not bring the
+// others.
+TEST(BayesianLearner, TakesInWhatFitsIntoTheirCapacity) {
+  const auto shown = half_spaces({{-1, 0, 2}, {0, -1, -4}, {1, 1, 0}});
+  const std::vector<HalfSpace> first(shown.begin(), shown.begin() + 2);
+  auto limited = kNovice;
+  limited.capacity = 2;
+  auto learner = make_learner(limited);
+  auto other = make_learner(kNovice);
+  for (std::size_t period = 1; period <= 2; ++period) {
+    learner.watch(shown, period);
+    other.watch(first, period);
+    learner.hear_feedback(true, shown, period);
+    other.hear_feedback(true, first, period);
+    EXPECT_EQ(*learner.belief(), *other.belief());
+  }
+  limited.beyond_capacity = 1.0;
+  auto lucky = make_learner(limited);
+  auto unlimited = make_learner(kNovice);
+  lucky.watch(shown, 1);
+  unlimited.watch(shown, 1);
+  EXPECT_EQ(*lucky.belief(), *unlimited.belief());
+}
+
+TEST(BayesianLearner, ForgetsBetweenPeriods) {
+  const auto& bec = item_delivery().policy_bec_half_spaces();
+  auto forgetful = kNovice;
+  forgetful.forgetting = 0.3;
+  auto learner = make_learner(forgetful);
+  auto other = make_learner(kNovice);
+  learner.watch(bec, 1);
+  other.watch(bec, 1);
+  EXPECT_EQ(*learner.belief(), *other.belief());
+  learner.watch({}, 2);
+  other.watch({}, 2);
+  EXPECT_LT(learner.belief()->mass_in(bec), other.belief()->mass_in(bec));
+}
+
+TEST(BayesianLearner, SaysHowWellTheyWillLearn) {
+  auto person = kNovice;
+  person.ability_scale = 0.9;
+  auto learner = make_learner(person);
+  learner.hear_feedback(false, {}, 1);
+  EXPECT_DOUBLE_EQ(learner.learning_abilities(true)->shown, scaled_ability(0.7, 0.9));
+  EXPECT_DOUBLE_EQ(learner.learning_abilities(false)->shown, scaled_ability(0.75, 0.9));
+  EXPECT_DOUBLE_EQ(learner.learning_abilities(false)->feedback, scaled_ability(0.785, 0.9));
+}
+
 TEST(BayesianLearner, LearnsFromDemonstrationsAndFeedback) {
   const auto& bec = item_delivery().policy_bec_half_spaces();
   auto learner = make_learner(kNovice);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kith/learners/learner.hpp"
@@ -17,6 +18,9 @@ struct BayesianPerson {
   double correct_gain = 0.0;   ///< Added after a period with a wrong answer.
   double ability_max = 0.95;   ///< Cap on the ability, in [0.5, 1].
   double ability_scale = 1.0;  ///< Multiplies the log-odds of the current, capped ability at every update; > 0.
+  std::size_t capacity = 0;    ///< Different constraints that are taken in per period; 0: all.
+  double beyond_capacity = 0;  ///< Probability that a constraint beyond them is taken in all the same, in [0, 1].
+  double forgetting = 0.0;     ///< Radians per axis by which the belief is blurred between periods, >= 0.
   friend bool operator==(const BayesianPerson&, const BayesianPerson&) = default;
 };
 
@@ -28,6 +32,11 @@ struct BayesianPerson {
 /// else + correct_gain; never above ability_max. Every update uses the ability with its log-odds times ability_scale,
 /// and at most 1 - 1e-9: somebody who is certain could find that nothing is possible any more.
 /// The person never learns from their own answers.
+///
+/// Capacity: of the different constraints of a period, in the order of the demonstrations and then of the feedback, the
+/// first `capacity` are taken in, every other one with probability `beyond_capacity`; whoever missed a constraint in
+/// the lesson also misses it in the feedback. Forgetting: before the demonstrations of every period but the first the
+/// belief is diffused (ParticleBelief::diffuse).
 class BayesianLearner final : public Learner {
  public:
   BayesianLearner(ParticleBelief initial, const BayesianPerson& person, LikelihoodForm form, RandomStream random);
@@ -48,6 +57,8 @@ class BayesianLearner final : public Learner {
   [[nodiscard]] const ParticleBelief* belief() const override { return &belief_; }
   /// beta now, before scaling.
   [[nodiscard]] std::optional<double> ability() const override { return ability_; }
+  /// Scaled; the feedback is expected to follow as many periods with all answers right as others.
+  [[nodiscard]] std::optional<LearningAbilities> learning_abilities(bool begins_component) const override;
   /// Systematic draws from the belief.
   [[nodiscard]] std::vector<Direction> imagined_weights(std::size_t n, std::size_t period) const override;
 
@@ -59,7 +70,9 @@ class BayesianLearner final : public Learner {
   void become(const BayesianPerson& person) noexcept { person_ = person; }
 
  private:
+  void learn(std::span<const HalfSpace> half_spaces, std::size_t period, RandomStream random);
   void observe(std::span<const HalfSpace> half_spaces, RandomStream random);
+  [[nodiscard]] std::vector<HalfSpace> taken_in(std::span<const HalfSpace> half_spaces, std::size_t period);
   [[nodiscard]] Response tabulated_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
                                           RandomStream random) const;
   [[nodiscard]] Response planned_answer(Behaviours& behaviours, std::span<const DemoIndex> tests,
@@ -70,6 +83,8 @@ class BayesianLearner final : public Learner {
   RandomStream random_;
   ParticleBelief belief_;
   double ability_;
+  // With a limited capacity: what was met in this period, and whether it was taken in.
+  std::vector<std::pair<HalfSpace, bool>> met_;
 };
 
 }  // namespace kith

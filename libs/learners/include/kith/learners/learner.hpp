@@ -13,6 +13,12 @@
 
 namespace kith {
 
+/// How well a person learns in a period, as HalfSpaceLikelihood takes it.
+struct LearningAbilities {
+  double shown = 0.8;     ///< beta while watching the demonstrations.
+  double feedback = 0.8;  ///< beta while hearing the feedback, as expected before the answers are known.
+};
+
 /// A simulated person who watches demonstrations, answers tests and hears feedback. What a person is like is up to
 /// the model (LearnerModel) that made them.
 ///
@@ -60,6 +66,12 @@ class Learner {
 
   /// How well the person learns now, in the model's own measure; nothing if the model has no such number.
   [[nodiscard]] virtual std::optional<double> ability() const { return std::nullopt; }
+
+  /// How well the person would learn in the coming period; nothing if the model has no such numbers.
+  /// @param begins_component  whether a knowledge component begins with that period.
+  [[nodiscard]] virtual std::optional<LearningAbilities> learning_abilities(bool /*begins_component*/) const {
+    return std::nullopt;
+  }
 
   /// Some `n` weights (or fewer) that the person takes the robot's to be, as they imagine what it will do; none if
   /// the model does not imagine any. For studies with teacher.learner_counterfactuals = "self".

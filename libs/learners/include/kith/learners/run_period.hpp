@@ -40,4 +40,8 @@ struct PeriodOfLearners {
 PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& learners,
                             const PeriodOptions& options = {});
 
+/// The members of a session as they are now, for a strategy that asks for it; see Session::propose(). The beliefs stay
+/// those of the learners. @pre one learner per seat.
+[[nodiscard]] std::vector<MemberTruth> truth_about(const Session& session, const Learners& learners);
+
 }  // namespace kith
