@@ -21,6 +21,11 @@ Json group_json(const CellSummary& cell, const Study& study) {
   json["periods"] = mean_sd_json(cell.periods);
   json["knowledge"] = mean_sd_json(cell.knowledge);
   json["area_sr"] = mean_sd_json(cell.area_sr);
+  if (cell.exam) {
+    json["exam"] = {{"share_right", mean_sd_json(cell.exam->share_right)},
+                    {"regret", mean_sd_json(cell.exam->regret)},
+                    {"worst_share_right", mean_sd_json(cell.exam->worst_share_right)}};
+  }
   return json;
 }
 

@@ -11,7 +11,7 @@
 namespace kith {
 namespace {
 
-constexpr char kVersion = 3;  // of the layout; another layout gets another number
+constexpr char kVersion = 4;  // of the layout; another layout gets another number
 constexpr std::size_t kChecksumSize = 8;
 
 std::string checksum(std::size_t team, std::string_view content, std::string_view key) {
@@ -38,6 +38,20 @@ void code(Coder& coder, X& x) {
   coder.count(x.periods);
   coder.count(x.tests);
   coder.count(x.correct);
+  coder.real(x.exam_share_right);
+  coder.real(x.exam_regret);
+  coder.count(x.exam_questions);
+  coder.count(x.exam_correct);
+}
+
+template <typename Coder, Is<ExamRecord> X>
+void code(Coder& coder, X& x) {
+  coder.count(x.period);
+  coder.count(x.component);
+  coder.count(x.member);
+  coder.letter(x.type);
+  coder.real(x.share_right);
+  coder.real(x.regret);
 }
 
 template <typename Coder, Is<PeriodRecord> X>
@@ -120,6 +134,8 @@ void code(Coder& coder, X& x) {
   coder.list(x.demonstration_records);
   coder.list(x.responses);
   coder.list(x.progress);
+  coder.list(x.exams);
+  coder.optional_exam(x.exam);
 }
 
 class Encoder {
@@ -133,6 +149,13 @@ class Encoder {
   void optional_real(const std::optional<double>& x) {
     flag(x.has_value());
     if (x) real(*x);
+  }
+  void optional_exam(const std::optional<TeamExam>& x) {
+    flag(x.has_value());
+    if (!x) return;
+    real(x->share_right);
+    real(x->regret);
+    real(x->worst_share_right);
   }
   void optional_vector(const std::optional<IntegerVector>& x) {
     flag(x.has_value());
@@ -164,6 +187,11 @@ class Decoder {
   void reals(std::vector<double>& x) { x = reader_.reals(); }
   void optional_real(std::optional<double>& x) {
     if (reader_.flag()) x = reader_.real();
+  }
+  void optional_exam(std::optional<TeamExam>& x) {
+    if (!reader_.flag()) return;
+    const double share_right = reader_.real(), regret = reader_.real();
+    x = TeamExam{share_right, regret, reader_.real()};
   }
   void optional_vector(std::optional<IntegerVector>& x) {
     if (reader_.flag()) x = reader_.vector();

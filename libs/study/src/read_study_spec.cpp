@@ -327,12 +327,20 @@ class SpecReader {
     if (const auto whose = teacher.word("learner_counterfactuals", Presence::kOptional, kCounterfactualWords)) {
       spec_.learner_counterfactuals_self = *whose == 1;
     }
+    set_if(options.review, teacher.boolean("review", Presence::kOptional));
+    set_if(options.scaffold, teacher.word("scaffold", Presence::kOptional, kScaffoldWords));
+    set_if(options.max_demonstrations, teacher.integer("max_demonstrations", Presence::kOptional, {0, 1000}));
+    set_if(options.objective, teacher.word("objective", Presence::kOptional, kObjectiveWords));
     read_beliefs(teacher);
     teacher.finish();
   }
 
   void read_stop(TomlReader& stop) {
     auto& options = spec_.teaching;
+    set_if(options.mastery, stop.word("mastery", Presence::kOptional, kMasteryWords));
+    set_if(options.periods_per_component, stop.integer("periods_per_component", Presence::kOptional, {1, 100'000}));
+    set_if(options.probability, stop.real("probability", Presence::kOptional, {0.0, 1.0, true, true}));
+    set_if(options.min_periods, stop.integer("min_periods", Presence::kOptional, {1, 100'000}));
     set_if(options.max_periods, stop.integer("max_periods", Presence::kOptional, {1, 100'000}));
     set_if(options.consecutive_correct, stop.integer("consecutive_correct", Presence::kOptional, {1, 1000}));
     set_if(options.duplicate_sets, stop.integer("duplicate_sets", Presence::kOptional, {1, 1000}));
@@ -341,6 +349,8 @@ class SpecReader {
 
   void read_record(TomlReader& record) {
     set_if(spec_.record, record.word("level", Presence::kOptional, kRecordWords));
+    set_if(spec_.exam, record.word("exam", Presence::kOptional, kExamWords));
+    set_if(spec_.exam_questions, record.integer("exam_questions", Presence::kOptional, {0, 1000}));
     record.finish();
   }
 

@@ -9,6 +9,10 @@ namespace kith {
 /// The words that study files use, in the order of the enumerations.
 inline const std::vector<std::string> kPairingWords{"replicate", "none"};
 inline const std::vector<std::string> kRecordWords{"team", "period", "particles"};
+inline const std::vector<std::string> kExamWords{"none", "end", "period"};
+inline const std::vector<std::string> kScaffoldWords{"features", "none"};
+inline const std::vector<std::string> kObjectiveWords{"right", "regret", "worst-member"};
+inline const std::vector<std::string> kMasteryWords{"all-right", "fixed", "posterior"};
 inline const std::vector<std::string> kSamplingWords{"systematic", "spread"};
 inline const std::vector<std::string> kLikelihoodWords{"discontinuous", "continuous"};
 inline const std::vector<std::string> kCounterfactualWords{"teacher", "self"};

@@ -10,6 +10,7 @@ namespace detail {
 struct GatheredTeams {
   CellSummary cell;
   std::vector<double> periods, knowledge, area_sr;
+  std::vector<double> share_right, regret, worst_share_right;  // of those that were examined
 
   void add(const TeamRecord& team) {
     ++cell.teams;
@@ -17,6 +18,10 @@ struct GatheredTeams {
     periods.push_back(static_cast<double>(team.periods));
     knowledge.push_back(team.knowledge);
     area_sr.push_back(team.area_sr);
+    if (!team.exam) return;
+    share_right.push_back(team.exam->share_right);
+    regret.push_back(team.exam->regret);
+    worst_share_right.push_back(team.exam->worst_share_right);
   }
   [[nodiscard]] bool contains(const TeamAddress& address) const {
     return cell.variant == address.variant && cell.strategy == address.strategy &&
@@ -58,6 +63,13 @@ std::optional<CellSummary> pooled(const Cells& cells) {
   summary.periods = mean_sd(cells, summary.teams, &GatheredTeams::periods);
   summary.knowledge = mean_sd(cells, summary.teams, &GatheredTeams::knowledge);
   summary.area_sr = mean_sd(cells, summary.teams, &GatheredTeams::area_sr);
+  std::size_t examined = 0;
+  for (const auto* cell : cells) examined += cell->share_right.size();
+  if (examined == summary.teams) {
+    summary.exam = ExamSummary{mean_sd(cells, examined, &GatheredTeams::share_right),
+                               mean_sd(cells, examined, &GatheredTeams::regret),
+                               mean_sd(cells, examined, &GatheredTeams::worst_share_right)};
+  }
   return summary;
 }
 

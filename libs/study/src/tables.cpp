@@ -24,6 +24,8 @@ Column optional_column(std::string name, ColumnType type, std::string descriptio
 
 using Columns = std::vector<Column>;
 
+bool has_exam(const Study& study) { return study.variants.front().exam != ExamLevel::kNone; }
+
 // What every table begins with: where a team stands in the design.
 Columns team_keys(const Study& study) {
   Columns columns{column("strategy", kText, "How the team was taught."),
@@ -41,19 +43,29 @@ Columns operator+(Columns keys, const Columns& rest) {
   return keys;
 }
 
-Columns team_columns() {
-  return {column("seed_address", kText, "Address of the team's random numbers: seed/composition/replicate."),
-          column("status", kText, "'complete', or 'max_periods' if teaching stopped before all was learned."),
-          column("completed", kBoolean, "Whether every knowledge component was learned or had nothing to teach."),
-          column("periods", kInteger, "Interaction periods; for the baseline the sum over members."),
-          column("demonstrations", kInteger, "Demonstrations shown, in all periods."),
-          column("tests", kInteger, "Tests asked, in all periods; each of them of every member."),
-          column("knowledge", kReal,
-                 "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."),
-          column("knowledge_min", kReal, "The smallest of these masses."),
-          column("kcs_learned", kInteger, "Knowledge components learned; for the baseline the sum over members."),
-          column("kcs_skipped", kInteger, "Knowledge components in which nothing was left to teach."),
-          column("area_sr", kReal, "Mean over periods of the area in periods.csv.", "sr")};
+Columns team_columns(const Study& study) {
+  Columns columns{
+      column("seed_address", kText, "Address of the team's random numbers: seed/composition/replicate."),
+      column("status", kText, "'complete', or 'max_periods' if teaching stopped before all was learned."),
+      column("completed", kBoolean, "Whether every knowledge component was learned or had nothing to teach."),
+      column("periods", kInteger, "Interaction periods; for the baseline the sum over members."),
+      column("demonstrations", kInteger, "Demonstrations shown, in all periods."),
+      column("tests", kInteger, "Tests asked, in all periods; each of them of every member."),
+      column("knowledge", kReal,
+             "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."),
+      column("knowledge_min", kReal, "The smallest of these masses."),
+      column("kcs_learned", kInteger, "Knowledge components learned; for the baseline the sum over members."),
+      column("kcs_skipped", kInteger, "Knowledge components in which nothing was left to teach."),
+      column("area_sr", kReal, "Mean over periods of the area in periods.csv.", "sr")};
+  if (!has_exam(study)) return columns;
+  return columns +
+         Columns{column("exam_share_right", kReal,
+                        "Share of all starts of the domain where members predict the robot, under their final beliefs; "
+                        "mean over members."),
+                 column("exam_regret", kReal,
+                        "What the members' predictions lose against the robot's paths, over all starts; mean over "
+                        "members, in the units of the domain file's weights."),
+                 column("exam_worst_share_right", kReal, "The smallest share_right of a member.")};
 }
 
 // The learner types of all variants, as they have the model that a variant gives them, by letter.
@@ -87,6 +99,18 @@ Columns trait_columns(const Study& study) {
   return columns;
 }
 
+Columns exam_columns() {
+  return {column("period", kInteger, "Number of the period after which the exam took place."),
+          optional_column("kc", kInteger,
+                          "Number of the knowledge component whose starts the exam is about; missing for all starts."),
+          column("member", kInteger, "Number of the member, from 1."),
+          column("type", kText, "Letter of the learner type."),
+          column("share_right", kReal, "Expected share of the starts where the member predicts the robot."),
+          column("regret", kReal,
+                 "Expected loss of the member's predictions against the robot's paths, in the units of the domain "
+                 "file's weights.")};
+}
+
 Columns learner_columns(const Study& study) {
   const Columns first{column("member", kInteger, "Number of the member, from 1."),
                       column("type", kText, "Letter of the learner type.")};
@@ -94,6 +118,14 @@ Columns learner_columns(const Study& study) {
                      column("periods", kInteger, "Periods the member took part in."),
                      column("tests", kInteger, "Tests the member was asked."),
                      column("correct", kInteger, "Tests answered correctly.")};
+  if (has_exam(study)) {
+    const Columns exam{
+        column("exam_share_right", kReal, "Share of all starts where the member predicts the robot, at the end."),
+        column("exam_regret", kReal, "What these predictions lose, in the units of the domain file's weights."),
+        column("exam_questions", kInteger, "Questions of the exam about starts that were neither shown nor tested."),
+        column("exam_correct", kInteger, "Of these, answered correctly.")};
+    return first + trait_columns(study) + last + exam;
+  }
   return first + trait_columns(study) + last;
 }
 
@@ -205,7 +237,7 @@ ColumnKind kind_of(const std::string& name) {
 std::vector<TableDescription> study_tables(const Study& study) {
   const auto keys = team_keys(study);
   std::vector<TableDescription> tables{
-      {"teams.csv", "One row per team.", keys + team_columns()},
+      {"teams.csv", "One row per team.", keys + team_columns(study)},
       {"learners.csv", "One row per member of a team.", keys + learner_columns(study)},
       {"periods.csv", "One row per interaction period; none if only teams are recorded.", keys + period_columns(study)},
       {"responses.csv", "One row per member and test; none if only teams are recorded.", keys + response_columns()},
@@ -216,6 +248,10 @@ std::vector<TableDescription> study_tables(const Study& study) {
   if (study.variants.front().record == RecordLevel::kParticles) {
     tables.push_back({"particles.csv", "One row per particle, belief and period.",
                       keys + particle_columns(study.variants.front().num_features)});
+  }
+  if (has_exam(study)) {
+    tables.push_back({"exam.csv", "One row per exam of a member, over all starts and over those of every component.",
+                      keys + exam_columns()});
   }
   for (auto& table : tables) {
     for (auto& one : table.columns) one.kind = kind_of(one.name);
@@ -270,6 +306,7 @@ class Tables {
     for (const auto& demonstration : team.demonstration_records) add_demonstration(team, demonstration);
     for (const auto& progress : team.progress) add_progress(team, progress);
     for (const auto& belief : team.beliefs) add_belief(team, belief);
+    for (const auto& exam : team.exams) add_exam(team, exam);
   }
 
   void flush() {
@@ -285,8 +322,8 @@ class Tables {
   }
 
   void add_team(const TeamRecord& team) {
-    begin_row(0, team.address)
-        .text(std::string_view{team.seed_address})
+    auto& row = begin_row(0, team.address);
+    row.text(std::string_view{team.seed_address})
         .text(std::string_view{team.completed ? "complete" : "max_periods"})
         .boolean(team.completed)
         .integer(count(team.periods))
@@ -296,8 +333,11 @@ class Tables {
         .real(team.knowledge_min)
         .integer(count(team.components_learned))
         .integer(count(team.components_skipped))
-        .real(team.area_sr)
-        .end_row();
+        .real(team.area_sr);
+    if (team.exam) {
+      row.real(team.exam->share_right).real(team.exam->regret).real(team.exam->worst_share_right);
+    }
+    row.end_row();
   }
 
   void add_learner(const TeamRecord& team, const LearnerRecord& learner) {
@@ -307,8 +347,14 @@ class Tables {
     row.real(learner.p_bec)
         .integer(count(learner.periods))
         .integer(count(learner.tests))
-        .integer(count(learner.correct))
-        .end_row();
+        .integer(count(learner.correct));
+    if (team.exam) {
+      row.real(learner.exam_share_right)
+          .real(learner.exam_regret)
+          .integer(count(learner.exam_questions))
+          .integer(count(learner.exam_correct));
+    }
+    row.end_row();
   }
 
   [[nodiscard]] static std::optional<double> trait(const std::string& name, std::span<const LearnerTrait> traits,
@@ -387,6 +433,17 @@ class Tables {
       for (std::size_t at = i; at < belief.points.size(); at += belief.weights.size()) row.real(belief.points[at]);
       row.real(belief.weights[i]).end_row();
     }
+  }
+
+  void add_exam(const TeamRecord& team, const ExamRecord& exam) {
+    begin_row(writers_.size() - 1, team.address)
+        .integer(count(exam.period))
+        .integer(exam.component == 0 ? std::nullopt : std::optional{count(exam.component)})
+        .integer(count(exam.member))
+        .text(std::string_view{&exam.type, 1})
+        .real(exam.share_right)
+        .real(exam.regret)
+        .end_row();
   }
 
   const Study& study_;

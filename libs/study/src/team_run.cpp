@@ -5,6 +5,7 @@
 
 #include "kith/learners/run_period.hpp"
 #include "kith/study/team_streams.hpp"
+#include "team_exam.hpp"
 
 namespace kith {
 namespace {
@@ -73,11 +74,18 @@ class TeamRun {
       rows.push_back({.member = person.member, .type = person.type, .traits = person.traits});
     }
     if (observer_ != nullptr) observer_->on_session(session, member);
-    while (session.propose(cache_)) {
+    const auto propose = [&] {
+      if (!session.strategy().kind.needs_truth) return session.propose(cache_);
+      return session.propose(cache_, truth_about(session, learners));
+    };
+    TeamExaminer exam{cache_, spec_, record_};
+    while (propose()) {
       was_stopped_ = was_stopped_ || (stopped_ && stopped_());
       if (was_stopped_) return;
       teach_period(session, learners, rows, member);
+      exam.after_period(session.periods(), learners, rows);
     }
+    exam.at_end(session, learners, rows, member);
     if (observer_ != nullptr) observer_->on_end(session, learners);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].periods = session.periods();
@@ -223,6 +231,7 @@ class TeamRun {
     for (const double mass : masses) sum += mass;
     record_.knowledge = sum / static_cast<double>(masses.size());
     record_.knowledge_min = masses.front();
+    summarize_exam(record_, spec_);
     record_.area_sr = record_.periods > 0 ? area_sum_ / static_cast<double>(record_.periods) : 0.0;
   }
 

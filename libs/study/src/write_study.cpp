@@ -127,6 +127,10 @@ TableWriter teacher(const StudySpec& spec) {
   table.add("response_noise", options.response_noise);
   table.add("resample_below", options.filter.resample_below);
   table.add("reduce_before_update", options.reduce_before_update);
+  table.add("review", options.review);
+  table.add("scaffold", kScaffoldWords[static_cast<std::size_t>(options.scaffold)]);
+  table.add_count("max_demonstrations", options.max_demonstrations);
+  table.add("objective", kObjectiveWords[static_cast<std::size_t>(options.objective)]);
   std::vector<std::string> beliefs;
   for (const auto& rule : options.rules) beliefs.emplace_back(rule.name);
   table.add("beliefs", TomlValue{strings(beliefs)});
@@ -152,11 +156,17 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   for (const auto& type : types) learners.add(std::string{type.letter}, TomlValue{learner(type, domain)});
   root.add("learner", learners);
   root.add("teacher", teacher(spec));
+  stop.add("mastery", kMasteryWords[static_cast<std::size_t>(spec.teaching.mastery)]);
+  stop.add_count("periods_per_component", spec.teaching.periods_per_component);
+  stop.add("probability", spec.teaching.probability);
+  stop.add_count("min_periods", spec.teaching.min_periods);
   stop.add_count("max_periods", spec.teaching.max_periods);
   stop.add_count("consecutive_correct", spec.teaching.consecutive_correct);
   stop.add_count("duplicate_sets", spec.teaching.duplicate_sets);
   root.add("stop", stop);
   record.add("level", kRecordWords[static_cast<std::size_t>(spec.record)]);
+  record.add("exam", kExamWords[static_cast<std::size_t>(spec.exam)]);
+  record.add_count("exam_questions", spec.exam_questions);
   root.add("record", record);
   if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});
   if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});

@@ -33,7 +33,9 @@ StudySpec paper(std::size_t replicates, double ability_scale = 1.0) {
   spec.id = "paper";
   spec.seed = 20240424;
   spec.replicates = replicates;
-  for (const auto& kind : strategy_kinds()) spec.strategies.push_back(strategy_named(kind.name));
+  for (const auto* name : {"baseline", "individual-low", "individual-high", "common", "joint"}) {
+    spec.strategies.push_back(strategy_named(name));
+  }
   spec.compositions = {"NNN", "NNP", "NPP", "PPP"};
   spec.learner_types = {learner_type_of('N', 0.703, 0.034, 0.033, 0.056),
                         learner_type_of('P', 0.809, 0.025, 0.022, 0.052)};

@@ -94,6 +94,12 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.response_noise, 0.05);
   EXPECT_EQ(spec.teaching.filter.resample_below, 0.5);
   EXPECT_EQ(spec.teaching.max_periods, 50u);
+  EXPECT_EQ(spec.teaching.mastery, MasteryRule::kAllRight);
+  EXPECT_EQ(spec.teaching.scaffold, Scaffold::kFeatures);
+  EXPECT_EQ(spec.teaching.objective, TeachingObjective::kRight);
+  EXPECT_EQ(spec.teaching.max_demonstrations, 0u);
+  EXPECT_FALSE(spec.teaching.review);
+  EXPECT_EQ(spec.exam, ExamLevel::kNone);
   const auto& novice = learner_type(spec, 'N');
   EXPECT_EQ(novice.parameters.real("ability.min"), 0.6);
   EXPECT_EQ(novice.parameters.real("ability_max"), 0.95);
@@ -102,6 +108,30 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(novice.parameters.spread("confirm_gain").half_normal, 0.03);
   EXPECT_EQ(novice.parameters.spread("correct_gain").value, 0.05);
   EXPECT_FALSE(novice.prior);
+}
+
+TEST(StudyFile, ReadsHowLongAndWithWhatPeopleAreTaught) {
+  const auto text = study_with("[learner.N]",
+                               "[teacher]\nreview = true\nscaffold = \"none\"\nmax_demonstrations = 3\n"
+                               "objective = \"worst-member\"\n[stop]\nmastery = \"posterior\"\nprobability = 0.95\n"
+                               "min_periods = 2\nperiods_per_component = 4\n[record]\nexam = \"period\"\n"
+                               "exam_questions = 6\n[learner.N]");
+  const auto first = parse(text);
+  ASSERT_TRUE(first.study) << ::testing::PrintToString(ids(first));
+  for (const auto& reading : {parse(text), parse(to_toml(*first.study, *first.domain))}) {
+    ASSERT_TRUE(reading.study) << ::testing::PrintToString(ids(reading));
+    const auto& spec = reading.study->variants.front();
+    EXPECT_TRUE(spec.teaching.review);
+    EXPECT_EQ(spec.teaching.scaffold, Scaffold::kNone);
+    EXPECT_EQ(spec.teaching.max_demonstrations, 3u);
+    EXPECT_EQ(spec.teaching.objective, TeachingObjective::kWorstMember);
+    EXPECT_EQ(spec.teaching.mastery, MasteryRule::kPosterior);
+    EXPECT_EQ(spec.teaching.probability, 0.95);
+    EXPECT_EQ(spec.teaching.min_periods, 2u);
+    EXPECT_EQ(spec.teaching.periods_per_component, 4u);
+    EXPECT_EQ(spec.exam, ExamLevel::kPeriod);
+    EXPECT_EQ(spec.exam_questions, 6u);
+  }
 }
 
 TEST(StudyFile, ReadsTheBuiltInStudiesWithoutAComplaint) {

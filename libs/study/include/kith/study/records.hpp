@@ -81,6 +81,23 @@ struct BeliefSnapshot {
   std::vector<double> weights;  ///< Sum to 1.
 };
 
+/// A row of exam.csv: what one member would get right outside the lessons.
+struct ExamRecord {
+  std::size_t period = 0;     ///< After this one; 0 before the first.
+  std::size_t component = 0;  ///< 1-based; 0: over all starts.
+  std::size_t member = 0;     ///< 1-based
+  char type = 'N';
+  double share_right = 0.0;
+  double regret = 0.0;  ///< In the units of the weights that the domain file states.
+};
+
+/// The exam of a team at its end.
+struct TeamExam {
+  double share_right = 0.0;        ///< Mean over members.
+  double regret = 0.0;             ///< Mean over members.
+  double worst_share_right = 0.0;  ///< The smallest of a member.
+};
+
 /// A row of learners.csv.
 struct LearnerRecord {
   std::size_t member = 0;  ///< 1-based
@@ -90,6 +107,10 @@ struct LearnerRecord {
   std::size_t periods = 0;
   std::size_t tests = 0;
   std::size_t correct = 0;
+  double exam_share_right = 0.0;   ///< 0 without an exam, and so are the others.
+  double exam_regret = 0.0;        ///< In the units of the weights that the domain file states.
+  std::size_t exam_questions = 0;  ///< Questions of the exam that were asked.
+  std::size_t exam_correct = 0;    ///< Of these, answered rightly.
 };
 
 /// Everything that is written down about one team; one row of teams.csv and those that belong to it.
@@ -104,13 +125,15 @@ struct TeamRecord {
   double knowledge_min = 0.0;
   std::size_t components_learned = 0;  ///< Summed over members for the baseline.
   std::size_t components_skipped = 0;
-  double area_sr = 0.0;  ///< Mean over periods of PeriodRecord::area_sr; 0 without periods.
+  double area_sr = 0.0;          ///< Mean over periods of PeriodRecord::area_sr; 0 without periods.
+  std::optional<TeamExam> exam;  ///< Unless ExamLevel::kNone.
   std::vector<LearnerRecord> learners;
   std::vector<PeriodRecord> period_records;                ///< Empty at RecordLevel::kTeam.
   std::vector<BeliefSnapshot> beliefs;                     ///< Empty unless RecordLevel::kParticles.
   std::vector<DemonstrationRecord> demonstration_records;  ///< Empty at RecordLevel::kTeam.
   std::vector<ResponseRecord> responses;                   ///< Empty at RecordLevel::kTeam.
   std::vector<ProgressRecord> progress;                    ///< Empty at RecordLevel::kTeam.
+  std::vector<ExamRecord> exams;                           ///< Empty at ExamLevel::kNone.
 };
 
 }  // namespace kith

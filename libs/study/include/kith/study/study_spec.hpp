@@ -36,6 +36,13 @@ enum class RecordLevel {
   kParticles,  ///< Also every belief at the end of every period: some 8 000 rows a period for a team of three.
 };
 
+/// When simulated people are examined outside the lessons; see Exam.
+enum class ExamLevel {
+  kNone,
+  kEnd,     ///< When teaching has ended.
+  kPeriod,  ///< Also after every period.
+};
+
 /// One setting of the varied keys of a design, such as {"teacher.process_noise", "0.5"}.
 struct FactorSetting {
   std::string key;
@@ -78,6 +85,8 @@ struct StudySpec {
   TeachingOptions teaching;
   bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
   RecordLevel record = RecordLevel::kPeriod;
+  ExamLevel exam = ExamLevel::kNone;
+  std::size_t exam_questions = 0;          ///< Questions that everybody answers at the end, as people would.
   std::vector<FactorSetting> factors;      ///< Empty unless the design varies keys.
   std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
   bool has_group = false;                  ///< Whether the file has `[group]`.

@@ -16,6 +16,13 @@ struct MeanSd {
   std::optional<double> sd;
 };
 
+/// The exams of teams at their end.
+struct ExamSummary {
+  MeanSd share_right;
+  MeanSd regret;
+  MeanSd worst_share_right;
+};
+
 /// What the teams of one cell, or of several pooled, came to.
 struct CellSummary {
   std::size_t variant = 0;
@@ -26,6 +33,7 @@ struct CellSummary {
   MeanSd periods;
   MeanSd knowledge;
   MeanSd area_sr;
+  std::optional<ExamSummary> exam;  ///< If all teams were examined.
 };
 
 /// Per cell in the order of the tables, and pooled over the group strategies and over the baseline.

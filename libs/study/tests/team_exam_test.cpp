@@ -1,0 +1,114 @@
+// Studies with an exam: what is written down, and that asking changes nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "item_delivery.hpp"
+#include "kith/study/study.hpp"
+#include "kith/study/summary.hpp"
+#include "kith/study/tables.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::item_delivery;
+using ::testing::Not;
+
+Study examined_study(ExamLevel exam, std::size_t questions = 0, std::string_view strategy = "joint") {
+  StudySpec spec;
+  spec.id = "examined";
+  spec.seed = 4;
+  spec.replicates = 2;
+  spec.strategies = {strategy_named(strategy)};
+  spec.compositions = {"NN"};
+  spec.learner_types = {LearnerType{.letter = 'N', .label = {}}};
+  spec.learner_types.front().parameters.set("ability.sd", 0.02);
+  spec.teaching.mastery = MasteryRule::kFixed;
+  spec.teaching.periods_per_component = 1;
+  spec.exam = exam;
+  spec.exam_questions = questions;
+  return {{spec}};
+}
+
+std::vector<TeamRecord> teams_of(const Study& study) {
+  return run_teams(item_delivery(), study, team_addresses(study), {.threads = 1, .on_progress = {}}).teams;
+}
+
+std::map<std::string, std::string> tables_of(const Study& study) {
+  std::map<std::string, std::string> tables;
+  write_study_tables(study, teams_of(study),
+                     [&](std::string_view file, std::string_view piece) { tables[std::string{file}] += piece; });
+  return tables;
+}
+
+TEST(TeamExam, IsTakenAfterEveryPeriodAndAtTheEnd) {
+  const auto team = teams_of(examined_study(ExamLevel::kPeriod)).front();
+  ASSERT_TRUE(team.exam);
+  EXPECT_GT(team.exam->share_right, 0.5);
+  EXPECT_LE(team.exam->worst_share_right, team.exam->share_right);
+  EXPECT_GT(team.exam->regret, 0.0);
+  // 3 periods, 2 members; all starts and those of 3 components.
+  ASSERT_EQ(team.exams.size(), 3u * 2u * 4u);
+  const auto& last = team.exams[2 * 2 * 4];
+  EXPECT_EQ(last.period, 3u);
+  EXPECT_EQ(last.component, 0u);
+  EXPECT_EQ(last.share_right, team.learners.front().exam_share_right);
+  EXPECT_EQ(last.regret, team.learners.front().exam_regret);
+}
+
+TEST(TeamExam, AsksQuestionsIfTheStudySaysSo) {
+  const auto team = teams_of(examined_study(ExamLevel::kEnd, 6)).front();
+  for (const auto& learner : team.learners) {
+    EXPECT_EQ(learner.exam_questions, 6u);
+    EXPECT_LE(learner.exam_correct, 6u);
+  }
+  EXPECT_EQ(team.exams.size(), 2u * 4u);
+}
+
+TEST(TeamExam, ChangesNothingElse) {
+  const auto with = teams_of(examined_study(ExamLevel::kPeriod, 6));
+  const auto without = teams_of(examined_study(ExamLevel::kNone));
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    EXPECT_EQ(with[i].knowledge, without[i].knowledge);
+    EXPECT_EQ(with[i].tests, without[i].tests);
+    EXPECT_FALSE(without[i].exam);
+  }
+}
+
+TEST(TeamExam, HasColumnsOnlyIfItIsAskedFor) {
+  const auto without = tables_of(examined_study(ExamLevel::kNone));
+  EXPECT_THAT(without.at("teams.csv"), Not(HasSubstr("exam")));
+  EXPECT_EQ(without.count("exam.csv"), 0u);
+  const auto with = tables_of(examined_study(ExamLevel::kEnd));
+  EXPECT_THAT(with.at("teams.csv"), HasSubstr(",area_sr,exam_share_right,exam_regret,exam_worst_share_right\n"));
+  EXPECT_THAT(with.at("learners.csv"),
+              HasSubstr(",correct,exam_share_right,exam_regret,exam_questions,exam_correct\n"));
+  EXPECT_THAT(with.at("exam.csv"), HasSubstr(",period,kc,member,type,share_right,regret\n"));
+}
+
+TEST(TeamExam, IsSummarized) {
+  const auto study = examined_study(ExamLevel::kEnd);
+  const auto teams = teams_of(study);
+  const auto summary = summarize(teams);
+  ASSERT_TRUE(summary.cells.front().exam);
+  EXPECT_NEAR(summary.cells.front().exam->regret.mean, (teams[0].exam->regret + teams[1].exam->regret) / 2.0, 1e-12);
+  EXPECT_TRUE(summary.group->exam);
+  EXPECT_FALSE(summarize(teams_of(examined_study(ExamLevel::kNone))).group->exam);
+}
+
+// Strategies that look ahead leave people better prepared than those of the paper.
+TEST(TeamExam, FindsPlannedLessonsBetter) {
+  const auto regret = [](std::string_view strategy) {
+    return summarize(teams_of(examined_study(ExamLevel::kEnd, 0, strategy))).group->exam->regret.mean;
+  };
+  const double joint = regret("joint");
+  EXPECT_LT(regret("plan"), joint);
+  EXPECT_LT(regret("oracle"), joint);
+}
+
+}  // namespace
+}  // namespace kith
