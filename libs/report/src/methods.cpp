@@ -243,6 +243,22 @@ class Paragraph {
         (options.reduce_before_update ? ", reduced to the minimal set of their half-spaces." : "."));
   }
 
+  [[nodiscard]] std::string until() const {
+    const auto& options = spec_.teaching;
+    switch (options.mastery) {
+      case MasteryRule::kFixed:
+        return "for " + counted(options.periods_per_component, "period");
+      case MasteryRule::kPosterior:
+        return "until the estimated probability that all members answer a random test correctly was " +
+               shortest(options.probability);
+      case MasteryRule::kAllRight:
+        break;
+    }
+    return "until every member answered all tests correctly in " +
+           (options.consecutive_correct == 1 ? "a period"
+                                             : std::to_string(options.consecutive_correct) + " periods in a row");
+  }
+
   void teaching() {
     const auto& options = spec_.teaching;
     say("Demonstrations were chosen by the information that they convey" + cite_("brown2019machine") + " to " +
@@ -251,9 +267,7 @@ class Paragraph {
         " from the belief of the strategy" +
         (spec_.learner_counterfactuals_self ? "; learners interpreted them with counterfactuals from their own beliefs."
                                             : "."));
-    say("A knowledge component was taught until every member answered all tests correctly in " +
-        (options.consecutive_correct == 1 ? "a period"
-                                          : std::to_string(options.consecutive_correct) + " periods in a row") +
+    say("A knowledge component was taught " + until() +
         (options.duplicate_sets == 1 ? ""
                                      : ", with " + std::to_string(options.duplicate_sets) + " sets of tests each") +
         "; teaching ended after at most " + counted(options.max_periods, "period") + ".");

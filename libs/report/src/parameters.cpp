@@ -46,9 +46,20 @@ constexpr std::array kMeanings{
     Meaning{"teacher.learner_counterfactuals",
             "whose expectations say what a demonstration conveys to a person: the teacher's counterfactuals, or the "
             "person's own ('self')"},
+    Meaning{"teacher.review", "whether every component is taught as if nothing had been taught before"},
+    Meaning{"teacher.scaffold", "'features': components one after the other; 'none': the last one alone"},
+    Meaning{"teacher.max_demonstrations", "demonstrations per lesson at most; 0: as many as the strategy wants"},
+    Meaning{"teacher.objective", "what strategies that look ahead maximise"},
+    Meaning{"stop.mastery", "when a component has been taught enough: 'all-right', 'fixed' or 'posterior'"},
+    Meaning{"stop.periods_per_component", "periods of every component, with mastery 'fixed'"},
+    Meaning{"stop.probability",
+            "with mastery 'posterior', the probability that all members answer a random test correctly"},
+    Meaning{"stop.min_periods", "periods of a component at least, with mastery 'posterior'"},
     Meaning{"stop.max_periods", "periods after which a session ends at the latest"},
     Meaning{"stop.consecutive_correct", "consecutive periods in which everybody must answer all tests correctly"},
     Meaning{"stop.duplicate_sets", "different sets of tests in a period"},
+    Meaning{"record.exam", "when simulated people are examined over all starts: 'none', 'end' or 'period'"},
+    Meaning{"record.exam_questions", "questions of the exam that everybody answers at the end"},
     Meaning{"record.level", "how much is recorded about every team"},
 };
 
