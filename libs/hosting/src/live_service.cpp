@@ -1,0 +1,1 @@
+#include "kith/hosting/live_service.hpp"
