@@ -54,5 +54,5 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kith)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev")
+  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev, libqrencode-dev")
 include(CPack)
