@@ -19,7 +19,7 @@ configure_package_config_file(
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake DESTINATION ${package_dir} COMPONENT development)
+  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLibqrencode.cmake DESTINATION ${package_dir} COMPONENT development)
 
 if(TARGET kith)
   install(TARGETS kith COMPONENT program)
