@@ -199,19 +199,18 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
 
 // Asks for the lesson that the room waits for, or takes it if it is there.
 void HostedRoom::seek_lesson() {
-  const auto task = room_->teaching();
-  if (!task) {
-    wanted_.clear();
-    return;
+  if (std::exchange(sought_, room_->seq() + 1) != room_->seq() + 1) {
+    const auto task = room_->teaching();
+    const auto key = task ? task->key() : std::string{};
+    const bool is_new = key != std::exchange(wanted_, key);
+    const auto found = lessons_.find(key);
+    const bool is_there = found != lessons_.end() && found->second;
+    if (task && is_new && !is_there) start_task(TeachingPool::Urgency::kNow, *task);
   }
-  const auto found = lessons_.find(task->key());
-  if (found != lessons_.end() && found->second) {
-    const auto lesson = found->second;
-    save({.events = {room_->taught(*lesson, now())}, .message = {}, .done = {}, .lesson = lesson});
-    return;
-  }
-  if (std::exchange(wanted_, task->key()) == task->key()) return;
-  start_task(TeachingPool::Urgency::kNow, *task);
+  const auto found = lessons_.find(wanted_);
+  if (wanted_.empty() || found == lessons_.end() || !found->second) return;
+  const auto lesson = found->second;
+  save({.events = {room_->taught(*lesson, now())}, .message = {}, .done = {}, .lesson = lesson});
 }
 
 void HostedRoom::look_ahead() {

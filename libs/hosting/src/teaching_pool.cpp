@@ -16,14 +16,17 @@ TeachingPool::TeachingPool(std::shared_ptr<const Atlas> atlas, std::size_t threa
     threads_.emplace_back([this, atlas, cache_bytes] { run(atlas, cache_bytes); });
 }
 
-TeachingPool::~TeachingPool() {
+void TeachingPool::stop() {
   {
     const std::lock_guard lock{mutex_};
     stopping_ = true;
   }
   changed_.notify_all();
   for (auto& thread : threads_) thread.join();
+  threads_.clear();
   for (std::size_t i = now_.size() + ahead_.size(); i > 0; --i) busy_.end();
+  now_.clear();
+  ahead_.clear();
 }
 
 void TeachingPool::post(Urgency urgency, Job job) {

@@ -22,11 +22,12 @@ class TeachingPool {
   enum class Urgency { kNow, kAhead };
 
   TeachingPool(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy);
-  // Finishes the jobs under way and forgets the others.
-  ~TeachingPool();
+  ~TeachingPool() { stop(); }
   TeachingPool(const TeachingPool&) = delete;
   TeachingPool& operator=(const TeachingPool&) = delete;
 
+  // Finishes the jobs under way and forgets the others, and those that come later. May be called twice.
+  void stop();
   // From any thread. Jobs must not throw. A job that is only ahead of time is forgotten if too many are waiting.
   void post(Urgency urgency, Job job);
 

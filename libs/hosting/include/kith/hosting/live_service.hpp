@@ -17,12 +17,16 @@ class LiveStudy;
 
 /// How live groups are kept and served.
 struct LiveServiceOptions {
+  /// What the study can be made from again, and its digest: see SessionStudy. Rooms of another digest are refused.
+  std::map<std::string, std::string> inputs{};
+  std::string digest{};
   std::filesystem::path folder{};                   ///< Where the store is; made if it does not exist.
   std::string program = "kith";                     ///< Name and version, told to clients and written into the store.
   std::size_t teaching_workers = 2;                 ///< Threads that choose lessons, >= 1.
   std::size_t cache_bytes = std::size_t{24} << 20;  ///< What each of them remembers, see TeachingCache.
   std::size_t joins_per_minute = 10;                ///< POST /api/join per address; 0: no limit.
   std::size_t max_rooms = 2000;                     ///< No room is made beyond this number.
+  bool makes_rooms = true;                          ///< Who joins the study finds a room, made for them if need be.
   std::int64_t token_hours = 24 * 14;               ///< How long links are valid, in hours.
   std::int64_t hello_limit_ms = 5000;               ///< A connection that has not said hello by then is closed.
   /// Microseconds since 1970; empty: the system's clock. Called from several threads.
@@ -73,8 +77,8 @@ class LiveService {
 
   /// Opens the store, or makes a new one, and rebuilds all rooms from it.
   /// @throws kith::Error  kBusy E1610 (another process serves this folder), kMismatch E1611 (the store is of another
-  /// study), E1612 (the store is damaged), kUsage E1613 (of another version of kith), kMismatch E1614 (a room that is
-  /// rebuilt differs from what it was); kIo.
+  /// study), E1612 (the store is damaged), kUsage E1613 (of another version of kith); kIo. A room that cannot be
+  /// rebuilt as it was is left out and reported to facilitators.
   LiveService(std::shared_ptr<const LiveStudy> study, LiveServiceOptions options);
   /// As stop().
   ~LiveService();
