@@ -236,9 +236,10 @@ void EventFile::for_each_event(const std::function<void(const StoredEvent&)>& vi
   }
 }
 
-std::uint64_t EventFile::count_events() {
+std::uint64_t EventFile::count_events(std::optional<std::int64_t> room) {
   return reading(state_->path, [&] {
-    auto count = state_->database.prepare("SELECT count(*) FROM event");
+    auto count = state_->database.prepare(std::string{"SELECT count(*) FROM event"} + (room ? " WHERE room = ?" : ""));
+    if (room) count.bind(1, *room);
     return count.step() ? static_cast<std::uint64_t>(count.integer(0)) : 0;
   });
 }

@@ -111,7 +111,7 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   std::deque<Asked> asked_;
   std::optional<Saving> saving_;
   std::uint64_t sought_ = 0;  // one more than the number of the event after which a lesson was last asked for
-  std::string wanted_;                                                  // key of the lesson that is waited for
+  std::string wanted_;        // key of the lesson that is waited for
   std::map<std::string, std::shared_ptr<const TaughtLesson>> lessons_;  // by key; null: somebody is at it
   bool has_changed_ = false;                                            // so that other lessons are likely
 };

@@ -9,8 +9,8 @@ namespace kith {
 std::optional<std::string> qr_svg(const std::string& text) {
   constexpr int kQuiet = 4;
   if (text.empty() || text.find('\0') != std::string::npos) return std::nullopt;
-  const std::unique_ptr<QRcode, decltype(&QRcode_free)> code{
-      QRcode_encodeString8bit(text.c_str(), 0, QR_ECLEVEL_M), QRcode_free};
+  const std::unique_ptr<QRcode, decltype(&QRcode_free)> code{QRcode_encodeString8bit(text.c_str(), 0, QR_ECLEVEL_M),
+                                                             QRcode_free};
   if (!code) return std::nullopt;
   const auto width = static_cast<std::size_t>(code->width);
   std::string path;

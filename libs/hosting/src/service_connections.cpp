@@ -147,7 +147,8 @@ void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
     const auto show = [this, connection, room](const Outcome& outcome) {
       if (outcome.refusal && !room->room()) return connection->dismiss("removed", kPolicy);
       if (room->room() == nullptr) return;
-      const Viewer viewer{.role = Viewer::Role::kParticipant, .seat = static_cast<std::size_t>(connection->identity.seat)};
+      const Viewer viewer{.role = Viewer::Role::kParticipant,
+                          .seat = static_cast<std::size_t>(connection->identity.seat)};
       if (viewer.seat > room->room()->num_seats()) return connection->dismiss("removed", kPolicy);
       push_view(*connection, room->room()->view(viewer, now_us()));
     };

@@ -124,10 +124,7 @@ LiveService::HttpReply LiveService::State::handle(const HttpRequest& request) {
   const auto text = parameter(query, "text");
   const auto picture = text.size() <= kLongestQrText ? qr_svg(text) : std::nullopt;
   if (!picture) return error_reply(400, "bad-text", "A QR code needs a text of 1 to 1000 bytes.");
-  return {.status = 200,
-          .content_type = "image/svg+xml",
-          .body = *picture,
-          .headers = {{"Cache-Control", "no-store"}}};
+  return {.status = 200, .content_type = "image/svg+xml", .body = *picture, .headers = {{"Cache-Control", "no-store"}}};
 }
 
 LiveService::HttpReply LiveService::State::world(const std::string& key) {
@@ -233,8 +230,8 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     }
   }
   const bool pays = study->group().completion.pay_full;
-  const auto page = full_view(*study, pays ? completion_code(*study, store->file().id(), request.body, 0) : std::string{},
-                              query, now_us());
+  const auto page = full_view(
+      *study, pays ? completion_code(*study, store->file().id(), request.body, 0) : std::string{}, query, now_us());
   return json_reply(200, {{"full", true}, {"view", page}});
 }
 

@@ -132,8 +132,7 @@ void LiveService::State::load_rooms() {
   std::map<std::int64_t, std::vector<StoredEvent>> events;
   const auto now = now_us();
   file.for_each_event([&](const StoredEvent& event) {
-    if (event.actor == "facilitator")
-      write_log(entry_of(event, event.room == 0 ? std::string{} : room_id(event.room)));
+    if (event.actor == "facilitator") write_log(entry_of(event, event.room == 0 ? std::string{} : room_id(event.room)));
     if (event.room == 0) next_service_seq = event.seq + 1;
     if (event.room != 0 && event.type == "joined") {
       const auto body = Json::parse(event.json);

@@ -91,11 +91,11 @@ struct LiveService::State final : HostedRoom::Host {
   std::set<std::pair<std::int64_t, std::int64_t>> joined;                 // seats that were taken at least once
   std::map<std::int64_t, std::shared_ptr<HostedRoom>> rooms;
   std::map<std::int64_t, RoomPicture> pictures;
-  std::set<std::int64_t> changed_rooms;     // whose picture is old
-  bool has_news = false;                    // for facilitators
-  std::multiset<std::int64_t> selected;     // rooms that facilitators look at
+  std::set<std::int64_t> changed_rooms;  // whose picture is old
+  bool has_news = false;                 // for facilitators
+  std::multiset<std::int64_t> selected;  // rooms that facilitators look at
   std::deque<LogEntry> log;
-  std::map<std::int64_t, std::string> troubles;  // by room
+  std::map<std::int64_t, std::string> troubles;           // by room
   std::map<std::string, std::deque<std::int64_t>> joins;  // by address, when
   std::map<std::string, std::shared_ptr<const std::string>> worlds;
   std::string facilitator_token, observer_token;

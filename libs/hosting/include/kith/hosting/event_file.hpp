@@ -102,7 +102,8 @@ class EventFile {
   [[nodiscard]] std::vector<StoredToken> tokens();
   /// Events in order of rooms and seq; of one room if given.
   void for_each_event(const std::function<void(const StoredEvent&)>& visit, std::optional<std::int64_t> room = {});
-  [[nodiscard]] std::uint64_t count_events();
+  /// Of all rooms, or of one.
+  [[nodiscard]] std::uint64_t count_events(std::optional<std::int64_t> room = {});
   /// Reads every row, and SQLite's own check. @throws kith::Error kMismatch E1612.
   void verify();
 
