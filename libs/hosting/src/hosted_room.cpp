@@ -117,12 +117,14 @@ void HostedRoom::wake() {
 // Does what can be done now, until something is being saved or nothing is left.
 void HostedRoom::advance() {
   if (!broken_.empty()) {
+    may_have_free_seat_ = false;
     for (auto& asked : std::exchange(asked_, {}))
       asked.done({.events = {}, .refusal = Refusal{"room-broken", "This group cannot continue: " + broken_}});
     next_due_us_ = std::numeric_limits<std::int64_t>::max();
     return;
   }
   if (!room_) return;
+  may_have_free_seat_ = room_->has_free_seat();
   while (!saving_ && begin_next()) {
   }
   if (saving_) return;

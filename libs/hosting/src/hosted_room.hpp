@@ -21,7 +21,7 @@
 namespace kith {
 
 // What became of a command: events that are on the disk, or a refusal; neither if it was accepted before.
-struct Outcome {
+struct CommandOutcome {
   std::vector<RoomEvent> events;
   std::optional<Refusal> refusal;
 };
@@ -45,7 +45,7 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
     // Something is wrong that people should hear of; empty: no longer.
     virtual void on_trouble(std::int64_t room, const std::string& what) = 0;
   };
-  using Done = std::function<void(const Outcome& outcome)>;
+  using Done = std::function<void(const CommandOutcome& outcome)>;
 
   HostedRoom(Host& host, std::shared_ptr<const LiveStudy> study, StoredRoom stored, RoomSetup setup)
       : host_{host}, study_{std::move(study)}, stored_{std::move(stored)}, setup_{std::move(setup)} {}
@@ -55,6 +55,8 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   [[nodiscard]] const RoomSetup& setup() const noexcept { return setup_; }
   // From any thread: when the clock demands something, in microseconds.
   [[nodiscard]] std::int64_t next_due_us() const noexcept { return next_due_us_.load(); }
+  // From any thread: whether somebody may find a seat; as long as nobody knows, yes.
+  [[nodiscard]] bool may_have_free_seat() const noexcept { return may_have_free_seat_.load(); }
   // From any thread: whether events wait for a disk that refused them.
   [[nodiscard]] bool is_unsaved() const noexcept { return is_unsaved_.load(); }
 
@@ -103,6 +105,7 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   RoomSetup setup_;
   std::atomic<std::int64_t> next_due_us_ = std::numeric_limits<std::int64_t>::max();
   std::atomic<bool> is_unsaved_ = false;
+  std::atomic<bool> may_have_free_seat_ = true;
 
   std::optional<Room> room_;
   std::string broken_;                          // why it cannot go on

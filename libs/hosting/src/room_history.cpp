@@ -118,7 +118,9 @@ RoomHistory read_history(EventFile& file, const StoredRoom& stored, const std::s
   history.stored = stored;
   Room fresh{study, room_setup(Json::parse(stored.setup)), cache};
   for (std::size_t seat = 1; seat <= fresh.num_seats(); ++seat) {
-    if (!fresh.is_person(seat)) history.seats[seat] = {.member = seat, .simulated = true};
+    if (fresh.is_person(seat)) continue;
+    history.seats[seat].member = seat;
+    history.seats[seat].simulated = true;
   }
   history.room = std::move(fresh);
   Collector collector{history};

@@ -144,7 +144,7 @@ void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
   const auto seat = connection->identity.seat;
   post(number, [this, connection, number, seat](TeachingCache&) {
     const auto room = room_of(number);
-    const auto show = [this, connection, room](const Outcome& outcome) {
+    const auto show = [this, connection, room](const CommandOutcome& outcome) {
       if (outcome.refusal && !room->room()) return connection->dismiss("removed", kPolicy);
       if (room->room() == nullptr) return;
       const Viewer viewer{.role = Viewer::Role::kParticipant,
@@ -157,7 +157,7 @@ void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
       return joined.find({number, seat}) == joined.end();
     }();
     if (is_new) {
-      room->ask({.actor = "server", .type = "join", .body = {{"seat", seat}}, .id = {}}, [](const Outcome&) {});
+      room->ask({.actor = "server", .type = "join", .body = {{"seat", seat}}, .id = {}}, [](const CommandOutcome&) {});
     }
     room->ask({.actor = "server", .type = "present", .body = {{"seat", seat}}, .id = {}}, show);
   });
@@ -178,7 +178,7 @@ void LiveService::State::beat(const Connection& connection) {
 void LiveService::State::tell_presence(std::int64_t number, std::int64_t seat, const char* type) {
   post(number, [this, number, seat, type](TeachingCache&) {
     if (const auto room = room_of(number))
-      room->ask({.actor = "server", .type = type, .body = {{"seat", seat}}, .id = {}}, [](const Outcome&) {});
+      room->ask({.actor = "server", .type = type, .body = {{"seat", seat}}, .id = {}}, [](const CommandOutcome&) {});
   });
 }
 
@@ -199,7 +199,7 @@ void LiveService::State::message(const std::shared_ptr<Connection>& connection, 
     const auto seat = static_cast<std::size_t>(connection->identity.seat);
     room_of(connection->identity.room)
         ->ask({.actor = seat_actor(seat), .type = type, .body = body, .id = id},
-              [connection, id](const Outcome& outcome) {
+              [connection, id](const CommandOutcome& outcome) {
                 connection->send(outcome.refusal ? nak_frame(id, *outcome.refusal) : ack_frame(id));
               });
   });
@@ -223,7 +223,7 @@ void LiveService::State::facilitate(const std::shared_ptr<Connection>& connectio
   rest.erase("room");
   post(room->number(), [this, room, type, id, rest, reply](TeachingCache&) {
     room->ask({.actor = "facilitator", .type = type, .body = rest, .id = id},
-              [this, room, type, rest, reply](const Outcome& outcome) {
+              [this, room, type, rest, reply](const CommandOutcome& outcome) {
                 reply(outcome.refusal);
                 if (outcome.refusal || type != "readmit") return;
                 const auto seat = number_at(rest, "seat");

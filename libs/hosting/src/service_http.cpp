@@ -9,6 +9,7 @@
 #include "kith/hosting/session_export.hpp"
 #include "kith/live/world_json.hpp"
 #include "qr_svg.hpp"
+#include "random_token.hpp"
 #include "service_state.hpp"
 #include "tar.hpp"
 
@@ -152,6 +153,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   const auto query = query_of(body);
   std::vector<std::shared_ptr<HostedRoom>> open;
   bool is_study = false;
+  bool is_known = false;  // that it is the code of a room
   {
     const std::lock_guard lock{mutex};
     const auto now = now_us();
@@ -167,10 +169,11 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     if (free_space < kNoSpace) return error_reply(503, "no-space", "Nobody new can join at the moment.");
     is_study = *code == join_code;
     for (const auto& [number, room] : rooms) {
-      if (is_study || room->setup().code == *code) open.push_back(room);
+      is_known = is_known || room->setup().code == *code;
+      if ((is_study || room->setup().code == *code) && room->may_have_free_seat()) open.push_back(room);
     }
   }
-  if (open.empty() && !is_study) return error_reply(404, "no-room", "There is no group with this code.");
+  if (!is_known && !is_study) return error_reply(404, "no-room", "There is no group with this code.");
 
   const auto take_seat = [&](const std::shared_ptr<HostedRoom>& room) {
     auto promise = std::make_shared<std::promise<std::int64_t>>();  // the seat, 0: none is free
@@ -178,7 +181,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     post(room->number(), [room, query, promise](TeachingCache&) {
       if (room->room() != nullptr && !room->room()->has_free_seat()) return promise->set_value(0);
       room->ask({.actor = "server", .type = "join", .body = {{"query", query}}, .id = {}},
-                [promise](const Outcome& outcome) {
+                [promise](const CommandOutcome& outcome) {
                   std::int64_t taken = 0;
                   for (const auto& event : outcome.events) {
                     if (event.type == "joined") taken = event.body.value("seat", std::int64_t{0});
@@ -229,9 +232,11 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
       if (seat && *seat > 0) return give_link(room, *seat);
     }
   }
+  // Nobody must be able to guess such a code, and whoever pays has to find it in the log.
   const bool pays = study->group().completion.pay_full;
-  const auto page = full_view(
-      *study, pays ? completion_code(*study, store->file().id(), request.body, 0) : std::string{}, query, now_us());
+  const auto paid = pays ? completion_code(*study, random_token(), "full", 0) : std::string{};
+  record({}, "server", "turned-away", {{"code", paid}, {"query", query}}, {}, [](bool) {});
+  const auto page = full_view(*study, paid, query, now_us());
   return json_reply(200, {{"full", true}, {"view", page}});
 }
 

@@ -115,7 +115,8 @@ class Exporter {
   }
 
   [[nodiscard]] std::optional<double> belief_in(std::size_t member) const {
-    if (!session().belief().keeps_members() || member == 0 || member > session().num_members()) return std::nullopt;
+    const bool is_kept = session().belief().options().members || session().num_members() == 1;
+    if (!is_kept || member == 0 || member > session().num_members()) return std::nullopt;
     return session().belief().member(member - 1).mass_in(atlas_.policy_bec_half_spaces());
   }
 
