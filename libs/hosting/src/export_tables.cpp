@@ -58,7 +58,7 @@ TableDescription sessions_table() {
                   text("digest", "Digest of the room's final state, equal whenever the room is replayed.")}};
 }
 
-TableDescription participants_table(const ExportOptions& options) {
+TableDescription participants_table(const SessionExportOptions& options) {
   TableDescription table{
       .file = kParticipantsFile,
       .description = "One person or stand-in in a room.",
@@ -131,7 +131,7 @@ TableDescription keys_table() {
                   integer("ms", "Since the test appeared, as the browser measured it.", true, "ms")}};
 }
 
-TableDescription questions_table(const ExportOptions& options) {
+TableDescription questions_table(const SessionExportOptions& options) {
   return {.file = kQuestionsFile,
           .description = options.with_text ? "One answer to one question at the end."
                                            : "One answer to one question at the end; free text is left out.",
@@ -165,7 +165,7 @@ TableDescription events_table() {
                            "for.")}};
 }
 
-std::vector<TableDescription> export_tables(const ExportOptions& options) {
+std::vector<TableDescription> export_tables(const SessionExportOptions& options) {
   return {sessions_table(), participants_table(options), periods_table(), tests_table(),
           keys_table(),     questions_table(options),    trials_table(),  events_table()};
 }

@@ -20,11 +20,11 @@ inline constexpr const char* kTrialsFile = "trials.csv";
 inline constexpr const char* kEventsFile = "events.csv";
 
 [[nodiscard]] TableDescription sessions_table();
-[[nodiscard]] TableDescription participants_table(const ExportOptions& options);
+[[nodiscard]] TableDescription participants_table(const SessionExportOptions& options);
 [[nodiscard]] TableDescription periods_table();
 [[nodiscard]] TableDescription tests_table();
 [[nodiscard]] TableDescription keys_table();
-[[nodiscard]] TableDescription questions_table(const ExportOptions& options);
+[[nodiscard]] TableDescription questions_table(const SessionExportOptions& options);
 [[nodiscard]] TableDescription trials_table();
 [[nodiscard]] TableDescription events_table();
 

@@ -241,7 +241,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
 }
 
 LiveService::HttpReply LiveService::State::export_tables(const std::string& query) {
-  ExportOptions what;
+  SessionExportOptions what;
   const auto name = parameter(query, "room");
   if (!name.empty()) {
     const auto room = room_named(name);

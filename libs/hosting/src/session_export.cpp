@@ -40,7 +40,7 @@ struct TestRow {
 // The writers of all tables; hashes what they write.
 class Tables {
  public:
-  Tables(const ExportOptions& options, const ExportSink& sink) : sink_{sink} {
+  Tables(const SessionExportOptions& options, const ExportSink& sink) : sink_{sink} {
     for (auto& table : export_tables(options)) {
       const auto file = table.file;
       hashes_.try_emplace(file);
@@ -78,7 +78,7 @@ class Tables {
 
 class Exporter {
  public:
-  Exporter(const std::shared_ptr<const LiveStudy>& study, const ExportOptions& options, const ExportSink& sink)
+  Exporter(const std::shared_ptr<const LiveStudy>& study, const SessionExportOptions& options, const ExportSink& sink)
       : study_{study}, atlas_{*study->atlas}, options_{options}, tables_{options, sink} {}
 
   void add(const RoomHistory& history) {
@@ -373,7 +373,7 @@ class Exporter {
 
   const std::shared_ptr<const LiveStudy>& study_;
   const Atlas& atlas_;
-  const ExportOptions& options_;
+  const SessionExportOptions& options_;
   Tables tables_;
   const RoomHistory* history_ = nullptr;
 };
@@ -390,7 +390,7 @@ void reconcile(const std::filesystem::path& path, const char* file, std::size_t 
 }  // namespace
 
 ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStudy>& study, TeachingCache& cache,
-                            const ExportOptions& options, const ExportSink& sink) {
+                            const SessionExportOptions& options, const ExportSink& sink) {
   Exporter exporter{study, options, sink};
   std::size_t rooms = 0;
   std::size_t events = 0;

@@ -17,7 +17,7 @@
 namespace kith {
 
 /// What of a session is exported.
-struct ExportOptions {
+struct SessionExportOptions {
   std::optional<std::int64_t> room{};  ///< One room; otherwise all.
   bool with_names = false;             ///< Also names, query parameters and completion codes: what identifies people.
   bool with_text = false;              ///< Also what people wrote in their own words.
@@ -34,7 +34,7 @@ using ExportSink = std::function<void(std::string_view file, std::string_view pi
 
 /// The tables of an export, see docs/formats.md: sessions, participants, periods, tests, keypresses, questions, trials
 /// (for `kith fit`) and events.
-[[nodiscard]] std::vector<TableDescription> export_tables(const ExportOptions& options);
+[[nodiscard]] std::vector<TableDescription> export_tables(const SessionExportOptions& options);
 
 /// Writes the tables, codebook.json and SHA256SUMS, room by room; all of it is of one instant. Every room is replayed:
 /// what was right is computed again, not read. The numbers of rows are compared with the store.
@@ -42,6 +42,6 @@ using ExportSink = std::function<void(std::string_view file, std::string_view pi
 /// @throws kith::Error  kIo E1615 if the numbers of rows differ from the store's; kMismatch E1612 (a damaged row),
 /// E1614 (a room does not replay to what it was); kInvalidInput E1618 (there is no such room).
 ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStudy>& study, TeachingCache& cache,
-                            const ExportOptions& options, const ExportSink& sink);
+                            const SessionExportOptions& options, const ExportSink& sink);
 
 }  // namespace kith
