@@ -31,7 +31,8 @@ class Collector {
     if (event.type == "joined") {
       auto& row = history_.seats[count_at(body, "seat")];
       row.joined_us = event.at_us;
-      if (const auto member = count_at(body, "member"); member > 0) row.member = member;
+      if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
+        row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
       if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
     } else if (event.type == "consented") {
       history_.seats[seat].consent = text_at(body, "version");
@@ -43,7 +44,7 @@ class Collector {
       history_.ended = text_at(body, "reason");
     } else if (event.type == "away" || event.type == "present") {
       note_presence(history_.seats[seat], event.type == "away", event.at_us);
-    } else if (event.type == "dropped" || event.type == "simulate") {
+    } else if (event.type == "dropped" || event.type == "simulate" || event.type == "left") {
       replace(seat, count_at(body, "by"), event.at_us);
     } else if (event.type == "lesson") {
       note_lesson(room, event);
