@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/error.hpp"
 #include "kith/hosting/live_service.hpp"
 #include "kith/hosting/session_study.hpp"
 #include "kith/live/room_event.hpp"
