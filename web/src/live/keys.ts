@@ -1,0 +1,11 @@
+// Whether a key belongs to a field that somebody is filling in.
+export function isTyping(event: KeyboardEvent): boolean {
+  const target = event.target;
+  return target instanceof HTMLElement && target.matches('input, textarea, select, summary, [contenteditable]');
+}
+
+// Whether a key presses the button or link that has the focus.
+export function isPressing(event: KeyboardEvent): boolean {
+  const target = event.target;
+  return (event.key === 'Enter' || event.key === ' ') && target instanceof HTMLElement && target.matches('button, a, summary');
+}
