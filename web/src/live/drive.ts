@@ -16,6 +16,7 @@ interface Kept {
   actions: number[];
   keys: KeyPress[];
   ms: number;
+  told: number[]; // the last draft that was sent
 }
 
 interface Options {
@@ -50,12 +51,12 @@ export function useDrive({ world, start, draft, key, onDraft }: Options): Drive 
   const latest = useRef(actions); // several steps of a click come before the next rendering
   const ms = (): number => Math.round(performance.now() - clock.current.begun);
 
-  useDrafts(actions, kept.actions, onDraft);
+  const told = useDrafts(actions, kept.told, onDraft);
 
   const change = (next: number[], pressed: KeyPress[0][]): void => {
     latest.current = next;
     for (const press of pressed) if (keys.current.length < kMostKeys) keys.current.push([press, ms()]);
-    keep('drive', { key, actions: next, keys: keys.current, ms: ms() } satisfies Kept);
+    keep('drive', { key, actions: next, keys: keys.current, ms: ms(), told: told.current } satisfies Kept);
     setActions(next);
   };
   const states = world.walk(start, actions);
@@ -98,24 +99,30 @@ export function useDrive({ world, start, draft, key, onDraft }: Options): Drive 
   };
 }
 
-// What this tab remembers of the task, or else what the server has.
+// What this tab remembers of the task. The server's draft counts if it comes from another tab or computer, where
+// somebody has driven on.
 function beginning(key: string, draft: number[]): Kept {
   const kept = recall<Kept>('drive');
-  if (kept?.key === key && Array.isArray(kept.actions) && Array.isArray(kept.keys)) return kept;
-  return { key, actions: draft, keys: [], ms: 0 };
+  if (kept?.key !== key || !Array.isArray(kept.actions) || !Array.isArray(kept.keys)) {
+    return { key, actions: draft, keys: [], ms: 0, told: draft };
+  }
+  const isOwn = String(draft) === String(kept.told) || draft.every((action, i) => action === kept.actions[i]);
+  return isOwn ? { ...kept, told: draft } : { ...kept, actions: draft, told: draft };
 }
 
-// Tells the server about changes, but not about every one.
-function useDrafts(actions: number[], known: number[], onDraft: Options['onDraft']): void {
-  const sent = useRef({ at: -Infinity, actions: known });
+// Tells the server about changes, but not about every one. Gives what it was told last.
+function useDrafts(actions: number[], known: number[], onDraft: Options['onDraft']): { current: number[] } {
+  const told = useRef(known);
+  const at = useRef(-Infinity);
   useEffect(() => {
-    if (!onDraft || sent.current.actions === actions || (actions.length === 0 && sent.current.actions.length === 0)) return;
+    if (!onDraft || String(told.current) === String(actions)) return;
     const tell = (): void => {
-      sent.current = { at: performance.now(), actions };
+      told.current = actions;
+      at.current = performance.now();
       onDraft(actions);
     };
-    const pause = sent.current.at + kDraftMs - performance.now();
-    const timer = setTimeout(tell, Math.max(0, pause));
+    const timer = setTimeout(tell, Math.max(0, at.current + kDraftMs - performance.now()));
     return () => clearTimeout(timer);
   }, [actions]);
+  return told;
 }

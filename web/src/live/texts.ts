@@ -29,8 +29,15 @@ export function t(key: string, values: Values = {}): string {
 // What somebody else has named, translated if the texts have a translation: "name.rubble".
 export const named = (name: string): string => lookUp(`name.${name}`) ?? name;
 
+const labels = new Map<string, string>();
+
+// Labels come with the tables of moves and are used wherever an action is named.
+export function rememberLabels(actions: readonly { name: string; label: string }[]): void {
+  for (const { name, label } of actions) labels.set(name, label);
+}
+
 // The label of an action: "up", "pick up".
-export const actionLabel = (name: string, label: string): string => lookUp(`action.${name}`) ?? label;
+export const actionLabel = (name: string): string => lookUp(`action.${name}`) ?? labels.get(name) ?? name;
 
 export const listed = (things: string[]): string => lists.format(things);
 

@@ -38,19 +38,25 @@ function changedItem(before: Frame, after: Frame, isCarried: boolean): string | 
 }
 
 // The step from a frame to the next: "The robot moves left onto rubble."
-export function stepText(board: LiveBoard, legend: Legend, before: Frame, after: Frame, label?: string): string {
+export function stepText(board: LiveBoard, legend: Legend, before: Frame, after: Frame): string {
   const action = before.action ?? '';
-  const said = actionLabel(action, label ?? action);
+  const said = actionLabel(action);
   if (!before.robot || !after.robot) {
     return t('say.state', { action: said, from: named(before.state ?? ''), to: named(after.state ?? '') });
   }
   if (!isSame(before.robot, after.robot)) {
     const went = directionOf(before.robot, after.robot);
-    const direction = actionLabel(went, went);
-    const things = listed(partsAt(board, legend, before, after.robot).map(phrase));
-    const slipped = action in kDirections && went !== '' && went !== action;
-    if (slipped) return t(things ? 'say.slip_onto' : 'say.slip', { wanted: said, direction, things });
-    return t(things ? 'say.move_onto' : 'say.move', { direction: went === '' ? said : direction, things });
+    const direction = actionLabel(went);
+    const parts = partsAt(board, legend, before, after.robot);
+    const onto = listed(parts.filter(({ kind }) => kind === 'terrain').map(phrase));
+    const reached = listed(parts.filter(({ kind }) => kind !== 'terrain').map(phrase));
+    const rest = {
+      onto: onto && t('say.onto', { things: onto }),
+      reached: reached && t('say.reached', { things: reached }),
+    };
+    const hasSlipped = action in kDirections && went !== '' && went !== action;
+    if (hasSlipped) return t('say.slip', { wanted: said, direction, ...rest });
+    return t('say.move', { direction: went === '' ? said : direction, ...rest });
   }
   const taken = changedItem(before, after, true);
   if (taken) return t('say.take', { item: named(taken) });
@@ -71,7 +77,7 @@ export function aroundText(board: LiveBoard, legend: Legend, frame: Frame): stri
     const isOutside = cell[0] < 1 || cell[1] < 1 || cell[0] > width || cell[1] > height;
     const things = isOutside ? [] : partsAt(board, legend, frame, cell).map(phrase);
     const what = isOutside ? t('around.edge') : things.length > 0 ? listed(things) : t('around.floor');
-    return t('around.side', { direction: actionLabel(name, name), what });
+    return t('around.side', { direction: actionLabel(name), what });
   });
   const carried = (frame.items ?? []).filter((item) => item.carried).map(({ name }) => t('thing.item', { name: named(name) }));
   const here = partsAt(board, legend, frame, frame.robot).map(phrase);

@@ -3,11 +3,11 @@ import { useEffect, useState } from 'preact/hooks';
 import type { Frame, Place } from '../shared/board/types';
 import type { Legend } from '../shared/board/legend';
 import type { LiveBoard, WorldDocument } from './protocol';
+import { rememberLabels } from './texts';
 
 export interface Action {
   index: number;
   name: string;
-  label: string;
   shift: [number, number] | null; // columns and rows that it moves the robot, rows downward
 }
 
@@ -15,10 +15,10 @@ export class World {
   readonly actions: Action[];
 
   constructor(private readonly table: WorldDocument) {
-    this.actions = table.actions.map(({ name, label, dx, dy }, index) => ({
+    rememberLabels(table.actions);
+    this.actions = table.actions.map(({ name, dx, dy }, index) => ({
       index,
       name,
-      label,
       shift: dx === null || dy === null || (dx === 0 && dy === 0) ? null : [dx, dy],
     }));
   }

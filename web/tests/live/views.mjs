@@ -1,5 +1,5 @@
 // Views of every screen, as a server would send them: for looks, accessibility and hostile texts.
-import { framesOf, judge } from './delivery.mjs';
+import { framesOf, judge, makeWorld } from './delivery.mjs';
 import { Room } from './room.mjs';
 
 export const kQuestions = [
@@ -21,7 +21,7 @@ export const kHostile = [
 
 const mapless = (n) => ({ domain: { id: 'dock' }, world: 3, start: { state: n === 0 ? 'far from the dock' : 'at the dock' } });
 
-export const kMaplessWorld = {
+const kMaplessWorld = {
   key: 'mapless',
   actions: [
     { name: 'drive', label: 'drive on', dx: null, dy: null },
@@ -93,7 +93,9 @@ export function makeViews(lesson, now = Date.now()) {
   views['predict-limit'] = structuredClone(views.predict);
   views['predict-limit'].predict.until_ms = now + 25_000;
   const large = largeBoard(lesson.domain);
-  views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'none' } };
+  views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
+  room.worlds.set('large', makeWorld(lesson.domain, large, 'large'));
+  room.worlds.set('mapless', { table: kMaplessWorld });
   const frame = (state, action) => ({ state, action });
   const way = [frame('far from the dock', 'drive'), frame('at the dock', 'wait'), frame('at the dock', 'dock'), frame('docked', null)];
   const plain = [frame('far from the dock', 'drive'), frame('at the dock', 'dock'), frame('docked', null)];

@@ -33,11 +33,13 @@ export function Driver(props: Props): JSX.Element {
     const legend = props.legend;
     return (
       <div class="board-screen">
-        {board.map ? (
-          <LiveBoardView board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
-        ) : (
-          <StateCard frame={board.start} />
-        )}
+        <div class="board-column">
+          {board.map ? (
+            <LiveBoardView board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
+          ) : (
+            <StateCard frame={board.start} />
+          )}
+        </div>
         <div class="side">{props.waiting}</div>
       </div>
     );
@@ -46,11 +48,10 @@ export function Driver(props: Props): JSX.Element {
 }
 
 function Driving({ board, legend, world, drive, off, children }: Props & { world: World; drive: Drive }): JSX.Element {
-  const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, world, drive.frames));
-  const tell = useTelling(board, legend, world, drive, log);
+  const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
+  const tell = useTelling(board, legend, drive, log);
   const area = useRef<HTMLDivElement>(null);
   useKeys({ world, drive, off, tell, area });
-  const labels = new Map(world.actions.map(({ name, label }) => [name, label]));
   const frame = drive.frames.at(-1) ?? board.start;
   return (
     <div class="board-screen">
@@ -109,28 +110,27 @@ function Driving({ board, legend, world, drive, off, children }: Props & { world
             <BoardInWords board={board} legend={legend} frame={frame} />
           </>
         ) : (
-          <StepList title={t('predict.path')} frames={drive.frames} labels={labels} />
+          <StepList title={t('predict.path')} frames={drive.frames} />
         )}
       </div>
     </div>
   );
 }
 
-function lastStep(board: LiveBoard, legend: Legend, world: World, frames: Frame[]): string {
+function lastStep(board: LiveBoard, legend: Legend, frames: Frame[]): string {
   const [before, after] = frames.slice(-2);
   if (!before || !after) return t('predict.start');
-  const label = world.actions.find(({ name }) => name === before.action)?.label;
-  return stepText(board, legend, before, after, label);
+  return stepText(board, legend, before, after);
 }
 
 type Told = Outcome | 'none';
 
 // Says what an action has done. The path is that of the next rendering.
-function useTelling(board: LiveBoard, legend: Legend, world: World, drive: Drive, log: Log): (outcome: Told) => void {
+function useTelling(board: LiveBoard, legend: Legend, drive: Drive, log: Log): (outcome: Told) => void {
   const length = useRef(drive.actions.length);
   useEffect(() => {
     if (drive.actions.length > length.current) {
-      log.say(lastStep(board, legend, world, drive.frames) + (drive.isAtEnd ? ` ${t('predict.end')}` : ''));
+      log.say(lastStep(board, legend, drive.frames) + (drive.isAtEnd ? ` ${t('predict.end')}` : ''));
     }
     length.current = drive.actions.length;
   }, [drive.actions]);

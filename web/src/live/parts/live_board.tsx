@@ -16,6 +16,8 @@ export function useLegend(domain: MapDomain): Legend {
   return useMemo(() => new Legend(JSON.parse(text) as MapDomain), [text]);
 }
 
+const kLargestCell = 132; // pixels
+
 interface Props {
   board: LiveBoard;
   legend: Legend;
@@ -33,10 +35,9 @@ export function LiveBoardView({ board, legend, frames, step, trail, onCell, ...r
     const cell = cellUnder(event);
     if (cell) onCell?.(cell);
   };
-  const { width = 1, height = 1 } = board.domain;
-  const shape = width > 1.6 * height ? 'wide' : height > 1.2 * width ? 'tall' : 'even';
+  const most = { maxWidth: `${(board.domain.width ?? 1) * kLargestCell}px` };
   return (
-    <div class={`live-board ${shape} ${onCell ? 'clickable' : ''}`} onClick={onCell && clicked}>
+    <div class={`live-board ${onCell ? 'clickable' : ''}`} style={most} onClick={onCell && clicked}>
       <Patterns surfaces={legend.surfaces} />
       <BoardView
         domain={board.domain}

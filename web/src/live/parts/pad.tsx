@@ -27,7 +27,7 @@ export function Pad({ actions, canDo, onAction, off }: Props): JSX.Element {
               onClick={() => onAction(action.index)}
             >
               <Arrow shift={action.shift ?? [0, 0]} />
-              <span class="visually-hidden">{actionLabel(action.name, action.label)}</span>
+              <span class="visually-hidden">{actionLabel(action.name)}</span>
             </Button>
           ))}
         </div>
@@ -36,7 +36,7 @@ export function Pad({ actions, canDo, onAction, off }: Props): JSX.Element {
         <div class="other-actions" role="group" aria-label={t('predict.actions')}>
           {others.map((action) => (
             <Button class={canDo(action.index) ? '' : 'faint'} off={off} onClick={() => onAction(action.index)}>
-              {actionLabel(action.name, action.label)}
+              {actionLabel(action.name)}
             </Button>
           ))}
         </div>

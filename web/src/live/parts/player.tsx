@@ -66,6 +66,9 @@ export function Player({ playback, primary }: { playback: Paced; primary: boolea
           <Icon path={kIcons.forward} />
           <span class="visually-hidden">{t('player.forward')}</span>
         </Button>
+      </div>
+      <div class="pace">
+        <p class="muted count">{t('player.step', { step, of: last })}</p>
         <label class="speed">
           <span>{t('player.speed')}</span>
           <select value={String(speed)} onChange={(event) => setSpeed(Number(event.currentTarget.value))}>
@@ -75,7 +78,6 @@ export function Player({ playback, primary }: { playback: Paced; primary: boolea
           </select>
         </label>
       </div>
-      <p class="muted count">{t('player.step', { step, of: last })}</p>
     </div>
   );
 }

@@ -11,10 +11,9 @@ interface Props {
   title: string;
   frames: Frame[]; // as far as it has been walked
   differs?: number | null | undefined;
-  labels?: Map<string, string>;
 }
 
-export function StepList({ title, frames, differs, labels }: Props): JSX.Element {
+export function StepList({ title, frames, differs }: Props): JSX.Element {
   return (
     <div class="step-list">
       <h2>{title}</h2>
@@ -22,7 +21,7 @@ export function StepList({ title, frames, differs, labels }: Props): JSX.Element
         {frames.map(({ state, action }, i) => (
           <li class={differs === i ? 'differs' : undefined}>
             <span class="state">{named(state ?? '')}</span>
-            {action && <span class="action"> {'\u2192'} {actionLabel(action, labels?.get(action) ?? action)}</span>}
+            {action && <span class="action"> {'\u2192'} {actionLabel(action)}</span>}
             {differs === i && <span class="mark">{t('feedback.here')}</span>}
           </li>
         ))}

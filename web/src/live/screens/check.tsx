@@ -4,15 +4,40 @@ import { useState } from 'preact/hooks';
 import { useDrive } from '../drive';
 import { Driver } from '../parts/driver';
 import { useLegend } from '../parts/live_board';
-import { Button, Heading } from '../parts/ui';
+import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
+import { keep, recall } from '../storage';
 import { sentence, t } from '../texts';
 import { plainWorld, useWorld, type World } from '../world';
 
 const kEnough = 4; // steps after which somebody knows how to drive
 type Shown = NonNullable<ScreenProps['view']['check']>;
 
+// Before the first board: what it is all about.
 export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
+  const [isIntroduced, setIntroduced] = useState(() => recall<boolean>('introduced') === true);
+  const { story, goal } = props.view.study;
+  if (isIntroduced || (story.length === 0 && !goal)) return <Controls {...props} />;
+  return (
+    <div class="intro">
+      <Heading>{t('intro.title')}</Heading>
+      <Paragraphs texts={story} />
+      {goal && <p class="goal">{goal}</p>}
+      <p>{t('intro.how')}</p>
+      <Button
+        primary
+        onClick={() => {
+          keep('introduced', true);
+          setIntroduced(true);
+        }}
+      >
+        {t('common.continue')}
+      </Button>
+    </div>
+  );
+}
+
+function Controls(props: ScreenProps & { check: Shown }): JSX.Element {
   const { check, token } = props;
   const legend = useLegend(check.board.domain);
   const { world: fetched, hasTrouble } = useWorld(check.world, token);

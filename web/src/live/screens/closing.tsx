@@ -5,7 +5,8 @@ import type { ParticipantView } from '../protocol';
 import { sentence, t } from '../texts';
 
 export function Debrief({ debrief, isSaved }: { debrief: NonNullable<ParticipantView['debrief']>; isSaved: boolean }): JSX.Element {
-  const { summary, code, redirect, rounds, right, tests } = debrief;
+  const { code, redirect, rounds, right, tests } = debrief;
+  const summary = [...new Set(debrief.summary.map(sentence))]; // parts may teach the same
   return (
     <>
       <Heading>{t('debrief.title')}</Heading>
@@ -18,7 +19,7 @@ export function Debrief({ debrief, isSaved }: { debrief: NonNullable<Participant
           <h2 id="summary-title">{t('debrief.summary')}</h2>
           <ul>
             {summary.map((text) => (
-              <li>{sentence(text)}</li>
+              <li>{text}</li>
             ))}
           </ul>
         </section>

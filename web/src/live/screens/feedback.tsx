@@ -86,7 +86,7 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
         <Mark verdict={verdict} />
         <Heading>{t(`feedback.title.${verdict}`)}</Heading>
       </div>
-      <p class="lead">{t(`feedback.${verdict}`)}</p>
+      <p class="lead">{t(verdict === 'wrong' && !board.map ? 'feedback.wrong_plain' : `feedback.${verdict}`)}</p>
       <div class="board-screen">
         <div class="board-column">
           {board.map ? (

@@ -27,7 +27,7 @@ export function Lobby({ lobby, view, connection }: ScreenProps & { lobby: Shown 
       {lobby.ask_name && <Name view={view} connection={connection} />}
       {(view.study.story.length > 0 || view.study.goal) && (
         <section class="story" aria-labelledby="story-title">
-          <h2 id="story-title">{t('lobby.story')}</h2>
+          <h2 id="story-title">{t('intro.title')}</h2>
           <Paragraphs texts={view.study.story} />
           {view.study.goal && <p class="goal">{view.study.goal}</p>}
         </section>

@@ -19,11 +19,12 @@ export function Predict(props: Props): JSX.Element {
   const { task, token, isScreening } = props;
   const { world, hasTrouble } = useWorld(task.world, token);
   const legend = useLegend(task.board.domain);
+  const question = isScreening ? 'screening.question' : task.board.map ? 'predict.question' : 'predict.question_plain';
   return (
     <>
       <p class="kicker">{t('predict.count', { index: task.index + 1, of: task.of })}</p>
       <Heading>{t(isScreening ? 'screening.title' : 'predict.title')}</Heading>
-      <p class="lead">{t(isScreening ? 'screening.question' : 'predict.question')}</p>
+      <p class="lead">{t(question)}</p>
       {world?.hasChance && <p>{t('predict.chance')}</p>}
       <TimeLeft until={task.until_ms} />
       {world ? (
