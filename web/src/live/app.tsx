@@ -5,6 +5,7 @@ import { duration, useTick } from './clock';
 import { Connection, type Snapshot } from './connection';
 import { Bare, Shell } from './parts/shell';
 import { Button, Heading } from './parts/ui';
+import { setStudyTitle } from './parts/title';
 import type { ParticipantView } from './protocol';
 import type { ScreenProps } from './screen';
 import { Check } from './screens/check';
@@ -18,7 +19,7 @@ import { Questions } from './screens/questions';
 import { Wait } from './screens/wait';
 import { Watch } from './screens/watch';
 import { becomeParticipant, forgetParticipant, knownToken } from './session';
-import { t } from './texts';
+import { currentLanguage, loadTexts, t } from './texts';
 
 export function App(): JSX.Element {
   const [known] = useState(knownToken);
@@ -38,10 +39,6 @@ export function App(): JSX.Element {
     window.addEventListener('hashchange', changed);
     return () => window.removeEventListener('hashchange', changed);
   }, []);
-  const isLanding = token === null && full === null;
-  useEffect(() => {
-    if (isLanding) document.title = t('landing.title');
-  }, [isLanding]);
   if (full) {
     return (
       <Bare>
@@ -73,7 +70,7 @@ function useConnection(token: string): { connection: Connection; snapshot: Snaps
 function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX.Element {
   const { connection, snapshot } = useConnection(token);
   const { view, bye, phase } = snapshot;
-  useTitle(view);
+  useLanguage(view?.lang);
   if (phase === 'closed') {
     return (
       <Bare>
@@ -88,6 +85,7 @@ function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX
       </Bare>
     );
   }
+  setStudyTitle(view.study.title);
   const shown = screenOf({ view, connection, token });
   return (
     <Shell connection={connection} snapshot={snapshot} view={view}>
@@ -96,21 +94,12 @@ function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX
   );
 }
 
-// The heading of the screen and the study's title; a mark if something has begun while nobody looked.
-function useTitle(view: ParticipantView | null): void {
-  const stage = view?.stage;
-  const key = stage ? screenKey(view) : '';
+// The language of the study, if this page did not know it before.
+function useLanguage(lang: string | undefined): void {
+  const [, setCount] = useState(0);
   useEffect(() => {
-    if (!view) return;
-    const heading = document.querySelector('h1')?.textContent ?? '';
-    const title = [heading, view.study.title].filter((text) => text !== '').join(' - ');
-    document.title = document.hidden ? `(!) ${title}` : title;
-    const seen = (): void => {
-      if (!document.hidden) document.title = title;
-    };
-    document.addEventListener('visibilitychange', seen);
-    return () => document.removeEventListener('visibilitychange', seen);
-  }, [key]);
+    if (lang !== undefined && lang !== currentLanguage()) void loadTexts(lang).then(() => setCount((count) => count + 1));
+  }, [lang]);
 }
 
 // Screens of the same kind are new ones if they show something else.

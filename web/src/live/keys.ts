@@ -1,6 +1,7 @@
-// Whether a key belongs to a field that somebody is filling in.
-export function isTyping(event: KeyboardEvent): boolean {
+// Whether a key is not for the board: it belongs to a field that somebody is filling in, or the session is paused.
+export function isElsewhere(event: KeyboardEvent): boolean {
   const target = event.target;
+  if (document.querySelector('main[inert]')) return true;
   return target instanceof HTMLElement && target.matches('input, textarea, select, summary, [contenteditable]');
 }
 

@@ -79,12 +79,14 @@ async function fetchJson<T>(address: string): Promise<T | null> {
   }
 }
 
+export const currentLanguage = (): string => language;
+
 const bare = (lang: string): string => lang.toLowerCase().split('-')[0] ?? 'en';
 
 // The study's own texts, or those of this page in the study's (or else the browser's) language.
-export async function loadTexts(): Promise<void> {
+export async function loadTexts(viewLanguage?: string): Promise<void> {
   const own = await fetchJson<TextsDocument>('/api/texts');
-  const lang = own?.lang ?? navigator.language;
+  const lang = own?.lang ?? viewLanguage ?? navigator.language;
   const hasStrings = own !== null && Object.keys(own.strings ?? {}).length > 0;
   let file: Record<string, string> | null = null;
   if (kAvailable.includes(bare(lang))) file = await fetchJson(`/assets/live/texts/${bare(lang)}.json`);

@@ -81,6 +81,8 @@ export class Person {
   }
 
   async check() {
+    await this.at('What this is about');
+    await this.button('Continue').click();
     await this.at('Try the controls');
     await this.drive(await this.best());
     await this.button('It works').click();
@@ -130,6 +132,16 @@ export class Person {
       const line = document.querySelector(`.live-board .way.${name} .line`);
       return line ? line.getAttribute('points').split(' ').length : 0;
     }, kind);
+  }
+
+  // Until the last sentence about the board says so.
+  async said(text) {
+    await this.page.waitForFunction((part) => document.querySelector('[role=log] p:last-child')?.textContent.includes(part), text);
+  }
+
+  // Until the submit button has this below it.
+  async counts(text) {
+    await this.page.waitForFunction((part) => document.querySelector('.submit p')?.textContent.includes(part), text);
   }
 
   // All tasks of a period; `names` per task, or the best path.

@@ -4,7 +4,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import type { Legend } from '../../shared/board/legend';
 import type { Frame, Place } from '../../shared/board/types';
 import type { Drive, Outcome } from '../drive';
-import { isPressing, isTyping } from '../keys';
+import { isPressing, isElsewhere } from '../keys';
 import type { LiveBoard } from '../protocol';
 import { t } from '../texts';
 import { aroundText, stepText } from '../words';
@@ -180,7 +180,7 @@ function useKeys(options: KeyOptions): void {
   useEffect(() => {
     let last = -Infinity;
     const pressed = (event: KeyboardEvent): void => {
-      if (isTyping(event) || event.altKey || event.metaKey) return;
+      if (isElsewhere(event) || event.altKey || event.metaKey) return;
       const { world, drive, off, tell, area } = current.current;
       const isUndo = event.key === 'Backspace' || (event.ctrlKey && event.key.toLowerCase() === 'z');
       if (event.ctrlKey && !isUndo) return;

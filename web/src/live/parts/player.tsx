@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { usePlayback, type Playback } from '../../shared/playback';
-import { isTyping } from '../keys';
+import { isElsewhere } from '../keys';
 import { t } from '../texts';
 import { Button } from './ui';
 
@@ -41,7 +41,7 @@ export function Player({ playback, primary }: { playback: Paced; primary: boolea
   const { step, last, playing, show, toggle, speed, setSpeed } = playback;
   useEffect(() => {
     const pressed = (event: KeyboardEvent): void => {
-      if (isTyping(event) || event.altKey || event.ctrlKey || event.metaKey) return;
+      if (isElsewhere(event) || event.altKey || event.ctrlKey || event.metaKey) return;
       if (event.key === 'ArrowRight') show(step + 1);
       else if (event.key === 'ArrowLeft') show(step - 1);
       else return;
