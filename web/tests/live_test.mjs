@@ -1,6 +1,6 @@
 // Takes part in live sessions as people would: whole sessions, failures, and every screen.
 //
-//   node tests/live_test.mjs --app DIR [--only session|failures|screens] [--screenshots DIR] [--modules DIR] [--chromium FILE]
+//   node tests/live_test.mjs --app DIR [--only texts|session|failures|screens] [--screenshots DIR] [--modules DIR] [--chromium FILE]
 //
 // DIR is what `build_app.mjs --page live` has written; a mock server plays the protocol.
 import { existsSync } from 'node:fs';
@@ -12,6 +12,7 @@ import { failureTests } from './live/failure_tests.mjs';
 import { Setting } from './live/group.mjs';
 import { screenTests } from './live/screen_tests.mjs';
 import { sessionTests } from './live/session_tests.mjs';
+import { textTests } from './live/text_tests.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
@@ -23,10 +24,10 @@ const { values } = parseArgs({
     chromium: { type: 'string', default: '/usr/bin/chromium' },
   },
 });
-const suites = { session: sessionTests, failures: failureTests, screens: screenTests };
+const suites = { texts: textTests, session: sessionTests, failures: failureTests, screens: screenTests };
 if (!existsSync(join(values.app, 'index.html')) || (values.only && !Object.hasOwn(suites, values.only))) {
   console.error(
-    'usage: node tests/live_test.mjs --app DIR [--only session|failures|screens] [--screenshots DIR] [--modules DIR] [--chromium FILE]',
+    'usage: node tests/live_test.mjs --app DIR [--only texts|session|failures|screens] [--screenshots DIR] [--modules DIR] [--chromium FILE]',
   );
   process.exit(2);
 }

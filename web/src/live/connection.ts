@@ -100,7 +100,8 @@ export class Connection {
   // Take over from the tab that has opened this session elsewhere, or simply try again.
   reopen(): void {
     this.attempts = 0;
-    this.change({ bye: null });
+    // After a long time elsewhere the last view is of no use; local input is kept beside it.
+    this.change(this.state.phase === 'closed' ? { bye: null, view: null } : { bye: null });
     this.connect();
   }
 

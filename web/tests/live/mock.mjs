@@ -121,7 +121,7 @@ export class Mock {
     };
     const json = (status, value) => reply(status, 'application/json', JSON.stringify(value));
     if (pathname === '/' || pathname === '/j') return reply(200, 'text/html', readFileSync(join(this.app, 'index.html')));
-    if (pathname === '/f') return reply(200, 'text/html', '<!doctype html><html lang="en"><title>f</title><h1>Facilitator</h1></html>');
+    if (pathname === '/f') return reply(200, 'text/html', '<!doctype html><html lang="en"><title>f</title><link rel="icon" href="data:,"><h1>Facilitator</h1></html>');
     if (pathname === '/api/texts') return this.texts ? json(200, this.texts) : json(404, { reason: 'no-texts' });
     if (pathname === '/api/join' && request.method === 'POST') return this.join(request, json);
     if (pathname.startsWith('/api/world/')) {
