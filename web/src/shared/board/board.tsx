@@ -1,16 +1,16 @@
 // A map with what is on it, the paths, and the robot at one step.
 import type { JSX } from 'preact';
-import type { Board, Domain, Frame, Place } from './document';
 import { centre, kUnit, lineOf } from './geometry';
 import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
+import type { Board, Frame, MapDomain, Place } from './types';
 
 export const kFew = 12; // columns of a map that is drawn in full size
 const kRobotLane = 0.08;
 const kOtherLane = 0.2;
 
 export interface BoardProps {
-  domain: Domain;
+  domain: MapDomain;
   legend: Legend;
   board: Board;
   step: number;
