@@ -1,5 +1,5 @@
 // What the server sends to facilitators and observers, and what it takes from facilitators.
-import type { Domain, Frame } from '../lesson/document';
+import type { Frame, MapDomain } from '../shared/board/types';
 
 export type { Frame };
 export type Role = 'facilitator' | 'observer';
@@ -61,11 +61,8 @@ export interface RoomRow {
   forecast?: Forecast;
 }
 
-// As in web/src/lesson, but without title, features and weights.
-export type LegendOnly = Pick<Domain, 'id' | 'legend' | 'width' | 'height'>;
-
 export interface BoardView {
-  domain: LegendOnly;
+  domain: MapDomain;
   world: number;
   map?: string[];
   start: Frame;

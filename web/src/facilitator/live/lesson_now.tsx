@@ -1,17 +1,17 @@
 // The lesson that is being taught: its boards, animated, why it was chosen, and what came next.
 import type { JSX } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
-import { BoardView as BoardDrawing } from '../../lesson/board';
-import type { Board, Domain } from '../../lesson/document';
-import { Patterns } from '../../lesson/glyphs';
-import { Legend } from '../../lesson/legend';
-import { Player, usePlayback } from '../../lesson/player';
+import { Player } from '../../lesson/player';
 import { actionsText, placedStepText } from '../../lesson/words';
+import { BoardView as BoardDrawing } from '../../shared/board/board';
+import { Patterns } from '../../shared/board/glyphs';
+import { Legend } from '../../shared/board/legend';
+import type { Board, MapDomain } from '../../shared/board/types';
+import { useCalm, usePlayback } from '../../shared/playback';
 import type { BoardView, Frame, LessonNow, RunnerUp, ShownBoard } from '../protocol';
 import { Explained } from '../tip';
 import { sentenceText, upperFirst } from '../words';
 
-const asDomain = (board: BoardView): Domain => ({ title: '', features: [], ...board.domain });
 const asBoard = (board: BoardView, frames: Frame[]): Board => ({
   world: board.world,
   start: board.start,
@@ -19,12 +19,9 @@ const asBoard = (board: BoardView, frames: Frame[]): Board => ({
   ...(board.map ? { map: board.map } : {}),
 });
 
-function useDrawing(board: BoardView): { domain: Domain; legend: Legend } {
+function useDrawing(board: BoardView): { domain: MapDomain; legend: Legend } {
   const key = JSON.stringify(board.domain);
-  return useMemo(() => {
-    const domain = asDomain(board);
-    return { domain, legend: new Legend(domain) };
-  }, [key]);
+  return useMemo(() => ({ domain: board.domain, legend: new Legend(board.domain) }), [key]);
 }
 
 interface Choice {
@@ -83,8 +80,9 @@ function Shown({ choice }: { choice: Choice }): JSX.Element {
   const playback = usePlayback(shown.frames.length - 1);
   const board = asBoard(shown.board, shown.frames);
   const isTall = (domain.height ?? 0) > 1.2 * (domain.width ?? 1);
+  const calm = useCalm();
   useEffect(() => {
-    if (!window.matchMedia('(prefers-reduced-motion: reduce)').matches) playback.toggle();
+    if (!calm) playback.toggle();
   }, []);
   return (
     <div class={isTall ? 'shown tall' : 'shown'}>
