@@ -154,7 +154,7 @@ function Shell({ view, link, send, onRetry }: ShellProps): JSX.Element {
 function LinkMark({ link }: { link: LinkState }): JSX.Element {
   const isLive = link.state === 'live';
   return (
-    <span class={isLive ? 'link-mark live' : 'link-mark lost'} role="status">
+    <span class={isLive ? 'link-mark is-live' : 'link-mark is-lost'} role="status">
       <svg width="10" height="10" viewBox="-5 -5 10 10" aria-hidden="true">
         {isLive ? <circle r={4} /> : <path d="M-4 -4 4 4M4 -4-4 4" />}
       </svg>

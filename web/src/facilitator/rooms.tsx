@@ -123,7 +123,7 @@ function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
       <td>{room.stage === 'lobby' ? '' : room.component}</td>
       <td class="number">{room.started_ms === undefined || room.stage === 'ended' ? '' : spanText(now - room.started_ms)}</td>
       <td>{forecast && room.stage !== 'ended' ? minutesText(forecast.minutes_low, forecast.minutes_high) : ''}</td>
-      <td class="worry-cell">{room.stage === 'ended' ? room.ended : attention(room)}</td>
+      <td class={room.stage === 'ended' ? 'ended-cell' : 'worry-cell'}>{room.stage === 'ended' ? room.ended : attention(room)}</td>
     </tr>
   );
 }

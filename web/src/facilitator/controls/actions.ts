@@ -66,7 +66,7 @@ export function roomActions(room: RoomRow, study: StudyInfo): Action[] {
       command: 'resume',
       label: 'Resume',
       title: `Resume ${lower(title)}`,
-      explains: 'The group continues where it was. If somebody is away, it continues without waiting for them.',
+      explains: 'The group continues where it was.',
       fields: [],
       reasons: ['The problem is solved', 'Everybody is back'],
       body: none,

@@ -5,7 +5,7 @@ import { answerText, stateText } from '../live/group_table';
 import type { Answer, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { LinkBox } from '../setup/link_box';
 import { counted, estimateText, kPresence, roomTitle, seatTitle, typeLabel } from '../words';
-import { type Action, seatActions } from './actions';
+import { type Action, lower, seatActions } from './actions';
 import { Dialog } from './dialog';
 
 interface SeatDialogProps {
@@ -24,7 +24,7 @@ export function SeatDialog({ study, room, seat, answers, mayAct, onAct, onClose 
   const right = own.filter((answer) => answer.right).length;
   const actions = mayAct ? seatActions(room, seat, study) : [];
   return (
-    <Dialog title={`${seatTitle(seat)}, ${roomTitle(room).toLowerCase()}`} onClose={onClose} wide>
+    <Dialog title={`${seatTitle(seat)}, ${lower(roomTitle(room))}`} onClose={onClose} wide>
       <dl class="facts">
         <dt>State</dt>
         <dd>

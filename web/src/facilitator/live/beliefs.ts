@@ -11,5 +11,5 @@ export function seatOf(name: string): number | null {
   return found ? Number(found[1]) : null;
 }
 
-// For small drawings.
-export const shortName = (name: string): string => name.replace(/^member /, 'M');
+// "Learner C" -> "C", for small drawings.
+export const shortName = (name: string): string => name.replace(/^.* (?=\S+$)/, '');

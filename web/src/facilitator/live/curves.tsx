@@ -3,8 +3,11 @@ import type { ComponentChildren, JSX } from 'preact';
 import type { RoomDetail } from '../protocol';
 import { Explained } from '../tip';
 import { beliefKind, seatOf } from './beliefs';
+import { useWidth } from './width';
 
-const kBox = { width: 360, height: 120, left: 30, right: 10, top: 8, bottom: 20 };
+const kBetween = 14; // px between the charts
+const kNarrow = 560; // px below which the charts are under each other
+const kBox = { left: 30, right: 10, top: 8, bottom: 20 };
 
 interface Series {
   name: string;
@@ -30,11 +33,12 @@ function seriesOf(rows: { period: number; shares: Record<string, number> }[], ki
 
 interface CurvesProps {
   detail: RoomDetail;
+  height: number; // px of a chart
   marked: number | null;
-  nameOf: (seat: number) => string;
+  nameOf: (belief: string) => string;
 }
 
-export function Curves({ detail, marked, nameOf }: CurvesProps): JSX.Element {
+export function Curves({ detail, height, marked, nameOf }: CurvesProps): JSX.Element {
   const periods = detail.curves.map(({ period }) => period);
   const beliefs = seriesOf(
     detail.curves.map(({ period, p_bec }) => ({ period, shares: p_bec })),
@@ -56,15 +60,16 @@ export function Curves({ detail, marked, nameOf }: CurvesProps): JSX.Element {
       return shares.length === 0 ? [] : [{ period, share: shares.reduce((a, b) => a + b, 0) / shares.length }];
     }),
   };
-  const naming = (series: Series): string => (series.seat === null ? series.name : nameOf(series.seat));
+  const [setBox, width] = useWidth();
+  const look = { width: (width - kBetween) / (width > kNarrow ? 2 : 1), height, periods, marked, nameOf };
   return (
-    <div class="curves">
-      <Chart title={<Explained term="p_bec">p(BEC)</Explained>} what="p(BEC)" series={beliefs} periods={periods} marked={marked} naming={naming}>
+    <div class={width > kNarrow ? 'curves' : 'curves narrow'} ref={setBox}>
+      <Chart title={<Explained term="p_bec">p(BEC)</Explained>} what="p(BEC)" series={beliefs} {...look}>
         <Key kind="own" text="member" />
         {beliefs.some(({ kind }) => kind === 'common') && <Key kind="common" text="common" />}
         {beliefs.some(({ kind }) => kind === 'joint') && <Key kind="joint" text="joint" />}
       </Chart>
-      <Chart title="Share of answers that are right" what="share right" series={[...seats, mean]} periods={periods} marked={marked} naming={naming}>
+      <Chart title="Share of answers that are right" what="share right" series={[...seats, mean]} {...look}>
         <Key kind="own" text="member" />
         <Key kind="mean" text="mean" />
       </Chart>
@@ -89,14 +94,16 @@ interface ChartProps {
   title: ComponentChildren;
   what: string;
   series: Series[];
+  width: number;
+  height: number;
   periods: number[];
   marked: number | null;
-  naming: (series: Series) => string;
+  nameOf: (belief: string) => string;
   children: ComponentChildren;
 }
 
-function Chart({ title, what, series, periods, marked, naming, children }: ChartProps): JSX.Element {
-  const { width, height, left, right, top, bottom } = kBox;
+function Chart({ title, what, series, width, height, periods, marked, nameOf, children }: ChartProps): JSX.Element {
+  const { left, right, top, bottom } = kBox;
   const [first, last] = [Math.min(...periods, 0), Math.max(...periods, 5)];
   const at: Scale = (period, share) => ({
     x: left + ((period - first) / (last - first)) * (width - left - right),
@@ -107,7 +114,7 @@ function Chart({ title, what, series, periods, marked, naming, children }: Chart
   const ends = series
     .flatMap((one) => {
       const end = one.points[one.points.length - 1];
-      return end ? [`${naming(one)} ${end.share.toFixed(2)}`] : [];
+      return end ? [`${nameOf(one.name)} ${end.share.toFixed(2)}`] : [];
     })
     .join(', ');
   return (
@@ -116,7 +123,7 @@ function Chart({ title, what, series, periods, marked, naming, children }: Chart
         <h3>{title}</h3>
         {children}
       </figcaption>
-      <svg viewBox={`0 0 ${width} ${height}`} role="img" aria-label={`${what} over periods. Last: ${ends || 'nothing yet'}.`}>
+      <svg width={Math.max(0, width)} height={height} role="img" aria-label={`${what} over periods. Last: ${ends || 'nothing yet'}.`}>
         {[0, 0.5, 1].map((share) => (
           <g>
             <path class="rule" d={`M${left} ${at(first, share).y}H${width - right}`} />
@@ -130,8 +137,8 @@ function Chart({ title, what, series, periods, marked, naming, children }: Chart
             {period}
           </text>
         ))}
-        {[...series].sort((a, b) => order(a, marked) - order(b, marked)).map((one) => (
-          <Curve series={one} at={at} name={naming(one)} isMarked={marked !== null && one.seat === marked} />
+        {series.filter(({ points }) => points.length > 0).sort((a, b) => order(a, marked) - order(b, marked)).map((one) => (
+          <Curve series={one} at={at} name={nameOf(one.name)} isMarked={marked !== null && one.seat === marked} />
         ))}
       </svg>
     </figure>

@@ -42,13 +42,15 @@ function middle(outline: Vector[]): Vector {
   return asVector(sum);
 }
 
-// Halfway between the prior's middle and the true reward: the prior faces the viewer, and the region that
+const kFromPrior = 0.6;
+
+// Between the prior's middle and the true reward: most of the prior faces the viewer, and the region that
 // matters is not at the edge.
 export function firstTurn(truth: number[], prior: number[][]): Turn {
   const [a, b, c] = asVector(truth);
   if (prior.length < 3) return turnTo([a, b, c]);
   const [x, y, z] = middle(prior.map(asVector));
-  return turnTo(asVector([x + a, y + b, z + c]));
+  return turnTo(asVector([kFromPrior * x + a, kFromPrior * y + b, kFromPrior * z + c]));
 }
 
 export function placer({ lambda, phi }: Turn): (v: Vector) => Placed {

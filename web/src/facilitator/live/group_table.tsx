@@ -81,7 +81,9 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
                   </span>
                 )}
               </th>
-              <td class={`state ${seat.presence}`}>{stateText(seat)}</td>
+              <td class={`state ${seat.presence}`} data-tip={`${stateText(seat)}, for ${spanText(now - seat.since_ms)}`}>
+                {seat.presence === 'away' ? kPresence.away : stateText(seat)}
+              </td>
               <td class="number">{spanText(now - seat.since_ms)}</td>
               <td class="number">{seat.latency_ms === undefined ? '' : Math.round(seat.latency_ms)}</td>
               <td class="number">{shortEstimate(seat)}</td>

@@ -54,7 +54,7 @@ export function LessonPanel({ lesson, period }: { lesson: LessonNow | undefined;
   return (
     <section class="lesson-now" aria-labelledby="lesson-title">
       <div class="lesson-head">
-        <h3 id="lesson-title">Lesson in period {period}</h3>
+        <h3 id="lesson-title">Lesson, period {period}</h3>
         <div class="picks" role="group" aria-label="Board">
           {choices.map(({ id, label }) => (
             <button type="button" class="small" aria-pressed={id === choice?.id} onClick={() => setPicked(id)}>

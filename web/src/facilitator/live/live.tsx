@@ -1,18 +1,20 @@
 // One room as it happens: beliefs, people and answers on the left, the lesson and the progress on the right.
 import type { JSX } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import { spanText, useNow } from '../clock';
 import { type Action, roomActions } from '../controls/actions';
 import { SeatDialog } from '../controls/seat_dialog';
 import { LogTable } from '../log';
 import type { FacilitatorView, RoomRow } from '../protocol';
 import { Explained } from '../tip';
-import { attention, kStages, roomTitle, seatTitle } from '../words';
+import { attention, kStages, roomTitle } from '../words';
+import { seatOf } from './beliefs';
 import { Curves } from './curves';
 import { GroupTable } from './group_table';
 import { LessonPanel } from './lesson_now';
 import { Progress } from './progress';
 import { Spheres } from './spheres';
+import { useWindowHeight } from './width';
 
 interface LiveProps {
   view: FacilitatorView;
@@ -65,9 +67,11 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
       <span class="fact">
         <b>{room.strategy}</b>
       </span>
-      <span class="fact">
-        <Explained term="interactions">Period</Explained> <b>{period}</b>
-      </span>
+      {period > 0 && (
+        <span class="fact">
+          <Explained term="interactions">Period</Explained> <b>{period}</b>
+        </span>
+      )}
       {room.started_ms !== undefined && room.stage !== 'ended' && (
         <span class="fact">
           Running for <b>{spanText(now - room.started_ms)}</b>
@@ -100,37 +104,32 @@ interface RoomViewProps {
   onAct: (action: Action, room: string) => void;
 }
 
-const kTableRow = 22; // px, as in live.css
-const kAround = 376; // px of the window that are not for spheres or rows: bars, heads, charts, gaps
-const kSphereHeight = { least: 150, most: 330 };
+// Pixels, as in live.css. What the table leaves of the window is for spheres and charts, so that everything is
+// visible without scrolling.
+const kTableRow = 22;
+const kAround = 196; // bars, heads and gaps
+const kSpheres = { share: 0.68, least: 150, most: 330 };
+const kChart = { least: 104, most: 190 };
 
-// What the table leaves of the window, so that everything is visible without scrolling.
-function useSphereHeight(seats: number): number {
-  const [height, setHeight] = useState(window.innerHeight);
-  useEffect(() => {
-    const changed = (): void => setHeight(window.innerHeight);
-    window.addEventListener('resize', changed);
-    return () => window.removeEventListener('resize', changed);
-  }, []);
-  return Math.max(kSphereHeight.least, Math.min(kSphereHeight.most, height - kAround - seats * kTableRow));
+function heightsFor(window_px: number, seats: number): { spheres: number; chart: number } {
+  const rest = window_px - kAround - seats * kTableRow;
+  const chart = Math.max(kChart.least, Math.min(kChart.most, (1 - kSpheres.share) * rest));
+  return { chart, spheres: Math.max(kSpheres.least, Math.min(kSpheres.most, rest - chart)) };
 }
 
 function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
   const [marked, setMarked] = useState<number | null>(null);
   const [opened, setOpened] = useState<number | null>(null);
-  const sphereHeight = useSphereHeight(room.seats.length);
+  const heights = heightsFor(useWindowHeight(), room.seats.length);
   const detail = view.room;
   if (!detail) return <Nothing text="Loading the room..." />;
   const seat = room.seats.find((one) => one.seat === opened);
-  const nameOf = (number: number): string => {
-    const found = room.seats.find((one) => one.seat === number);
-    return found ? seatTitle(found) : `seat ${number}`;
-  };
+  const nameOf = (belief: string): string => room.seats.find((one) => one.seat === seatOf(belief))?.label ?? belief;
   return (
     <>
       <div class="live">
         <div class="live-main">
-          <Spheres detail={detail} height={sphereHeight} marked={marked} onMark={setMarked} />
+          <Spheres detail={detail} height={heights.spheres} nameOf={nameOf} marked={marked} onMark={setMarked} />
           <GroupTable
             study={view.study}
             room={room}
@@ -139,7 +138,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
             onMark={setMarked}
             onOpen={({ seat: number }) => setOpened(number)}
           />
-          <Curves detail={detail} marked={marked} nameOf={nameOf} />
+          {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} />}
         </div>
         <div class="live-side">
           <Progress room={room} detail={detail} />

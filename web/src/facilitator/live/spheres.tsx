@@ -8,6 +8,7 @@ import { upperFirst } from '../words';
 import { asVector, dotsPath, firstTurn, kGraticule, linePath, placer, refined, regionPath, turned, unpack } from './globe';
 import type { Placed, Turn, Vector } from './globe';
 import { beliefKind, seatOf, shortName } from './beliefs';
+import { useWidth } from './width';
 
 const kRadius = 100; // in the drawing
 const kKeyTurn = 10; // degrees
@@ -30,26 +31,15 @@ export function layoutOf(count: number, width: number, height: number): Layout {
   return best;
 }
 
-function useWidth(): [(box: HTMLElement | null) => void, number] {
-  const [box, setBox] = useState<HTMLElement | null>(null);
-  const [width, setWidth] = useState(0);
-  useEffect(() => {
-    if (!box) return;
-    const watcher = new ResizeObserver(() => setWidth(box.clientWidth));
-    watcher.observe(box);
-    return () => watcher.disconnect();
-  }, [box]);
-  return [setBox, width];
-}
-
 interface SpheresProps {
   detail: RoomDetail;
   height: number; // px that the drawing may take
+  nameOf: (belief: string) => string;
   marked: number | null;
   onMark: (seat: number | null) => void;
 }
 
-export function Spheres({ detail, height, marked, onMark }: SpheresProps): JSX.Element {
+export function Spheres({ detail, height, nameOf, marked, onMark }: SpheresProps): JSX.Element {
   const { truth, beliefs } = detail;
   const [setBox, width] = useWidth();
   const home = useMemo(() => firstTurn(truth?.weights ?? [0, 0, 1], truth?.prior ?? []), [JSON.stringify(truth)]);
@@ -59,7 +49,7 @@ export function Spheres({ detail, height, marked, onMark }: SpheresProps): JSX.E
   const { columns, size } = layoutOf(beliefs.length, width, height);
   const latest = detail.curves[detail.curves.length - 1]?.p_bec ?? {};
 
-  if (!truth || truth.weights.length !== 3 || beliefs.length === 0) return <NoSpheres detail={detail} />;
+  if (!truth || truth.weights.length !== 3 || beliefs.length === 0) return <NoSpheres detail={detail} nameOf={nameOf} />;
   const outlines = { bec: refined(truth.bec), prior: refined(truth.prior), truth: asVector(truth.weights) };
   const key = (event: KeyboardEvent): void => {
     const moves: Record<string, [number, number]> = {
@@ -81,6 +71,7 @@ export function Spheres({ detail, height, marked, onMark }: SpheresProps): JSX.E
       <div
         class="globes"
         ref={setBox}
+        style={{ gridTemplateColumns: `repeat(${columns}, minmax(0, 1fr))` }}
         role="group"
         aria-label="Belief spheres. Arrow keys turn them, Home resets the view."
         tabIndex={0}
@@ -103,6 +94,7 @@ export function Spheres({ detail, height, marked, onMark }: SpheresProps): JSX.E
             <Globe
               key={belief.name}
               belief={belief}
+              name={nameOf(belief.name)}
               outlines={outlines}
               truth={truth}
               place={place}
@@ -114,7 +106,6 @@ export function Spheres({ detail, height, marked, onMark }: SpheresProps): JSX.E
             />
           ))}
       </div>
-      <p class="visually-hidden">{`Drawn in ${columns} columns.`}</p>
     </div>
   );
 }
@@ -163,6 +154,7 @@ function SphereKey({ turn, onTurn, onReset }: { turn: Turn; onTurn: (turn: Turn)
 
 interface GlobeProps {
   belief: Belief;
+  name: string;
   outlines: { bec: Vector[]; prior: Vector[]; truth: Vector };
   truth: Truth;
   place: (v: Vector) => Placed;
@@ -173,7 +165,7 @@ interface GlobeProps {
   onMark: (seat: number | null) => void;
 }
 
-function Globe({ belief, outlines, truth, place, size, mass, isMarked, labelled, onMark }: GlobeProps): JSX.Element {
+function Globe({ belief, name, outlines, truth, place, size, mass, isMarked, labelled, onMark }: GlobeProps): JSX.Element {
   const points = useMemo(() => unpack(belief.points), [belief.points]);
   const star = place(outlines.truth);
   const kind = beliefKind(belief.name);
@@ -185,7 +177,7 @@ function Globe({ belief, outlines, truth, place, size, mass, isMarked, labelled,
       onPointerEnter={() => onMark(seatOf(belief.name))}
       onPointerLeave={() => onMark(null)}
     >
-      <svg width={size} height={size} viewBox="-104 -104 208 208" role="img" aria-label={`Belief of ${belief.name}${said}`}>
+      <svg width={size} height={size} viewBox="-104 -104 208 208" role="img" aria-label={`Belief: ${name}${said}`}>
         <circle class="ball" r={kRadius} />
         {labelled && <path class="graticule" d={kGraticule.map((line) => linePath(line, place, kRadius)).join('')} />}
         <path class="dots behind" d={dotsPath(points, place, kRadius, false)} />
@@ -196,7 +188,7 @@ function Globe({ belief, outlines, truth, place, size, mass, isMarked, labelled,
         {star.z >= 0 && <path class="star" d={kStar} transform={`translate(${star.x * kRadius} ${star.y * kRadius})`} />}
       </svg>
       <figcaption>
-        <span class="whose">{upperFirst(labelled ? belief.name : shortName(belief.name))}</span> <b>{share}</b>
+        <span class="whose">{upperFirst(labelled ? name : shortName(name))}</span> <b>{share}</b>
       </figcaption>
     </figure>
   );
@@ -232,7 +224,7 @@ function Axes({ features, place }: { features: string[]; place: (v: Vector) => P
 }
 
 // With another number of features there is no sphere to draw.
-function NoSpheres({ detail }: { detail: RoomDetail }): JSX.Element {
+function NoSpheres({ detail, nameOf }: { detail: RoomDetail; nameOf: (belief: string) => string }): JSX.Element {
   const latest = Object.entries(detail.curves[detail.curves.length - 1]?.p_bec ?? {});
   const features = detail.truth?.weights.length ?? 0;
   return (
@@ -248,8 +240,8 @@ function NoSpheres({ detail }: { detail: RoomDetail }): JSX.Element {
       <ul class="bars">
         {latest.map(([name, share]) => (
           <li>
-            <span>{upperFirst(name)}</span>
-            <meter min={0} max={1} value={share} aria-label={`p(BEC) of ${name}`} />
+            <span>{upperFirst(nameOf(name))}</span>
+            <meter min={0} max={1} value={share} aria-label={`p(BEC), ${nameOf(name)}`} />
             <b>{share.toFixed(2)}</b>
           </li>
         ))}

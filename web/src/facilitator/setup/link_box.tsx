@@ -28,10 +28,10 @@ export function LinkBox({ label, link, withCode }: { label: string; link: string
       <div class="link-row">
         <input id={id} ref={field} type="text" readOnly value={link} onFocus={(event) => event.currentTarget.select()} />
         <button type="button" onClick={copy}>
-          Copy<span class="visually-hidden"> {label.toLowerCase()}</span>
+          Copy<span class="visually-hidden">: {label}</span>
         </button>
         <button type="button" aria-pressed={shown} onClick={() => setShown(!shown)}>
-          QR<span class="visually-hidden"> code of {label.toLowerCase()}</span>
+          QR<span class="visually-hidden"> code: {label}</span>
         </button>
         <span class="said" role="status">
           {said}

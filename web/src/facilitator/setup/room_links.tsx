@@ -29,7 +29,7 @@ function Links({ room, opened }: { room: RoomRow; opened: boolean }): JSX.Elemen
         {roomTitle(room)} ({kStages[room.stage].toLowerCase()}, {room.strategy})
       </summary>
       {open &&
-        room.seats.map(({ seat, label, link }) => link && <LinkBox key={seat} label={`${label}, ${roomTitle(room).toLowerCase()}`} link={link} />)}
+        room.seats.map(({ seat, label, link }) => link && <LinkBox key={seat} label={`${label}, ${roomTitle(room)}`} link={link} />)}
     </details>
   );
 }
