@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { clockText } from './clock';
 import type { FacilitatorView, LogEntry, RoomRow } from './protocol';
-import { roomTitle, upperFirst } from './words';
+import { loggedText, roomTitle, upperFirst } from './words';
 
 interface LogTableProps {
   log: LogEntry[];
@@ -32,7 +32,7 @@ export function LogTable({ log, rooms, withRoom }: LogTableProps): JSX.Element {
             <td class="time">{clockText(at_ms)}</td>
             {withRoom && <td>{room ? (titles.get(room) ?? room) : ''}</td>}
             <td>{upperFirst(actor.replace(/^seat:/, 'seat '))}</td>
-            <td>{upperFirst(what)}</td>
+            <td>{upperFirst(loggedText(what))}</td>
             <td>{reason}</td>
           </tr>
         ))}

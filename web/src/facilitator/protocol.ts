@@ -29,6 +29,7 @@ export type Estimate = number | { value: number; low?: number; high?: number };
 
 export interface SeatRow {
   seat: number;
+  member?: number; // of the session, from 1, if it is not the seat: who takes over gets a new seat
   label: string;
   name?: string;
   kind: 'person' | 'simulated';
@@ -163,7 +164,7 @@ export interface FacilitatorView {
   role: Role;
   server_ms: number;
   study: StudyInfo;
-  links?: { facilitator: string; observer: string; join: string };
+  links?: { facilitator: string; observer: string; join: string; code?: string }; // empty: not known any more
   rooms: RoomRow[];
   room?: RoomDetail;
   log: LogEntry[];
@@ -180,7 +181,7 @@ export interface Commands {
   simulate: { seat: number; type: string };
   strategy: { name: string };
   end: object;
-  'room-make': { strategy: string; seats: string[]; count: number };
+  'room-make': { strategy?: string; seats: string[]; count: number };
   'room-select': object;
   'link-revoke': { token: string };
 }

@@ -35,6 +35,33 @@ const kPersonStages: Record<string, string> = {
 
 export const personStage = (stage: string): string => kPersonStages[stage] ?? stage;
 
+// What the log says of events; others are shown as they are.
+const kLogged: Record<string, string> = {
+  'room-make': 'made rooms',
+  'link-revoke': 'revoked a link',
+  start: 'started the room',
+  started: 'the group started',
+  pause: 'paused the room',
+  paused: 'paused',
+  resume: 'resumed the room',
+  resumed: 'resumed',
+  extend: 'gave more time',
+  message: 'sent a message',
+  readmit: 're-admitted a person',
+  simulate: 'replaced a person by a simulated learner',
+  strategy: 'switched the strategy',
+  end: 'ended the room',
+  ended: 'the group ended',
+  join: 'joined',
+  joined: 'joined',
+  present: 'connected',
+  away: 'away',
+  leave: 'left',
+  left: 'left',
+};
+
+export const loggedText = (what: string): string => kLogged[what] ?? what;
+
 const kPolicies: Record<string, string> = {
   'pause-then-continue': 'Pause the group; continue without the person when the grace period is over',
   'continue-now': 'Continue at once without the person',

@@ -2,7 +2,7 @@
 import type { ComponentChildren, JSX } from 'preact';
 import type { RoomDetail } from '../protocol';
 import { Explained } from '../tip';
-import { beliefKind, seatOf } from './beliefs';
+import { beliefKind, memberOf } from './beliefs';
 import { useWidth } from './width';
 
 const kBetween = 14; // px between the charts
@@ -12,7 +12,7 @@ const kBox = { left: 30, right: 10, top: 8, bottom: 20 };
 interface Series {
   name: string;
   kind: string;
-  seat: number | null;
+  member: number | null;
   points: { period: number; share: number }[];
 }
 
@@ -23,7 +23,7 @@ function seriesOf(rows: { period: number; shares: Record<string, number> }[], ki
   return names.map((name) => ({
     name,
     kind: kindOf(name),
-    seat: seatOf(name),
+    member: memberOf(name),
     points: rows.flatMap(({ period, shares }) => {
       const share = shares[name];
       return share === undefined ? [] : [{ period, share }];
@@ -36,9 +36,10 @@ interface CurvesProps {
   height: number; // px of a chart
   marked: number | null;
   nameOf: (belief: string) => string;
+  memberOfSeat: (seat: string) => number;
 }
 
-export function Curves({ detail, height, marked, nameOf }: CurvesProps): JSX.Element {
+export function Curves({ detail, height, marked, nameOf, memberOfSeat }: CurvesProps): JSX.Element {
   const periods = detail.curves.map(({ period }) => period);
   const beliefs = seriesOf(
     detail.curves.map(({ period, p_bec }) => ({ period, shares: p_bec })),
@@ -47,14 +48,14 @@ export function Curves({ detail, height, marked, nameOf }: CurvesProps): JSX.Ele
   const seats = seriesOf(
     detail.curves.map(({ period, right }) => ({
       period,
-      shares: Object.fromEntries(Object.entries(right).map(([seat, share]) => [`member ${seat}`, share])),
+      shares: Object.fromEntries(Object.entries(right).map(([seat, share]) => [`member ${memberOfSeat(seat)}`, share])),
     })),
     () => 'own',
   );
   const mean: Series = {
     name: 'mean',
     kind: 'mean',
-    seat: null,
+    member: null,
     points: detail.curves.flatMap(({ period, right }) => {
       const shares = Object.values(right);
       return shares.length === 0 ? [] : [{ period, share: shares.reduce((a, b) => a + b, 0) / shares.length }];
@@ -138,7 +139,7 @@ function Chart({ title, what, series, width, height, periods, marked, nameOf, ch
           </text>
         ))}
         {series.filter(({ points }) => points.length > 0).sort((a, b) => order(a, marked) - order(b, marked)).map((one) => (
-          <Curve series={one} at={at} name={nameOf(one.name)} isMarked={marked !== null && one.seat === marked} />
+          <Curve series={one} at={at} name={nameOf(one.name)} isMarked={marked !== null && one.member === marked} />
         ))}
       </svg>
     </figure>
@@ -146,7 +147,7 @@ function Chart({ title, what, series, width, height, periods, marked, nameOf, ch
 }
 
 const order = (series: Series, marked: number | null): number =>
-  series.seat !== null && series.seat === marked ? 3 : series.kind === 'own' ? 0 : 1;
+  series.member !== null && series.member === marked ? 3 : series.kind === 'own' ? 0 : 1;
 
 function Curve({ series, at, name, isMarked }: { series: Series; at: Scale; name: string; isMarked: boolean }): JSX.Element {
   const placed = series.points.map(({ period, share }) => ({ ...at(period, share), period, share }));

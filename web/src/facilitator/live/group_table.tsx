@@ -26,7 +26,7 @@ interface GroupTableProps {
   room: RoomRow;
   detail: RoomDetail;
   marked: number | null;
-  onMark: (seat: number | null) => void;
+  onMark: (member: number | null) => void;
   onOpen: (seat: SeatRow) => void;
 }
 
@@ -65,10 +65,10 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
           {room.seats.map((seat) => (
             <tr
               key={seat.seat}
-              class={marked === seat.seat ? 'marked' : undefined}
-              onPointerEnter={() => onMark(seat.seat)}
+              class={marked === (seat.member ?? seat.seat) ? 'marked' : undefined}
+              onPointerEnter={() => onMark(seat.member ?? seat.seat)}
               onPointerLeave={() => onMark(null)}
-              onFocusIn={() => onMark(seat.seat)}
+              onFocusIn={() => onMark(seat.member ?? seat.seat)}
               onFocusOut={() => onMark(null)}
             >
               <th scope="row">

@@ -124,7 +124,8 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
   const detail = view.room;
   if (!detail) return <Nothing text="Loading the room..." />;
   const seat = room.seats.find((one) => one.seat === opened);
-  const nameOf = (belief: string): string => room.seats.find((one) => one.seat === seatOf(belief))?.label ?? belief;
+  const nameOf = (belief: string): string => seatOf(room.seats, belief)?.label ?? belief;
+  const memberOfSeat = (number: string): number => room.seats.find(({ seat: one }) => String(one) === number)?.member ?? Number(number);
   return (
     <>
       <div class="live">
@@ -138,7 +139,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
             onMark={setMarked}
             onOpen={({ seat: number }) => setOpened(number)}
           />
-          {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} />}
+          {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} memberOfSeat={memberOfSeat} />}
         </div>
         <div class="live-side">
           <Progress room={room} detail={detail} />

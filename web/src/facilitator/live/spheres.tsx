@@ -7,7 +7,7 @@ import { Explained } from '../tip';
 import { upperFirst } from '../words';
 import { asVector, dotsPath, firstTurn, kGraticule, linePath, placer, refined, regionPath, turned, unpack } from './globe';
 import type { Placed, Turn, Vector } from './globe';
-import { beliefKind, seatOf, shortName } from './beliefs';
+import { beliefKind, memberOf, shortName } from './beliefs';
 import { useWidth } from './width';
 
 const kRadius = 100; // in the drawing
@@ -35,8 +35,8 @@ interface SpheresProps {
   detail: RoomDetail;
   height: number; // px that the drawing may take
   nameOf: (belief: string) => string;
-  marked: number | null;
-  onMark: (seat: number | null) => void;
+  marked: number | null; // member
+  onMark: (member: number | null) => void;
 }
 
 export function Spheres({ detail, height, nameOf, marked, onMark }: SpheresProps): JSX.Element {
@@ -100,7 +100,7 @@ export function Spheres({ detail, height, nameOf, marked, onMark }: SpheresProps
               place={place}
               size={size}
               mass={latest[belief.name]}
-              isMarked={marked !== null && seatOf(belief.name) === marked}
+              isMarked={marked !== null && memberOf(belief.name) === marked}
               onMark={onMark}
               labelled={size >= 120}
             />
@@ -162,7 +162,7 @@ interface GlobeProps {
   mass: number | undefined;
   isMarked: boolean;
   labelled: boolean;
-  onMark: (seat: number | null) => void;
+  onMark: (member: number | null) => void;
 }
 
 function Globe({ belief, name, outlines, truth, place, size, mass, isMarked, labelled, onMark }: GlobeProps): JSX.Element {
@@ -174,7 +174,7 @@ function Globe({ belief, name, outlines, truth, place, size, mass, isMarked, lab
   return (
     <figure
       class={`globe ${kind}${isMarked ? ' marked' : ''}`}
-      onPointerEnter={() => onMark(seatOf(belief.name))}
+      onPointerEnter={() => onMark(memberOf(belief.name))}
       onPointerLeave={() => onMark(null)}
     >
       <svg width={size} height={size} viewBox="-104 -104 208 208" role="img" aria-label={`Belief: ${name}${said}`}>

@@ -5,7 +5,7 @@ import { Refused } from '../connection';
 import type { StudyInfo } from '../protocol';
 import { counted } from '../words';
 
-const kMostSeats = 12;
+const kMostSeats = 30;
 const kMostRooms = 200;
 const kPerson = 'person';
 
@@ -15,7 +15,7 @@ interface MakeRoomsProps {
 }
 
 export function MakeRooms({ study, send }: MakeRoomsProps): JSX.Element {
-  const [strategy, setStrategy] = useState(study.strategies[0]?.name ?? '');
+  const [strategy, setStrategy] = useState('');
   const [seats, setSeats] = useState<string[]>(() => Array<string>(study.size ?? 3).fill(kPerson));
   const [count, setCount] = useState(1);
   const [reason, setReason] = useState('');
@@ -29,7 +29,7 @@ export function MakeRooms({ study, send }: MakeRoomsProps): JSX.Element {
     setSent(true);
     setSaid({ text: '', isProblem: false });
     try {
-      await send('room-make', { strategy, seats, count, reason: reason.trim() || 'Set-up' });
+      await send('room-make', { ...(strategy === '' ? {} : { strategy }), seats, count, reason: reason.trim() || 'Set-up' });
       setSaid({ text: `${counted(count, 'room')} made. ${count === 1 ? 'Its links are' : 'Their links are'} below.`, isProblem: false });
     } catch (error) {
       setSaid({ text: error instanceof Refused ? error.message : String(error), isProblem: true });
@@ -45,6 +45,7 @@ export function MakeRooms({ study, send }: MakeRoomsProps): JSX.Element {
         <div>
           <label for="make-strategy">Strategy</label>
           <select id="make-strategy" value={strategy} onChange={(event) => setStrategy(event.currentTarget.value)}>
+            <option value="">in turn, as in the design</option>
             {study.strategies.map(({ name }) => (
               <option value={name}>{name}</option>
             ))}
@@ -70,7 +71,9 @@ export function MakeRooms({ study, send }: MakeRoomsProps): JSX.Element {
           <input id="make-reason" type="text" maxLength={200} autocomplete="off" value={reason} onInput={(event) => setReason(event.currentTarget.value)} />
         </div>
       </div>
-      <p class="hint">{study.strategies.find(({ name }) => name === strategy)?.description}</p>
+      <p class="hint">{strategy === ''
+          ? 'Rooms get the combinations of strategy and composition of the study in turn, those with the fewest rooms first.'
+          : study.strategies.find(({ name }) => name === strategy)?.description}</p>
       <fieldset>
         <legend>Who sits where</legend>
         <div class="seat-choices">

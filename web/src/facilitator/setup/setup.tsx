@@ -32,10 +32,20 @@ export function Setup({ view, mayAct, send }: SetupProps): JSX.Element {
             single seats below. Whoever has the facilitator link can do everything on this page.
           </p>
           <div class="links">
-            <LinkBox label="Join link" link={links.join} withCode />
             <div>
-              <LinkBox label="Observer link (no names, no controls)" link={links.observer} />
-              <LinkBox label="Facilitator link (keep it to yourself)" link={links.facilitator} />
+              {links.join && <LinkBox label="Join link" link={links.join} withCode />}
+              {links.code && (
+                <p>
+                  Code to type in on the start page: <b class="code">{links.code}</b>
+                </p>
+              )}
+            </div>
+            <div>
+              {links.observer && <LinkBox label="Observer link (no names, no controls)" link={links.observer} />}
+              {links.facilitator && <LinkBox label="Facilitator link (keep it to yourself)" link={links.facilitator} />}
+              {(!links.observer || !links.facilitator) && (
+                <p class="hint">Only hashes of links are stored. After a restart, kith serve prints new ones.</p>
+              )}
             </div>
           </div>
           <RoomLinks rooms={view.rooms} />
