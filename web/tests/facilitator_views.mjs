@@ -177,7 +177,7 @@ export function roomDetail(random, now, row) {
 const kStages = ['running', 'running', 'lobby', 'running', 'paused', 'questions', 'running', 'ended'];
 
 // `sizes`: of the first rooms; others have three seats.
-export function makeView({ role = 'facilitator', rooms = 8, sizes = [3, 12, 1], selected = null, now = Date.now(), stages = [] } = {}) {
+export function makeView({ role = 'facilitator', rooms = 8, sizes = [3, 12, 1], selected = null, now = Date.now(), stages = [], periods = [] } = {}) {
   const random = makeRandom(7);
   const rows = Array.from({ length: rooms }, (_, i) => {
     const stage = stages[i] ?? kStages[i % kStages.length];
@@ -185,7 +185,7 @@ export function makeView({ role = 'facilitator', rooms = 8, sizes = [3, 12, 1], 
       size: sizes[i] ?? 3,
       stage,
       strategy: kStrategies[i % 3].name,
-      period: i === 1 ? 9 : 6,
+      period: periods[i] ?? (i === 1 ? 9 : 6),
       ...(stage === 'ended' ? { ended: 'everything learned' } : {}),
     });
   });

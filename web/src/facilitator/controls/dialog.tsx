@@ -14,8 +14,10 @@ export function Dialog({ title, onClose, children, wide }: DialogProps): JSX.Ele
   const id = useId();
   useEffect(() => {
     const opener = document.activeElement;
-    box.current?.showModal();
+    const dialog = box.current;
+    dialog?.showModal();
     return () => {
+      dialog?.close(); // until then nothing outside of it can have the focus
       if (opener instanceof HTMLElement && opener.isConnected) opener.focus();
     };
   }, []);

@@ -1,5 +1,6 @@
 // Everybody in the room, one row each: who is there, what they are doing, and all their answers.
 import type { JSX } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
 import { secondsText, spanText, useNow } from '../clock';
 import type { Answer, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
@@ -35,9 +36,14 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const columns = columnsOf(detail.answers);
   const byPlace = new Map(detail.answers.map((answer) => [`${answer.seat}/${answer.period}/${answer.test}`, answer]));
   const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
+  // The latest answers are at the right end, which has to be seen.
+  const box = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (box.current) box.current.scrollLeft = box.current.scrollWidth;
+  }, [columns.length]);
   const periods = [...new Set(columns.map(({ period }) => period))];
   return (
-    <div class="group" role="region" aria-label="Group" tabIndex={0}>
+    <div class="group" ref={box} role="region" aria-label="Group" tabIndex={0}>
       <table>
         <thead>
           <tr>
