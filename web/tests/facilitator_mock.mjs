@@ -38,6 +38,7 @@ export class MockServer {
   commands = []; // all that was received: {t, id, body}
   refusals = {}; // command -> {reason, text}
   holdAcks = false;
+  change = (detail) => detail; // of the room that is shown
   requests = [];
   sockets = new Set();
 
@@ -115,7 +116,7 @@ export class MockServer {
     const now = Date.now();
     const row = this.view.rooms.find(({ id }) => id === socket.room);
     const view = { ...this.view, role: socket.role, server_ms: now };
-    if (row) view.room = roomDetail(makeRandom(11), now, row);
+    if (row) view.room = this.change(roomDetail(makeRandom(11), now, row));
     else delete view.room;
     const shown = socket.role === 'observer' ? forObserver(view) : view;
     socket.send(JSON.stringify({ t: 'view', view: shown }));

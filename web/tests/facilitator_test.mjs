@@ -90,7 +90,7 @@ async function shoot(page, name) {
 const received = (mock, type) => mock.commands.filter(({ t }) => t === type).map(({ body }) => body);
 
 async function until(what, condition) {
-  const end = Date.now() + 5000;
+  const end = Date.now() + 30_000;
   while (!(await condition())) {
     assert.ok(Date.now() < end, `waited in vain for ${what}`);
     await new Promise((done) => setTimeout(done, 25));
@@ -410,6 +410,30 @@ describe('the facilitator page', () => {
     });
   });
 
+  it('draws bars where there are not three features, and lists steps where there is no map', async () => {
+    await withPage({ calm: true }, async (page, mock) => {
+      mock.change = (detail) => {
+        const states = ['home', 'hall', 'work'].map((state, i) => ({ state, action: i < 2 ? 'walk' : null }));
+        const board = { domain: { id: 'walk' }, world: 1, start: states[0] };
+        const shown = { board, frames: states, gain: 2, sentences: ['walking costs something'] };
+        return {
+          ...detail,
+          beliefs: [],
+          truth: { weights: [0.5, 0.5, 0.5, 0.5], bec: [], prior: [] },
+          lesson: { ...detail.lesson, demonstrations: [shown], tests: [shown], runners_up: [{ board, gain: 1, sentences: [] }] },
+        };
+      };
+      await openTab(page, 'Rooms');
+      await page.click('.rooms button:text-is("Room A1")');
+      await page.waitForSelector('.bars li');
+      assert.equal(await page.locator('.bars li').count(), 5);
+      assert.match(await page.textContent('.spheres'), /this domain has 4/);
+      assert.match(await page.textContent('.steps'), /In home.*walk/s);
+      assert.deepEqual(await violations(page), []);
+      await shoot(page, 'bars-light');
+    });
+  });
+
   it('keeps what the reader is doing when a new view arrives', async () => {
     await withPage({ calm: true }, async (page, mock) => {
       await openRoom(page, 'Room A1');
@@ -469,7 +493,7 @@ describe('the facilitator page', () => {
     await withPage({}, async (page, mock) => {
       await openTab(page, 'Data');
       assert.match(await page.textContent('main'), /Everything that was acknowledged is on disk/);
-      await page.click('button:text-is("Check all stored events")');
+      await page.click('button:text-is("Check now")');
       await page.waitForSelector('text=no problem found');
       const [download] = await Promise.all([page.waitForEvent('download'), page.click('button:text-is("Export")')]);
       assert.equal(download.suggestedFilename(), 'delivery-live.tar');

@@ -185,9 +185,9 @@ function Banners({ view, link, onRetry, onData }: BannersProps): JSX.Element {
         <div class="banner" role="alert">
           <span>
             {link.stopped
-              ? 'The server has stopped. This page connects again when it has been started.'
-              : 'The connection to the server is lost; trying again.'}{' '}
-            What you see is as it was before. Answers of participants are kept in their browsers until the server is back.
+              ? 'The server has stopped. This page reconnects when it is started again.'
+              : 'The connection to the server is lost. Trying to reconnect.'}{' '}
+            Until then you see the last known state.
           </span>
           <Elapsed since_ms={link.since_ms} />
           <button type="button" onClick={onRetry}>

@@ -75,7 +75,7 @@ function Counter({ term, value }: { term: JSX.Element | string; value: string })
   );
 }
 
-// Reads the whole store and compares checksums.
+// Counters as they are now: views are sent only when something changes.
 function CheckNow(): JSX.Element {
   const api = useContext(ApiContext);
   const [said, setSaid] = useState('');
@@ -92,7 +92,7 @@ function CheckNow(): JSX.Element {
   return (
     <p class="with-status">
       <button type="button" onClick={check}>
-        Check all stored events
+        Check now
       </button>{' '}
       <span role="status">{said}</span>
     </p>

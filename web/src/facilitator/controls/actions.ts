@@ -77,7 +77,7 @@ export function roomActions(room: RoomRow, study: StudyInfo): Action[] {
       command: 'extend',
       label: 'Extend',
       title: `Give ${lower(title)} more time`,
-      explains: 'Adds to the time limit of the present stage, and to the grace period of those who are away.',
+      explains: 'Adds to the time limits that are running now.',
       fields: [{ name: 'seconds', label: 'Seconds', kind: 'number', value: '60', min: 5, max: 3600 }],
       reasons: [kReasons.slow, kReasons.technical],
       body: ({ seconds }) => ({ seconds: Number(seconds) }),
