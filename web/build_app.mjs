@@ -1,11 +1,11 @@
-// Makes the folder of a page that `kith serve` serves: index.html, app.js and app.css. The server's
+// Makes the folder of a page that `kith serve` serves: index.html, app.js, app.css and, if the page has any, texts/. The server's
 // policy allows neither inline scripts nor inline styles, so both are files of their own.
 //
 //   node build_app.mjs --page NAME --out DIR [--modules DIR]
 //
 // NAME is a folder of src with main.tsx, style.css and, if the page needs its own, index.html. The
 // server serves the two assets as /assets/NAME/app.js and /assets/NAME/app.css.
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -72,4 +72,6 @@ mkdirSync(values.out, { recursive: true });
 writeFileSync(join(values.out, 'index.html'), index);
 writeFileSync(join(values.out, 'app.js'), script.text);
 writeFileSync(join(values.out, 'app.css'), `${await themeSheet()}\n${style.text}`);
+const texts = join(here, source, 'texts');
+if (existsSync(texts)) cpSync(texts, join(values.out, 'texts'), { recursive: true });
 console.log(`${values.out}: app.js ${(script.text.length / 1e3).toFixed(0)} kB, ${(gzipped / 1e3).toFixed(0)} kB gzipped`);
