@@ -72,7 +72,7 @@ TEST(Admission, CountsUntilAPlaceIsTrustedOrLeft) {
   b.trust();
   EXPECT_EQ(admission.enter("x", true, a), Verdict::kWelcome);
   EXPECT_EQ(admission.num_turned_away(), 2U);
-  a = b = c = d = {};
+  for (auto* place : {&a, &b, &c, &d}) *place = {};
   EXPECT_EQ(admission.num_sockets(), 0U);
 }
 
