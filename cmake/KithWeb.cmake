@@ -56,6 +56,33 @@ function(kith_add_web_pages)
   endif()
 endfunction()
 
+function(kith_add_web_apps)
+  set(source ${PROJECT_SOURCE_DIR}/web)
+  set(build ${PROJECT_BINARY_DIR}/web)
+  foreach(page IN LISTS ARGN)
+    set(${page}_app ${build}/${page} PARENT_SCOPE)
+    if(NOT TARGET kith_web_packages)
+      file(WRITE ${build}/${page}/index.html "<!doctype html><title>kith</title><p>This kith was built without pages.</p>\n")
+      add_custom_target(kith_web_${page})
+      continue()
+    endif()
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${source}/src/*)
+    add_custom_command(OUTPUT ${build}/${page}/index.html
+      COMMAND ${KITH_NODE} ${source}/build_app.mjs --page ${page} --modules ${build} --out ${build}/${page}
+      DEPENDS kith_web_packages ${build}/node_modules/.kith-stamp ${source}/build_app.mjs ${source}/notices.mjs ${sources}
+      COMMENT "Bundling the ${page} page" VERBATIM)
+    add_custom_target(kith_web_${page} DEPENDS ${build}/${page}/index.html)
+    if(KITH_BUILD_TESTS AND KITH_CHROMIUM AND NOT KITH_SANITIZE AND EXISTS ${source}/tests/${page}_test.mjs)
+      string(SUBSTRING ${page} 0 1 first)
+      string(TOUPPER ${first} first)
+      string(REGEX REPLACE "^." ${first} name ${page})
+      add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --app ${build}/${page}
+        --modules ${build} --chromium ${KITH_CHROMIUM})
+      set_tests_properties(web.${name} PROPERTIES RESOURCE_LOCK browser TIMEOUT 900 LABELS web)
+    endif()
+  endforeach()
+endfunction()
+
 # Types, sample documents as a reader sees them, and documents that lack parts. One browser at a time.
 function(kith_test_web_pages source build)
   add_test(NAME web.Types COMMAND ${KITH_NODE} ${source}/tests/types_test.mjs --modules ${build})

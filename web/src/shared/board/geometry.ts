@@ -1,5 +1,5 @@
 // Paths as lines: every move keeps to the right of its lane, so that ways there and back lie beside each other.
-import type { Frame, Place } from './document';
+import type { Frame, Place } from './types';
 
 export const kUnit = 40; // of a cell's side in the drawing
 

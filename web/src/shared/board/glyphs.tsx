@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { kUnit, type Point } from './geometry';
 import { kPatterns, type Legend, type Surface } from './legend';
-import type { Part } from './document';
+import type { Part } from './types';
 
 const kHalf = kUnit / 2;
 

@@ -1,5 +1,5 @@
 // What the symbols of maps mean, and how each kind of thing is drawn.
-import type { Domain, LegendEntry, Part, Place } from './document';
+import type { LegendEntry, MapDomain, Part, Place } from './types';
 
 // Tints that speak for themselves; all others are given out in this order.
 const kTints = ['brown', 'blue', 'green', 'purple', 'grey', 'orange', 'red', 'yellow'] as const;
@@ -30,7 +30,7 @@ export class Legend {
   readonly surfaces: Surface[] = [];
   private readonly letters = new Map<string, string>();
 
-  constructor(domain: Domain) {
+  constructor(domain: MapDomain) {
     for (const entry of domain.legend ?? []) this.entries.set(entry.symbol, entry);
     const parts = (domain.legend ?? []).flatMap((entry) => entry.parts ?? [entry]);
     const used = new Set<Tint>();

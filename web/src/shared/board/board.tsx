@@ -1,21 +1,23 @@
 // A map with what is on it, the paths, and the robot at one step.
 import type { JSX } from 'preact';
-import type { Board, Domain, Frame, Place } from './document';
 import { centre, kUnit, lineOf } from './geometry';
 import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
+import type { Board, Frame, MapDomain, Place } from './types';
 
 export const kFew = 12; // columns of a map that is drawn in full size
 const kRobotLane = 0.08;
 const kOtherLane = 0.2;
 
 export interface BoardProps {
-  domain: Domain;
+  domain: MapDomain;
   legend: Legend;
   board: Board;
   step: number;
   label: string;
   path?: boolean; // whether the path is drawn, as far as it has been walked
+  kind?: 'own' | 'other'; // how it is drawn, 'own' unless said otherwise
+  fill?: boolean; // as large as its place allows
   walked?: number; // steps of the longer path that have been walked; the robot's step if absent
   other?: Frame[]; // the path that somebody might expect
   decisive?: { frame: number; cell?: Place } | null;
@@ -30,15 +32,16 @@ export function BoardView(props: BoardProps): JSX.Element {
   const margin = 4;
   const [width, height] = [2 * margin + columns * kUnit, 2 * margin + rows * kUnit];
   const frame = board.frames[step] ?? board.start;
+  const size = props.fill ? {} : { style: { maxWidth: `${isLarge ? width : width * 1.45}px` } };
   return (
-    <div class={isLarge ? 'board large' : 'board'} style={{ maxWidth: `${isLarge ? width : width * 1.45}px` }}>
+    <div class={`board${isLarge ? ' large' : ''}${props.fill ? ' fill' : ''}`} {...size}>
       <svg viewBox={`${-margin} ${-margin} ${width} ${height}`} role="img" aria-label={label}>
         <Ground {...props} />
         {decisive?.cell && walked > decisive.frame && <Decisive cell={decisive.cell} />}
         {other && walked > (decisive?.frame ?? 0) && (
           <Way frames={other.slice(0, walked + 1)} first={decisive?.frame ?? 0} lane={kOtherLane} kind="other" />
         )}
-        {path && step > 0 && <Way frames={board.frames.slice(0, step + 1)} first={0} lane={kRobotLane} kind="own" />}
+        {path && step > 0 && <Way frames={board.frames.slice(0, step + 1)} first={0} lane={kRobotLane} kind={props.kind ?? 'own'} />}
         <Things {...props} frame={frame} />
         {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} />}
         <Mover frame={frame} legend={props.legend} />
