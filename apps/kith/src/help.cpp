@@ -99,6 +99,9 @@ const std::vector<std::string>& examples_of(const std::string& command) {
         "kith export my-domain.toml --to prism -o models/my-domain"}},
       {"merge", {"kith merge results/part-* -o results/paper", "kith merge part-1 part-2 part-3 -o paper --json"}},
       {"bench", {"kith bench", "kith bench --save before.json", "kith bench --baseline before.json --filter belief"}},
+      {"session",
+       {"kith session list results/live", "kith session export results/live -o tables",
+        "kith session replay results/live --room r3"}},
       {"version", {"kith --version", "kith --version --json"}}};
   return kExamples.at(command);
 }

@@ -121,6 +121,19 @@ void add_export(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_session(CLI::App& app, Options& options) {
+  auto& session = options.session;
+  auto& command = *app.add_subcommand("session", "List, export, replay, redact or recover live sessions");
+  takes_word(*command.add_option("action", session.action, "What to do")->required(), "ACTION", session_actions());
+  command.add_option("folder", session.folder, "Folder that kith serve was given")->required()->type_name("DIR");
+  command.add_option("--room", session.room, "Only this room, by id or code")->type_name("ID");
+  command.add_option("-o,--out", session.out, "Folder to write tables or the recovered session to")->type_name("DIR");
+  command.add_flag("--names", session.names, "Export names, query parameters and completion codes, too");
+  command.add_flag("--text", session.text, "Export what people wrote in their own words, too");
+  command.add_flag("--yes", session.yes, "Replace an existing export; with redact: erase for good");
+  add_common(command, options.common);
+}
+
 void add_bench(CLI::App& app, Options& options) {
   auto& bench = options.bench;
   auto& command = *app.add_subcommand("bench", "Time kernels and studies, against rivals and a saved baseline");
@@ -181,6 +194,7 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_find(*app, options);
   add_teach(*app, options);
   add_study_commands(*app, options);
+  add_session(*app, options);
   add_bench(*app, options);
   add_export(*app, options);
   add_explain(*app, options);
@@ -197,7 +211,7 @@ Command command_of(const std::string& name) {
       {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge},
       {"export", Command::kExport},   {"bench", Command::kBench},         {"curriculum", Command::kCurriculum},
       {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind},
-      {"explain", Command::kExplain}};
+      {"explain", Command::kExplain}, {"session", Command::kSession}};
   return kCommands.at(name);
 }
 

@@ -29,7 +29,8 @@ enum class Command {
   kAsk,
   kFind,
   kInit,
-  kExplain
+  kExplain,
+  kSession
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -233,6 +234,16 @@ struct ExplainOptions {
   std::string id;  ///< "E0207", or a list of kinds ("strategies"); empty: list all ids.
 };
 
+struct SessionOptions {
+  std::string action;  ///< One of session_actions().
+  std::string folder;
+  std::string room;    ///< Id or code; empty: all rooms.
+  std::string out;     ///< Folder for tables or for the recovered session.
+  bool names = false;  ///< Export what identifies people, too.
+  bool text = false;   ///< Export what people wrote in their own words, too.
+  bool yes = false;    ///< Replace an existing export; erase for good.
+};
+
 /// One command line, understood.
 struct Options {
   Command command = Command::kVersion;
@@ -257,9 +268,12 @@ struct Options {
   FindOptions find;
   InitOptions init;
   ExplainOptions explain;
+  SessionOptions session;
 };
 
 /// What `kith inspect --show` can show.
 [[nodiscard]] const std::vector<std::string>& inspect_parts();
+/// What `kith session` can do.
+[[nodiscard]] const std::vector<std::string>& session_actions();
 
 }  // namespace kith::cli
