@@ -117,6 +117,7 @@ std::span<const Asset> web_assets() { return {}; }
 }  // namespace kith::cli
 ")
     target_sources(${target} PRIVATE ${output})
+    set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     return()
   endif()
   set(folders)
@@ -129,4 +130,5 @@ std::span<const Asset> web_assets() { return {}; }
     COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/embed.mjs --out ${output} ${folders}
     DEPENDS ${pages} ${PROJECT_SOURCE_DIR}/web/embed.mjs VERBATIM)
   target_sources(${target} PRIVATE ${output})
+  set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
