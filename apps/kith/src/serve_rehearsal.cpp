@@ -139,7 +139,9 @@ int report_rehearsal(const RehearsalResult& result, const StoredAnswers& stored,
     table.add(row_of("view after reconnecting", result.reconnect));
     console.print(text + table.text(console));
   }
-  return stored.lost + stored.twice > 0 ? exit_code(ErrorKind::kMismatch) : 0;
+  if (stored.lost + stored.twice > 0) return exit_code(ErrorKind::kMismatch);
+  if (stop_signal() != 0) return 128 + stop_signal();
+  return result.num_finished() < result.people ? exit_code(ErrorKind::kPartial) : 0;
 }
 
 }  // namespace kith::cli

@@ -25,7 +25,8 @@ struct StoredAnswers {
 /// Looks them up in the store of a folder that is not being served. @throws kith::Error as EventFile::read().
 [[nodiscard]] StoredAnswers look_up(const std::vector<std::string>& answers, const std::filesystem::path& folder);
 
-/// Prints the result as a table or as JSON. @return the exit code: 7 if an answer was lost or stored twice, else 0.
+/// Prints the result as a table or as JSON. @return the exit code: 7 if an answer was lost or
+/// stored twice, 6 if somebody did not come to an end, else 0.
 [[nodiscard]] int report_rehearsal(const RehearsalResult& result, const StoredAnswers& stored, const Console& console);
 
 }  // namespace kith::cli
