@@ -130,9 +130,9 @@ void add_serve(CLI::App& app, Options& options) {
   command.add_option("--set", serve.set, "Set a key of the study (may be repeated)")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  takes_integer(
-      *command.add_option("--port", serve.port, "Port to listen at; 0: any that is free")->capture_default_str(), 0,
-      65535);
+  takes_integer(*command.add_option("--port", serve.port,
+                                    "Port to listen at; 0: any that is free (default: 8642, and 0 for a rehearsal)"),
+                0, 65535);
   command.add_option("--bind", serve.bind, "Address to listen at (default: 127.0.0.1, this machine only)")
       ->type_name("ADDRESS");
   command.add_flag("--lan", serve.lan, "Listen at all addresses of this machine");

@@ -239,7 +239,7 @@ struct ServeOptions {
   std::string study;
   std::vector<std::string> set;
   std::string out;  ///< Folder of the session; empty: a temporary one.
-  std::uint16_t port = 8642;
+  std::optional<std::uint16_t> port;  ///< 0: any that is free.
   std::string bind;  ///< An address; empty: this machine alone, or with `lan` every one.
   bool lan = false;
   bool insecure_lan = false;  ///< Unencrypted through the network.

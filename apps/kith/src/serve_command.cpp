@@ -43,6 +43,8 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr std::chrono::milliseconds kGoodbye{400};
 constexpr std::size_t kDemoPeople = 3;
+constexpr std::uint16_t kPort = 8642;
+constexpr std::uint16_t kAnyPort = 0;
 
 // What threads of the server report, until the main thread shows it. Each sentence once in ten seconds.
 class NoticeBoard {
@@ -146,7 +148,7 @@ LiveServiceOptions service_options(const ServeOptions& options, const SessionStu
 ServerOptions server_options(const ServeOptions& options, const ServeAddress& address, NoticeBoard& board) {
   ServerOptions server;
   server.bind = address.bind;
-  server.port = options.port;
+  server.port = options.port.value_or(options.rehearse > 0 ? kAnyPort : kPort);
   server.io_threads = default_num_workers();
   server.hosts = address.hosts;
   server.origins = address.origins;

@@ -77,10 +77,10 @@ bool accepts_gzip(std::string_view accept_encoding) {
   return any;
 }
 
-Reply asset_reply(const Asset& asset, const HttpMessage& request) {
+ServerReply asset_reply(const Asset& asset, const HttpMessage& request) {
   const bool compressed = !asset.gzip.empty() && accepts_gzip(view_of(request[http::field::accept_encoding]));
   const std::string tag = "\"" + std::string{asset.etag} + (compressed ? "-gzip\"" : "\"");
-  Reply reply;
+  ServerReply reply;
   reply.headers = {{"ETag", tag}, {"Cache-Control", "no-cache"}};
   if (!asset.gzip.empty()) reply.headers.emplace_back("Vary", "Accept-Encoding");
   if (names_tag(view_of(request[http::field::if_none_match]), tag)) {

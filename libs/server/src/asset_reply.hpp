@@ -25,7 +25,7 @@ class AssetIndex {
 };
 
 /// The whole file, its compressed copy, or 304 if the client has it already.
-[[nodiscard]] Reply asset_reply(const Asset& asset, const HttpMessage& request);
+[[nodiscard]] ServerReply asset_reply(const Asset& asset, const HttpMessage& request);
 
 /// Whether an Accept-Encoding field allows gzip.
 [[nodiscard]] bool accepts_gzip(std::string_view accept_encoding);

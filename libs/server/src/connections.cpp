@@ -4,21 +4,21 @@
 
 namespace kith {
 
-bool Connections::add(const std::shared_ptr<Connection>& connection) {
+bool ServerConnections::add(const std::shared_ptr<ServerConnection>& connection) {
   const std::lock_guard lock{mutex_};
   if (is_stopping_) return false;
   all_.emplace(connection.get(), connection);
   return true;
 }
 
-void Connections::remove(const Connection* connection) {
+void ServerConnections::remove(const ServerConnection* connection) {
   const std::lock_guard lock{mutex_};
   all_.erase(connection);
   if (all_.empty()) changed_.notify_all();
 }
 
-void Connections::for_all(void (Connection::*action)()) {
-  std::vector<std::shared_ptr<Connection>> now;
+void ServerConnections::for_all(void (ServerConnection::*action)()) {
+  std::vector<std::shared_ptr<ServerConnection>> now;
   {
     const std::lock_guard lock{mutex_};
     now.reserve(all_.size());
@@ -29,17 +29,17 @@ void Connections::for_all(void (Connection::*action)()) {
   for (const auto& connection : now) (connection.get()->*action)();
 }
 
-void Connections::stop_all() {
+void ServerConnections::stop_all() {
   {
     const std::lock_guard lock{mutex_};
     is_stopping_ = true;
   }
-  for_all(&Connection::stop);
+  for_all(&ServerConnection::stop);
 }
 
-void Connections::cut_all() { for_all(&Connection::cut); }
+void ServerConnections::cut_all() { for_all(&ServerConnection::cut); }
 
-bool Connections::wait_until_none(std::chrono::steady_clock::time_point until) {
+bool ServerConnections::wait_until_none(std::chrono::steady_clock::time_point until) {
   std::unique_lock lock{mutex_};
   return changed_.wait_until(lock, until, [this] { return all_.empty(); });
 }

@@ -11,12 +11,12 @@
 namespace kith {
 
 /// A connection of either kind, as whoever stops the server sees it. Both functions can be called from any thread.
-class Connection {
+class ServerConnection {
  public:
-  Connection() = default;
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
-  virtual ~Connection() = default;
+  ServerConnection() = default;
+  ServerConnection(const ServerConnection&) = delete;
+  ServerConnection& operator=(const ServerConnection&) = delete;
+  virtual ~ServerConnection() = default;
   /// Ends it in an orderly way.
   virtual void stop() = 0;
   /// Ends it now.
@@ -24,11 +24,11 @@ class Connection {
 };
 
 /// The connections that there are. Thread-safe.
-class Connections {
+class ServerConnections {
  public:
   /// @return false if the server is stopping: the connection must end.
-  [[nodiscard]] bool add(const std::shared_ptr<Connection>& connection);
-  void remove(const Connection* connection);
+  [[nodiscard]] bool add(const std::shared_ptr<ServerConnection>& connection);
+  void remove(const ServerConnection* connection);
   /// Lets no further connection in, and stops all.
   void stop_all();
   void cut_all();
@@ -36,12 +36,12 @@ class Connections {
   bool wait_until_none(std::chrono::steady_clock::time_point until);
 
  private:
-  void for_all(void (Connection::*action)());
+  void for_all(void (ServerConnection::*action)());
 
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_stopping_ = false;
-  std::unordered_map<const Connection*, std::weak_ptr<Connection>> all_;
+  std::unordered_map<const ServerConnection*, std::weak_ptr<ServerConnection>> all_;
 };
 
 }  // namespace kith

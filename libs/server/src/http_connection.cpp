@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "gzip.hpp"
 #include "web_socket.hpp"
 
 namespace kith {
@@ -17,8 +18,8 @@ constexpr std::size_t kDiscardedBytes = 256 * 1024;
 constexpr std::chrono::milliseconds kLingerTime{1000};
 constexpr std::size_t kSlowestBytesPerMillisecond = 16;
 
-Reply reply_of(LiveApplication::HttpReply answer) {
-  Reply reply;
+ServerReply reply_of(LiveApplication::HttpReply answer) {
+  ServerReply reply;
   reply.status = answer.status;
   bool says_caching = false;
   for (auto& [name, value] : answer.headers) {
@@ -29,6 +30,17 @@ Reply reply_of(LiveApplication::HttpReply answer) {
   if (!answer.content_type.empty()) reply.headers.emplace_back("Content-Type", std::move(answer.content_type));
   reply.owned = std::move(answer.body);
   return reply;
+}
+
+// Tables of moves are long; what is short gains nothing.
+void compress(ServerReply& reply) {
+  constexpr std::size_t kShort = 1024;
+  if (reply.status != 200 || reply.owned.size() <= kShort) return;
+  auto compressed = gzipped(reply.owned);
+  if (compressed.size() >= reply.owned.size()) return;
+  reply.owned = std::move(compressed);
+  reply.headers.emplace_back("Content-Encoding", "gzip");
+  reply.headers.emplace_back("Vary", "Accept-Encoding");
 }
 
 std::string bearer_of(const HttpMessage& request) {
@@ -56,7 +68,7 @@ void HttpConnection::start() {
   });
 }
 
-void HttpConnection::refuse(Reply reply) {
+void HttpConnection::refuse(ServerReply reply) {
   asio::post(socket_.get_executor(), [self = shared_from_this(), reply = std::move(reply)]() mutable {
     self->only_refuses_ = true;
     reply.closes = true;
@@ -187,6 +199,7 @@ void HttpConnection::ask_application(HttpMessage request) {
   ++timer_round_;  // the application may take its time
   timer_.cancel();
   const bool closes = reply_.closes;
+  const bool compresses = accepts_gzip(view_of(request[http::field::accept_encoding]));
   if (auto refused = context_.rules.judge_body(request)) {
     refused->closes = true;
     return answer(*std::move(refused));
@@ -196,10 +209,12 @@ void HttpConnection::ask_application(HttpMessage request) {
                                         .bearer = bearer_of(request),
                                         .body = std::move(request.body()),
                                         .remote = client_of(request)};
-  const bool is_taken = context_.workers.post([self = shared_from_this(), question = std::move(question), closes] {
-    Reply reply;
+  const bool is_taken = context_.workers.post([self = shared_from_this(), question = std::move(question), closes,
+                                               compresses] {
+    ServerReply reply;
     try {
       reply = reply_of(self->context_.application.http(question));
+      if (compresses) compress(reply);
     } catch (const std::exception& error) {
       self->context_.notice(ServerNotice::Kind::kFailure, "answering a request failed: " + std::string{error.what()});
       reply = plain_reply(500, "the server could not answer this");
@@ -244,7 +259,7 @@ std::string HttpConnection::client_of(const HttpMessage& request) const {
   return error ? remote_ : client.to_string();
 }
 
-void HttpConnection::answer(Reply reply) {
+void HttpConnection::answer(ServerReply reply) {
   if (phase_ == Phase::kFinished) return;
   ++context_.requests;
   phase_ = Phase::kWriting;

@@ -16,14 +16,14 @@ namespace kith {
 
 /// One connection that carries HTTP requests, one after the other, until it ends or becomes a WebSocket. Everything but
 /// stop() and cut() happens on the strand of its socket.
-class HttpConnection final : public Connection, public std::enable_shared_from_this<HttpConnection> {
+class HttpConnection final : public ServerConnection, public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(ServerContext& context, tcp::socket socket, Admission::Place place, std::string remote);
 
   /// Starts to read requests.
   void start();
   /// Tells a client only that it cannot be served now.
-  void refuse(Reply reply);
+  void refuse(ServerReply reply);
 
   void stop() override;
   void cut() override;
@@ -39,7 +39,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   void dispatch();
   void ask_application(HttpMessage request);
   void open_web_socket(HttpMessage request);
-  void answer(Reply reply);
+  void answer(ServerReply reply);
   void on_written(NetError error);
   void linger();
   void finish();
@@ -63,7 +63,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   std::size_t num_requests_ = 0;
   std::size_t num_discarded_ = 0;
   Destination destination_;
-  Reply reply_;
+  ServerReply reply_;
   std::string head_;
   std::array<char, 4096> in_{};
 };

@@ -57,15 +57,15 @@ std::string_view reason_phrase(int status) noexcept {
   return phrase == "<unknown-status>" ? std::string_view{} : std::string_view{phrase.data(), phrase.size()};
 }
 
-Reply plain_reply(int status, std::string text) {
-  Reply reply;
+ServerReply plain_reply(int status, std::string text) {
+  ServerReply reply;
   reply.status = status;
   reply.headers = {{"Content-Type", "text/plain; charset=utf-8"}, {"Cache-Control", "no-store"}};
   reply.owned = std::move(text) + "\n";
   return reply;
 }
 
-std::string head_of(const Reply& reply) {
+std::string head_of(const ServerReply& reply) {
   std::string head =
       "HTTP/1.1 " + std::to_string(reply.status) + " " + std::string{reason_phrase(reply.status)} + "\r\n";
   add(head, "Date", date_now());

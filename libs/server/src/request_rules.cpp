@@ -11,7 +11,7 @@ namespace {
 namespace http = boost::beast::http;
 using http::field;
 
-Reply refusal(int status, std::string text, std::vector<std::pair<std::string, std::string>> headers = {}) {
+ServerReply refusal(int status, std::string text, std::vector<std::pair<std::string, std::string>> headers = {}) {
   auto reply = plain_reply(status, std::move(text));
   for (auto& header : headers) reply.headers.push_back(std::move(header));
   return reply;
@@ -59,7 +59,7 @@ RequestRules::RequestRules(const ServerOptions& options)
     : limits_{options.limits}, site_{options.hosts, options.origins}, assets_{options.assets, options.pages} {}
 
 // What is wrong with the message, whatever it asks for.
-std::optional<Reply> RequestRules::judge_message(const HttpMessage& head) const {
+std::optional<ServerReply> RequestRules::judge_message(const HttpMessage& head) const {
   const auto hosts = head.count(field::host);
   if (hosts != 1) return refusal(400, hosts == 0 ? "the Host field is missing" : "there are several Host fields");
   if (head.target().size() > limits_.target_bytes) return refusal(414, "the address is too long");
@@ -76,7 +76,7 @@ std::optional<Reply> RequestRules::judge_message(const HttpMessage& head) const 
 }
 
 // The target may name the host too, which then counts (RFC 9112, 3.2.2).
-std::optional<Reply> RequestRules::judge_host(const HttpMessage& head, std::string& target) const {
+std::optional<ServerReply> RequestRules::judge_host(const HttpMessage& head, std::string& target) const {
   target = std::string{view_of(head.target())};
   auto host = view_of(head[field::host]);
   HostAndPort parts;
@@ -101,7 +101,7 @@ bool RequestRules::is_from_our_page(const HttpMessage& head) const {
   return count == 1 && site_.may_talk(view_of(head[field::origin]), view_of(head[field::host]));
 }
 
-std::optional<Reply> RequestRules::judge_upgrade(const HttpMessage& head, bool has_body) const {
+std::optional<ServerReply> RequestRules::judge_upgrade(const HttpMessage& head, bool has_body) const {
   if (head.method() != http::verb::get) return refusal(405, "use GET", {{"Allow", "GET"}});
   if (head.version() < 11 || !has_token(head[field::connection], "upgrade") ||
       !has_token(head[field::upgrade], "websocket")) {
@@ -119,7 +119,7 @@ std::optional<Reply> RequestRules::judge_upgrade(const HttpMessage& head, bool h
   return std::nullopt;
 }
 
-std::optional<Reply> RequestRules::judge(const HttpMessage& head, bool has_body, Destination& destination) const {
+std::optional<ServerReply> RequestRules::judge(const HttpMessage& head, bool has_body, Destination& destination) const {
   if (auto refused = judge_message(head)) return refused;
   if (head.method() == http::verb::options && head.target() == "*") {
     return refusal(405, "use GET", {{"Allow", "GET, HEAD, POST"}});
@@ -154,7 +154,7 @@ std::optional<Reply> RequestRules::judge(const HttpMessage& head, bool has_body,
   return std::nullopt;
 }
 
-std::optional<Reply> RequestRules::judge_body(const HttpMessage& request) const {
+std::optional<ServerReply> RequestRules::judge_body(const HttpMessage& request) const {
   if (json_nests_within(request.body(), limits_.json_depth)) return std::nullopt;
   return refusal(400, "the JSON nests too deeply");
 }

@@ -26,14 +26,15 @@ class RequestRules {
   explicit RequestRules(const ServerOptions& options);
 
   /// @return the refusal, or nothing and `destination`.
-  [[nodiscard]] std::optional<Reply> judge(const HttpMessage& head, bool has_body, Destination& destination) const;
+  [[nodiscard]] std::optional<ServerReply> judge(const HttpMessage& head, bool has_body,
+                                                 Destination& destination) const;
   /// Whether a complete request below /api may reach the application.
-  [[nodiscard]] std::optional<Reply> judge_body(const HttpMessage& request) const;
+  [[nodiscard]] std::optional<ServerReply> judge_body(const HttpMessage& request) const;
 
  private:
-  [[nodiscard]] std::optional<Reply> judge_message(const HttpMessage& head) const;
-  [[nodiscard]] std::optional<Reply> judge_host(const HttpMessage& head, std::string& target) const;
-  [[nodiscard]] std::optional<Reply> judge_upgrade(const HttpMessage& head, bool has_body) const;
+  [[nodiscard]] std::optional<ServerReply> judge_message(const HttpMessage& head) const;
+  [[nodiscard]] std::optional<ServerReply> judge_host(const HttpMessage& head, std::string& target) const;
+  [[nodiscard]] std::optional<ServerReply> judge_upgrade(const HttpMessage& head, bool has_body) const;
   [[nodiscard]] bool is_from_our_page(const HttpMessage& head) const;
 
   ServerLimits limits_;

@@ -30,9 +30,9 @@ struct ServerContext {
   LiveApplication& application;
   RequestRules rules;
   Admission admission;
-  Connections connections;
+  ServerConnections connections;
   std::atomic<std::size_t> web_sockets{0};
-  std::atomic<std::size_t> refusing{0};  ///< Connections that are only told that there are too many.
+  std::atomic<std::size_t> refusing{0};  ///< ServerConnections that are only told that there are too many.
   std::atomic<std::uint64_t> requests{0};
   std::atomic<std::uint64_t> frames_in{0};
   std::atomic<std::uint64_t> slow_clients{0};

@@ -20,7 +20,7 @@
 namespace kith {
 
 /// One open WebSocket. Everything but send(), close(), authenticated(), stop() and cut() happens on its strand.
-class WebSocketConnection final : public Connection, public std::enable_shared_from_this<WebSocketConnection> {
+class WebSocketConnection final : public ServerConnection, public std::enable_shared_from_this<WebSocketConnection> {
  public:
   WebSocketConnection(ServerContext& context, tcp::socket socket, Admission::Place place, std::string remote);
   ~WebSocketConnection() override;

@@ -58,6 +58,7 @@ class FakeApplication final : public LiveApplication {
       std::unique_lock lock{mutex_};
       changed_.wait(lock, [this] { return !holds; });
     }
+    if (request.target == "/api/long") return {.body = std::string(5000, 'a')};
     if (request.target == "/api/header") return {.body = "{}", .headers = {{"X-Odd", "a\r\nSet-Cookie: b"}}};
     return {.body = request.method + " " + request.target + " [" + request.bearer + "] " + request.body + " " +
                     request.remote};

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boost/beast/zlib/inflate_stream.hpp>
 #include <string>
 
 #include "admission.hpp"
+#include "gzip.hpp"
 #include "json_depth.hpp"
 #include "request_reader.hpp"
 #include "send_queue.hpp"
@@ -23,6 +25,29 @@ TEST(JsonDepth, CountsBracketsOutsideOfStrings) {
   EXPECT_TRUE(json_nests_within(R"(["[[[\"[[["])", 1));
   EXPECT_TRUE(json_nests_within("]]]][", 1));
   EXPECT_TRUE(json_nests_within("\"\\", 0));
+}
+
+// Inflated again by Beast; the sum and the length are at the end.
+TEST(Gzip, ReadsAsWritten) {
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += std::to_string(i * i % 977);
+  for (const std::string& one : {std::string{}, std::string{"a"}, text}) {
+    const auto file = gzipped(one);
+    ASSERT_GE(file.size(), 18U);
+    boost::beast::zlib::inflate_stream stream;
+    std::string inflated(one.size() + 1, '?');
+    boost::beast::zlib::z_params state;
+    state.next_in = file.data() + 10;
+    state.avail_in = file.size() - 18;
+    state.next_out = inflated.data();
+    state.avail_out = inflated.size();
+    boost::system::error_code error;
+    stream.write(state, boost::beast::zlib::Flush::finish, error);
+    inflated.resize(state.total_out);
+    EXPECT_EQ(inflated, one);
+  }
+  // echo -n a | gzip -n | tail -c 8
+  EXPECT_EQ(gzipped("a").substr(gzipped("a").size() - 8), std::string("\x43\xBE\xB7\xE8\x01\0\0\0", 8));
 }
 
 TEST(TokenBucket, LetsABurstAndThenARatePass) {

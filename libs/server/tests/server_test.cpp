@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "gzip.hpp"
 #include "kith/core/error.hpp"
 #include "served.hpp"
 
@@ -95,6 +96,16 @@ TEST(Server, SendsCompressedCopiesAndChecksTags) {
   EXPECT_EQ(ask(served.port(), get + "If-None-Match: \"x\", W/\"bbbb\"\r\n\r\n").status, 304);
   EXPECT_EQ(ask(served.port(), get + "If-None-Match: *\r\n\r\n").status, 304);
   EXPECT_EQ(ask(served.port(), get + "If-None-Match: \"bbbb-gzip\"\r\n\r\n").status, 200);
+}
+
+TEST(Server, CompressesLongAnswersOfTheApplication) {
+  const Served served;
+  const std::string get = "GET /api/long HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n";
+  EXPECT_EQ(ask(served.port(), get + "\r\n").body, std::string(5000, 'a'));
+  const auto compressed = ask(served.port(), get + "Accept-Encoding: gzip\r\n\r\n");
+  EXPECT_EQ(compressed.field("Content-Encoding"), "gzip");
+  EXPECT_LT(compressed.body.size(), 100U);
+  EXPECT_EQ(compressed.body, gzipped(std::string(5000, 'a')));
 }
 
 TEST(Server, SendsTheLengthOfWhatHeadLeavesOut) {

@@ -1,6 +1,6 @@
-// What a client sends before anything is known of it. However the bytes are cut into pieces, the same requests come out;
-// what is refused is refused with a status for errors; what an application is asked is a path below /api, and no reply
-// has a line that we did not write.
+// What a client sends before anything is known of it. However the bytes are cut into pieces, the same requests come
+// out; what is refused is refused with a status for errors; what an application is asked is a path below /api, and no
+// reply has a line that we did not write.
 
 #include <algorithm>
 #include <vector>
@@ -31,7 +31,7 @@ const RequestRules& rules() {
   return kRules;
 }
 
-void check_reply(const Reply& reply) {
+void check_reply(const ServerReply& reply) {
   const auto head = head_of(reply);
   const auto lines = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\n'));
   const auto fixed = security_headers().size() + 3;  // status, date, empty line
