@@ -145,7 +145,7 @@ void Bot::reconnect_in(milliseconds time) {
   connecting_.expires_after(time);
   connecting_.async_wait([self = shared_from_this()](NetError error) {
     if (error || self->is_finished_) return;
-    if (self->ticks_ > 0) self->lost_at_ = Clock::now();
+    if (!self->view_.is_null()) self->lost_at_ = Clock::now();
     self->connect();
   });
 }

@@ -50,9 +50,12 @@ class FakeLesson final : public LiveApplication {
       if (type == "answer") {
         answers.push_back(id);
         paths.insert(frame["body"]["actions"].dump());
-        if (drops_replies_ && answers.size() % 5 == 0) return from.socket->close(1012, "dropped");
       }
       act(person, type);
+      if (type == "answer" && drops_replies_ && answers.size() % 5 == 0) {
+        show_group(person.room);
+        return from.socket->close(1012, "dropped");
+      }
     }
     say(from, {{"t", "ack"}, {"id", id}});
     show_group(person.room);
