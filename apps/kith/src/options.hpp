@@ -30,6 +30,7 @@ enum class Command {
   kFind,
   kInit,
   kExplain,
+  kServe,
   kSession
 };
 enum class ColorMode { kAuto, kAlways, kNever };
@@ -234,6 +235,25 @@ struct ExplainOptions {
   std::string id;  ///< "E0207", or a list of kinds ("strategies"); empty: list all ids.
 };
 
+struct ServeOptions {
+  std::string study;
+  std::vector<std::string> set;
+  std::string out;  ///< Folder of the session; empty: a temporary one.
+  std::optional<std::uint16_t> port;  ///< 0: any that is free.
+  std::string bind;  ///< An address; empty: this machine alone, or with `lan` every one.
+  bool lan = false;
+  bool insecure_lan = false;  ///< Unencrypted through the network.
+  std::string public_url;     ///< What a reverse proxy in front is called.
+  std::size_t rooms = 0;      ///< Rooms to make at the start.
+  std::size_t join_limit = 10;
+  bool demo = false;
+  bool no_browser = false;
+  std::size_t rehearse = 0;  ///< Groups of simulated people; 0: no rehearsal.
+  double for_seconds = 0.0;  ///< 0: until everybody has finished.
+  double answer_every = 5.0;
+  double reconnects = 0.0;
+};
+
 struct SessionOptions {
   std::string action;  ///< One of session_actions().
   std::string folder;
@@ -268,6 +288,7 @@ struct Options {
   FindOptions find;
   InitOptions init;
   ExplainOptions explain;
+  ServeOptions serve;
   SessionOptions session;
 };
 
