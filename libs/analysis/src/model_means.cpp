@@ -118,16 +118,12 @@ class EquivalenceTests {
                        {"p-value", Kind::kP},
                        {"verdict", Kind::kText}},
                       std::move(rows_)});
-    if (others_ == 0) {
-      finding.sentence += fmt::format(" {} of {} are equivalent: {} smaller than {}.",
-                                      equivalent_ > 1 ? "All differences" : "The levels", what,
-                                      equivalent_ > 1 ? "each is" : "the difference is", margin);
-    } else if (equivalent_ == 0) {
-      finding.sentence += fmt::format(" No difference of {} was shown to be smaller than {}.", what, margin);
-    } else {
-      finding.sentence += fmt::format(" {} of {} differences of {} were shown to be smaller than {}.", equivalent_,
-                                      equivalent_ + others_, what, margin);
-    }
+    const auto n = equivalent_ + others_;
+    const auto which = n == 1             ? std::string{"The difference was "} + (equivalent_ == 1 ? "" : "not ")
+                       : others_ == 0     ? fmt::format("All {} differences were ", n)
+                       : equivalent_ == 0 ? fmt::format("None of the {} differences was ", n)
+                                          : fmt::format("{} of {} differences were ", equivalent_, n);
+    finding.sentence += fmt::format(" {}shown to be smaller than {} ({}).", which, margin, what);
     add_method(finding, {fmt::format("two one-sided tests of equivalence within {}", margin)});
   }
 
@@ -271,9 +267,11 @@ class Writer {
     }
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
     const auto how = by ? fmt::format("at each level of {}", by_name) + (is_family ? "; Tukey-Kramer" : "")
-                        : std::string{is_family ? "Tukey-Kramer" : "t test"};
+                        : std::string{is_family               ? "Tukey-Kramer"
+                                      : is_difference(model_) ? "t test"
+                                                              : "Wald test"};
     auto what = fmt::format("Pairs of {} ({})", factor.name, how);
-    add_table(what, "pair", by_name, comparisons, true);
+    add_table(what, "pair", by_name, comparisons, is_family);
     if (is_family && !comparisons.empty())
       add_method(finding_, {"Tukey-Kramer tests for pairs of estimated marginal means", "kramer1956"});
     EquivalenceTests equivalence{model_, options_};
