@@ -39,7 +39,7 @@ function tableOf(rates) {
     columns: ['analysis', 'studies in which p < .05, %', ''],
     rows: analyses.map((analysis) => {
       const own = rates.filter((rate) => rate.analysis === analysis);
-      const reasons = [...new Set(own.map((rate) => rate.reason).filter(Boolean))];
+      const reasons = [...new Set(own.filter((rate) => Number(rate.percent) < 3).map((rate) => rate.reason))];
       return [analysis, own.map((rate) => `${rate.of} ${rate.percent}`.trim()).join('; '), reasons.join('; ')];
     }),
   };

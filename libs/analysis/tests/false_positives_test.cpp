@@ -39,7 +39,7 @@ class Rates {
     }
     if (!p) return;
     ++found->studies;
-    found->rejected += *p < kAlpha ? 1 : 0;
+    found->rejected += *p < kAlpha ? 1u : 0u;
   }
   // Every rate within 3 to 7 %.
   void expect_nominal() const {
@@ -104,7 +104,7 @@ std::size_t poisson(double mean, RandomStream& random) {
 
 std::size_t binomial(std::size_t trials, double share, RandomStream& random) {
   std::size_t n = 0;
-  for (std::size_t i = 0; i < trials; ++i) n += uniform01(random) < share ? 1 : 0;
+  for (std::size_t i = 0; i < trials; ++i) n += uniform01(random) < share ? 1u : 0u;
   return n;
 }
 
