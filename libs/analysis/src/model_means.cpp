@@ -44,13 +44,19 @@ ResultTable comparison_table(const std::string& caption, const std::string& firs
   return table;
 }
 
+// An estimate that is as small beside its limits as rounding makes it is 0.
+double without_rounding(double estimate, double low, double high) {
+  constexpr double kRounding = 1e-12;
+  return std::abs(estimate) <= kRounding * std::max(std::abs(low), std::abs(high)) ? 0.0 : estimate;
+}
+
 void add_row(const Comparison& comparison, const FixedEffects& model, bool by, bool with_d, ResultTable& table) {
   auto& row = table.rows.emplace_back();
   if (by) row.push_back(text_cell(comparison.group));
   row.push_back(text_cell(comparison.estimate.name));
   const auto shown = response_contrast(model.link, comparison.estimate);
   if (shown) {
-    row.insert(row.end(), {shown->estimate, shown->low, shown->high});
+    row.insert(row.end(), {without_rounding(shown->estimate, shown->low, shown->high), shown->low, shown->high});
   } else {
     row.insert(row.end(), {is_difference(model) ? cell_of(comparison.estimate.estimate) : TableCell{}, {}, {}});
   }
@@ -58,7 +64,8 @@ void add_row(const Comparison& comparison, const FixedEffects& model, bool by, b
   if (with_d) {
     if (comparison.estimate.estimate && inference && model.residual_sd) {
       const double sd = *model.residual_sd;
-      row.insert(row.end(), {*comparison.estimate.estimate / sd, inference->low / sd, inference->high / sd});
+      const double difference = without_rounding(*comparison.estimate.estimate, inference->low, inference->high);
+      row.insert(row.end(), {difference / sd, inference->low / sd, inference->high / sd});
     } else {
       row.insert(row.end(), {TableCell{}, {}, {}});
     }
