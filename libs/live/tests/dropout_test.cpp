@@ -153,7 +153,7 @@ std::vector<DropoutCase> dropout_cases() {
   for (const char* policy : {"pause-then-continue", "continue-now", "replace-from-pool", "simulate", "end-group"}) {
     for (const char* stage : {"consent", "check", "screening", "lobby", "wait-lesson", "watch", "wait-watch", "predict",
                               "wait-answer", "feedback", "wait-feedback", "questions", "debrief"}) {
-      for (const std::size_t leavers : {1, 2, 3}) {
+      for (const std::size_t leavers : {1u, 2u, 3u}) {
         const bool is_wait = std::string{stage}.rfind("wait-", 0) == 0 || std::string{stage} == "lobby";
         if (leavers == 3 && is_wait && std::string{stage} != "wait-lesson") continue;  // then nobody waits
         for (const bool after : {false, true}) cases.push_back({policy, stage, leavers, after});

@@ -129,7 +129,9 @@ class Play {
   }
 
   void join(std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(send("server", "join"), "");
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(send("server", "join"), "");
+    }
   }
   void get_ready(std::size_t number) {
     ASSERT_EQ(seat(number, "consent", {{"accept", true}, {"version", study_->group().consent_version}}), "");
@@ -164,8 +166,12 @@ class Play {
     const auto stage = room_.stage_of(number);
     if (stage == "watch") watch(number);
     if (stage == "predict") answer(number, right);
-    if (stage == "feedback") ASSERT_EQ(seat(number, "continue"), "");
-    if (stage == "questions") ASSERT_EQ(seat(number, "questions", {{"answers", Json::object()}}), "");
+    if (stage == "feedback") {
+      ASSERT_EQ(seat(number, "continue"), "");
+    }
+    if (stage == "questions") {
+      ASSERT_EQ(seat(number, "questions", {{"answers", Json::object()}}), "");
+    }
   }
   /// People act until nothing more can be done by them.
   void play_on(const std::vector<std::size_t>& people, bool right = true, std::size_t rounds = 400) {

@@ -87,7 +87,7 @@ TEST(RandomCommands, LeadToTheReplayOfWhatWasAccepted) {
       }
     }
     periods += play.room().session().periods();
-    finished += play.room().stage() == RoomStage::kEnded ? 1 : 0;
+    finished += play.room().stage() == RoomStage::kEnded ? 1u : 0u;
     TeachingCache fresh{play.study().atlas};
     const auto again = replay(studies[round % studies.size()], play.room().setup(), play.events(), fresh);
     ASSERT_EQ(again.digest(), play.room().digest()) << round;

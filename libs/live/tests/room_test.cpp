@@ -96,7 +96,7 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   EXPECT_EQ(debrief["redirect"], "https://example.org/done?cc=" + debrief["code"].get<std::string>() + "&pid=p%201");
   EXPECT_FALSE(debrief["summary"].empty());
   EXPECT_LT(debrief["right"], debrief["tests"]);
-  for (const std::size_t i : {1, 3}) EXPECT_EQ(play.seat(i, "questions", {{"answers", {{"clear", 1}}}}), "");
+  for (const std::size_t i : {1u, 3u}) EXPECT_EQ(play.seat(i, "questions", {{"answers", {{"clear", 1}}}}), "");
   EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
   EXPECT_NE(page(play, 1)["debrief"]["code"], debrief["code"]);
   play.expect_replay();
@@ -180,7 +180,7 @@ TEST(Room, RefusesWhatCannotBe) {
 TEST(Room, StopsShortIsAWrongAnswerAndNoEvidence) {
   Play play{live_study(), "NN"};
   play.start(2);
-  for (const std::size_t i : {1, 2}) play.watch(i);
+  for (const std::size_t i : {1u, 2u}) play.watch(i);
   play.answer(1);
   const auto tests = play.room().session().lesson().tests.size();
   for (std::size_t t = 0; t < tests; ++t) {

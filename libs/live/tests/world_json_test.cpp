@@ -84,8 +84,8 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Domains, WorldTables, ::testing::Values("item-delivery", "icy-crossing", "two-goals"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& tested) {
+                           std::string name = tested.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
