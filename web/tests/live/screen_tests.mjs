@@ -73,7 +73,7 @@ export function screenTests(setting) {
             for (const [name, view] of Object.entries(views)) {
               await show({ mock, page }, view);
               if (name in kButtons && (await person.button(kButtons[name]).count()) > 0) await person.button(kButtons[name]).click();
-              if (view.predict || view.check || view.screening) await page.waitForSelector('.pad-row');
+              if (view.predict || view.check) await page.waitForSelector('.pad-row');
               if (/^feedback|^mapless-(w|f)/.test(name)) await playToTheEnd(person);
               if (setting.screenshots) {
                 mkdirSync(setting.screenshots, { recursive: true });

@@ -50,7 +50,7 @@ export function Feedback({ feedback, view, connection }: ScreenProps & { feedbac
   return (
     <>
       <p class="kicker">{t('feedback.count', { index: index + 1, of: feedback.tests.length })}</p>
-      <TimeLeft until={feedback.until_ms} />
+      <TimeLeft until={view.limit_ms} />
       <OneTask key={index} test={test} next={next} />
     </>
   );
