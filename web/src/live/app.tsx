@@ -18,12 +18,13 @@ import { Predict } from './screens/predict';
 import { Questions } from './screens/questions';
 import { Wait } from './screens/wait';
 import { Watch } from './screens/watch';
-import { becomeParticipant, forgetParticipant, knownToken } from './session';
+import { becomeParticipant, codeOfLink, forgetParticipant, knownToken } from './session';
 import { currentLanguage, loadTexts, t } from './texts';
 
 export function App(): JSX.Element {
   const [known] = useState(knownToken);
-  const [token, setToken] = useState(known.isOfLink || location.pathname !== '/' ? known.token : null);
+  const isInvited = !known.isOfLink && (location.pathname === '/' || codeOfLink() !== '');
+  const [token, setToken] = useState(isInvited ? null : known.token);
   const [full, setFull] = useState<ParticipantView | null>(null);
   const join = (fresh: string): void => {
     becomeParticipant(fresh);

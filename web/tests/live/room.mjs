@@ -185,7 +185,7 @@ export class Room {
         story: texts.story ?? ['A robot delivers parcels in a building. It always takes the way that suits it best.'],
         goal: texts.goal ?? 'Find out what the robot likes and what it avoids.',
       },
-      me: { seat, label: `Learner ${'ABCDEFGH'[seat - 1]}`, },
+      me: { seat, label: `Learner ${'ABCDEFGH'[seat - 1]}` },
       group: { size, active: this.active().length },
       notices: this.notices,
       ...(this.pause ? { pause: this.pause } : {}),
