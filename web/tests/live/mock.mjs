@@ -155,6 +155,7 @@ export class Mock {
 
   // ---- sockets
   open(socket) {
+    if (this.isSilent) return;
     let token = null;
     let drafted = -Infinity;
     socket.on('message', (data) => {

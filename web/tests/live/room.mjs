@@ -245,7 +245,7 @@ export class Room {
       const right = this.isRight(test, answer);
       const mine = answer ? framesOf(test.world, answer.states, answer.actions) : null;
       const robot = test.shown.frames;
-      const differs = right || !mine ? -1 : robot.findIndex(({ action }, k) => mine[k]?.action !== action);
+      const differs = !mine ? -1 : robot.findIndex(({ action }, k) => mine[k]?.action !== action);
       return {
         board: test.board,
         right,

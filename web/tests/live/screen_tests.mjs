@@ -93,6 +93,43 @@ export function screenTests(setting) {
       });
     }
 
+    for (const look of kLooks.filter(({ axe }) => axe)) {
+      it(`without a session, at ${look.name}`, async () => {
+        await withViews(
+          setting,
+          async ({ mock, person, page }) => {
+            const check = async (name) => {
+              assert.deepEqual(await page.evaluate(smallTargets), [], name);
+              assert.deepEqual(await person.violations(setting.axe), [], name);
+              assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
+              if (setting.screenshots) {
+                await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
+              }
+            };
+            mock.bye(1, 'opened-elsewhere');
+            await person.at('Open in another tab');
+            await check('elsewhere');
+            await page.goto('about:blank');
+            await page.goto(`${mock.address}/j#t=not-a-known-token`);
+            await person.at('This link does not work');
+            await check('bad-link');
+            await person.button('Enter a code').click();
+            await person.at('Join a session');
+            await person.button('Join').click();
+            await page.waitForFunction(() => document.querySelector('[role=alert]').textContent !== '');
+            await page.click('summary');
+            await check('landing');
+            mock.isSilent = true;
+            await page.goto(mock.link(1));
+            await person.at('Connecting');
+            await page.waitForSelector('text=has not answered');
+            await check('connecting');
+          },
+          look,
+        );
+      });
+    }
+
     it('has one heading of the first level, no missing text and nothing but words', async () => {
       await withViews(setting, async ({ views, mock, page }) => {
         for (const [name, view] of Object.entries(views)) {
