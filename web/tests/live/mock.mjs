@@ -145,7 +145,7 @@ export class Mock {
       if (code !== this.code) return json(404, { reason: 'no-room', text: 'no such code' });
       if (this.joined >= this.tokens.size) {
         const end = { reason: 'full', text: '', code: 'MOCK-FULL' };
-        return json(200, { full: true, view: { ...this.room.view(1), stage: 'full', end } });
+        return json(200, { full: { ...this.room.view(1), stage: 'full', end } });
       }
       this.joined += 1;
       this.room.seats[this.joined - 1].query = query;

@@ -228,7 +228,7 @@ export function sessionTests(setting) {
         await first.page.goto(mock.address);
         await first.button('Return to your session').click();
         await first.at('Before you start');
-        const second = await openPerson(setting.browser, `${mock.address}/j#c=ROBOT`, {});
+        const second = await openPerson(setting.browser, `${mock.address}/j?code=ROBOT`, {});
         await second.open();
         await second.button('Join').click();
         await second.at('All places are taken');

@@ -8,8 +8,7 @@ import { t } from '../texts';
 
 interface Reply {
   token?: string;
-  full?: boolean;
-  view?: ParticipantView; // if it is full
+  full?: ParticipantView; // the page of somebody for whom there is no seat
   reason?: string;
   text?: string;
 }
@@ -56,7 +55,7 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
     join(typed)
       .then((reply) => {
         if (reply.token) onToken(reply.token);
-        else if (reply.view) onFull(reply.view);
+        else if (reply.full) onFull(reply.full);
         else setProblem(reply.reason ?? 'failed');
       })
       .catch(() => setProblem('unreachable'))
