@@ -43,7 +43,7 @@ async function withViews(setting, body, look = {}) {
 // A view that is new to the page, also if the screen before it was of the same kind.
 async function show({ mock, page }, view) {
   await page.evaluate(() => {
-    for (const name of ['drive', 'seen', 'feedback', 'dismissed']) sessionStorage.removeItem(`kith.${name}`);
+    for (const name of ['drive', 'seen', 'feedback', 'dismissed', 'introduced']) sessionStorage.removeItem(`kith.${name}`);
   });
   const { progress } = view;
   show.count = (show.count ?? 0) + 1;
@@ -53,7 +53,21 @@ async function show({ mock, page }, view) {
   await page.waitForTimeout(60);
 }
 
-const kButtons = { check: 'Continue' }; // behind which there is the screen itself
+// What is to be seen now: it fits, it can be touched, and it can be read by assistive technology.
+async function examine(setting, person, name, look) {
+  const { page } = person;
+  if (setting.screenshots) {
+    mkdirSync(setting.screenshots, { recursive: true });
+    await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
+  }
+  const { body, wide } = await page.evaluate(() => ({
+    body: document.documentElement.scrollWidth,
+    wide: document.documentElement.clientWidth,
+  }));
+  assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
+  assert.deepEqual(await page.evaluate(smallTargets), [], name);
+  if (look.axe) assert.deepEqual(await person.violations(setting.axe), [], name);
+}
 
 async function playToTheEnd(person) {
   for (let i = 0; i < 40; i += 1) {
@@ -72,20 +86,13 @@ export function screenTests(setting) {
           async ({ views, mock, person, page }) => {
             for (const [name, view] of Object.entries(views)) {
               await show({ mock, page }, view);
-              if (name in kButtons && (await person.button(kButtons[name]).count()) > 0) await person.button(kButtons[name]).click();
+              if (name === 'check') {
+                await examine(setting, person, 'introduction', look);
+                await person.button('Continue').click();
+              }
               if (view.predict || view.check) await page.waitForSelector('.pad-row');
               if (/^feedback|^mapless-(w|f)/.test(name)) await playToTheEnd(person);
-              if (setting.screenshots) {
-                mkdirSync(setting.screenshots, { recursive: true });
-                await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
-              }
-              const { body, window: wide } = await page.evaluate(() => ({
-                body: document.documentElement.scrollWidth,
-                window: document.documentElement.clientWidth,
-              }));
-              assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
-              assert.deepEqual(await page.evaluate(smallTargets), [], name);
-              if (look.axe) assert.deepEqual(await person.violations(setting.axe), [], name);
+              await examine(setting, person, name, look);
             }
           },
           look,
@@ -98,14 +105,7 @@ export function screenTests(setting) {
         await withViews(
           setting,
           async ({ mock, person, page }) => {
-            const check = async (name) => {
-              assert.deepEqual(await page.evaluate(smallTargets), [], name);
-              assert.deepEqual(await person.violations(setting.axe), [], name);
-              assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
-              if (setting.screenshots) {
-                await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
-              }
-            };
+            const check = (name) => examine(setting, person, name, look);
             mock.bye(1, 'opened-elsewhere');
             await person.at('Open in another tab');
             await check('elsewhere');
