@@ -92,7 +92,8 @@ export function makeViews(lesson, now = Date.now()) {
   views.lobby.lobby.can_leave = false;
   views['lobby-leave'].lobby.can_leave = true;
   views['predict-limit'] = structuredClone(views.predict);
-  views['predict-limit'].predict.until_ms = now + 25_000;
+  views['predict-limit'].limit_ms = now + 25_000;
+  views['lobby-reserve'] = { ...views.lobby, lobby: { ...views.lobby.lobby, reserve: true } };
   const large = largeBoard(lesson.domain);
   views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
   room.worlds.set('large', makeWorld(large.domain, large, 'large'));
