@@ -73,7 +73,7 @@ export function screenTests(setting) {
             for (const [name, view] of Object.entries(views)) {
               await show({ mock, page }, view);
               if (name in kButtons && (await person.button(kButtons[name]).count()) > 0) await person.button(kButtons[name]).click();
-              if (view.predict || view.check || view.screening) await page.waitForSelector('.pad-row');
+              if (view.predict || view.check) await page.waitForSelector('.pad-row');
               if (/^feedback|^mapless-(w|f)/.test(name)) await playToTheEnd(person);
               if (setting.screenshots) {
                 mkdirSync(setting.screenshots, { recursive: true });
@@ -87,6 +87,43 @@ export function screenTests(setting) {
               assert.deepEqual(await page.evaluate(smallTargets), [], name);
               if (look.axe) assert.deepEqual(await person.violations(setting.axe), [], name);
             }
+          },
+          look,
+        );
+      });
+    }
+
+    for (const look of kLooks.filter(({ axe }) => axe)) {
+      it(`without a session, at ${look.name}`, async () => {
+        await withViews(
+          setting,
+          async ({ mock, person, page }) => {
+            const check = async (name) => {
+              assert.deepEqual(await page.evaluate(smallTargets), [], name);
+              assert.deepEqual(await person.violations(setting.axe), [], name);
+              assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth));
+              if (setting.screenshots) {
+                await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
+              }
+            };
+            mock.bye(1, 'opened-elsewhere');
+            await person.at('Open in another tab');
+            await check('elsewhere');
+            await page.goto('about:blank');
+            await page.goto(`${mock.address}/j#t=not-a-known-token`);
+            await person.at('This link does not work');
+            await check('bad-link');
+            await person.button('Enter a code').click();
+            await person.at('Join a session');
+            await person.button('Join').click();
+            await page.waitForFunction(() => document.querySelector('[role=alert]').textContent !== '');
+            await page.click('summary');
+            await check('landing');
+            mock.isSilent = true;
+            await page.goto(mock.link(1));
+            await person.at('Connecting');
+            await page.waitForSelector('text=has not answered');
+            await check('connecting');
           },
           look,
         );
