@@ -103,7 +103,7 @@ void RequestReader::parse() {
 
 RequestReader::Failure RequestReader::failure_of(const boost::beast::error_code& error) const {
   if (error == http::error::header_limit) {
-    if (!parser_->got_some()) return {414, "the request line is too long"};
+    if (parser_->get().target().empty()) return {414, "the request line is too long"};
     return {431, "the header is too long"};
   }
   if (error == http::error::body_limit) return {413, "the body is too long"};
