@@ -97,7 +97,7 @@ Json LiveService::State::integrity() const {
   const auto counters = store->counters();
   const std::lock_guard lock{mutex};
   std::size_t unsaved = counters.waiting;
-  for (const auto& [number, room] : rooms) unsaved += room->is_unsaved() ? 1 : 0;
+  for (const auto& [number, room] : rooms) unsaved += room->is_unsaved() ? 1u : 0u;
   Json problems = Json::array();
   if (!counters.problem.empty()) problems.push_back("The last event could not be saved: " + counters.problem);
   if (free_space < kLittleSpace)

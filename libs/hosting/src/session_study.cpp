@@ -97,8 +97,11 @@ bool is_plain(const std::string& name) {
 
 SessionStudy make_session_study(const StudyReading& reading, const fs::path& folder) {
   SessionStudy session{.study = live_study(reading, folder), .inputs = {}, .digest = {}};
-  const auto frozen = freeze(with_own_files(reading, folder, session.inputs));
-  session.inputs.emplace(kStudyFile, frozen.study);
+  const auto own = with_own_files(reading, folder, session.inputs);
+  const auto frozen = freeze(own);
+  auto study = own.study.value();
+  for (auto& variant : study.variants) variant.domain = kDomainFile;
+  session.inputs.emplace(kStudyFile, to_toml(study, own.domain.value(), GroupText::kWritten));
   session.inputs.emplace(kDomainFile, frozen.domain);
   for (const auto& file : frozen.files) session.inputs.emplace(file.name, file.text);
   session.digest = digest_of(session.inputs);

@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 
+#include "kith/files/sqlite.hpp"
 #include "kith/hosting/session_review.hpp"
 #include "store_support.hpp"
 

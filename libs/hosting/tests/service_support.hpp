@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "kith/core/error.hpp"
 #include "kith/hosting/live_service.hpp"
 #include "kith/hosting/session_study.hpp"
 #include "kith/live/room_event.hpp"
@@ -33,7 +36,7 @@ namespace kith::testing {
       "confirm_gain = { half_normal = 0.033 }\ncorrect_gain = { half_normal = 0.056 }\n"
       "[learner.P]\nlabel = \"proficient\"\nability = { mean = 0.809, sd = 0.025 }\n"
       "confirm_gain = { half_normal = 0.022 }\ncorrect_gain = { half_normal = 0.052 }\n"
-      "[teacher]\nparticles = " +
+      "[teacher]\ncounterfactuals = 4\nparticles = " +
       std::to_string(particles) + "\n[group]\n" + group;
   const auto reading = parse_study(text, "small.toml");
   if (!reading.study) throw Error{reading.diagnostics};

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/core/error.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/hosting/event_file.hpp"
 #include "kith/hosting/session_export.hpp"
