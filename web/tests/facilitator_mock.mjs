@@ -8,7 +8,7 @@ import { join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { requireFrom } from './browser.mjs';
-import { forObserver, makeView, roomDetail } from './facilitator_views.mjs';
+import { forObserver, makeView, roomDetail } from './facilitator/views.mjs';
 import { makeRandom } from '../sample/random.mjs';
 
 export const kTokens = { facilitator: 'facilitator-0123456789', observer: 'observer-0123456789abcd' };

@@ -1,8 +1,8 @@
 // Synthetic views of a server with rooms: for the mock of the server and for screenshots.
 import { readFileSync } from 'node:fs';
-import { makeRandom } from '../sample/random.mjs';
+import { makeRandom } from '../../sample/random.mjs';
 
-const lesson = JSON.parse(readFileSync(new URL('../sample/lesson.json', import.meta.url), 'utf8'));
+const lesson = JSON.parse(readFileSync(new URL('../../sample/lesson.json', import.meta.url), 'utf8'));
 const { id, legend, width, height } = lesson.domain;
 const domain = { id, legend, width, height };
 const kSecond = 1000;
