@@ -237,7 +237,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   const auto paid = pays ? completion_code(*study, random_token(), "full", 0) : std::string{};
   record({}, "server", "turned-away", {{"code", paid}, {"query", query}}, {}, [](bool) {});
   const auto page = full_view(*study, paid, query, now_us());
-  return json_reply(200, {{"full", true}, {"view", page}});
+  return json_reply(200, {{"full", page}});
 }
 
 LiveService::HttpReply LiveService::State::export_tables(const std::string& query) {

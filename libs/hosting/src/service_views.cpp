@@ -62,7 +62,7 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
     };
     view["links"] = {{"facilitator", page("/f#t=", facilitator_token)},
                      {"observer", page("/f#t=", observer_token)},
-                     {"join", base_url + "/j#c=" + join_code},
+                     {"join", base_url + "/j?code=" + join_code},
                      {"code", join_code}};
   }
   view["rooms"] = Json::array();
