@@ -117,7 +117,8 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
     });
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (!is_stopped && world.unfinished > 0) {
-      facilitator.end_rooms(rooms);
+      // Another connection: the first may not have survived, for instance because the server was restarted.
+      BotFacilitator{io, server, options.facilitator}.end_rooms(rooms);
       const auto ended = Clock::now();
       wait([&](milliseconds) { return Clock::now() - ended < kTimeToEnd; });
     }
