@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr milliseconds kTick{100};
+constexpr milliseconds kPollTime{100};
 constexpr milliseconds kTimeToEnd{20'000};
 
 void append(std::vector<double>& all, const std::vector<double>& more) {
@@ -107,7 +107,7 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
 
     const auto wait = [&](auto&& goes_on) {
       while (world.unfinished > 0 && goes_on(std::chrono::duration_cast<milliseconds>(Clock::now() - start))) {
-        std::this_thread::sleep_for(kTick);
+        std::this_thread::sleep_for(kPollTime);
       }
     };
     bool is_stopped = false;
