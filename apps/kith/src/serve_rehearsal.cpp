@@ -90,7 +90,6 @@ RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<
   rehearsal.port = port;
   rehearsal.facilitator = std::move(facilitator);
   rehearsal.groups = options.rehearse;
-  rehearsal.people = live_cells(*study).front().composition.size();
   rehearsal.duration = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.for_seconds)};
   rehearsal.answer_every = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.answer_every)};
   rehearsal.reconnects = options.reconnects;

@@ -5,10 +5,15 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <chrono>
 #include <csignal>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "kith/hosting/event_file.hpp"
+#include "kith/server/rehearsal.hpp"
 #include "run_kith.hpp"
 
 namespace kith::testing {
@@ -47,7 +52,7 @@ class Serving {
   explicit Serving(std::vector<std::string> arguments) {
     std::ofstream{scratch_ / "in"} << "";
     arguments.insert(arguments.begin(), "serve");
-    for (const char* more : {"--json", "--no-browser"}) arguments.emplace_back(more);
+    arguments.emplace_back("--json");
     process_ = start_kith(arguments, {}, scratch_ / "in", scratch_ / "out", scratch_ / "err");
   }
   ~Serving() {
@@ -121,7 +126,7 @@ TEST(ServeCommand, SaysWhatMakesANetworkSafe) {
 TEST(ServeCommand, ServesADemonstrationUntilItIsStopped) {
   if (!has_pages()) GTEST_SKIP() << "built without pages";
   const Scratch scratch;
-  Serving serving{{"--demo", "--port", "0", "-o", scratch / "live"}};
+  Serving serving{{"--demo", "--no-browser", "--port", "0", "-o", scratch / "live"}};
   const auto links = serving.links();
   ASSERT_TRUE(links.has_value()) << serving.log();
   const int port = links->at("port");
@@ -138,7 +143,7 @@ TEST(ServeCommand, ServesADemonstrationUntilItIsStopped) {
   EXPECT_EQ(serving.stop(SIGINT), 0) << serving.log();
   EXPECT_EQ(ask_port(port, "/j"), "");
 
-  Serving again{{"--demo", "--port", "0", "-o", scratch / "live"}};
+  Serving again{{"--demo", "--no-browser", "--port", "0", "-o", scratch / "live"}};
   const auto links_again = again.links();
   ASSERT_TRUE(links_again.has_value()) << again.log();
   EXPECT_EQ(links_again->at("code"), links->at("code"));
@@ -149,7 +154,7 @@ TEST(ServeCommand, ServesADemonstrationUntilItIsStopped) {
 TEST(ServeCommand, RefusesAFolderOrAPortInUse) {
   if (!has_pages()) GTEST_SKIP() << "built without pages";
   const Scratch scratch;
-  Serving first{{"--demo", "--port", "0", "-o", scratch / "live"}};
+  Serving first{{"--demo", "--no-browser", "--port", "0", "-o", scratch / "live"}};
   const auto links = first.links();
   ASSERT_TRUE(links.has_value()) << first.log();
   const auto folder = run_kith({"serve", "--demo", "--no-browser", "--port", "0", "-o", scratch / "live"});
@@ -159,6 +164,44 @@ TEST(ServeCommand, RefusesAFolderOrAPortInUse) {
   EXPECT_EQ(busy.code, 8) << busy.err;
   EXPECT_THAT(busy.err, HasSubstr("port " + port + " of 127.0.0.1 is in use"));
   EXPECT_EQ(first.stop(SIGINT), 0);
+}
+
+// People keep what was not acknowledged and reconnect; the server rebuilds its rooms from what is on the disk.
+TEST(ServeCommand, LosesNothingWhenItIsKilled) {
+  if (!has_pages()) GTEST_SKIP() << "built without pages";
+  const Scratch scratch;
+  const auto start = [&](const std::string& port) {
+    return std::make_unique<Serving>(std::vector<std::string>{"quick", "--port", port, "-o", scratch / "live"});
+  };
+  auto serving = start("0");
+  const auto links = serving->links();
+  ASSERT_TRUE(links.has_value()) << serving->log();
+  const std::string facilitator = links->at("facilitator");
+  const int port = links->at("port");
+  bool is_killed = false;
+  RehearsalOptions options{.port = static_cast<std::uint16_t>(port),
+                           .facilitator = facilitator.substr(facilitator.find("#t=") + 3),
+                           .groups = 4,
+                           .duration = std::chrono::seconds{12},
+                           .answer_every = std::chrono::milliseconds{400}};
+  options.on_tick = [&](std::chrono::milliseconds elapsed) {
+    if (!is_killed && elapsed > std::chrono::seconds{4}) {
+      is_killed = true;
+      serving->stop(SIGKILL);
+      serving = start(std::to_string(port));
+    }
+    return true;
+  };
+  const auto result = rehearse(options);
+  EXPECT_EQ(result.num_finished(), result.people) << ::testing::PrintToString(result.stages) << serving->log();
+  EXPECT_EQ(serving->stop(SIGINT), 0) << serving->log();
+  std::map<std::string, int> stored;
+  auto file = EventFile::read(scratch / "live");
+  file.for_each_event([&](const StoredEvent& event) {
+    if (event.message && event.type == "answered") ++stored[*event.message];
+  });
+  EXPECT_FALSE(result.answers.empty());
+  for (const auto& id : result.answers) EXPECT_EQ(stored[id], 1) << id;
 }
 
 TEST(ServeCommand, RehearsesWithSimulatedPeople) {

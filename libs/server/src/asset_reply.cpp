@@ -25,7 +25,7 @@ std::vector<std::string_view> split(std::string_view text, char at) {
   }
 }
 
-std::string lower(std::string_view text) {
+std::string lowered(std::string_view text) {
   std::string result;
   for (const char c : text) result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
@@ -34,7 +34,7 @@ std::string lower(std::string_view text) {
 // "gzip;q=0" and "gzip; q=0.000" refuse what they name.
 bool has_no_weight(const std::vector<std::string_view>& parameters) {
   for (std::size_t i = 1; i < parameters.size(); ++i) {
-    const auto text = lower(parameters[i]);
+    const auto text = lowered(parameters[i]);
     if (text.rfind("q=0", 0) == 0 && text.find_first_not_of("0.", 2) == std::string::npos) return true;
   }
   return false;
@@ -70,7 +70,7 @@ bool accepts_gzip(std::string_view accept_encoding) {
   bool any = false;
   for (const auto one : split(accept_encoding, ',')) {
     const auto parts = split(one, ';');
-    const auto name = lower(parts.front());
+    const auto name = lowered(parts.front());
     if (name == "gzip" || name == "x-gzip") return !has_no_weight(parts);
     if (name == "*") any = !has_no_weight(parts);
   }

@@ -21,6 +21,8 @@ std::string token_of(const std::string& link) {
   return mark == std::string::npos ? std::string{} : link.substr(mark + 3);
 }
 
+bool is_simulated(const Json& seat) { return seat.value("kind", "") == "simulated"; }
+
 }  // namespace
 
 struct BotFacilitator::Shared {
@@ -126,7 +128,7 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
   }
   for (std::size_t made = 0; made < count;) {
     const auto now = std::min(kRoomsAtOnce, count - made);
-    Json body{{"seats", Json::array()}, {"count", now}};
+    Json body{{"count", now}};
     for (std::size_t i = 0; i < people; ++i) body["seats"].push_back("person");
     if (!strategy.empty()) body["strategy"] = strategy;
     say("room-make", std::move(body));
@@ -136,7 +138,8 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
       return std::all_of(view["rooms"].begin(), view["rooms"].end(), [&](const Json& room) {
         if (old.count(room.value("id", "")) > 0) return true;
         const auto& seats = room.at("seats");
-        return std::all_of(seats.begin(), seats.end(), [](const Json& seat) { return seat.contains("link"); });
+        return std::all_of(seats.begin(), seats.end(),
+                           [](const Json& seat) { return is_simulated(seat) || seat.contains("link"); });
       });
     };
     if (!wait(kPatience, links_of_all)) fail();
@@ -146,7 +149,9 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
   for (const auto& room : view["rooms"]) {
     if (old.count(room.value("id", "")) > 0) continue;
     Room one{.id = room.value("id", ""), .tokens = {}};
-    for (const auto& seat : room["seats"]) one.tokens.push_back(token_of(seat.value("link", "")));
+    for (const auto& seat : room["seats"]) {
+      if (!is_simulated(seat)) one.tokens.push_back(token_of(seat.value("link", "")));
+    }
     rooms.push_back(std::move(one));
   }
   return rooms;

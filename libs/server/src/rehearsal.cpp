@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr milliseconds kTick{100};
+constexpr milliseconds kPollTime{100};
 constexpr milliseconds kTimeToEnd{20'000};
 
 void append(std::vector<double>& all, const std::vector<double>& more) {
@@ -107,7 +107,7 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
 
     const auto wait = [&](auto&& goes_on) {
       while (world.unfinished > 0 && goes_on(std::chrono::duration_cast<milliseconds>(Clock::now() - start))) {
-        std::this_thread::sleep_for(kTick);
+        std::this_thread::sleep_for(kPollTime);
       }
     };
     bool is_stopped = false;
@@ -117,7 +117,8 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
     });
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (!is_stopped && world.unfinished > 0) {
-      facilitator.end_rooms(rooms);
+      // Another connection: the first may not have survived, for instance because the server was restarted.
+      BotFacilitator{io, server, options.facilitator}.end_rooms(rooms);
       const auto ended = Clock::now();
       wait([&](milliseconds) { return Clock::now() - ended < kTimeToEnd; });
     }

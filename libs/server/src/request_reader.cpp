@@ -97,15 +97,13 @@ void RequestReader::parse() {
   if (parser_->is_header_done()) {
     state_ = State::kBody;
   } else {
-    state_ = buffer_.size() > 0 ? State::kHead : State::kIdle;
+    state_ = buffer_.size() > 0 || parser_->got_some() ? State::kHead : State::kIdle;
   }
 }
 
 RequestReader::Failure RequestReader::failure_of(const boost::beast::error_code& error) const {
   if (error == http::error::header_limit) {
-    const auto text = text_of(buffer_);
-    if (text.substr(0, header_bytes_).find('\n') == std::string_view::npos)
-      return {414, "the request line is too long"};
+    if (parser_->get().target().empty()) return {414, "the request line is too long"};
     return {431, "the header is too long"};
   }
   if (error == http::error::body_limit) return {413, "the body is too long"};

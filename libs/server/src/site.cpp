@@ -7,7 +7,7 @@
 namespace kith {
 namespace {
 
-std::string lower(std::string_view text) {
+std::string lower_case(std::string_view text) {
   std::string result;
   for (const char c : text) result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
@@ -37,7 +37,7 @@ bool parse_host(std::string_view text, HostAndPort& result) {
   if (!port.empty() && (port.front() != ':' || port.find_first_not_of("0123456789", 1) != std::string_view::npos)) {
     return false;
   }
-  result.host = lower(text.substr(0, end));
+  result.host = lower_case(text.substr(0, end));
   if (result.host.size() > 1 && result.host.back() == '.') result.host.pop_back();
   result.port = port.empty() ? std::string{} : std::string{port.substr(1)};
   return true;
@@ -51,7 +51,7 @@ Site::Site(const std::vector<std::string>& hosts, const std::vector<std::string>
     if (!parse_host(bare_ipv6 ? "[" + host + "]" : host, parts)) throw std::invalid_argument{"no host: " + host};
     hosts_.insert(parts.host);
   }
-  for (const auto& origin : origins) origins_.insert(lower(origin));
+  for (const auto& origin : origins) origins_.insert(lower_case(origin));
 }
 
 bool Site::is_ours(std::string_view host) const {
@@ -60,9 +60,9 @@ bool Site::is_ours(std::string_view host) const {
 }
 
 bool Site::may_talk(std::string_view origin, std::string_view host) const {
-  const auto text = lower(origin);
+  const auto text = lower_case(origin);
   if (origins_.count(text) > 0) return true;
-  const auto called = lower(host);
+  const auto called = lower_case(host);
   return text == "http://" + called || text == "https://" + called;
 }
 

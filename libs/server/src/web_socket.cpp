@@ -76,6 +76,7 @@ void WebSocketConnection::start(HttpMessage request) {
   request_ = std::move(request);
   const auto& limits = context_.options.limits;
   stream_.read_message_max(limits.frame_bytes);
+  stream_.auto_fragment(false);
   websocket::stream_base::timeout timeout{};
   timeout.handshake_timeout = limits.hello_time;
   timeout.idle_timeout = limits.idle_time;

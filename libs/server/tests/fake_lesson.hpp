@@ -95,7 +95,8 @@ class FakeLesson final : public LiveApplication {
   void make_rooms(const Json& body) {
     for (int i = body.value("count", 1); i > 0; --i) {
       const auto room = "r" + std::to_string(rooms_.size() + 1);
-      for (std::size_t seat = 1; seat <= body["seats"].size(); ++seat) {
+      const auto people = body.contains("seats") ? body["seats"].size() : 3;
+      for (std::size_t seat = 1; seat <= people; ++seat) {
         const auto token = room + "-" + std::to_string(seat);
         rooms_[room].push_back(token);
         people_[token].room = room;

@@ -17,7 +17,7 @@ struct RehearsalOptions {
   std::uint16_t port = 0;
   std::string facilitator;  ///< Token of a facilitator: makes the rooms, and ends them when time is up.
   std::size_t groups = 1;
-  std::size_t people = 3;                         ///< Per group.
+  std::size_t people = 0;                         ///< Per group; 0: as the study says.
   std::string strategy{};                         ///< Of all groups; empty: those of the design in turn.
   std::chrono::milliseconds duration{0};          ///< After it all groups are ended; 0: when everybody has finished.
   std::chrono::milliseconds answer_every{5'000};  ///< How long a person takes for an answer, on average.
