@@ -111,7 +111,9 @@ void send_all(int count, unsigned seed, const std::string& before, const std::ve
     client.send(bytes);
     client.end_sending();
     ASSERT_TRUE(client.is_ended()) << "input " << i << " keeps its connection: " << ::testing::PrintToString(bytes);
-    if (i % 200 == 199) ASSERT_TRUE(served.serves_well()) << "input " << i;
+    if (i % 200 == 199) {
+      ASSERT_TRUE(served.serves_well()) << "input " << i;
+    }
     if (i == count / 2) memory = resident_kilobytes();
   }
   EXPECT_TRUE(served.serves_well());
@@ -140,7 +142,9 @@ void send_frames(int count, unsigned seed) {
     socket.raw().end_sending();
     ASSERT_TRUE(socket.raw().is_ended()) << "input " << i
                                          << " keeps its connection: " << ::testing::PrintToString(bytes);
-    if (i % 200 == 199) ASSERT_TRUE(served.serves_well()) << "input " << i;
+    if (i % 200 == 199) {
+      ASSERT_TRUE(served.serves_well()) << "input " << i;
+    }
   }
   EXPECT_TRUE(served.serves_well());
   EXPECT_TRUE(all_gone(served.server));
