@@ -184,7 +184,8 @@ struct PowerCommandOptions {
   std::optional<std::size_t> pool;   ///< Teams per cell to draw studies from.
   std::size_t draws = 1000;
   bool paired = false;
-  std::string findings;  ///< A targets file: repeat the study and look for its findings.
+  std::string findings;     ///< A targets file: repeat the study and look for its findings.
+  std::string preregister;  ///< File for a preregistration of the study; empty: none.
   std::size_t studies = 200;
   std::optional<std::uint64_t> seed;
   std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
