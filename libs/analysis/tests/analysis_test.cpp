@@ -256,7 +256,7 @@ TEST(AnalyzeTable, ComparesMeansThatAreAdjustedForTheOtherFactors) {
   const auto found = analyze_table(Dataset::parse(confounded(), "t.csv"), {"y ~ g + h"}, quick()).findings.front();
   const auto& pairs = table_named(found, "Pairs of g");
   EXPECT_NEAR(cell_at(pairs, "b - a", "difference"), 0.0, 1e-12);
-  EXPECT_GT(cell_at(pairs, "b - a", "adjusted p-value"), 0.99);
+  EXPECT_GT(cell_at(pairs, "b - a", "p-value"), 0.99);
   const auto& means = table_named(found, "Estimated marginal means of g");
   EXPECT_NEAR(cell_at(means, "a", "mean"), 4.0, 1e-12);
   EXPECT_NEAR(cell_at(means, "b", "mean"), 4.0, 1e-12);
