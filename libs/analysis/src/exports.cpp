@@ -100,7 +100,7 @@ std::string test_sentence(const ResultTable& table, const std::vector<TableCell>
   return text + ".";
 }
 
-std::string number_text(double value) { return formatted(value, ResultKind::kNumber); }
+std::string estimate_text(double value) { return formatted(value, ResultKind::kNumber); }
 
 // A difference with its interval and test: of planned contrasts, and of t tests.
 std::string difference_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
@@ -108,8 +108,8 @@ std::string difference_sentence(const ResultTable& table, const std::vector<Tabl
   const auto* const low = number_at(row, column_of(table, "lower limit"));
   const auto* const high = number_at(row, column_of(table, "upper limit"));
   if (difference == nullptr || low == nullptr || high == nullptr) return "";
-  auto text = fmt::format("{}: mean difference = {}, {:.3g} % CI [{}, {}]", text_at(row, 0), number_text(*difference),
-                          100.0 * (1.0 - alpha), number_text(*low), number_text(*high));
+  auto text = fmt::format("{}: mean difference = {}, {:.3g} % CI [{}, {}]", text_at(row, 0), estimate_text(*difference),
+                          100.0 * (1.0 - alpha), estimate_text(*low), estimate_text(*high));
   if (const auto* const t = number_at(row, column_of(table, "t")); t != nullptr) {
     const auto* const df = number_at(row, column_of(table, "df"));
     const auto n = column_of(table, "n");
