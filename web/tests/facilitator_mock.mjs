@@ -38,8 +38,6 @@ export class MockServer {
   commands = []; // all that was received: {t, id, body}
   refusals = {}; // command -> {reason, text}
   holdAcks = false;
-  beats = 0;
-  isMute = false; // takes frames and says nothing, like a line that is cut somewhere
   change = (detail) => detail; // of the room that is shown
   requests = [];
   sockets = new Set();
@@ -91,8 +89,6 @@ export class MockServer {
     const say = (frame) => socket.send(JSON.stringify(frame));
     socket.on('message', (data) => {
       const frame = JSON.parse(String(data));
-      if (frame.t === 'beat') this.beats += 1;
-      if (this.isMute) return undefined;
       if (frame.t === 'beat') return say({ t: 'beat' });
       if (frame.t === 'hello') {
         const role = Object.keys(kTokens).find((one) => kTokens[one] === frame.token);

@@ -22,7 +22,7 @@ using testing::room_of;
 using testing::ScratchFolder;
 
 constexpr std::int64_t kDamagedRooms = 3;
-constexpr std::uint64_t kEventsOfARoom = 24;
+constexpr std::uint64_t kEventsOfARoom = 14;
 
 // A session with events in the file and in the write-ahead log, as a killed server leaves it.
 void make_session(const fs::path& folder) {
@@ -38,7 +38,7 @@ void make_session(const fs::path& folder) {
       const auto batch = batch_of({event_of(room, seq)});
       file.write({&batch, 1});
     }
-    if (seq == kEventsOfARoom / 2) {
+    if (seq == kEventsOfARoom - 4) {
       Database checkpoint{file.path(), Database::Mode::kWrite};
       checkpoint.empty_log();
     }

@@ -171,12 +171,12 @@ TEST(Dropout, AreLeftOutOfTheTeachersBeliefs) {
   for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
   ASSERT_EQ(play.send("server", "away", {{"seat", 2}}), "");
   const auto frozen = play.room().session().belief().member(1);
-  play.play_on({1, 3}, true, 6);
+  play.play_on({1, 3}, false, 6);
   EXPECT_GT(play.room().session().periods(), 1u);
   EXPECT_EQ(play.room().session().belief().member(1), frozen);
   ASSERT_EQ(play.send("server", "present", {{"seat", 2}}), "");
   EXPECT_EQ(play.room().stage_of(2), "wait");
-  play.play_on({1, 3}, true, 4);
+  play.play_on({1, 3}, false, 4);
   EXPECT_EQ(play.room().stage_of(2), "watch");  // from the next lesson on
   play.expect_replay();
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -42,20 +43,24 @@ inline std::shared_ptr<const Atlas> atlas_of(const std::string& domain) {
   }
   std::string text = kLiveStudy;
   text.replace(text.find("item-delivery"), 13, domain);
-  auto reading = parse_study(text, "live.toml");
+  auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
   if (!reading.domain) throw std::logic_error{"no domain " + domain};
   known.emplace_back(domain, std::make_shared<const Atlas>(*std::move(reading.domain)));
   return known.back().second;
 }
 
-/// The study with more tables behind it.
+/// The study with more tables behind it, about a built-in domain or one of a file of the repository.
 inline std::shared_ptr<const LiveStudy> live_study(const std::string& group = {},
                                                    const std::string& domain = "item-delivery") {
   std::string text = kLiveStudy + group;
   text.replace(text.find("item-delivery"), 13, domain);
-  const auto reading = parse_study(text, "live.toml");
+  static std::map<std::string, std::shared_ptr<const LiveStudy>> known;
+  auto& study = known[text];
+  if (study) return study;
+  const auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
   if (!reading.study) throw std::logic_error{to_text(reading.diagnostics.front())};
-  return make_live_study(*reading.study, atlas_of(domain));
+  study = make_live_study(*reading.study, atlas_of(domain));
+  return study;
 }
 
 /// A room with a clock, and everything that happened in it.

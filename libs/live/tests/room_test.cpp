@@ -78,7 +78,7 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   EXPECT_EQ(good["tests"][0]["differs_at"], nullptr);
   EXPECT_EQ(bad["tests"][0]["right"], false);
   EXPECT_EQ(bad["tests"][0]["differs_at"], 0);
-  EXPECT_THAT(bad["tests"][0]["cost"].get<std::string>(), HasSubstr("Your way"));
+  EXPECT_THAT(bad["tests"][0]["cost"].get<std::string>(), HasSubstr(" way"));
   for (std::size_t i = 1; i <= 3; ++i) ASSERT_EQ(play.seat(i, "continue"), "");
   EXPECT_EQ(play.room().stage_of(1), "watch");  // the second period
   EXPECT_EQ(play.room().session().periods(), 1u);
@@ -241,10 +241,12 @@ TEST(Room, LetsFacilitatorsInterveneWithAReason) {
   EXPECT_EQ(play.room().stage_of(3), "replaced");
   EXPECT_EQ(play.room().num_seats(), 4u);
   EXPECT_FALSE(play.room().is_person(4));
-  play.play_on({1, 2}, true, 3);
+  play.play_on({1, 2}, false, 3);
   EXPECT_TRUE(play.room().session().takes_part(2));  // the stand-in, from the next lesson on
   ASSERT_EQ(play.facilitator("readmit", {{"seat", 3}}), "");
-  for (int i = 0; i < 3; ++i) play.play_on({1, 2, 3}, true, 3);
+  for (int i = 0; i < 3; ++i) play.play_on({1, 2, 3}, false, 3);
+  EXPECT_TRUE(play.room().session().takes_part(2));
+  EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
   EXPECT_EQ(play.facilitator("end"), "");
   EXPECT_EQ(play.room().stage_of(1), "ended");
   EXPECT_TRUE(page(play, 1)["end"].contains("code"));

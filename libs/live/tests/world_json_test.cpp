@@ -83,10 +83,12 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
   EXPECT_GT(others, 20u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Domains, WorldTables, ::testing::Values("item-delivery", "icy-crossing", "two-goals"),
+INSTANTIATE_TEST_SUITE_P(Domains, WorldTables,
+                         ::testing::Values("item-delivery", "domains/icy_crossing.toml", "two-goals"),
                          [](const auto& tested) {
                            std::string name = tested.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return c == '-' || c == '/' || c == '.'; }, '_');
                            return name;
                          });
 

@@ -165,8 +165,8 @@ export class Connection {
       socket.close();
       this.dropped();
     } else if (socket.readyState === WebSocket.OPEN) {
-      socket.send(JSON.stringify({ t: 'beat' }));
       if (this.unanswered_ms === 0) this.unanswered_ms = Date.now();
+      socket.send(JSON.stringify({ t: 'beat' }));
     }
   }
 }

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { kTokens } from '../facilitator_mock.mjs';
-import { openTab, openRoom, until } from './harness.mjs';
+import { openTab, openRoom } from './harness.mjs';
 
 export function pageTests({ withPage, violations, shoot }) {
   it('takes the token out of the address and keeps it for a reload', async () => {
@@ -33,26 +33,6 @@ export function pageTests({ withPage, violations, shoot }) {
       await page.waitForSelector('.banner', { state: 'detached' });
       await page.waitForSelector('.room-buttons');
       assert.equal(await page.locator('.globe').count(), 14, 'the room is selected again');
-    });
-  });
-
-  it('notices a line that is dead without being closed, and no other', async () => {
-    await withPage({}, async (page, mock) => {
-      await page.clock.install();
-      await page.reload();
-      await openRoom(page, 'Room A1');
-      for (let i = 0; i < 8; ++i) {
-        const { beats } = mock;
-        await page.clock.runFor(5000);
-        await until('a heartbeat', () => mock.beats > beats);
-      }
-      assert.equal(await page.locator('.banner').count(), 0);
-      mock.isMute = true;
-      await page.clock.runFor(30_000);
-      await page.waitForSelector('.banner');
-      assert.match(await page.textContent('.banner'), /connection to the server is lost/);
-      mock.isMute = false;
-      await page.waitForSelector('.banner', { state: 'detached' }); // by itself; the clock goes on
     });
   });
 
