@@ -197,7 +197,8 @@ std::vector<std::string> links_of_seats(LocalFacilitator& facilitator) {
   const auto has_links = [](const Json& view) {
     if (!view.contains("rooms") || view["rooms"].empty()) return false;
     const auto& seats = view["rooms"][0]["seats"];
-    return std::all_of(seats.begin(), seats.end(), [](const Json& seat) { return seat.contains("link"); });
+    return !seats.empty() &&
+           std::all_of(seats.begin(), seats.end(), [](const Json& seat) { return seat.contains("link"); });
   };
   std::vector<std::string> links;
   for (const auto& seat : facilitator.view(has_links)["rooms"][0]["seats"]) links.push_back(seat.value("link", ""));

@@ -68,6 +68,7 @@ export function kithTests(setting) {
       const server = await startKith(setting.kith, join(folder, 'session'));
       const people = [];
       try {
+        assert.equal(server.seats.length, 3);
         for (const link of server.seats) {
           people.push(await openPerson(setting.browser, link, {}));
           await people[people.length - 1].open();
