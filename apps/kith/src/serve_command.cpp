@@ -193,15 +193,19 @@ Links links_of(const std::string& base, const LiveService::StartLinks& tokens, L
   return links;
 }
 
+// Rooms are shown a moment after they are made, and their links with them.
 std::vector<std::string> links_of_seats(LocalFacilitator& facilitator) {
-  const auto has_links = [](const Json& view) {
-    if (!view.contains("rooms") || view["rooms"].empty()) return false;
-    const auto& seats = view["rooms"][0]["seats"];
+  const auto seats_of = [](const Json& view) {
+    const auto rooms = view.value("rooms", Json::array());
+    return rooms.empty() ? Json::array() : rooms.front().value("seats", Json::array());
+  };
+  const auto has_links = [&](const Json& view) {
+    const auto seats = seats_of(view);
     return !seats.empty() &&
            std::all_of(seats.begin(), seats.end(), [](const Json& seat) { return seat.contains("link"); });
   };
   std::vector<std::string> links;
-  for (const auto& seat : facilitator.view(has_links)["rooms"][0]["seats"]) links.push_back(seat.value("link", ""));
+  for (const auto& seat : seats_of(facilitator.view(has_links))) links.push_back(seat.value("link", ""));
   return links;
 }
 

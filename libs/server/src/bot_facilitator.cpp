@@ -37,7 +37,8 @@ struct BotFacilitator::Shared {
   std::string problem;
   bool is_welcome = false;
   std::size_t next_id = 0;
-  std::size_t num_acknowledged = 0;
+  std::size_t num_replies = 0;
+  bool is_closed = false;
 };
 
 namespace {
@@ -71,7 +72,7 @@ BotFacilitator::BotFacilitator(asio::io_context& io, const tcp::endpoint& server
     const std::lock_guard lock{shared->mutex};
     if (type == "welcome") shared->is_welcome = true;
     if (type == "view") shared->view = std::move(frame["view"]);
-    if (type == "ack") ++shared->num_acknowledged;
+    if (type == "ack" || type == "nak") ++shared->num_replies;
     if (type == "nak") shared->problem = frame.value("text", "refused");
     if (type == "bye") shared->problem = "the server said goodbye: " + frame.value("reason", "");
     shared->changed.notify_all();
@@ -80,6 +81,7 @@ BotFacilitator::BotFacilitator(asio::io_context& io, const tcp::endpoint& server
     const auto shared = weak.lock();
     if (!shared) return;
     const std::lock_guard lock{shared->mutex};
+    shared->is_closed = true;
     if (shared->problem.empty()) shared->problem = "the connection was closed";
     shared->changed.notify_all();
   };
@@ -138,8 +140,9 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
       return std::all_of(view["rooms"].begin(), view["rooms"].end(), [&](const Json& room) {
         if (old.count(room.value("id", "")) > 0) return true;
         const auto& seats = room.at("seats");
-        return std::all_of(seats.begin(), seats.end(),
-                           [](const Json& seat) { return is_simulated(seat) || seat.contains("link"); });
+        return !seats.empty() && std::all_of(seats.begin(), seats.end(), [](const Json& seat) {
+          return is_simulated(seat) || seat.contains("link");
+        });
       });
     };
     if (!wait(kPatience, links_of_all)) fail();
@@ -162,6 +165,10 @@ void BotFacilitator::end_rooms(const std::vector<Room>& rooms) {
     say("end", {{"room", room.id}});
     std::this_thread::sleep_for(kPace);
   }
+  // A room that has ended already refuses, which is a reply too.
+  std::unique_lock lock{shared_->mutex};
+  shared_->changed.wait_for(lock, kPatience,
+                            [&] { return shared_->is_closed || shared_->num_replies >= rooms.size(); });
 }
 
 }  // namespace kith

@@ -31,7 +31,7 @@ class BotFacilitator {
 
   /// Makes rooms for so many people each; 0: as the study says. @throws kith::Error (kIo) if that fails.
   [[nodiscard]] std::vector<Room> make_rooms(std::size_t count, std::size_t people, const std::string& strategy);
-  /// Asks for the end of rooms, at a pace that the server allows.
+  /// Asks for the end of rooms, at a pace that the server allows, and waits for the replies.
   void end_rooms(const std::vector<Room>& rooms);
 
  private:
