@@ -348,12 +348,14 @@ TEST(LiveService, ShowsFacilitatorsEverythingAndDoesWhatTheyAsk) {
   stage.show(*facilitator);
   EXPECT_EQ(facilitator->view().at("room")["id"], "r1");
 
+  stage.pass_ms(10);  // so that the log tells the order
   facilitator->ask(stage.service(), "message", {{"room", "r1"}, {"text", "Welcome"}, {"reason", "hello"}});
   stage.show(*facilitator);
   person.read();
   ASSERT_EQ(person.view().at("notices").size(), 1u) << facilitator->last_nak();
   EXPECT_EQ(person.view().at("notices")[0]["text"], "Welcome");
 
+  stage.pass_ms(10);
   facilitator->ask(stage.service(), "link-revoke", {{"token", link}, {"reason", "lost"}});
   stage.show(*facilitator);
   person.read();
