@@ -78,7 +78,7 @@ function(kith_add_web_apps)
       string(REGEX REPLACE "^." ${first} name ${page})
       add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --app ${build}/${page}
         --modules ${build} --chromium ${KITH_CHROMIUM})
-      set_tests_properties(web.${name} PROPERTIES RESOURCE_LOCK browser TIMEOUT 900 LABELS web)
+      set_tests_properties(web.${name} PROPERTIES RESOURCE_LOCK browser TIMEOUT 1800 LABELS web)
     endif()
   endforeach()
 endfunction()

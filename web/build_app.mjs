@@ -1,5 +1,6 @@
-// Makes the folder of a page that `kith serve` serves: index.html, app.js, app.css and, if the page has any, texts/. The server's
-// policy allows neither inline scripts nor inline styles, so both are files of their own.
+// Makes the folder of a page that `kith serve` serves: index.html, app.js, app.css and, if the page has
+// them, worker.js and texts/. The server's policy allows neither inline scripts nor inline styles, so both
+// are files of their own.
 //
 //   node build_app.mjs --page NAME --out DIR [--modules DIR]
 //
@@ -72,6 +73,11 @@ mkdirSync(values.out, { recursive: true });
 writeFileSync(join(values.out, 'index.html'), index);
 writeFileSync(join(values.out, 'app.js'), script.text);
 writeFileSync(join(values.out, 'app.css'), `${await themeSheet()}\n${style.text}`);
+const worker = join(source, 'worker.ts');
+if (existsSync(join(here, worker))) {
+  const { text } = await bundle(worker, { platform: 'browser', format: 'iife', target: kTarget });
+  writeFileSync(join(values.out, 'worker.js'), text);
+}
 const texts = join(here, source, 'texts');
 if (existsSync(texts)) cpSync(texts, join(values.out, 'texts'), { recursive: true });
 console.log(`${values.out}: app.js ${(script.text.length / 1e3).toFixed(0)} kB, ${(gzipped / 1e3).toFixed(0)} kB gzipped`);

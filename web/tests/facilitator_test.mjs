@@ -5,6 +5,7 @@ import { dirname, join } from 'node:path';
 import { after, before, describe } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { connectionTests } from './facilitator/connection_tests.mjs';
 import { controlTests } from './facilitator/control_tests.mjs';
 import { Harness } from './facilitator/harness.mjs';
 import { lookTests } from './facilitator/look_tests.mjs';
@@ -25,6 +26,8 @@ if (!values.app) {
   );
   process.exit(2);
 }
+
+describe('the line to the server', () => connectionTests(values.modules));
 
 describe('the facilitator page', () => {
   const harness = new Harness(values);

@@ -186,7 +186,8 @@ struct PowerCommandOptions {
   std::optional<std::size_t> pool;   ///< Teams per cell to draw studies from.
   std::size_t draws = 1000;
   bool paired = false;
-  std::string findings;  ///< A targets file: repeat the study and look for its findings.
+  std::string findings;     ///< A targets file: repeat the study and look for its findings.
+  std::string preregister;  ///< File for a preregistration of the study; empty: none.
   std::size_t studies = 200;
   std::optional<std::uint64_t> seed;
   std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
@@ -238,9 +239,9 @@ struct ExplainOptions {
 struct ServeOptions {
   std::string study;
   std::vector<std::string> set;
-  std::string out;  ///< Folder of the session; empty: a temporary one.
+  std::string out;                    ///< Folder of the session; empty: a temporary one.
   std::optional<std::uint16_t> port;  ///< 0: any that is free.
-  std::string bind;  ///< An address; empty: this machine alone, or with `lan` every one.
+  std::string bind;                   ///< An address; empty: this machine alone, or with `lan` every one.
   bool lan = false;
   bool insecure_lan = false;  ///< Unencrypted through the network.
   std::string public_url;     ///< What a reverse proxy in front is called.

@@ -32,8 +32,8 @@ RoomEvent from_stored(const StoredEvent& event) {
 
 // Whether other lessons may be likely after such an event.
 bool changes_lessons(const RoomEvent& event) {
-  constexpr std::string_view kNo[] = {"draft", "named", "message", "extend", "checked", "consented", "questions"};
-  return std::find(std::begin(kNo), std::end(kNo), event.type) == std::end(kNo);
+  constexpr std::string_view kWithout[] = {"draft", "named", "message", "extend", "checked", "consented", "questions"};
+  return std::find(std::begin(kWithout), std::end(kWithout), event.type) == std::end(kWithout);
 }
 
 }  // namespace

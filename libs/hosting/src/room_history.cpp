@@ -9,12 +9,12 @@
 namespace kith {
 namespace {
 
-std::size_t count_at(const Json& body, const char* name) {
+std::size_t count_member(const Json& body, const char* name) {
   const auto found = body.find(name);
   return found != body.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
 }
 
-std::string text_at(const Json& body, const char* name) {
+std::string text_member(const Json& body, const char* name) {
   const auto found = body.find(name);
   return found != body.end() && found->is_string() ? found->get<std::string>() : std::string{};
 }
@@ -26,26 +26,26 @@ class Collector {
   void take(const Room& room, const RoomEvent& event) {
     const auto& body = event.body;
     const auto by = seat_of_actor(event.actor);
-    const auto seat = by ? *by : count_at(body, "seat");
+    const auto seat = by ? *by : count_member(body, "seat");
     history_.room = room;
     if (event.type == "joined") {
-      auto& row = history_.seats[count_at(body, "seat")];
+      auto& row = history_.seats[count_member(body, "seat")];
       row.joined_us = event.at_us;
       if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
         row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
       if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
     } else if (event.type == "consented") {
-      history_.seats[seat].consent = text_at(body, "version");
+      history_.seats[seat].consent = text_member(body, "version");
     } else if (event.type == "named") {
-      history_.seats[seat].name = text_at(body, "name");
+      history_.seats[seat].name = text_member(body, "name");
     } else if (event.type == "started") {
       history_.started_us = event.at_us;
     } else if (event.type == "ended") {
-      history_.ended = text_at(body, "reason");
+      history_.ended = text_member(body, "reason");
     } else if (event.type == "away" || event.type == "present") {
       note_presence(history_.seats[seat], event.type == "away", event.at_us);
     } else if (event.type == "dropped" || event.type == "simulate" || event.type == "left") {
-      replace(seat, count_at(body, "by"), event.at_us);
+      replace(seat, count_member(body, "by"), event.at_us);
     } else if (event.type == "lesson") {
       note_lesson(room, event);
     } else if (event.type == "answered") {
@@ -79,13 +79,13 @@ class Collector {
     const auto& session = room.session();
     if (session.finished()) return;
     history_.lessons.push_back(
-        {.lesson = session.lesson(), .chosen_us = event.at_us, .digest = text_at(event.body, "digest")});
+        {.lesson = session.lesson(), .chosen_us = event.at_us, .digest = text_member(event.body, "digest")});
   }
 
   void note_answer(std::size_t seat, const RoomEvent& event) {
     AnswerRow row;
     row.period = history_.lessons.empty() ? 0 : history_.lessons.back().lesson.period;
-    row.test = count_at(event.body, "test");
+    row.test = count_member(event.body, "test");
     row.seat = seat;
     row.member = history_.seats[seat].member.value_or(0);
     if (const auto actions = event.body.find("actions"); actions != event.body.end() && actions->is_array()) {

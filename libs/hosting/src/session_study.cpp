@@ -11,7 +11,6 @@
 #include "kith/files/bytes.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
-#include "kith/runs/run_folder.hpp"
 
 namespace kith {
 namespace {
@@ -23,7 +22,7 @@ constexpr const char* kDomainFile = "domain.toml";
 constexpr const char* kConsentFile = "consent.txt";
 constexpr const char* kLanguageFile = "language.json";
 
-std::string digest_of(const std::map<std::string, std::string>& inputs) {
+std::string inputs_digest(const std::map<std::string, std::string>& inputs) {
   ByteWriter text;
   for (const auto& [name, content] : inputs) {
     text.text(name);
@@ -38,23 +37,18 @@ std::shared_ptr<const LiveStudy> live_study(const StudyReading& reading, const f
   return make_live_study(*reading.study, atlas, folder);
 }
 
-// The group's files under names of our own beside the frozen study, which then names them so.
-StudyReading with_own_files(StudyReading reading, const fs::path& folder, std::map<std::string, std::string>& inputs) {
+// The study with the group's files under names of our own; their texts are added to the inputs.
+Study with_own_files(Study study, const fs::path& folder, std::map<std::string, std::string>& inputs) {
   const auto freeze_file = [&](std::string& name, const char* frozen) {
     if (name.empty()) return;
     inputs.emplace(frozen, read_file(folder / name));
     name = frozen;
   };
-  bool is_first = true;
-  for (auto& variant : reading.study->variants) {
-    if (std::exchange(is_first, false)) {
-      freeze_file(variant.group.consent_file, kConsentFile);
-      freeze_file(variant.group.language, kLanguageFile);
-    } else {
-      variant.group = reading.study->variants.front().group;
-    }
-  }
-  return reading;
+  auto group = study.variants.front().group;
+  freeze_file(group.consent_file, kConsentFile);
+  freeze_file(group.language, kLanguageFile);
+  for (auto& variant : study.variants) variant.group = group;
+  return study;
 }
 
 // A folder of its own, removed with the object.
@@ -97,14 +91,12 @@ bool is_plain(const std::string& name) {
 
 SessionStudy make_session_study(const StudyReading& reading, const fs::path& folder) {
   SessionStudy session{.study = live_study(reading, folder), .inputs = {}, .digest = {}};
-  const auto own = with_own_files(reading, folder, session.inputs);
-  const auto frozen = freeze(own);
-  auto study = own.study.value();
+  auto study = with_own_files(reading.study.value(), folder, session.inputs);
   for (auto& variant : study.variants) variant.domain = kDomainFile;
-  session.inputs.emplace(kStudyFile, to_toml(study, own.domain.value(), GroupText::kWritten));
-  session.inputs.emplace(kDomainFile, frozen.domain);
-  for (const auto& file : frozen.files) session.inputs.emplace(file.name, file.text);
-  session.digest = digest_of(session.inputs);
+  session.inputs.emplace(kStudyFile, to_toml(study, reading.domain.value(), GroupText::kWritten));
+  session.inputs.emplace(kDomainFile, reading.domain_text);
+  for (const auto& file : reading.domain_files) session.inputs.emplace(file.name, file.text);
+  session.digest = inputs_digest(session.inputs);
   return session;
 }
 
@@ -123,7 +115,7 @@ SessionStudy restore_session_study(const std::map<std::string, std::string>& inp
     }
     refuse_inputs("it has errors");
   }
-  return {.study = live_study(reading, folder.path()), .inputs = inputs, .digest = digest_of(inputs)};
+  return {.study = live_study(reading, folder.path()), .inputs = inputs, .digest = inputs_digest(inputs)};
 }
 
 }  // namespace kith

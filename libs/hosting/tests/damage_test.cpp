@@ -21,25 +21,24 @@ using testing::identity_of;
 using testing::room_of;
 using testing::ScratchFolder;
 
-constexpr std::int64_t kNow = 1'700'000'000'000'000;
-constexpr std::int64_t kRooms = 3;
-constexpr std::uint64_t kEvents = 24;
+constexpr std::int64_t kDamagedRooms = 3;
+constexpr std::uint64_t kEventsOfARoom = 14;
 
 // A session with events in the file and in the write-ahead log, as a killed server leaves it.
 void make_session(const fs::path& folder) {
   fs::create_directories(folder);
   const ScratchFolder scratch;
-  auto file = EventFile::open(scratch.path(), identity_of(), kNow);
-  for (std::int64_t room = 1; room <= kRooms; ++room) {
+  auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
+  for (std::int64_t room = 1; room <= kDamagedRooms; ++room) {
     const auto first = batch_of({}, {room_of(room)});
     file.write({&first, 1});
   }
-  for (std::uint64_t seq = 1; seq <= kEvents; ++seq) {
-    for (std::int64_t room = 1; room <= kRooms; ++room) {
+  for (std::uint64_t seq = 1; seq <= kEventsOfARoom; ++seq) {
+    for (std::int64_t room = 1; room <= kDamagedRooms; ++room) {
       const auto batch = batch_of({event_of(room, seq)});
       file.write({&batch, 1});
     }
-    if (seq == kEvents / 2) {
+    if (seq == kEventsOfARoom - 4) {
       Database checkpoint{file.path(), Database::Mode::kWrite};
       checkpoint.empty_log();
     }
@@ -50,8 +49,8 @@ void make_session(const fs::path& folder) {
 
 std::vector<StoredEvent> all_events() {
   std::vector<StoredEvent> events;
-  for (std::int64_t room = 1; room <= kRooms; ++room) {
-    for (std::uint64_t seq = 1; seq <= kEvents; ++seq) events.push_back(event_of(room, seq));
+  for (std::int64_t room = 1; room <= kDamagedRooms; ++room) {
+    for (std::uint64_t seq = 1; seq <= kEventsOfARoom; ++seq) events.push_back(event_of(room, seq));
   }
   return events;
 }
@@ -81,9 +80,13 @@ void check_salvage(const fs::path& folder, const fs::path& target, const std::st
     ++recovered[event.room];
   }
   std::size_t incomplete = 0;
-  for (std::int64_t room = 1; room <= kRooms; ++room) incomplete += recovered[room] < kEvents ? 1u : 0u;
+  std::size_t without_end = 0;  // only the last event is lost, which nothing after it can tell
+  for (std::int64_t room = 1; room <= kDamagedRooms; ++room) {
+    incomplete += recovered[room] < kEventsOfARoom ? 1u : 0u;
+    without_end += recovered[room] == kEventsOfARoom - 1 ? 1u : 0u;
+  }
   EXPECT_LE(incomplete, 1u) << story << ": a single bit costs one row at most";
-  EXPECT_EQ(report.lost.size(), incomplete) << story;
+  EXPECT_EQ(report.lost.size(), incomplete - without_end) << story;
 }
 
 void flip_bits(std::size_t cases, unsigned seed) {
@@ -154,8 +157,8 @@ TEST(DamagedSession, IsRecoveredWithoutTheFileBesideIt) {
   make_session(scratch.path() / "session");
   fs::remove(scratch.path() / "session" / kIdentityFile);
   const auto report = salvage_session(scratch.path() / "session", scratch.path() / "salvaged");
-  EXPECT_EQ(report.events, kRooms * kEvents);
-  EXPECT_EQ(report.rooms, static_cast<std::size_t>(kRooms));
+  EXPECT_EQ(report.events, kDamagedRooms * kEventsOfARoom);
+  EXPECT_EQ(report.rooms, static_cast<std::size_t>(kDamagedRooms));
   EXPECT_TRUE(report.lost.empty());
 }
 

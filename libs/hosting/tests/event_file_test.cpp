@@ -16,8 +16,6 @@ using testing::identity_of;
 using testing::room_of;
 using testing::ScratchFolder;
 
-constexpr std::int64_t kNow = 1'700'000'000'000'000;
-
 void write_one(EventFile& file, const StoreBatch& batch) { file.write({&batch, 1}); }
 
 TEST(EventFile, GivesBackWhatWasWritten) {
@@ -26,13 +24,13 @@ TEST(EventFile, GivesBackWhatWasWritten) {
   batch.tokens.push_back({.hash = std::string(32, 'h'), .role = "participant", .room = 1, .seat = 2, .expires_us = 77});
   std::string id;
   {
-    auto file = EventFile::open(scratch.path(), identity_of(), kNow);
+    auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
     write_one(file, batch);
     id = file.id();
   }
-  auto file = EventFile::open(scratch.path(), identity_of(), kNow + 1);
+  auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime + 1);
   EXPECT_EQ(file.id(), id);
-  EXPECT_EQ(file.created_us(), kNow);
+  EXPECT_EQ(file.created_us(), testing::kSomeTime);
   EXPECT_EQ(file.identity().inputs, identity_of().inputs);
   EXPECT_EQ(file.rooms(), batch.rooms);
   EXPECT_EQ(file.tokens(), batch.tokens);
@@ -44,7 +42,7 @@ TEST(EventFile, GivesBackWhatWasWritten) {
 
 TEST(EventFile, IsReadWhileAnotherProcessWrites) {
   const ScratchFolder scratch;
-  auto file = EventFile::open(scratch.path(), identity_of(), kNow);
+  auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
   write_one(file, batch_of({event_of(1, 1)}, {room_of(1)}));
   auto reader = EventFile::read(scratch.path());
   write_one(file, batch_of({event_of(1, 2)}));
@@ -55,7 +53,7 @@ TEST(EventFile, IsReadWhileAnotherProcessWrites) {
 
 TEST(EventFile, SavesABatchAsAWholeOrNotAtAll) {
   const ScratchFolder scratch;
-  auto file = EventFile::open(scratch.path(), identity_of(), kNow);
+  auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
   write_one(file, batch_of({event_of(1, 1), event_of(1, 2)}, {room_of(1)}));
   EXPECT_THROW(write_one(file, batch_of({event_of(1, 3), event_of(1, 2)})), Error) << "a number that is taken";
   EXPECT_THROW(write_one(file, batch_of({event_of(1, 3), event_of(9, 1)})), Error) << "a room that is unknown";
@@ -68,7 +66,7 @@ TEST(EventFile, SavesABatchAsAWholeOrNotAtAll) {
 
 TEST(EventFile, RevokesLinks) {
   const ScratchFolder scratch;
-  auto file = EventFile::open(scratch.path(), identity_of(), kNow);
+  auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
   StoreBatch batch;
   batch.tokens.push_back({.hash = std::string(32, 'a'), .role = "observer", .expires_us = 5});
   batch.tokens.push_back({.hash = std::string(32, 'b'), .role = "facilitator", .expires_us = 5});
@@ -84,20 +82,21 @@ TEST(EventFile, RevokesLinks) {
 TEST(EventFile, RefusesWhatItIsNotMeantFor) {
   const ScratchFolder scratch;
   EXPECT_EQ(id_of_error([&] { (void)EventFile::read(scratch.path()); }), "E1616");
-  { (void)EventFile::open(scratch.path(), identity_of(), kNow); }
-  EXPECT_EQ(id_of_error([&] { (void)EventFile::open(scratch.path(), identity_of("other"), kNow); }), "E1611");
+  { (void)EventFile::open(scratch.path(), identity_of(), testing::kSomeTime); }
+  EXPECT_EQ(id_of_error([&] { (void)EventFile::open(scratch.path(), identity_of("other"), testing::kSomeTime); }),
+            "E1611");
   {
     Database database{scratch.path() / kEventFile, Database::Mode::kWrite};
     database.execute("PRAGMA user_version = 9");
   }
-  EXPECT_EQ(id_of_error([&] { (void)EventFile::open(scratch.path(), identity_of(), kNow); }), "E1613");
+  EXPECT_EQ(id_of_error([&] { (void)EventFile::open(scratch.path(), identity_of(), testing::kSomeTime); }), "E1613");
   EXPECT_EQ(id_of_error([&] { (void)EventFile::read(scratch.path()); }), "E1613");
 }
 
 TEST(EventFile, FindsARowThatWasMoved) {
   const ScratchFolder scratch;
   {
-    auto file = EventFile::open(scratch.path(), identity_of(), kNow);
+    auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
     write_one(file, batch_of({event_of(1, 1), event_of(1, 2), event_of(2, 1)}, {room_of(1), room_of(2)}));
   }
   {
@@ -111,7 +110,7 @@ TEST(EventFile, FindsARowThatWasMoved) {
 TEST(EventFile, FindsAnEventThatIsMissing) {
   const ScratchFolder scratch;
   {
-    auto file = EventFile::open(scratch.path(), identity_of(), kNow);
+    auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
     write_one(file, batch_of({event_of(1, 1), event_of(1, 2), event_of(1, 3)}, {room_of(1)}));
   }
   {
@@ -127,7 +126,7 @@ TEST(EventFile, LeavesNothingOfARewrittenTextBehind) {
   auto secret = event_of(1, 1);
   secret.json = "{\"name\":\"Wilhelmina Quackenbush\"}";
   {
-    auto file = EventFile::open(scratch.path(), identity_of(), kNow);
+    auto file = EventFile::open(scratch.path(), identity_of(), testing::kSomeTime);
     write_one(file, batch_of({secret, event_of(1, 2)}, {room_of(1)}));
     auto blank = secret;
     blank.json = "{\"name\":\"(erased)\"}";

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kith/core/error.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/hosting/live_service.hpp"
 #include "kith/hosting/session_study.hpp"
 #include "kith/live/room_event.hpp"

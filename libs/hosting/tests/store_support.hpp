@@ -16,6 +16,8 @@
 
 namespace kith::testing {
 
+inline constexpr std::int64_t kSomeTime = 1'700'000'000'000'000;
+
 [[nodiscard]] inline StoreIdentity identity_of(const std::string& study = "study") {
   return {.study = study, .program = "kith test", .inputs = {{"study.toml", "id = \"x\"\n"}}};
 }

@@ -272,7 +272,10 @@ void Room::apply(const RoomEvent& event, TeachingCache& cache, const TaughtLesso
         return one.at_us <= event.at_us && one.event.type == event.type && one.event.body == event.body;
       });
     }
-    if (const auto command = command_of(event); !fits && command) {
+    if (auto command = command_of(event); !fits && command) {
+      // A new seat is not asked for by its number.
+      const bool is_new_seat = event.type == "joined" && event.body.value("seat", std::size_t{0}) > num_seats();
+      if (is_new_seat) command->body.erase("seat");
       const auto decision = decide_in(parts, *command, event.at_us);
       fits = decision.events.size() == 1 && decision.events.front() == event;
     }

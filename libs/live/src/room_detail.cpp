@@ -4,6 +4,7 @@
 
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/geometry/outline.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
@@ -45,15 +46,9 @@ std::string points_text(const ParticleBelief& belief) {
 }
 
 Json outline_json(const Cone& cone) {
-  Json outline = Json::array();
-  for (const auto& ray : cone.generators()) {
-    double square = 0.0;
-    for (const auto x : ray) square += static_cast<double>(x) * static_cast<double>(x);
-    Json point = Json::array();
-    for (const auto x : ray) point.push_back(static_cast<double>(x) / std::sqrt(square));
-    outline.push_back(std::move(point));
-  }
-  return outline;
+  Json corners = Json::array();
+  for (const auto& corner : outline(cone)) corners.push_back({corner.x(), corner.y(), corner.z()});
+  return corners;
 }
 
 Json plain_sentences(const Domain& domain, std::span<const HalfSpace> half_spaces) {
@@ -198,6 +193,7 @@ class RoomDetailPage {
   [[nodiscard]] Json truth() const {
     Json weights = Json::array();
     for (const double weight : domain_.weights().unit) weights.push_back(weight);
+    if (domain_.num_features() != 3) return {{"weights", weights}, {"bec", Json::array()}, {"prior", Json::array()}};
     Cone bec = atlas_.prior_cone();
     const bool has_room = bec.clip(atlas_.policy_bec_half_spaces());
     return {{"weights", weights},

@@ -169,6 +169,17 @@ IntegerVector expected_counts(const Atlas& atlas, DemoIndex test, const Trajecto
   return counts;
 }
 
+ActionIndex robot_action(const Atlas& atlas, MdpIndex world, StateIndex s) {
+  return atlas.trajectory(atlas.index({world, s})).actions.front();
+}
+
+bool does_as_the_robot(const Atlas& atlas, MdpIndex world, const Trajectory& path) {
+  for (std::size_t t = 0; t < path.actions.size(); ++t) {
+    if (path.actions[t] != robot_action(atlas, world, path.states[t])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string world_key(const LiveStudy& study, MdpIndex world) {
@@ -214,7 +225,7 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
   }
   judged.is_finished = mdp.is_terminal(judged.path.states.back());
   if (!judged.is_finished || !judged.is_legal) return judged;
-  if (judged.path.actions == atlas.trajectory(test).actions) {
+  if (does_as_the_robot(atlas, world, judged.path)) {
     judged.counts = atlas.feature_counts(test);  // to the last bit, however expectations are rounded
   } else if (domain.is_exact()) {
     IntegerVector counts(domain.num_features());
@@ -227,6 +238,20 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
     judged.counts = expected_counts(atlas, test, judged.path);
   }
   return judged;
+}
+
+Trajectory expected_path(const Atlas& atlas, DemoIndex test) {
+  const auto [world, start] = atlas.id(test);
+  const auto& mdp = atlas.domain().mdp(world);
+  if (mdp.is_deterministic()) return atlas.trajectory(test);
+  Trajectory path{{start}, {}};
+  const auto most = std::min(kMaxAnswerActions, atlas.domain().max_steps());
+  while (!mdp.is_terminal(path.states.back())) {
+    if (path.actions.size() == most) return atlas.trajectory(test);
+    path.actions.push_back(robot_action(atlas, world, path.states.back()));
+    path.states.push_back(likeliest(mdp, *choice_of(mdp, path.states.back(), path.actions.back().value())).next);
+  }
+  return path;
 }
 
 }  // namespace kith

@@ -89,7 +89,7 @@ TEST(Blinding, AnotherPersonsAnswerShowsNowhereBeforeTheFeedback) {
     }
     if (a.room().stage_of(1) != "watch") continue;
     const auto same = [&] {
-      for (const std::size_t viewer : {1, 3}) {
+      for (const std::size_t viewer : {1u, 3u}) {
         const auto of_a = a.room().view({Viewer::Role::kParticipant, viewer}, a.now());
         const auto of_b = b.room().view({Viewer::Role::kParticipant, viewer}, b.now());
         ASSERT_EQ(of_a.dump(), of_b.dump());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -42,20 +43,24 @@ inline std::shared_ptr<const Atlas> atlas_of(const std::string& domain) {
   }
   std::string text = kLiveStudy;
   text.replace(text.find("item-delivery"), 13, domain);
-  auto reading = parse_study(text, "live.toml");
+  auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
   if (!reading.domain) throw std::logic_error{"no domain " + domain};
   known.emplace_back(domain, std::make_shared<const Atlas>(*std::move(reading.domain)));
   return known.back().second;
 }
 
-/// The study with more tables behind it.
+/// The study with more tables behind it, about a built-in domain or one of a file of the repository.
 inline std::shared_ptr<const LiveStudy> live_study(const std::string& group = {},
                                                    const std::string& domain = "item-delivery") {
   std::string text = kLiveStudy + group;
   text.replace(text.find("item-delivery"), 13, domain);
-  const auto reading = parse_study(text, "live.toml");
+  static std::map<std::string, std::shared_ptr<const LiveStudy>> known;
+  auto& study = known[text];
+  if (study) return study;
+  const auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
   if (!reading.study) throw std::logic_error{to_text(reading.diagnostics.front())};
-  return make_live_study(*reading.study, atlas_of(domain));
+  study = make_live_study(*reading.study, atlas_of(domain));
+  return study;
 }
 
 /// A room with a clock, and everything that happened in it.
@@ -129,7 +134,9 @@ class Play {
   }
 
   void join(std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(send("server", "join"), "");
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(send("server", "join"), "");
+    }
   }
   void get_ready(std::size_t number) {
     ASSERT_EQ(seat(number, "consent", {{"accept", true}, {"version", study_->group().consent_version}}), "");
@@ -164,8 +171,12 @@ class Play {
     const auto stage = room_.stage_of(number);
     if (stage == "watch") watch(number);
     if (stage == "predict") answer(number, right);
-    if (stage == "feedback") ASSERT_EQ(seat(number, "continue"), "");
-    if (stage == "questions") ASSERT_EQ(seat(number, "questions", {{"answers", Json::object()}}), "");
+    if (stage == "feedback") {
+      ASSERT_EQ(seat(number, "continue"), "");
+    }
+    if (stage == "questions") {
+      ASSERT_EQ(seat(number, "questions", {{"answers", Json::object()}}), "");
+    }
   }
   /// People act until nothing more can be done by them.
   void play_on(const std::vector<std::size_t>& people, bool right = true, std::size_t rounds = 400) {
@@ -176,7 +187,7 @@ class Play {
 
   [[nodiscard]] Json right_path(DemoIndex demo) const {
     Json actions = Json::array();
-    for (const auto action : study_->atlas->trajectory(demo).actions) actions.push_back(action.value());
+    for (const auto action : expected_path(*study_->atlas, demo).actions) actions.push_back(action.value());
     return actions;
   }
   /// Another first action, from where the robot goes on as it would; worse than the robot's own path.

@@ -51,10 +51,10 @@ TEST(PlayRegression, AKickedMemberDoesNotLeaveTheGroupStuck) {
   for (int watched = 0; watched < 2; ++watched) {
     Play play{live_study()};
     play.start(3);
-    for (const std::size_t i : {1, 2}) play.watch(i);
+    for (const std::size_t i : {1u, 2u}) play.watch(i);
     if (watched == 1) {
       play.watch(3);
-      for (const std::size_t i : {1, 2}) play.answer(i);
+      for (const std::size_t i : {1u, 2u}) play.answer(i);
     }
     EXPECT_EQ(play.room().stage_of(1), "wait");
     ASSERT_EQ(play.facilitator("simulate", {{"seat", 3}, {"type", "P"}}), "");
@@ -138,7 +138,7 @@ TEST(PlayRegression, NobodyJoinsAfterTheStart) {
   Play play{live_study("[group]\nauto_start = false\ndropout = { policy = \"replace-from-pool\", reserves = 2 }\n")};
   play.join(5);
   EXPECT_EQ(play.send("server", "join"), "full");
-  for (const std::size_t i : {1, 2, 3, 4}) play.get_ready(i);
+  for (const std::size_t i : {1u, 2u, 3u, 4u}) play.get_ready(i);
   ASSERT_EQ(play.facilitator("start"), "");
   EXPECT_EQ(play.send("server", "join"), "started");
   EXPECT_EQ(play.send("server", "join", {{"seat", 2}}), "started");

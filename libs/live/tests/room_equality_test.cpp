@@ -70,8 +70,8 @@ TEST(Room, ChoosesTheSameLessonWhoeverAnswersFirst) {
     play->start(3);
     for (std::size_t i = 1; i <= 3; ++i) play->watch(i);
   }
-  for (const std::size_t i : {1, 2, 3}) a.answer(i, i != 2);
-  for (const std::size_t i : {3, 2, 1}) b.answer(i, i != 2);
+  for (const std::size_t i : {1u, 2u, 3u}) a.answer(i, i != 2);
+  for (const std::size_t i : {3u, 2u, 1u}) b.answer(i, i != 2);
   EXPECT_EQ(digest_of(a.room().session()), digest_of(b.room().session()));
 }
 

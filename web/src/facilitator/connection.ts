@@ -24,7 +24,7 @@ export class Refused extends Error {
 }
 
 const kBeat = 5000;
-const kSilence = 15000; // without a frame for so long, the line is taken for dead
+const kSilence = 15000; // after a heartbeat without an answer for so long, the line is taken for dead
 const kPause = { first: 500, longest: 8000 };
 const kVersion = 1;
 
@@ -54,7 +54,7 @@ export class Connection {
   private readonly pending = new Map<string, Pending>();
   private attempts = 0;
   private lost_ms = 0;
-  private heard_ms = 0;
+  private unanswered_ms = 0; // since when the server owes an answer; 0: it does not
   private isStopped = false;
   private isOver = false;
   private timer = 0;
@@ -94,12 +94,14 @@ export class Connection {
   private open(): void {
     const socket = new WebSocket(this.address);
     this.socket = socket;
-    this.heard_ms = Date.now();
+    this.unanswered_ms = Date.now(); // of hello, which may not even be sent
     socket.onopen = () => {
+      if (this.socket !== socket) return;
       socket.send(JSON.stringify({ t: 'hello', v: kVersion, token: this.token, tab: this.tab }));
     };
     socket.onmessage = (event) => {
-      this.heard_ms = Date.now();
+      if (this.socket !== socket) return;
+      this.unanswered_ms = 0;
       if (typeof event.data === 'string') this.take(event.data);
     };
     socket.onclose = () => {
@@ -157,11 +159,13 @@ export class Connection {
   private beat(): void {
     const socket = this.socket;
     if (!socket) return;
-    if (Date.now() - this.heard_ms > kSilence) {
+    // Not the time since the last frame: in hidden tabs this may run once a minute only.
+    if (this.unanswered_ms > 0 && Date.now() - this.unanswered_ms > kSilence) {
       this.socket = null; // a dead line may take minutes to say that it is closed
       socket.close();
       this.dropped();
     } else if (socket.readyState === WebSocket.OPEN) {
+      if (this.unanswered_ms === 0) this.unanswered_ms = Date.now();
       socket.send(JSON.stringify({ t: 'beat' }));
     }
   }

@@ -132,5 +132,6 @@ function tipOf(seat: SeatRow, now: number): string {
   if (seat.kind === 'simulated') return `${seat.label}: simulated learner`;
   const latency = seat.latency_ms === undefined ? '' : `, ${Math.round(seat.latency_ms)} ms`;
   const state = seat.presence === 'here' ? `${kPresence.here}, ${stateText(seat)}` : stateText(seat);
+  if (seat.since_ms === 0) return `${seatTitle(seat)}: ${state}`; // nobody has come yet
   return `${seatTitle(seat)}: ${state} for ${spanText(now - seat.since_ms)}${latency}`;
 }

@@ -18,12 +18,13 @@ import { Predict } from './screens/predict';
 import { Questions } from './screens/questions';
 import { Wait } from './screens/wait';
 import { Watch } from './screens/watch';
-import { becomeParticipant, forgetParticipant, knownToken } from './session';
+import { becomeParticipant, codeOfLink, forgetParticipant, knownToken } from './session';
 import { currentLanguage, loadTexts, t } from './texts';
 
 export function App(): JSX.Element {
   const [known] = useState(knownToken);
-  const [token, setToken] = useState(known.isOfLink || location.pathname !== '/' ? known.token : null);
+  const isInvited = !known.isOfLink && (location.pathname === '/' || codeOfLink() !== '');
+  const [token, setToken] = useState(isInvited ? null : known.token);
   const [full, setFull] = useState<ParticipantView | null>(null);
   const join = (fresh: string): void => {
     becomeParticipant(fresh);
@@ -105,7 +106,7 @@ function useLanguage(lang: string | undefined): void {
 // Screens of the same kind are new ones if they show something else.
 function screenKey(view: ParticipantView): string {
   const { stage, progress, watch, predict, screening, wait } = view;
-  const index = { watch: watch?.index, predict: predict?.index, screening: screening?.index, wait: wait?.for }[stage as 'watch'];
+  const index = { watch: watch?.index, predict: predict?.index, screening: (screening ?? predict)?.index, wait: wait?.for }[stage as 'watch'];
   return [stage, progress?.part, progress?.round, index].join('.');
 }
 
@@ -119,13 +120,14 @@ function screenOf(props: ScreenProps): { key: string; screen: JSX.Element } {
 function screenFor(props: ScreenProps, isSaved: boolean): JSX.Element | null {
   const { view } = props;
   const { consent, check, screening, lobby, watch, predict, wait, feedback, questions, debrief } = view;
+  const task = screening ?? predict;
   switch (view.stage) {
     case 'consent':
       return consent ? <Consent {...props} consent={consent} /> : null;
     case 'check':
       return check ? <Check {...props} check={check} /> : null;
     case 'screening':
-      return screening ? <Predict {...props} task={screening} isScreening /> : null;
+      return task ? <Predict {...props} task={task} isScreening /> : null;
     case 'lobby':
       return lobby ? <Lobby {...props} lobby={lobby} /> : null;
     case 'watch':

@@ -1,6 +1,7 @@
 // The connection to the server: says hello, keeps it alive, reconnects, and sends every message until it is
 // acknowledged. Everything that the page shows follows from `snapshot()`.
 import { serverNow, setServerTime } from './clock';
+import { everySecond } from './metronome';
 import { Outbox } from './outbox';
 import type { ByeReason, CommandType, Commands, Message, ParticipantView, ServerFrame } from './protocol';
 import { uuid } from './storage';
@@ -54,7 +55,7 @@ export class Connection {
       pending: this.outbox.all(),
       refused: null,
     };
-    setInterval(() => this.tend(), 1000);
+    everySecond(() => this.tend());
     window.addEventListener('online', () => this.hurry());
     window.addEventListener('offline', () => this.drop());
     document.addEventListener('visibilitychange', () => {
@@ -100,7 +101,8 @@ export class Connection {
   // Take over from the tab that has opened this session elsewhere, or simply try again.
   reopen(): void {
     this.attempts = 0;
-    this.change({ bye: null });
+    // After a long time elsewhere the last view is of no use; local input is kept beside it.
+    this.change(this.state.phase === 'closed' ? { bye: null, view: null } : { bye: null });
     this.connect();
   }
 
@@ -202,7 +204,7 @@ export class Connection {
     else if (frame.t === 'ack') this.settled(frame.id);
     else if (frame.t === 'nak') this.settled(frame.id, frame.text);
     else if (frame.t === 'bye') this.leave(frame.reason);
-    else if (frame.t === 'beat') this.hearBeat();
+    else if (frame.t === 'beat') this.hasBeats = true;
   }
 
   private greeted(role: string): void {
@@ -235,11 +237,6 @@ export class Connection {
     this.change({ pending: this.outbox.all(), ...(refused ? { refused } : {}) });
   }
 
-  // Timers of hidden tabs may run once a minute only; frames of the server wake them up.
-  private hearBeat(): void {
-    this.hasBeats = true;
-    if (this.welcome && performance.now() - this.beaten > kBeatMs - 1000) this.beat();
-  }
 }
 
 // When the server's clock will be at `ms`, in milliseconds from now.

@@ -7,7 +7,7 @@ import type { World } from './world';
 
 const kDraftMs = 2000; // at most one draft per
 const kMostActions = 500; // the server accepts no more
-const kMostKeys = 1000; // a message has at most 16 KiB
+const kMostKeys = 800; // a message has at most 16 KiB
 
 export type Outcome = 'done' | 'blocked' | 'end' | 'full';
 

@@ -35,7 +35,6 @@ export interface Task {
   world: string;
   start: number;
   draft: number[];
-  until_ms?: number;
 }
 
 export interface Judged {
@@ -71,35 +70,35 @@ export interface ParticipantView {
   lang: string;
   dir: 'ltr' | 'rtl';
   study: { title: string; story: string[]; goal: string };
-  me: { seat: number; label: string; name?: string };
+  me: { seat: number; label: string };
   group: { size: number; active: number };
   notices: { text: string; at_ms: number }[];
   pause?: Pause;
   consent?: { version: string; paragraphs: string[] };
-  check?: { board: LiveBoard; task: string; world?: string; start?: number };
-  screening?: Task;
+  check?: { board: LiveBoard; task: string; world?: string; start?: number; ask_name?: boolean };
+  screening?: Task; // or `predict` in the stage screening
   lobby?: {
     present: number;
     size: number;
     since_ms: number;
-    leave_after_ms: number;
+    leave_after_ms: number; // when one may leave
     can_leave: boolean;
-    ask_name?: boolean;
+    reserve?: boolean; // the seats are taken; who waits gets one that becomes free
     until_ms?: number;
   };
   progress?: { part: number; round: number; done: number };
-  watch?: { index: number; of: number; board: LiveBoard; frames: Frame[]; until_ms?: number };
+  watch?: { index: number; of: number; board: LiveBoard; frames: Frame[] };
   predict?: Task;
   wait?: {
     for: 'answers' | 'others-watching' | 'teacher' | 'feedback';
     missing: number;
     since_ms: number;
-    until_ms?: number;
   };
-  feedback?: { tests: Judged[]; all_right: boolean; learned: boolean; until_ms?: number };
+  feedback?: { tests: Judged[]; all_right: boolean; learned: boolean };
   questions?: { items: Question[] };
   debrief?: { summary: string[]; code: string; redirect?: string; rounds: number; right: number; tests: number };
   end?: { reason: string; text: string; code?: string; redirect?: string };
+  limit_ms?: number; // when a time limit ends this stage
   server_ms: number;
 }
 

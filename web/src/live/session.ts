@@ -8,6 +8,12 @@ function tokenOfLink(): string | null {
   return token !== null && pattern.test(token) ? token : null;
 }
 
+// The code of a link that anybody may have: in the fragment, or in the query beside what a platform adds.
+export function codeOfLink(): string {
+  const inFragment = new URLSearchParams(location.hash.slice(1)).get('c');
+  return inFragment ?? new URLSearchParams(location.search).get('code') ?? '';
+}
+
 // The token of the link, else of this tab. The landing page alone asks before it goes back to a session.
 export function knownToken(): { token: string | null; isOfLink: boolean } {
   const ofLink = tokenOfLink();
@@ -25,6 +31,6 @@ export function becomeParticipant(token: string): void {
 }
 
 export function forgetParticipant(): void {
-  for (const key of ['token', 'outbox', 'drive', 'seen', 'feedback', 'questions', 'dismissed', 'introduced']) forget(key);
+  for (const key of ['token', 'outbox', 'drive', 'seen', 'feedback', 'questions', 'dismissed', 'introduced', 'name']) forget(key);
   history.replaceState(null, '', '/');
 }

@@ -81,6 +81,11 @@ async function fetchJson<T>(address: string): Promise<T | null> {
 
 export const currentLanguage = (): string => language;
 
+// The server's own sentences are English.
+export const isEnglish = (): boolean => bare(language) === 'en';
+
+export const hasText = (key: string): boolean => lookUp(key) !== undefined;
+
 const bare = (lang: string): string => lang.toLowerCase().split('-')[0] ?? 'en';
 
 // The study's own texts, or those of this page in the study's (or else the browser's) language.

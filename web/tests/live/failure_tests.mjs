@@ -157,7 +157,8 @@ export function failureTests(setting) {
           await page.waitForFunction(() => document.querySelector('.status').textContent.includes('Reconnecting'));
           await page.waitForFunction(() => document.querySelector('.status').textContent.includes('Saved'), null, { timeout: 15000 });
         }
-        await page.waitForTimeout(3500); // until it has heard a beat
+        while (mock.numBeats < 1) await page.waitForTimeout(100);
+        await page.waitForTimeout(200);
         mock.beats = false;
         const before = [...mock.sockets.values()][0];
         while ([...mock.sockets.values()][0] === before) await page.waitForTimeout(200);

@@ -1,4 +1,5 @@
 // A server with a room, and people in browsers: what journeys through the pages start from.
+import { spawn } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -51,6 +52,32 @@ export async function withGroup(setting, options, body) {
 
 function complain(list, what) {
   if (list.length > 0) throw new Error(`${what}: ${list.join('; ')}`);
+}
+
+// The demonstration of `kith serve`, on a free port: {links of its seats, stop}.
+export async function startKith(program, folder) {
+  const server = spawn(program, ['serve', '--demo', '--no-browser', '--json', '--port', '0', '-o', folder], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
+  let text = '';
+  const document = await new Promise((resolve, reject) => {
+    server.on('exit', (status) => reject(new Error(`kith serve ended with status ${status}`)));
+    server.stdout.on('data', (chunk) => {
+      text += chunk;
+      try {
+        resolve(JSON.parse(text));
+      } catch {
+        // not all of it yet
+      }
+    });
+  });
+  const stop = (signal) =>
+    new Promise((resolve) => {
+      server.removeAllListeners('exit');
+      server.on('exit', resolve);
+      server.kill(signal);
+    });
+  return { ...document, stop };
 }
 
 // From the first page to the first board.

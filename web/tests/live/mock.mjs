@@ -42,7 +42,8 @@ export class Mock {
     this.received = []; // {seat, t, id, body}, also what was sent again
     this.isDown = false;
     this.holdsAcks = false;
-    this.beats = true;
+    this.beats = true; // whether they are answered
+    this.numBeats = 0;
     const { WebSocketServer } = requireFrom(modules)('ws');
     this.ws = new WebSocketServer({ noServer: true, maxPayload: 16384 });
     this.server = createServer((request, response) => this.http(request, response));
@@ -55,12 +56,10 @@ export class Mock {
   async listen() {
     await new Promise((resolve) => this.server.listen(0, '127.0.0.1', resolve));
     this.address = `http://127.0.0.1:${this.server.address().port}`;
-    this.timer = setInterval(() => this.beats && this.sendAll({ t: 'beat' }), 3000);
     return this;
   }
 
   async close() {
-    clearInterval(this.timer);
     for (const client of this.ws.clients) client.terminate();
     this.server.closeAllConnections();
     await new Promise((resolve) => this.server.close(resolve));
@@ -121,7 +120,7 @@ export class Mock {
     };
     const json = (status, value) => reply(status, 'application/json', JSON.stringify(value));
     if (pathname === '/' || pathname === '/j') return reply(200, 'text/html', readFileSync(join(this.app, 'index.html')));
-    if (pathname === '/f') return reply(200, 'text/html', '<!doctype html><html lang="en"><title>f</title><h1>Facilitator</h1></html>');
+    if (pathname === '/f') return reply(200, 'text/html', '<!doctype html><html lang="en"><title>f</title><link rel="icon" href="data:,"><h1>Facilitator</h1></html>');
     if (pathname === '/api/texts') return this.texts ? json(200, this.texts) : json(404, { reason: 'no-texts' });
     if (pathname === '/api/join' && request.method === 'POST') return this.join(request, json);
     if (pathname.startsWith('/api/world/')) {
@@ -143,7 +142,7 @@ export class Mock {
       if (request.headers['content-type'] !== 'application/json') this.violations.push('join without a content type');
       const { code, query } = JSON.parse(text);
       if (code === 'BUSY') return json(429, { reason: 'too-many', text: 'wait' });
-      if (code !== this.code) return json(404, { reason: 'unknown-code', text: 'no such code' });
+      if (code !== this.code) return json(404, { reason: 'no-room', text: 'no such code' });
       if (this.joined >= this.tokens.size) {
         const end = { reason: 'full', text: '', code: 'MOCK-FULL' };
         return json(200, { full: { ...this.room.view(1), stage: 'full', end } });
@@ -156,13 +155,17 @@ export class Mock {
 
   // ---- sockets
   open(socket) {
+    if (this.isSilent) return;
     let token = null;
     let drafted = -Infinity;
     socket.on('message', (data) => {
       const frame = JSON.parse(String(data));
       if (frame.t === 'hello') token = this.hello(socket, frame);
       else if (token === null) this.violations.push(`'${frame.t}' before hello`);
-      else if (frame.t !== 'beat') {
+      else if (frame.t === 'beat') {
+        this.numBeats += 1;
+        if (this.beats) socket.send(JSON.stringify({ t: 'beat' }));
+      } else {
         if (frame.t === 'draft') {
           if (Date.now() - drafted < 1900) this.violations.push('drafts too close together');
           drafted = Date.now();

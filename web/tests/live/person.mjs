@@ -90,7 +90,7 @@ export class Person {
 
   // The best path of what is to be driven now, by numbers of actions; [0 .. n) of the table.
   async best() {
-    const task = this.view.predict ?? this.view.screening ?? this.view.check;
+    const task = this.view.predict ?? this.view.check;
     const table = await this.table(task.world);
     return bestPath(priced(task.board, table), task.start).actions.map((action) => table.actions[action].name);
   }

@@ -56,7 +56,7 @@ export class Room {
     const handlers = {
       consent: () => person.stage === 'consent' && this.consented(person, body),
       checked: () => person.stage === 'check' && this.checked(person),
-      name: () => person.stage === 'lobby' && this.named(person, body),
+      name: () => ['check', 'lobby'].includes(person.stage) && this.named(person, body),
       screen: () => person.stage === 'screening' && this.screened(person, body),
       watched: () => person.stage === 'watch' && body.demo === person.index && this.watched(person),
       draft: () => person.stage === 'predict' && body.test === person.index && this.drafted(person, body),
@@ -185,7 +185,7 @@ export class Room {
         story: texts.story ?? ['A robot delivers parcels in a building. It always takes the way that suits it best.'],
         goal: texts.goal ?? 'Find out what the robot likes and what it avoids.',
       },
-      me: { seat, label: `Learner ${'ABCDEFGH'[seat - 1]}`, ...(person.name ? { name: person.name } : {}) },
+      me: { seat, label: `Learner ${'ABCDEFGH'[seat - 1]}` },
       group: { size, active: this.active().length },
       notices: this.notices,
       ...(this.pause ? { pause: this.pause } : {}),
@@ -204,9 +204,9 @@ export class Room {
       case 'consent':
         return { consent: { version: '3', paragraphs: this.options.texts.consent ?? ['This is a study about robots.', 'You may stop at any time.'] } };
       case 'check':
-        return { check: { ...drive(this.sandbox, 0, 1, []), task: 'Bring the parcel to the place where it belongs' } };
+        return { check: { ...drive(this.sandbox, 0, 1, []), task: '', ask_name: this.options.askName } };
       case 'screening':
-        return { screening: drive(this.screening[person.index], person.index, this.screening.length, []) };
+        return { predict: drive(this.screening[person.index], person.index, this.screening.length, []) };
       case 'lobby':
         return { lobby: this.lobby(person) };
       case 'watch': {
@@ -234,10 +234,9 @@ export class Room {
 
   lobby({ since }) {
     const present = this.seats.filter(({ stage, present: here }) => stage === 'lobby' && here).length;
-    const leave_after_ms = this.options.leaveAfterMs ?? 300_000;
-    const can_leave = Date.now() - since > leave_after_ms;
-    const { size, askName } = this.options;
-    return { present, size, since_ms: since, leave_after_ms, can_leave, ...(askName ? { ask_name: true } : {}) };
+    const leave_after_ms = since + 300_000;
+    const { size } = this.options;
+    return { present, size, since_ms: since, leave_after_ms, can_leave: Date.now() >= leave_after_ms, reserve: false };
   }
 
   feedback(person, part) {
@@ -246,7 +245,7 @@ export class Room {
       const right = this.isRight(test, answer);
       const mine = answer ? framesOf(test.world, answer.states, answer.actions) : null;
       const robot = test.shown.frames;
-      const differs = right || !mine ? -1 : robot.findIndex(({ action }, k) => mine[k]?.action !== action);
+      const differs = !mine ? -1 : robot.findIndex(({ action }, k) => mine[k]?.action !== action);
       return {
         board: test.board,
         right,

@@ -43,7 +43,7 @@ async function withViews(setting, body, look = {}) {
 // A view that is new to the page, also if the screen before it was of the same kind.
 async function show({ mock, page }, view) {
   await page.evaluate(() => {
-    for (const name of ['drive', 'seen', 'feedback', 'dismissed']) sessionStorage.removeItem(`kith.${name}`);
+    for (const name of ['drive', 'seen', 'feedback', 'dismissed', 'introduced']) sessionStorage.removeItem(`kith.${name}`);
   });
   const { progress } = view;
   show.count = (show.count ?? 0) + 1;
@@ -53,7 +53,21 @@ async function show({ mock, page }, view) {
   await page.waitForTimeout(60);
 }
 
-const kButtons = { check: 'Continue' }; // behind which there is the screen itself
+// What is to be seen now: it fits, it can be touched, and it can be read by assistive technology.
+async function examine(setting, person, name, look) {
+  const { page } = person;
+  if (setting.screenshots) {
+    mkdirSync(setting.screenshots, { recursive: true });
+    await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
+  }
+  const { body, wide } = await page.evaluate(() => ({
+    body: document.documentElement.scrollWidth,
+    wide: document.documentElement.clientWidth,
+  }));
+  assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
+  assert.deepEqual(await page.evaluate(smallTargets), [], name);
+  if (look.axe) assert.deepEqual(await person.violations(setting.axe), [], name);
+}
 
 async function playToTheEnd(person) {
   for (let i = 0; i < 40; i += 1) {
@@ -72,21 +86,44 @@ export function screenTests(setting) {
           async ({ views, mock, person, page }) => {
             for (const [name, view] of Object.entries(views)) {
               await show({ mock, page }, view);
-              if (name in kButtons && (await person.button(kButtons[name]).count()) > 0) await person.button(kButtons[name]).click();
-              if (view.predict || view.check || view.screening) await page.waitForSelector('.pad-row');
-              if (/^feedback|^mapless-(w|f)/.test(name)) await playToTheEnd(person);
-              if (setting.screenshots) {
-                mkdirSync(setting.screenshots, { recursive: true });
-                await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
+              if (name === 'check') {
+                await examine(setting, person, 'introduction', look);
+                await person.button('Continue').click();
               }
-              const { body, window: wide } = await page.evaluate(() => ({
-                body: document.documentElement.scrollWidth,
-                window: document.documentElement.clientWidth,
-              }));
-              assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
-              assert.deepEqual(await page.evaluate(smallTargets), [], name);
-              if (look.axe) assert.deepEqual(await person.violations(setting.axe), [], name);
+              if (view.predict || view.check) await page.waitForSelector('.pad-row');
+              if (/^feedback|^mapless-(w|f)/.test(name)) await playToTheEnd(person);
+              await examine(setting, person, name, look);
             }
+          },
+          look,
+        );
+      });
+    }
+
+    for (const look of kLooks.filter(({ axe }) => axe)) {
+      it(`without a session, at ${look.name}`, async () => {
+        await withViews(
+          setting,
+          async ({ mock, person, page }) => {
+            const check = (name) => examine(setting, person, name, look);
+            mock.bye(1, 'opened-elsewhere');
+            await person.at('Open in another tab');
+            await check('elsewhere');
+            await page.goto('about:blank');
+            await page.goto(`${mock.address}/j#t=not-a-known-token`);
+            await person.at('This link does not work');
+            await check('bad-link');
+            await person.button('Enter a code').click();
+            await person.at('Join a session');
+            await person.button('Join').click();
+            await page.waitForFunction(() => document.querySelector('[role=alert]').textContent !== '');
+            await page.click('summary');
+            await check('landing');
+            mock.isSilent = true;
+            await page.goto(mock.link(1));
+            await person.at('Connecting');
+            await page.waitForSelector('text=has not answered');
+            await check('connecting');
           },
           look,
         );

@@ -42,6 +42,8 @@ export function sessionTests(setting) {
         for (const person of people) await fillIn(person);
         assert.match(await people[0].page.textContent('main'), /3 of 4 tasks correctly, in 3 rounds.*MOCK-1X7Q/s);
         assert.match(await people[1].page.textContent('main'), /4 of 4 tasks correctly/);
+        await people[1].button('Copy the code').click();
+        await people[1].page.waitForFunction(() => document.querySelector('.copied').textContent.includes('Copied'));
         assert.equal(await people[0].page.getAttribute('a.button', 'href'), 'https://example.org/done');
         const answers = room.log.filter(({ type }) => type === 'answer');
         assert.equal(answers.length, 12);
@@ -158,6 +160,16 @@ export function sessionTests(setting) {
           await page.mouse.click(box.x + ((column - 0.5) * box.width) / 4, box.y + ((row - 0.5) * box.height) / 3);
         };
         await page.waitForSelector('.drive-area');
+        const held = await page.evaluate(() =>
+          Array.from({ length: 10 }, () => {
+            const init = { key: 'ArrowDown', repeat: true, bubbles: true, cancelable: true };
+            return document.body.dispatchEvent(new KeyboardEvent('keydown', init));
+          }),
+        );
+        assert.ok(held.every((scrolls) => !scrolls), 'the page would scroll');
+        await person.counts('1 step');
+        await person.button('Undo').click();
+        await person.counts('0 steps');
         await click(4, 3); // where the parcel is, three cells away
         await person.counts('3 steps');
         await click(1, 1); // a wall
@@ -181,7 +193,7 @@ export function sessionTests(setting) {
         await person.button('Submit anyway').click();
         await person.at('Not quite');
         const { keys } = mock.received.find(({ t }) => t === 'answer').body;
-        assert.deepEqual(keys.map(([press]) => press).filter((press) => typeof press === 'string'), ['undo', 'reset']);
+        assert.deepEqual(keys.map(([press]) => press).filter((press) => typeof press === 'string'), ['undo', 'undo', 'reset']);
       });
     });
 
@@ -216,7 +228,7 @@ export function sessionTests(setting) {
         await first.page.goto(mock.address);
         await first.button('Return to your session').click();
         await first.at('Before you start');
-        const second = await openPerson(setting.browser, `${mock.address}/?code=ROBOT`, {});
+        const second = await openPerson(setting.browser, `${mock.address}/j?code=ROBOT`, {});
         await second.open();
         await second.button('Join').click();
         await second.at('All places are taken');

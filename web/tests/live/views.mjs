@@ -89,12 +89,14 @@ export function makeViews(lesson, now = Date.now()) {
     'pause-organiser': { ...at('watch'), pause: { why: 'facilitator', since_ms: now - 20_000, missing: 0 } },
     unknown: { ...at('watch'), stage: 'something-new' },
   };
+  views.lobby.lobby.can_leave = false;
   views['lobby-leave'].lobby.can_leave = true;
   views['predict-limit'] = structuredClone(views.predict);
-  views['predict-limit'].predict.until_ms = now + 25_000;
+  views['predict-limit'].limit_ms = now + 25_000;
+  views['lobby-reserve'] = { ...views.lobby, lobby: { ...views.lobby.lobby, reserve: true } };
   const large = largeBoard(lesson.domain);
   views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
-  room.worlds.set('large', makeWorld(lesson.domain, large, 'large'));
+  room.worlds.set('large', makeWorld(large.domain, large, 'large'));
   room.worlds.set('mapless', { table: kMaplessWorld });
   const frame = (state, action) => ({ state, action });
   const way = [frame('far from the dock', 'drive'), frame('at the dock', 'wait'), frame('at the dock', 'dock'), frame('docked', null)];

@@ -28,7 +28,7 @@ export function SeatDialog({ study, room, seat, answers, mayAct, onAct, onClose 
       <dl class="facts">
         <dt>State</dt>
         <dd>
-          {seat.kind === 'simulated' ? 'simulated learner' : `${kPresence[seat.presence]}, ${stateText(seat)}`}, for {spanText(now - seat.since_ms)}
+          {seat.kind === 'simulated' ? 'simulated learner' : `${kPresence[seat.presence]}, ${stateText(seat)}`}{seat.since_ms === 0 ? '' : `, for ${spanText(now - seat.since_ms)}`}
         </dd>
         {seat.type && <dt>Learner type</dt>}
         {seat.type && <dd>{`${seat.type}, ${typeLabel(study, seat.type)}`}</dd>}

@@ -87,10 +87,10 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
                   </span>
                 )}
               </th>
-              <td class={`state ${seat.presence}`} data-tip={`${stateText(seat)}, for ${spanText(now - seat.since_ms)}`}>
+              <td class={`state ${seat.presence}`} data-tip={seat.since_ms === 0 ? stateText(seat) : `${stateText(seat)}, for ${spanText(now - seat.since_ms)}`}>
                 {seat.presence === 'away' ? kPresence.away : stateText(seat)}
               </td>
-              <td class="number">{spanText(now - seat.since_ms)}</td>
+              <td class="number">{seat.since_ms === 0 ? '' : spanText(now - seat.since_ms)}</td>
               <td class="number">{seat.latency_ms === undefined ? '' : Math.round(seat.latency_ms)}</td>
               <td class="number">{shortEstimate(seat)}</td>
               {columns.map(({ period, test, isFirst }) => (

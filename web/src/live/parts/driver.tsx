@@ -105,7 +105,8 @@ function Driving({ board, legend, world, drive, off, children }: Props & { world
         {board.map ? (
           <>
             <Things board={board} legend={legend} lines={['other']} />
-            <p class="muted hint">{t('predict.keys')}</p>
+            <p class="muted hint for-keys">{t('predict.keys')}</p>
+            <p class="muted hint for-touch">{t('predict.touch')}</p>
             <p class="visually-hidden">{aroundText(board, legend, frame)}</p>
             <BoardInWords board={board} legend={legend} frame={frame} />
           </>

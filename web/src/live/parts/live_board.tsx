@@ -16,7 +16,7 @@ export function useLegend(domain: MapDomain): Legend {
   return useMemo(() => new Legend(JSON.parse(text) as MapDomain), [text]);
 }
 
-const kLargestCell = 132; // pixels
+const kLargestCell = 150; // pixels
 
 interface Props {
   board: LiveBoard;

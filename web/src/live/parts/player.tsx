@@ -1,6 +1,6 @@
 // Plays a path: play or pause, one step back or forward, and how fast.
 import type { JSX } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import { usePlayback, type Playback } from '../../shared/playback';
 import { isElsewhere } from '../keys';
 import { t } from '../texts';
@@ -39,17 +39,20 @@ const kIcons = {
 
 export function Player({ playback, primary }: { playback: Paced; primary: boolean }): JSX.Element {
   const { step, last, playing, show, toggle, speed, setSpeed } = playback;
+  const current = useRef(playback);
+  current.current = playback; // keys may come faster than effects
   useEffect(() => {
     const pressed = (event: KeyboardEvent): void => {
       if (isElsewhere(event) || event.altKey || event.ctrlKey || event.metaKey) return;
-      if (event.key === 'ArrowRight') show(step + 1);
-      else if (event.key === 'ArrowLeft') show(step - 1);
+      const now = current.current;
+      if (event.key === 'ArrowRight') now.show(now.step + 1);
+      else if (event.key === 'ArrowLeft') now.show(now.step - 1);
       else return;
       event.preventDefault();
     };
     document.addEventListener('keydown', pressed);
     return () => document.removeEventListener('keydown', pressed);
-  }, [step, last]);
+  }, []);
   const what = playing ? 'pause' : step === last ? 'again' : 'play';
   return (
     <div class="player" role="group" aria-label={t('player.group')}>

@@ -7,8 +7,9 @@ import { useLegend } from '../parts/live_board';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
-import { sentence, t } from '../texts';
+import { isEnglish, sentence, t } from '../texts';
 import { plainWorld, useWorld, type World } from '../world';
+import { Name } from './name';
 
 const kEnough = 4; // steps after which somebody knows how to drive
 type Shown = NonNullable<ScreenProps['view']['check']>;
@@ -17,13 +18,15 @@ type Shown = NonNullable<ScreenProps['view']['check']>;
 export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
   const [isIntroduced, setIntroduced] = useState(() => recall<boolean>('introduced') === true);
   const { story, goal } = props.view.study;
-  if (isIntroduced || (story.length === 0 && !goal)) return <Controls {...props} />;
+  const isEmpty = story.length === 0 && !goal && !props.check.ask_name;
+  if (isIntroduced || isEmpty) return <Controls {...props} />;
   return (
     <div class="intro">
       <Heading>{t('intro.title')}</Heading>
       <Paragraphs texts={story} />
       {goal && <p class="goal">{goal}</p>}
       <p>{t('intro.how')}</p>
+      {props.check.ask_name && <Name view={props.view} connection={props.connection} />}
       <Button
         primary
         onClick={() => {
@@ -46,8 +49,7 @@ function Controls(props: ScreenProps & { check: Shown }): JSX.Element {
   return (
     <>
       <Heading>{t('check.title')}</Heading>
-      <p class="lead">{t('check.intro')}</p>
-      <p>{t('check.task', { task: check.task ? sentence(check.task) : t('check.default_task') })}</p>
+      <p class="lead">{check.task && isEnglish() ? sentence(check.task) : t('check.intro')}</p>
       {world ? (
         <Trying {...props} world={world} start={check.start ?? plain?.start ?? 0} legend={legend} />
       ) : (

@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { CompletionCode, GoOn, Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
-import { sentence, t } from '../texts';
+import { hasText, isEnglish, sentence, t } from '../texts';
 
 export function Debrief({ debrief, isSaved }: { debrief: NonNullable<ParticipantView['debrief']>; isSaved: boolean }): JSX.Element {
   const { code, redirect, rounds, right, tests } = debrief;
@@ -30,10 +30,12 @@ export function Debrief({ debrief, isSaved }: { debrief: NonNullable<Participant
 
 export function Ended({ view, isSaved }: { view: ParticipantView; isSaved: boolean }): JSX.Element {
   const { stage, end } = view;
+  const own = `end.reason.${end?.reason ?? ''}`; // the server's sentence is English
+  const text = hasText(own) ? t(own) : end?.text && isEnglish() ? sentence(end.text) : t(`end.text.${stage}`);
   return (
     <>
       <Heading>{t(`end.title.${stage}`)}</Heading>
-      <p class="lead">{end?.text ? sentence(end.text) : t(`end.text.${stage}`)}</p>
+      <p class="lead">{text}</p>
       {end?.code && <CompletionCode code={end.code} />}
       <GoOn address={end?.redirect} isSaved={isSaved} />
     </>

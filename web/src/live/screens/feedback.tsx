@@ -50,7 +50,7 @@ export function Feedback({ feedback, view, connection }: ScreenProps & { feedbac
   return (
     <>
       <p class="kicker">{t('feedback.count', { index: index + 1, of: feedback.tests.length })}</p>
-      <TimeLeft until={feedback.until_ms} />
+      <TimeLeft until={view.limit_ms} />
       <OneTask key={index} test={test} next={next} />
     </>
   );
@@ -86,7 +86,7 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
         <Mark verdict={verdict} />
         <Heading>{t(`feedback.title.${verdict}`)}</Heading>
       </div>
-      <p class="lead">{t(verdict === 'wrong' && !board.map ? 'feedback.wrong_plain' : `feedback.${verdict}`)}</p>
+      <p class="lead">{t(leadKey(test))}</p>
       <div class="board-screen">
         <div class="board-column">
           {board.map ? (
@@ -124,6 +124,12 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
       </div>
     </>
   );
+}
+
+function leadKey({ right, mine, board, differs_at }: Judged): string {
+  if (right) return differs_at === null ? 'feedback.right' : 'feedback.right_other';
+  if (!mine) return 'feedback.none';
+  return board.map ? 'feedback.wrong' : 'feedback.wrong_plain';
 }
 
 const cellOf = (frame: Frame | undefined): { cell?: [number, number] } => (frame?.robot ? { cell: frame.robot } : {});

@@ -3,11 +3,12 @@ import type { JSX } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
+import { codeOfLink } from '../session';
 import { t } from '../texts';
 
 interface Reply {
   token?: string;
-  full?: ParticipantView;
+  full?: ParticipantView; // the page of somebody for whom there is no seat
   reason?: string;
   text?: string;
 }
@@ -18,29 +19,25 @@ interface Props {
   onReturn: (() => void) | null; // to the session that this tab has joined before
 }
 
-const kProblems: Record<string, string> = { 'unknown-code': 'unknown', started: 'started', 'too-many': 'busy' };
+const kProblems: Record<string, string> = { 'no-room': 'unknown', started: 'started', 'too-many': 'busy' };
 const kByStatus: Record<number, string> = { 404: 'unknown', 409: 'started', 429: 'busy' };
 
 // What a recruitment platform has put into the link.
-function queryOfLink(): { code: string; query: Record<string, string> } {
-  const parameters = new URLSearchParams(location.search);
-  const query = Object.fromEntries([...parameters].filter(([name]) => name !== 'code'));
-  return { code: parameters.get('code') ?? '', query };
-}
+const queryOfLink = (): Record<string, string> =>
+  Object.fromEntries([...new URLSearchParams(location.search)].filter(([name]) => name !== 'code'));
 
 async function join(code: string): Promise<Reply> {
-  const { query } = queryOfLink();
   const reply = await fetch('/api/join', {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
-    body: JSON.stringify({ code, query }),
+    body: JSON.stringify({ code, query: queryOfLink() }),
   });
   const body = (await reply.json().catch(() => ({}))) as Reply;
   return reply.ok ? body : { reason: kProblems[body.reason ?? ''] ?? kByStatus[reply.status] ?? 'failed' };
 }
 
 export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
-  const [code, setCode] = useState(() => queryOfLink().code);
+  const [code, setCode] = useState(codeOfLink);
   const [problem, setProblem] = useState('');
   const [isJoining, setJoining] = useState(false);
   const field = useRef<HTMLInputElement>(null);

@@ -16,15 +16,18 @@ export function Lobby({ lobby, view, connection }: ScreenProps & { lobby: Shown 
       <Heading>{t('lobby.title')}</Heading>
       <Seats present={present} size={size} />
       <p class="lead" role="status">
-        {missing === 0 ? t('lobby.all') : `${t('lobby.present', { n: present, size })} ${t('lobby.missing', { n: missing })}`}
+        {lobby.reserve
+          ? t('lobby.reserve')
+          : missing === 0
+            ? t('lobby.all')
+            : `${t('lobby.present', { n: present, size })} ${t('lobby.missing', { n: missing })}`}
       </p>
       <Since ms={lobby.since_ms} />
       <NextStep>
-        <p>{t('lobby.next')}</p>
+        <p>{t(lobby.reserve ? 'lobby.reserve_next' : 'lobby.next')}</p>
         <Limit until={lobby.until_ms} />
         <Leave lobby={lobby} connection={connection} />
       </NextStep>
-      {lobby.ask_name && <Name view={view} connection={connection} />}
       {(view.study.story.length > 0 || view.study.goal) && (
         <section class="story" aria-labelledby="story-title">
           <h2 id="story-title">{t('intro.title')}</h2>
@@ -61,7 +64,7 @@ function Leave({ lobby, connection }: { lobby: Shown; connection: ScreenProps['c
   useTick();
   const [asks, setAsks] = useState(false);
   const off = connection.isPending('leave');
-  const left = lobby.since_ms + lobby.leave_after_ms - serverNow();
+  const left = lobby.leave_after_ms - serverNow();
   if (!lobby.can_leave) {
     return left > 0 ? <p>{t('lobby.leave_later', { time: duration(left) })}</p> : <></>;
   }
@@ -85,39 +88,5 @@ function Leave({ lobby, connection }: { lobby: Shown; connection: ScreenProps['c
         </div>
       )}
     </>
-  );
-}
-
-function Name({ view, connection }: Pick<ScreenProps, 'view' | 'connection'>): JSX.Element {
-  const [name, setName] = useState(view.me.name ?? '');
-  const saved = view.me.name;
-  return (
-    <form
-      class="name"
-      onSubmit={(event) => {
-        event.preventDefault();
-        connection.send('name', { name: name.trim() });
-      }}
-    >
-      <label for="name">{t('lobby.name')}</label>
-      <p id="name-help" class="muted">
-        {t('lobby.name_help', { label: view.me.label })}
-      </p>
-      <div class="buttons">
-        <input
-          id="name"
-          type="text"
-          maxLength={80}
-          autocomplete="off"
-          aria-describedby="name-help"
-          value={name}
-          onInput={(event) => setName(event.currentTarget.value)}
-        />
-        <button type="submit" class="plain">
-          {t('lobby.name_save')}
-        </button>
-      </div>
-      <p role="status">{saved && t('lobby.name_saved', { name: saved })}</p>
-    </form>
   );
 }

@@ -16,7 +16,7 @@ interface Props extends ScreenProps {
 }
 
 export function Predict(props: Props): JSX.Element {
-  const { task, token, isScreening } = props;
+  const { task, token, isScreening, view } = props;
   const { world, hasTrouble } = useWorld(task.world, token);
   const legend = useLegend(task.board.domain);
   const question = isScreening ? 'screening.question' : task.board.map ? 'predict.question' : 'predict.question_plain';
@@ -26,7 +26,7 @@ export function Predict(props: Props): JSX.Element {
       <Heading>{t(isScreening ? 'screening.title' : 'predict.title')}</Heading>
       <p class="lead">{t(question)}</p>
       {world?.hasChance && <p>{t('predict.chance')}</p>}
-      <TimeLeft until={task.until_ms} />
+      <TimeLeft until={view.limit_ms} />
       {world ? (
         <Answering {...props} world={world} legend={legend} />
       ) : (

@@ -8,7 +8,7 @@ import { keep, recall } from '../storage';
 import { t } from '../texts';
 
 type Answers = Record<string, string | number>;
-const kLongestText = 2000;
+const kLongestText = { one: 2000, all: 4000 }; // characters; a message has at most 16 KiB
 
 export function Questions({ items, connection }: ScreenProps & { items: Question[] }): JSX.Element {
   const [answers, setAnswers] = useState<Answers>(() => recall<Answers>('questions') ?? {});
@@ -18,6 +18,7 @@ export function Questions({ items, connection }: ScreenProps & { items: Question
   const off = connection.isPending('questions');
   const isMissing = ({ id, required }: Question): boolean => required && String(answers[id] ?? '').trim() === '';
   const missing = items.filter(isMissing);
+  const numTexts = items.filter(({ kind }) => kind === 'text').length;
   const submit = (): void => {
     if (missing.length === 0) {
       const known = new Set(items.map(({ id }) => id));
@@ -44,6 +45,7 @@ export function Questions({ items, connection }: ScreenProps & { items: Question
             name={`question-${i}`}
             value={answers[question.id] ?? ''}
             error={showsMissing && isMissing(question)}
+            longest={Math.min(kLongestText.one, Math.floor(kLongestText.all / numTexts))}
             onValue={(value) => setAnswers((before) => ({ ...before, [question.id]: value }))}
           />
         ))}
@@ -63,10 +65,11 @@ interface QuestionProps {
   name: string;
   value: string | number;
   error: boolean;
+  longest: number;
   onValue: (value: string | number) => void;
 }
 
-function QuestionView({ question, name, value, error, onValue }: QuestionProps): JSX.Element {
+function QuestionView({ question, name, value, error, longest, onValue }: QuestionProps): JSX.Element {
   const { kind, text, required } = question;
   const errorId = error ? `${name}-error` : undefined;
   const problem = error && (
@@ -90,7 +93,7 @@ function QuestionView({ question, name, value, error, onValue }: QuestionProps):
         <textarea
           id={name}
           rows={4}
-          maxLength={kLongestText}
+          maxLength={longest}
           aria-describedby={errorId}
           aria-required={required}
           value={String(value)}
@@ -108,7 +111,7 @@ function QuestionView({ question, name, value, error, onValue }: QuestionProps):
   );
 }
 
-function Options({ question, name, value, onValue }: Omit<QuestionProps, 'error'>): JSX.Element {
+function Options({ question, name, value, onValue }: Omit<QuestionProps, 'error' | 'longest'>): JSX.Element {
   const { kind, options, low, high } = question;
   const isScale = kind === 'likert';
   const texts = options && options.length > 0 ? options : Array.from({ length: 7 }, (_, i) => String(i + 1));

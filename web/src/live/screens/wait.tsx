@@ -6,7 +6,7 @@ import { t } from '../texts';
 
 type Shown = NonNullable<ScreenProps['view']['wait']>;
 
-export function Wait({ wait }: ScreenProps & { wait: Shown }): JSX.Element {
+export function Wait({ wait, view }: ScreenProps & { wait: Shown }): JSX.Element {
   return (
     <>
       <Heading>{t(`wait.title.${wait.for}`)}</Heading>
@@ -14,7 +14,7 @@ export function Wait({ wait }: ScreenProps & { wait: Shown }): JSX.Element {
         {t(`wait.why.${wait.for}`, { n: wait.missing })}
       </p>
       <Since ms={wait.since_ms} />
-      <TimeLeft until={wait.until_ms} />
+      <TimeLeft until={view.limit_ms} />
       <NextStep>
         <p>{t(`wait.next.${wait.for}`)}</p>
         <p>{t('wait.itself')}</p>

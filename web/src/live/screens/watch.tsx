@@ -41,7 +41,7 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
       <Heading>{t('watch.title')}</Heading>
       <p class="lead">{t('watch.question')}</p>
       {view.study.goal && <p class="muted">{view.study.goal}</p>}
-      <TimeLeft until={watch.until_ms} />
+      <TimeLeft until={view.limit_ms} />
       <div class="board-screen">
         <div class="board-column">
           {board.map ? (

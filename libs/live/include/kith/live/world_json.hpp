@@ -49,4 +49,9 @@ struct JudgedPath {
 /// @param actions  numbers of actions, as in the table of moves.
 [[nodiscard]] JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions);
 
+/// The robot's own way from a start if every action leads to its likeliest outcome: what a right answer looks like on a
+/// page. Without chance it is Atlas::trajectory(); with chance that one may show another outcome. If this way does not
+/// come to an end it is Atlas::trajectory() all the same.
+[[nodiscard]] Trajectory expected_path(const Atlas& atlas, DemoIndex test);
+
 }  // namespace kith

@@ -1,0 +1,92 @@
+// The demonstration of `kith serve`, taken part in by three people from beginning to end.
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { describe, it } from 'node:test';
+import { startKith } from './group.mjs';
+import { openPerson } from './person.mjs';
+
+const kForbidden = /"(weights|prior|bec|beliefs|particles|features|gain|runners_up)"/;
+
+// Does whatever the screen asks for. `isRight` says whether a test is answered as the robot would.
+const kActs = {
+  consent: (person) => person.consent(),
+  check: (person) => person.check(),
+  watch: (person) => person.watch(),
+  predict: async (person, isRight) => {
+    const { index } = person.view.predict;
+    await person.page.waitForFunction((i) => document.querySelector('.kicker')?.textContent.startsWith(`Task ${i} `), index + 1);
+    await person.drive(isRight ? await person.best() : (await person.best()).slice(0, 2));
+    await person.button('Submit').click();
+    if (!isRight) await person.button('Submit anyway').click();
+    await until(() => person.view.stage !== 'predict' || person.view.predict.index !== index);
+  },
+  feedback: (person) => person.feedback(),
+  questions: async (person) => {
+    await person.page.getByRole('radio').first().check();
+    await person.button('Submit').click();
+  },
+};
+
+async function until(isSo) {
+  for (let i = 0; i < 600; i += 1) {
+    if (isSo()) return;
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  throw new Error('it did not happen within 30 s');
+}
+
+// One screen of one person, or nothing while they wait.
+async function act(person, isRight) {
+  const { stage } = person.view;
+  if (!(stage in kActs)) return false;
+  await person.page.waitForSelector(`main.stage-${stage}`);
+  await kActs[stage](person, isRight);
+  await until(() => person.view.stage !== stage || stage === 'predict' || stage === 'watch');
+  return true;
+}
+
+// Until everybody has a completion code.
+async function finish(people) {
+  const isDone = () => people.every(({ view }) => ['debrief', 'ended'].includes(view?.stage));
+  let tests = 0;
+  for (let turn = 0; !isDone() && turn < 400; turn += 1) {
+    for (const [i, person] of people.entries()) {
+      if (person.view?.stage === 'predict') tests += 1;
+      await act(person, !(i === 0 && tests < 2)); // the first person is wrong once
+    }
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  assert.ok(isDone(), `still at ${people.map(({ view }) => view?.stage)}`);
+}
+
+export function kithTests(setting) {
+  describe('kith serve', () => {
+    it('teaches three people from consent to their codes, and tells them nothing too early', async () => {
+      const folder = mkdtempSync(join(tmpdir(), 'kith-live-'));
+      const server = await startKith(setting.kith, join(folder, 'session'));
+      const people = [];
+      try {
+        assert.equal(server.seats.length, 3);
+        for (const link of server.seats) {
+          people.push(await openPerson(setting.browser, link, {}));
+          await people[people.length - 1].open();
+          await until(() => people[people.length - 1].view !== null);
+        }
+        await finish(people);
+        for (const person of people) {
+          await person.at('Thank you');
+          assert.match(await person.page.textContent('.code'), /^[A-Z]+-[A-Z0-9]+$/);
+          assert.deepEqual(person.trouble, []);
+          const sent = person.frames.filter(({ t, view }) => t === 'view' && !['feedback', 'debrief'].includes(view.stage));
+          for (const frame of sent) assert.doesNotMatch(JSON.stringify(frame), kForbidden);
+        }
+      } finally {
+        for (const person of people) await person.close();
+        await server.stop('SIGTERM');
+        rmSync(folder, { recursive: true, force: true });
+      }
+    });
+  });
+}
