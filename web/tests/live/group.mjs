@@ -54,7 +54,7 @@ function complain(list, what) {
   if (list.length > 0) throw new Error(`${what}: ${list.join('; ')}`);
 }
 
-// The demonstration of `kith serve`, on a free port: {links of its seats, stop}.
+// The demonstration of `kith serve`, on a free port: {join, seats, ..., stop}.
 export async function startKith(program, folder) {
   const server = spawn(program, ['serve', '--demo', '--no-browser', '--json', '--port', '0', '-o', folder], {
     stdio: ['ignore', 'pipe', 'inherit'],
