@@ -107,3 +107,33 @@ function(kith_test_web_pages source build)
   set_tests_properties(web.Report web.ReportOfKith web.ReportParts web.Lesson PROPERTIES RESOURCE_LOCK browser TIMEOUT 600 LABELS web)
   set_property(TEST web.ReportParts PROPERTY LABELS slow)
 endfunction()
+
+# kith_embed_web_apps(<target> <page>...)
+#
+# Makes the folders of pages (see kith_add_web_apps) constants in a source file of the target: see web/embed.mjs.
+# Without Node.js there are no pages, and the table is empty.
+function(kith_embed_web_apps target)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/web_assets.cpp)
+  if(NOT TARGET kith_web_packages)
+    file(CONFIGURE OUTPUT ${output} CONTENT "#include \"web_assets.hpp\"
+
+namespace kith::cli {
+std::span<const Asset> web_assets() { return {}; }
+}  // namespace kith::cli
+")
+    target_sources(${target} PRIVATE ${output})
+    set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    return()
+  endif()
+  set(folders)
+  set(pages)
+  foreach(page IN LISTS ARGN)
+    list(APPEND folders ${page}=${PROJECT_BINARY_DIR}/web/${page})
+    list(APPEND pages kith_web_${page} ${PROJECT_BINARY_DIR}/web/${page}/index.html)
+  endforeach()
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/embed.mjs --out ${output} ${folders}
+    DEPENDS ${pages} ${PROJECT_SOURCE_DIR}/web/embed.mjs VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+  set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()

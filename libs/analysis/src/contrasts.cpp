@@ -126,11 +126,12 @@ PlannedContrast parse_contrast(std::string_view text) {
   if (contrast.name.empty()) contrast.name = rest;
   bool any_number = false, any_added = false, any_subtracted = false;
   double sum = 0.0, largest = 0.0;
-  for (auto& [weight, has_number] : terms_of(rest, text)) {
+  for (auto& term : terms_of(rest, text)) {
+    auto& weight = term.weight;
     const auto same = [&](const auto& other) { return other.level == weight.level; };
     if (std::any_of(contrast.weights.begin(), contrast.weights.end(), same))
       refuse_contrast(text, "'" + weight.level + "' occurs twice");
-    any_number = any_number || has_number;
+    any_number = any_number || term.has_number;
     (weight.weight > 0.0 ? any_added : any_subtracted) = true;
     sum += weight.weight;
     largest = std::max(largest, std::abs(weight.weight));

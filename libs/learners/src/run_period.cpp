@@ -3,15 +3,13 @@
 #include <stdexcept>
 
 namespace kith {
-namespace {
 
-// A component begins with its first lesson.
 bool begins_component(const Session& session) {
   const auto history = session.history();
   return history.empty() || history.back().lesson.component != session.lesson().component;
 }
 
-void watch(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options) {
+void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options) {
   std::vector<Direction> expected;
   if (options.own_counterfactuals > 0) {
     expected = learner.imagined_weights(options.own_counterfactuals, lesson.period);
@@ -29,8 +27,6 @@ void watch(Learner& learner, const Lesson& lesson, TeachingCache& cache, const P
   }
 }
 
-}  // namespace
-
 PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& learners, const PeriodOptions& options) {
   if (learners.size() != session.num_members()) {
     throw std::invalid_argument{"run_period: there must be one learner per seat"};
@@ -46,7 +42,7 @@ PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& le
   for (std::size_t i = 0; i < learners.size(); ++i) {
     if (begins) learners[i]->begin_component();
     if (!session.takes_part(i)) continue;
-    watch(*learners[i], lesson, cache, options);
+    watch_lesson(*learners[i], lesson, cache, options);
     period.responses[i] = learners[i]->answer(cache.behaviours(), tests, lesson.period);
     period.abilities[i] = learners[i]->ability();
     session.answer(i, period.responses[i].answers);

@@ -143,11 +143,11 @@ VectorXd MixedDeviance::inverse_diagonal() const {
   std::vector<int> position(static_cast<std::size_t>(q), -1);  // of a row among those of the current column
   std::vector<double> column;
   for (Index j = q; j-- > 0;) {
-    const int begin = starts[j];
-    const int size = starts[j + 1] - begin;
+    const Index begin = starts[j];
+    const Index size = starts[j + 1] - begin;
     column.assign(static_cast<std::size_t>(size), 0.0);
-    for (int a = 0; a < size; ++a) position[static_cast<std::size_t>(rows[begin + a])] = a;
-    for (int a = 0; a < size; ++a) {
+    for (Index a = 0; a < size; ++a) position[static_cast<std::size_t>(rows[begin + a])] = static_cast<int>(a);
+    for (Index a = 0; a < size; ++a) {
       const auto k = rows[begin + a];
       column[static_cast<std::size_t>(a)] -= values[begin + a] * diagonal(k);
       for (int entry = starts[k]; entry < starts[k + 1]; ++entry) {
@@ -159,7 +159,7 @@ VectorXd MixedDeviance::inverse_diagonal() const {
       }
     }
     diagonal(j) = 1.0 / pivots(j);
-    for (int a = 0; a < size; ++a) {
+    for (Index a = 0; a < size; ++a) {
       diagonal(j) -= values[begin + a] * column[static_cast<std::size_t>(a)];
       inverse[static_cast<std::size_t>(begin + a)] = column[static_cast<std::size_t>(a)];
       position[static_cast<std::size_t>(rows[begin + a])] = -1;

@@ -117,7 +117,8 @@ Optimum minimise(MixedDeviance& data, const VectorXd& start) {
     const VectorXd step = newton_step(data, best, count >= kCheapSteps);
     const double rounding = kRoundingOfDeviance * (std::abs(best.value.deviance) + data.degrees_of_freedom());
     std::optional<Optimum> next;
-    for (double part = 1.0; part > 1e-6; part /= 2.0) {
+    double part = 2.0;
+    while ((part /= 2.0) > 1e-6) {
       VectorXd tau = best.tau.cwiseProduct((part * step).array().exp().matrix());
       for (auto& ratio : tau) ratio = ratio < kZeroRatio ? 0.0 : ratio;
       auto value = data.evaluate(tau);
@@ -219,9 +220,13 @@ Interval profile_interval(MixedDeviance& data, const Optimum& optimum, double co
     const double low = root(middle, low_end);
     interval.low = low / (1.0 + low);
   }
-  double inside = middle;
-  for (double outside = middle + 1.0; outside < std::log(kLargestRatio); inside = outside, outside += 1.0) {
-    if (excess(outside) <= 0.0) continue;
+  double inside = middle, outside = middle + 1.0;
+  while (outside < std::log(kLargestRatio)) {
+    if (excess(outside) <= 0.0) {
+      inside = outside;
+      outside += 1.0;
+      continue;
+    }
     const double high = root(inside, outside);
     interval.high = high / (1.0 + high);
     break;
@@ -313,7 +318,7 @@ Estimable<MixedModel> fit_mixed_model(std::span<const double> response, std::spa
   auto design = *made;
   if (response.size() <= design.kept.size())
     return Result::impossible("there are no more observations than coefficients");
-  if (auto fault = fault_of_groups(used, response.size()); !fault.empty()) return Result::impossible(std::move(fault));
+  if (const auto fault = fault_of_groups(used, response.size()); !fault.empty()) return Result::impossible(fault);
 
   const auto standardized = standardize(response);
   MixedDeviance data{design, standardized.values, used, options.reml};

@@ -9,6 +9,7 @@
 #include "kith/core/error.hpp"
 #include "kith/random/stream.hpp"
 #include "parameters_toml.hpp"
+#include "read_group.hpp"
 #include "read_prior.hpp"
 
 namespace kith {
@@ -41,7 +42,7 @@ class SpecReader {
     if (auto teacher = root_.table("teacher", Presence::kOptional)) read_teacher(*teacher);
     if (auto stop = root_.table("stop", Presence::kOptional)) read_stop(*stop);
     if (auto record = root_.table("record", Presence::kOptional)) read_record(*record);
-    if (auto group = root_.table("group", Presence::kOptional)) read_group(*group);
+    if (auto group = root_.table("group", Presence::kOptional)) read_group_table(*group);
     if (const auto* contrasts = root_.array("contrast", Presence::kOptional)) read_contrasts(*contrasts);
     root_.finish();
     return std::move(spec_);
@@ -343,19 +344,28 @@ class SpecReader {
     record.finish();
   }
 
-  // Only sessions with people use it; here it is checked.
-  void read_group(TomlReader& group) {
-    (void)group.integer("size", Presence::kOptional, {1, kMaxTeamSize});
-    (void)group.string("consent", Presence::kOptional);
-    (void)group.string("questions", Presence::kOptional);
-    if (auto dropout = group.table("dropout", Presence::kOptional)) {
-      (void)dropout->word("policy", Presence::kOptional,
-                          {"pause-then-continue", "continue-now", "replace-from-pool", "simulate", "end-group"});
-      (void)dropout->integer("grace_s", Presence::kOptional, {0, 86'400});
-      (void)dropout->integer("min_active", Presence::kOptional, {1, kMaxTeamSize});
-      dropout->finish();
+  void read_group_table(TomlReader& group) {
+    spec_.has_group = true;
+    spec_.group = read_group(group, report_);
+    const auto& dropout = spec_.group.dropout;
+    std::size_t largest = spec_.group.size;
+    for (const auto& composition : spec_.compositions) largest = std::max(largest, composition.size());
+    if (!spec_.compositions.empty() && dropout.min_active > largest) {
+      report_.error("E0422", place_of_group_key(group, "dropout"),
+                    "'min_active' is " + std::to_string(dropout.min_active) + ", but the largest group has " +
+                        std::to_string(largest) + " seats: every session would end at once");
     }
-    group.finish();
+    for (const auto seat : spec_.group.people) {
+      if (spec_.compositions.empty() || seat <= largest) continue;
+      report_.error(
+          "E0422", place_of_group_key(group, "people"),
+          "there is no seat " + std::to_string(seat) + ": the largest group has " + std::to_string(largest) + " seats");
+    }
+  }
+
+  [[nodiscard]] static TomlPlace place_of_group_key(const TomlReader& group, std::string_view key) {
+    const auto* value = group.content().find(key);
+    return value != nullptr ? value->place() : group.place();
   }
 
   // --- contrasts -------------------------------------------------------------

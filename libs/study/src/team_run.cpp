@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "kith/core/assert.hpp"
 #include "kith/learners/run_period.hpp"
+#include "kith/study/team_streams.hpp"
 
 namespace kith {
 namespace {
@@ -41,9 +41,9 @@ class TeamRun {
   std::optional<TeamRecord> run() {
     record_.completed = true;
     if (record_.address.strategy == kBaseline) {
-      for (const auto& person : people_) run_session({person}, person.stream.split("alone"), person.member);
+      for (const auto& person : people_) run_session({person}, lone_teacher_stream(person.stream), person.member);
     } else {
-      run_session(people_, stream_.split("teacher"), 0);
+      run_session(people_, teacher_stream(stream_), 0);
     }
     if (was_stopped_) return std::nullopt;
     summarize();
@@ -51,48 +51,20 @@ class TeamRun {
   }
 
  private:
-  static RandomStream team_stream(const StudySpec& spec, const TeamAddress& address) {
-    RandomStream root{spec.seed};
-    if (spec.pairing == Pairing::kNone) root = root.split(address.strategy);
-    return root.split(address.composition).split(address.replicate);
-  }
-
-  static std::string readable_address(const StudySpec& spec, const TeamAddress& address) {
-    std::string text = std::to_string(spec.seed) + "/";
-    if (spec.pairing == Pairing::kNone) text += address.strategy + "/";
-    return text + address.composition + "/" + std::to_string(address.replicate);
-  }
-
   void draw_people() {
     std::size_t member = 0;
     for (const char letter : record_.address.composition) {
-      ++member;
-      const auto stream = stream_.split("person").split(member);
-      const auto& type = learner_type(spec_, letter);
-      people_.push_back({letter, type.model->draw(type.parameters, stream.split("parameters")), stream, member});
+      const auto stream = person_stream(stream_, ++member);
+      people_.push_back({letter, draw_traits(learner_type(spec_, letter), stream), stream, member});
     }
-  }
-
-  [[nodiscard]] std::unique_ptr<Learner> learner(const Person& person) const {
-    const auto& type = learner_type(spec_, person.type);
-    auto prior = atlas_.prior_cone();
-    if (type.prior) {
-      prior = Cone{atlas_.domain().num_features()};
-      const bool has_room = prior.clip(*type.prior);
-      KITH_ASSERT(has_room);  // checked when the study was read
-    }
-    const LearnerStart start{
-        .cover = [&](std::size_t num_points) -> const PriorCover& { return cache_.cover(prior, num_points); },
-        .likelihood = spec_.teaching.likelihood};
-    return type.model->make(type.parameters, person.traits, start, person.stream.split("learner"));
   }
 
   void run_session(const std::vector<Person>& people, const RandomStream& teacher, std::size_t member) {
     std::vector<RandomStream> streams;
     Learners learners;
     for (const auto& person : people) {
-      streams.push_back(person.stream.split("teacher belief"));
-      learners.push_back(learner(person));
+      streams.push_back(belief_stream(person.stream));
+      learners.push_back(make_learner(spec_, learner_type(spec_, person.type), person.traits, person.stream, cache_));
     }
     Session session{cache_, options_, strategy_of(spec_, record_.address.strategy), streams, teacher};
     std::vector<LearnerRecord> rows;

@@ -4,6 +4,7 @@
 #include "kith/study/study_file.hpp"
 #include "kith/toml/document.hpp"
 #include "parameters_toml.hpp"
+#include "read_group.hpp"
 #include "read_study_spec.hpp"
 
 namespace kith {
@@ -135,7 +136,7 @@ TableWriter teacher(const StudySpec& spec) {
 
 }  // namespace
 
-std::string to_toml(const Study& study, const Domain& domain) {
+std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   const auto& spec = study.variants.at(0);
   TableWriter root, learners, stop, record;
   root.add("schema", std::string{kStudySchema});
@@ -157,6 +158,7 @@ std::string to_toml(const Study& study, const Domain& domain) {
   root.add("stop", stop);
   record.add("level", kRecordWords[static_cast<std::size_t>(spec.record)]);
   root.add("record", record);
+  if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});
   if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});
   return to_toml(std::move(root).take());
 }

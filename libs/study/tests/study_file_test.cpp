@@ -161,6 +161,19 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0403", "[learner.N]", "vary = { \"stop.max_periods\" = [3, 3] }\n[learner.N]", 9},
         Mistake{"E0110", "[learner.N]", "vary = { \"stop.max_periods\" = [3, 0] }\n[learner.N]", 9},
         Mistake{"E0107", "[learner.N]", "vary = { \"stop.max_perids\" = [3, 4] }\n[learner.N]", 9},
+        Mistake{"E0421", "[design]", "group.questions = [{ id = \"a b\", kind = \"text\", text = \"?\" }]\n[design]",
+                6},
+        Mistake{"E0421", "[design]", "group.questions = [{ id = \"a\", kind = \"choice\", text = \"?\" }]\n[design]",
+                6},
+        Mistake{"E0109", "[design]", "group.questions = [{ id = \"a\", kind = \"text\" }]\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.consent = \"consent.md\"\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.dropout.reserves = 1\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.dropout.min_active = 3\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.people = [3]\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.completion.redirect = \"javascript:alert(1)\"\n[design]", 6},
+        Mistake{"E0110", "[design]", "group.dropout.grace_s = -1\n[design]", 6},
+        Mistake{"E0112", "[design]", "group.dropout.policy = \"wait\"\n[design]", 6},
+        Mistake{"E0107", "[design]", "group.storry = \"once\"\n[design]", 6},
         Mistake{"W0401", "[learner.N]",
                 "[learner.P]\nability = { mean = 0.8, sd = 0.02 }\nconfirm_gain = { value = 0.01 }\n"
                 "correct_gain = { value = 0.02 }\n[learner.N]",
@@ -317,6 +330,63 @@ TEST(StudyFile, WritesWhatReadsBackTheSame) {
                 first.study->variants[i].learner_types.front().prior);
     }
   }
+}
+
+constexpr const char* kGroup = R"([group]
+title = "Robots"
+story = ["One.", "Two."]
+goal = "Learn."
+consent = { version = "3", text = "I agree." }
+auto_start = false
+size = 3
+people = [3, 1]
+dropout = { policy = "replace-from-pool", grace_s = 5, min_active = 2, reserves = 1 }
+time = { watch_s = 1, predict_s = 2, feedback_s = 3, lobby_s = 4, leave_after_s = 5, max_minutes = 6 }
+screening = { tests = 3, cut = 0.25 }
+completion = { prefix = "X", redirect = "https://example.org/?cc={code}", pay_full = false }
+ask_name = true
+collect_query = ["PROLIFIC_PID"]
+[[group.questions]]
+id = "clear"
+kind = "likert"
+text = "Was it clear?"
+low = "no"
+high = "yes"
+required = true
+[[group.questions]]
+id = "age"
+kind = "choice"
+text = "How old are you?"
+options = ["18 to 40", "older"]
+)";
+
+TEST(StudyFile, ReadsAndWritesHowGroupsOfPeopleAreTaught) {
+  const auto reading = parse(std::string{kStudy} + kGroup);
+  ASSERT_TRUE(reading.study) << to_text(reading.diagnostics.front());
+  const auto& spec = reading.study->variants.front();
+  EXPECT_TRUE(spec.has_group);
+  const auto& group = spec.group;
+  EXPECT_THAT(group.story, ElementsAre("One.", "Two."));
+  EXPECT_THAT(group.consent_text, ElementsAre("I agree."));
+  EXPECT_THAT(group.people, ElementsAre(1u, 3u));
+  EXPECT_EQ(group.dropout, (GroupDropout{DropoutPolicy::kReplaceFromPool, 5, 2, 1}));
+  EXPECT_EQ(group.time, (GroupTime{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(group.screening, (GroupScreening{3, 0.25}));
+  ASSERT_EQ(group.questions.size(), 2u);
+  EXPECT_EQ(group.questions[1].kind, GroupQuestion::Kind::kChoice);
+  EXPECT_TRUE(group.questions[0].required);
+  const auto again = parse(to_toml(*reading.study, *reading.domain, GroupText::kWritten));
+  ASSERT_TRUE(again.study) << to_text(again.diagnostics.front());
+  EXPECT_EQ(again.study->variants.front().group, group);
+}
+
+// The frozen study is the identity of a run.
+TEST(StudyFile, LeavesHowGroupsAreTaughtOutOfTheIdentityOfARun) {
+  const auto without = parse(kStudy), with = parse(std::string{kStudy} + kGroup);
+  ASSERT_TRUE(without.study && with.study);
+  EXPECT_FALSE(without.study->variants.front().has_group);
+  EXPECT_EQ(without.study->variants.front().group, GroupOptions{});
+  EXPECT_EQ(to_toml(*with.study, *with.domain), to_toml(*without.study, *without.domain));
 }
 
 TEST(StudyFile, FindsADomainFileBesideTheStudy) {

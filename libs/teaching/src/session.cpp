@@ -92,8 +92,8 @@ std::string_view name_of(SessionPhase phase) {
 }  // namespace
 
 std::string_view name_of(const SessionEvent& event) noexcept {
-  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown", "tests-answered", "tests-closed",
-                                         "feedback-given",  "member-left",  "member-returned"};
+  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown", "tests-answered",  "tests-closed",
+                                         "feedback-given",  "member-left",  "member-returned", "strategy-changed"};
   static_assert(std::size(kNames) == std::variant_size_v<SessionEvent>);
   return kNames[event.index()];
 }
@@ -432,6 +432,23 @@ void Session::come_back(std::size_t member) {
   seats_[member] = Seat::kReturning;
 }
 
+void Session::change_strategy(StrategyChoice strategy) {
+  require_phase(SessionPhase::kProposal, "changing the strategy");
+  require(!strategy.is_baseline() || persons_.size() == 1, "the baseline teaches one person per session");
+  const auto needs = strategy.kind.needs(strategy.parameters);
+  const auto& kept = belief_.options();
+  require(!needs.members || kept.members, "the strategy '" + strategy.name + "' needs the beliefs about members");
+  for (const auto& name : needs.rules) {
+    const bool is_kept =
+        std::any_of(kept.rules.begin(), kept.rules.end(), [&](const auto& rule) { return rule.name == name; });
+    require(is_kept, "the strategy '" + strategy.name + "' needs the belief '" + name + "'");
+  }
+  auto made = strategy.kind.make(strategy.parameters);
+  events_.emplace_back(StrategyChanged{strategy});
+  strategy_ = std::move(made);
+  choice_ = std::move(strategy);
+}
+
 void Session::apply(const SessionEvent& event, TeachingCache& cache) {
   struct Visitor {
     Session& session;
@@ -443,6 +460,7 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
     void operator()(const FeedbackGiven&) const { session.give_feedback(); }
     void operator()(const MemberLeft& e) const { session.leave(e.member); }
     void operator()(const MemberReturned& e) const { session.come_back(e.member); }
+    void operator()(const StrategyChanged& e) const { session.change_strategy(e.strategy); }
   };
   std::visit(Visitor{*this, cache}, event);
 }

@@ -71,6 +71,7 @@ export function kithTests(setting) {
       const server = await startKith(setting.kith, join(folder, 'session'));
       const people = [];
       try {
+        assert.equal(server.seats.length, 3);
         for (let i = 0; i < 3; i += 1) {
           const person = await openPerson(setting.browser, server.join, {});
           people.push(person);

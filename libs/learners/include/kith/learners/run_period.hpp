@@ -16,6 +16,12 @@ struct PeriodOptions {
   std::size_t own_counterfactuals = 0;
 };
 
+/// Whether the session's lesson is the first one of its component: Learner::begin_component() is called before it.
+[[nodiscard]] bool begins_component(const Session& session);
+
+/// A learner watches the demonstrations of a lesson. @param cache  of the session's atlas; changes no result.
+void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options = {});
+
 /// What learners did in a period; lesson, answers and feedback are in Session::history().back().
 struct PeriodOfLearners {
   std::vector<Learner::Response> responses;      ///< Per member; empty for who was away.

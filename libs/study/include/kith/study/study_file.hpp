@@ -51,8 +51,13 @@ struct BuiltInStudy {
 /// @throws kith::Error (kInvalidInput, E0116) if there is neither; kIo if the file cannot be read.
 [[nodiscard]] StudyReading load_study(const std::string& name_or_path, StudyReadOptions options = {});
 
-/// The study as a study file with every key written out; reading it gives the same study again.
+/// Whether `[group]` is written: it says how people are taught and changes nothing in what a study simulates, so the
+/// identity of a run does not depend on it.
+enum class GroupText { kLeftOut, kWritten };
+
+/// The study as a study file with every key written out; reading it gives the same study again, without `[group]`
+/// unless that is asked for.
 /// @param domain  the study's domain, for the names of features.
-[[nodiscard]] std::string to_toml(const Study& study, const Domain& domain);
+[[nodiscard]] std::string to_toml(const Study& study, const Domain& domain, GroupText group = GroupText::kLeftOut);
 
 }  // namespace kith

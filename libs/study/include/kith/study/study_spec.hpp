@@ -9,6 +9,7 @@
 
 #include "kith/geometry/half_space.hpp"
 #include "kith/learners/learner_model.hpp"
+#include "kith/study/group_options.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -79,6 +80,8 @@ struct StudySpec {
   RecordLevel record = RecordLevel::kPeriod;
   std::vector<FactorSetting> factors;      ///< Empty unless the design varies keys.
   std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
+  bool has_group = false;                  ///< Whether the file has `[group]`.
+  GroupOptions group{};                    ///< For sessions with people; changes nothing in how the study is simulated.
 };
 
 /// The strategy with this name. @throws std::invalid_argument if there is none.

@@ -115,6 +115,11 @@ class Session {
   const Feedback& give_feedback();
   void leave(std::size_t member);
   void come_back(std::size_t member);
+  /// Lessons are chosen by another strategy from now on, which begins anew: what the one before remembered is lost.
+  /// @throws kith::Error (kUsage) unless the next lesson is to be proposed; std::invalid_argument as the constructor,
+  /// also if beliefs that the strategy reads were not kept from the beginning (TeachingOptions::keep_members and
+  /// keep_rules).
+  void change_strategy(StrategyChoice strategy);
   /// Repeats an event.
   void apply(const SessionEvent& event, TeachingCache& cache);
   /// What was accepted so far, in order.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kith/teaching/lesson.hpp"
+#include "kith/teaching/strategy.hpp"
 
 namespace kith {
 
@@ -42,12 +43,18 @@ struct MemberReturned {
   friend bool operator==(const MemberReturned&, const MemberReturned&) = default;
 };
 
+/// Lessons are chosen by another strategy from now on.
+struct StrategyChanged {
+  StrategyChoice strategy;
+  friend bool operator==(const StrategyChanged&, const StrategyChanged&) = default;
+};
+
 /// Everything that can happen to a session, see Session.
-using SessionEvent =
-    std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft, MemberReturned>;
+using SessionEvent = std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft,
+                                  MemberReturned, StrategyChanged>;
 
 /// "lesson-proposed", "lesson-shown", "tests-answered", "tests-closed", "feedback-given", "member-left",
-/// "member-returned".
+/// "member-returned", "strategy-changed".
 [[nodiscard]] std::string_view name_of(const SessionEvent& event) noexcept;
 
 }  // namespace kith

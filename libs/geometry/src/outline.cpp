@@ -1,11 +1,11 @@
-#include "outline.hpp"
+#include "kith/geometry/outline.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace kith::detail {
+namespace kith {
 namespace {
 
 constexpr std::size_t kCircleCorners = 48;
@@ -65,4 +65,4 @@ Points outline(const Cone& cone) {
   return polygon(cone);
 }
 
-}  // namespace kith::detail
+}  // namespace kith

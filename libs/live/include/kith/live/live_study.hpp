@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kith/bec/atlas.hpp"
+#include "kith/present/json.hpp"
+#include "kith/study/study.hpp"
+
+namespace kith {
+
+/// Texts of pages in one language.
+struct LiveLanguage {
+  std::string code = "en";                       ///< Of BCP 47, for the attribute lang.
+  std::string direction = "ltr";                 ///< Or "rtl".
+  std::map<std::string, std::string> strings{};  ///< By key; keys that are missing are English.
+  friend bool operator==(const LiveLanguage&, const LiveLanguage&) = default;
+};
+
+/// All that the rooms of a study share. Immutable; one for the whole server.
+struct LiveStudy {
+  StudySpec spec;  ///< With `group`: its texts filled in, its files read.
+  std::shared_ptr<const Atlas> atlas;
+  LiveLanguage language;
+  DemoIndex sandbox;                 ///< Where people try the keyboard: a start that tests nothing.
+  std::vector<DemoIndex> screening;  ///< The tests of `group.screening`.
+  std::string key;                   ///< Identifies the domain in keys of worlds: 8 hexadecimal digits.
+
+  [[nodiscard]] const GroupOptions& group() const noexcept { return spec.group; }
+};
+
+/// What rooms of this study share. Tests of the screening are drawn from the study's seed.
+/// @param folder  where consent_file and language are looked for.
+/// @throws kith::Error (kInvalidInput) if the study varies keys, or consent_file or language cannot be understood;
+/// (kInfeasible) if a world has more than kMaxLiveStates states or the domain cannot be taught; (kIo) if a file cannot
+/// be read.
+[[nodiscard]] std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
+                                                               const std::filesystem::path& folder = {});
+
+/// The cells of the design that rooms are made for in turn: strategies within compositions, without those that cannot
+/// be taught together (the baseline teaches one person).
+struct LiveCell {
+  std::string strategy;
+  std::string composition;  ///< Filled up to GroupOptions::size.
+  friend bool operator==(const LiveCell&, const LiveCell&) = default;
+};
+[[nodiscard]] std::vector<LiveCell> live_cells(const LiveStudy& study);
+
+/// {id, title, domain, strategies: [{name, description}], types: [{letter, label}], dropout, grace_s, time}: what the
+/// facilitator's page says about the study.
+[[nodiscard]] Json live_study_json(const LiveStudy& study);
+
+/// {lang, dir, strings}: texts of pages that differ from the built-in English ones.
+[[nodiscard]] Json language_json(const LiveStudy& study);
+
+/// The page of somebody for whom there was no seat: a ParticipantView in the stage `full`.
+/// @param code  a completion code, empty: none. @param query  the person's query parameters, for the redirect.
+[[nodiscard]] Json full_view(const LiveStudy& study, const std::string& code, const Json& query, std::int64_t now_us);
+
+/// A completion code: the study's prefix, a hyphen and 10 letters and digits from a hash of the arguments.
+/// @param salt  a secret of the server, so that codes cannot be guessed.
+[[nodiscard]] std::string completion_code(const LiveStudy& study, std::string_view salt, std::string_view room,
+                                          std::size_t seat);
+
+}  // namespace kith

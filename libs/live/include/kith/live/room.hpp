@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/live/live_study.hpp"
+#include "kith/live/room_event.hpp"
+#include "kith/live/teaching_task.hpp"
+#include "kith/teaching/session.hpp"
+
+namespace kith {
+
+/// What a room is made with; it never changes.
+struct RoomSetup {
+  std::string id{};               ///< Unique among the rooms of a server.
+  std::string code{};             ///< That people type in to join.
+  std::string strategy{};         ///< A strategy of the study.
+  std::string composition{};      ///< One letter of a learner type per member.
+  std::vector<bool> simulated{};  ///< Per member; empty: all are people, or as `group.people` says.
+  std::size_t replicate = 1;      ///< Streams are those of this replicate of the cell, see team_streams.hpp.
+  std::string salt{};             ///< Secret of the server, for completion codes.
+
+  friend bool operator==(const RoomSetup&, const RoomSetup&) = default;
+};
+
+[[nodiscard]] Json to_json(const RoomSetup& setup);
+/// @throws kith::Error (kInvalidInput).
+[[nodiscard]] RoomSetup room_setup(const Json& json);
+
+/// Who looks.
+struct Viewer {
+  enum class Role { kParticipant, kObserver, kFacilitator };
+  Role role = Role::kParticipant;
+  std::size_t seat = 0;  ///< Of a participant, from 1.
+};
+
+/// Where a room stands.
+enum class RoomStage { kLobby, kRunning, kQuestions, kEnded };
+
+/// One group of people and stand-ins being taught: a pure state machine without clock, input or output.
+///
+/// decide() says which events a command leads to, due() which events the clock demands; apply() makes them happen. The
+/// state is that of the applied events and nothing else. Copies are cheap and independent. A room is not synchronised:
+/// use it on one thread at a time.
+///
+/// Seats. Members are the places of the session, one per letter of the composition. Seats are people (or stand-ins),
+/// numbered in the order of members and then of arrival: who leaves keeps the number, and who takes over gets a new
+/// one.
+///
+/// A period. Everybody watches the demonstrations at their own pace; once all active people have, the tests are asked;
+/// once all of them have answered, everybody sees the feedback, while the teacher chooses the next lesson; once all
+/// have continued and the lesson is there, the next period begins. Only active people are waited for: those who are
+/// neither gone nor dropped.
+class Room {
+ public:
+  /// @throws kith::Error (kInvalidInput) if the study has no such strategy or letter, the composition and the list of
+  /// simulated members differ in length, or several people should be taught by the baseline, which teaches one.
+  /// @param cache  of the study's atlas.
+  Room(std::shared_ptr<const LiveStudy> study, RoomSetup setup, TeachingCache& cache);
+
+  [[nodiscard]] const RoomSetup& setup() const noexcept;
+  [[nodiscard]] const LiveStudy& study() const noexcept;
+  [[nodiscard]] RoomStage stage() const noexcept;
+  /// Number of the last applied event; 0: none.
+  [[nodiscard]] std::uint64_t seq() const noexcept;
+  /// The session as it is now.
+  [[nodiscard]] const Session& session() const noexcept;
+  [[nodiscard]] std::size_t num_seats() const noexcept;
+  [[nodiscard]] bool is_person(std::size_t seat) const;
+  /// Whether somebody could join now.
+  [[nodiscard]] bool has_free_seat() const;
+  /// Whether the person's page is a last one: nothing that they do is expected any more.
+  [[nodiscard]] bool is_done(std::size_t seat) const;
+  /// The word of the spec: "consent", "check", "screening", "lobby", "watch", "predict", "wait", "feedback",
+  /// "questions", "debrief", "declined", "ended", "replaced", "full". Empty for stand-ins.
+  [[nodiscard]] std::string stage_of(std::size_t seat) const;
+
+  /// Which events a command leads to. Changes nothing. A command that was accepted before in the same state (the same
+  /// answer again) gives neither events nor a refusal. Never throws for what people send.
+  [[nodiscard]] Decision decide(const RoomCommand& command, std::int64_t now_us) const;
+  /// What clocks demand by now, at most one step: call again after applying it.
+  [[nodiscard]] std::vector<RoomEvent> due(std::int64_t now_us) const;
+  /// When due() will demand something if nothing happens before.
+  [[nodiscard]] std::optional<std::int64_t> next_due() const;
+
+  /// The lesson that the room waits for, or will need next. While there is a task nothing else advances the period.
+  [[nodiscard]] std::optional<TeachingTask> teaching() const;
+  /// Lessons that are likely to be needed soon.
+  [[nodiscard]] std::vector<TeachingTask> likely_teaching() const;
+  /// The event that a lesson was chosen. @throws std::invalid_argument unless its key is that of teaching().
+  [[nodiscard]] RoomEvent taught(const TaughtLesson& lesson, std::int64_t now_us) const;
+
+  /// Makes an event happen, as a whole or, if this throws, not at all.
+  /// @param cache  of the study's atlas; changes no result.
+  /// @param lesson  of a "lesson" event, if it is at hand; otherwise it is computed again, and its digest compared.
+  /// @throws kith::Error (kMismatch) if the event is not one that this state can have led to: a wrong number, a time
+  /// before the last event, an unknown type, a refused command, another digest.
+  void apply(const RoomEvent& event, TeachingCache& cache, const TaughtLesson* lesson = nullptr);
+
+  /// What somebody sees. Participants: ParticipantView. Facilitators and observers: {"row": RoomRow, "room":
+  /// RoomDetail}, without links, and for observers without names and codes.
+  [[nodiscard]] Json view(const Viewer& viewer, std::int64_t now_us) const;
+  /// The facilitator's row of this room: {id, code, stage, strategy, seats, period, component, ...}.
+  [[nodiscard]] Json row(const Viewer& viewer, std::int64_t now_us) const;
+
+  /// Of the whole state, to compare a replay with what was.
+  [[nodiscard]] std::string digest() const;
+
+  struct State;
+
+ private:
+  std::shared_ptr<const LiveStudy> study_;
+  std::shared_ptr<const RoomSetup> setup_;
+  std::shared_ptr<const State> state_;  // never changed in place, so copies share it
+};
+
+/// The state that events lead to. @throws kith::Error as Room::apply().
+[[nodiscard]] Room replay(std::shared_ptr<const LiveStudy> study, RoomSetup setup, std::span<const RoomEvent> events,
+                          TeachingCache& cache);
+
+}  // namespace kith

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "kith/live/live_study.hpp"
+#include "kith/mdp/planner.hpp"
+#include "kith/teaching/lesson.hpp"
+
+namespace kith {
+
+/// The most states of a world that people can be asked about: its table of moves is sent to browsers.
+inline constexpr std::size_t kMaxLiveStates = 20'000;
+/// The most actions of an answer, whatever the domain allows.
+inline constexpr std::size_t kMaxAnswerActions = 500;
+
+/// Names a world in GET /api/world/KEY: "<domain>-<number>". Equal keys mean equal tables, so answers can be cached.
+[[nodiscard]] std::string world_key(const LiveStudy& study, MdpIndex world);
+/// The world of a key; nothing if there is none.
+[[nodiscard]] std::optional<MdpIndex> world_of_key(const LiveStudy& study, std::string_view key);
+
+/// The table of moves of a world:
+///   {"key", "actions": [{"name", "label", "dx", "dy"}], "items": [name], "stations": [[column, row]],
+///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool}
+/// States are numbers of this table. Frames are [robotColumn, robotRow, [[column, row, carried 0|1], ...],
+/// [index into stations, ...]], without a map {"state": name}. -1: nothing happens. Where chance has a part, next is
+/// the likeliest outcome. dx and dy are how the action moves the robot, row numbers growing downward; null for actions
+/// that do not move it. Nothing in it tells anything about the reward.
+[[nodiscard]] Json world_json(const LiveStudy& study, MdpIndex world);
+/// The number of a state in that table; states that nothing leads to have none.
+[[nodiscard]] std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, StateIndex state);
+
+/// What a person's list of actions is.
+struct JudgedPath {
+  bool is_legal = true;      ///< Every action did something, none came after the end, and there were not too many.
+  std::size_t legal = 0;     ///< Actions before the first that was not.
+  Trajectory path{};         ///< The legal actions; where chance has a part each leads to its likeliest outcome.
+  bool is_finished = false;  ///< The end was reached.
+  /// What is judged: the path's feature counts; where chance has a part the expected counts if the robot takes these
+  /// actions for as long as it is where the person expected it, and its own from then on. Nothing unless the path is
+  /// finished.
+  Answer counts{};
+};
+
+/// Judges nothing but whether the path is possible, and counts its features. See docs/model.md.
+/// @param actions  numbers of actions, as in the table of moves.
+[[nodiscard]] JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions);
+
+/// The robot's own way from a start if every action leads to its likeliest outcome: what a right answer looks like on a
+/// page. Without chance it is Atlas::trajectory(); with chance that one may show another outcome. If this way does not
+/// come to an end it is Atlas::trajectory() all the same.
+[[nodiscard]] Trajectory expected_path(const Atlas& atlas, DemoIndex test);
+
+}  // namespace kith

@@ -1,0 +1,239 @@
+#include "read_group.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+
+namespace kith {
+namespace {
+
+constexpr std::int64_t kMostMembers = 30;
+constexpr std::int64_t kDay = 86'400;
+constexpr std::size_t kMostQuestions = 100;
+
+const std::vector<std::string> kPolicyWords{"pause-then-continue", "continue-now", "replace-from-pool", "simulate",
+                                            "end-group"};
+const std::vector<std::string> kQuestionWords{"likert", "text", "choice"};
+
+template <typename Target, typename Value>
+void take(Target& target, const std::optional<Value>& value) {
+  if (value) target = static_cast<Target>(*value);
+}
+
+class GroupReader {
+ public:
+  GroupReader(TomlReader& group, TomlReport& report) : group_{group}, report_{report} {}
+
+  GroupOptions read() {
+    take(options_.title, group_.string("title", Presence::kOptional));
+    take(options_.story, paragraphs(group_, "story"));
+    take(options_.goal, group_.string("goal", Presence::kOptional));
+    read_consent();
+    take(options_.language, group_.string("language", Presence::kOptional));
+    take(options_.auto_start, group_.boolean("auto_start", Presence::kOptional));
+    take(options_.size, group_.integer("size", Presence::kOptional, {0, kMostMembers}));
+    read_people();
+    if (auto dropout = group_.table("dropout", Presence::kOptional)) read_dropout(*dropout);
+    if (auto time = group_.table("time", Presence::kOptional)) read_time(*time);
+    if (auto screening = group_.table("screening", Presence::kOptional)) {
+      take(options_.screening.tests, screening->integer("tests", Presence::kOptional, {0, 20}));
+      take(options_.screening.cut, screening->real("cut", Presence::kOptional, {0.0, 1.0, true, true}));
+      screening->finish();
+    }
+    read_questions();
+    if (auto completion = group_.table("completion", Presence::kOptional)) read_completion(*completion);
+    take(options_.ask_name, group_.boolean("ask_name", Presence::kOptional));
+    read_query_names();
+    group_.finish();
+    return std::move(options_);
+  }
+
+ private:
+  [[nodiscard]] TomlPlace place_of_key(TomlReader& table, std::string_view key) const {
+    const auto* value = table.content().find(key);
+    return value != nullptr ? value->place() : table.place();
+  }
+
+  // One string, or a list of them.
+  [[nodiscard]] std::optional<std::vector<std::string>> paragraphs(TomlReader& table, std::string_view key) {
+    const auto* value = table.content().find(key);
+    if (value != nullptr && value->string() != nullptr) {
+      table.know(key);
+      return std::vector<std::string>{*value->string()};
+    }
+    return table.strings(key, Presence::kOptional);
+  }
+
+  void read_consent() {
+    take(options_.consent_file, group_.string("consent_file", Presence::kOptional));
+    const auto* value = group_.content().find("consent");
+    if (value != nullptr && value->string() != nullptr) {
+      group_.know("consent");
+      report_.error("E0422", value->place(), "'consent' is a table with a version and a text",
+                    "if this is a file, write consent_file = " + to_toml(*value));
+      return;
+    }
+    auto consent = group_.table("consent", Presence::kOptional);
+    if (!consent) return;
+    take(options_.consent_version, consent->string("version", Presence::kOptional));
+    take(options_.consent_text, paragraphs(*consent, "text"));
+    consent->finish();
+    if (options_.consent_version.empty()) {
+      report_.error("E0422", place_of_key(*consent, "version"), "the version of the consent text is empty");
+    }
+    if (!options_.consent_file.empty() && !options_.consent_text.empty()) {
+      report_.error("E0422", place_of_key(group_, "consent_file"),
+                    "the consent text is given twice, as 'consent_file' and as 'consent.text'", "remove one of them");
+    }
+  }
+
+  // "all", or the numbers of seats.
+  void read_people() {
+    const auto* value = group_.content().find("people");
+    if (value == nullptr) return;
+    group_.know("people");
+    const auto* seats = value->array();
+    if (seats == nullptr) {
+      (void)read_word(*value, "'people'", {"all"}, report_);
+      return;
+    }
+    for (const auto& element : *seats) {
+      const auto seat = read_integer(element, "a seat in 'people'", {1, kMostMembers}, report_);
+      if (!seat) continue;
+      const auto number = static_cast<std::size_t>(*seat);
+      if (std::find(options_.people.begin(), options_.people.end(), number) != options_.people.end()) {
+        report_.error("E0403", element.place(), "seat " + std::to_string(number) + " is listed twice");
+      } else {
+        options_.people.push_back(number);
+      }
+    }
+    std::sort(options_.people.begin(), options_.people.end());
+    if (seats->empty()) {
+      report_.error("E0401", value->place(), "'people' is empty", "write people = \"all\", or leave it out");
+    }
+  }
+
+  void read_dropout(TomlReader& dropout) {
+    auto& options = options_.dropout;
+    take(options.policy, dropout.word("policy", Presence::kOptional, kPolicyWords));
+    take(options.grace_s, dropout.integer("grace_s", Presence::kOptional, {0, kDay}));
+    take(options.min_active, dropout.integer("min_active", Presence::kOptional, {1, kMostMembers}));
+    take(options.reserves, dropout.integer("reserves", Presence::kOptional, {0, kMostMembers}));
+    dropout.finish();
+    if (options.reserves > 0 && options.policy != DropoutPolicy::kReplaceFromPool) {
+      report_.error("E0422", place_of_key(dropout, "reserves"),
+                    "nobody from the reserve would ever take a seat with the policy '" +
+                        std::string{name_of(options.policy)} + "'",
+                    "write policy = \"replace-from-pool\", or remove 'reserves'");
+    }
+  }
+
+  void read_time(TomlReader& time) {
+    auto& limits = options_.time;
+    take(limits.watch_s, time.integer("watch_s", Presence::kOptional, {0, kDay}));
+    take(limits.predict_s, time.integer("predict_s", Presence::kOptional, {0, kDay}));
+    take(limits.feedback_s, time.integer("feedback_s", Presence::kOptional, {0, kDay}));
+    take(limits.lobby_s, time.integer("lobby_s", Presence::kOptional, {0, kDay}));
+    take(limits.leave_after_s, time.integer("leave_after_s", Presence::kOptional, {0, kDay}));
+    take(limits.max_minutes, time.integer("max_minutes", Presence::kOptional, {0, kDay / 60}));
+    time.finish();
+  }
+
+  void read_questions() {
+    const auto* list = group_.array("questions", Presence::kOptional);
+    if (list == nullptr) return;
+    if (list->size() > kMostQuestions) {
+      report_.error("E0421", place_of_key(group_, "questions"),
+                    "there are more than " + std::to_string(kMostQuestions) + " questions");
+      return;
+    }
+    std::set<std::string> ids;
+    for (const auto& element : *list) {
+      const auto* content = read_table(element, "an element of 'questions'", report_);
+      if (content == nullptr) continue;
+      TomlReader table{*content, element.place(), "[[group.questions]]", report_};
+      auto question = read_question(table);
+      if (!question) continue;
+      if (!ids.insert(question->id).second) {
+        report_.error("E0403", element.place(), "question '" + question->id + "' is listed twice");
+      }
+      options_.questions.push_back(*std::move(question));
+    }
+  }
+
+  [[nodiscard]] std::optional<GroupQuestion> read_question(TomlReader& table) {
+    const auto errors = report_.num_errors();
+    GroupQuestion question;
+    take(question.id, table.string("id", Presence::kRequired));
+    take(question.kind, table.word("kind", Presence::kRequired, kQuestionWords));
+    take(question.text, table.string("text", Presence::kRequired));
+    take(question.options, table.strings("options", Presence::kOptional));
+    take(question.low, table.string("low", Presence::kOptional));
+    take(question.high, table.string("high", Presence::kOptional));
+    take(question.required, table.boolean("required", Presence::kOptional));
+    table.finish();
+    if (report_.num_errors() > errors) return std::nullopt;
+    const bool is_name =
+        !question.id.empty() && question.id.size() <= 40 &&
+        std::all_of(question.id.begin(), question.id.end(), [](char c) {
+          return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+        });
+    if (!is_name) {
+      report_.error("E0421", place_of_key(table, "id"), "'" + question.id + "' cannot be the id of a question",
+                    "use at most 40 letters, digits, '_' and '-'");
+    }
+    if (question.kind == GroupQuestion::Kind::kChoice && question.options.size() < 2) {
+      report_.error("E0421", table.place(), "question '" + question.id + "' offers no choice",
+                    "list at least two options");
+    }
+    if (question.kind == GroupQuestion::Kind::kText && !question.options.empty()) {
+      report_.error("E0421", place_of_key(table, "options"),
+                    "question '" + question.id + "' is answered in words and has no options",
+                    "write kind = \"choice\", or remove the options");
+    }
+    return question;
+  }
+
+  void read_completion(TomlReader& completion) {
+    auto& options = options_.completion;
+    take(options.prefix, completion.string("prefix", Presence::kOptional));
+    take(options.redirect, completion.string("redirect", Presence::kOptional));
+    take(options.pay_full, completion.boolean("pay_full", Presence::kOptional));
+    completion.finish();
+    const auto begins = [&](std::string_view start) { return options.redirect.rfind(start, 0) == 0; };
+    if (!options.redirect.empty() && !begins("https://") && !begins("http://")) {
+      report_.error("E0422", place_of_key(completion, "redirect"), "'redirect' is not a link to a web page",
+                    "begin it with https://");
+    }
+  }
+
+  void read_query_names() {
+    auto names = group_.strings("collect_query", Presence::kOptional);
+    if (!names) return;
+    for (const auto& name : *names) {
+      const bool is_name = !name.empty() && name.size() <= 60 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+      });
+      if (is_name && name != "code") continue;
+      report_.error("E0422", place_of_key(group_, "collect_query"),
+                    "'" + name + "' cannot be the name of a query parameter",
+                    "use at most 60 letters, digits, '_' and '-'; 'code' is the completion code");
+    }
+    options_.collect_query = *std::move(names);
+  }
+
+  TomlReader& group_;
+  TomlReport& report_;
+  GroupOptions options_;
+};
+
+}  // namespace
+
+std::string_view name_of(DropoutPolicy policy) noexcept { return kPolicyWords[static_cast<std::size_t>(policy)]; }
+
+std::string_view name_of(GroupQuestion::Kind kind) noexcept { return kQuestionWords[static_cast<std::size_t>(kind)]; }
+
+GroupOptions read_group(TomlReader& group, TomlReport& report) { return GroupReader{group, report}.read(); }
+
+}  // namespace kith

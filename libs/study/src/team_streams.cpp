@@ -1,0 +1,46 @@
+#include "kith/study/team_streams.hpp"
+
+#include "kith/core/assert.hpp"
+
+namespace kith {
+
+RandomStream team_stream(const StudySpec& spec, const TeamAddress& address) {
+  RandomStream root{spec.seed};
+  if (spec.pairing == Pairing::kNone) root = root.split(address.strategy);
+  return root.split(address.composition).split(address.replicate);
+}
+
+std::string readable_address(const StudySpec& spec, const TeamAddress& address) {
+  std::string text = std::to_string(spec.seed) + "/";
+  if (spec.pairing == Pairing::kNone) text += address.strategy + "/";
+  return text + address.composition + "/" + std::to_string(address.replicate);
+}
+
+RandomStream person_stream(const RandomStream& team, std::size_t member) { return team.split("person").split(member); }
+
+RandomStream belief_stream(const RandomStream& person) { return person.split("teacher belief"); }
+
+RandomStream teacher_stream(const RandomStream& team) { return team.split("teacher"); }
+
+RandomStream lone_teacher_stream(const RandomStream& person) { return person.split("alone"); }
+
+std::vector<double> draw_traits(const LearnerType& type, const RandomStream& person) {
+  return type.model->draw(type.parameters, person.split("parameters"));
+}
+
+std::unique_ptr<Learner> make_learner(const StudySpec& spec, const LearnerType& type, const std::vector<double>& traits,
+                                      const RandomStream& person, TeachingCache& cache) {
+  const auto& atlas = cache.atlas();
+  auto prior = atlas.prior_cone();
+  if (type.prior) {
+    prior = Cone{atlas.domain().num_features()};
+    const bool has_room = prior.clip(*type.prior);
+    KITH_ASSERT(has_room);  // checked when the study was read
+  }
+  const LearnerStart start{
+      .cover = [&](std::size_t num_points) -> const PriorCover& { return cache.cover(prior, num_points); },
+      .likelihood = spec.teaching.likelihood};
+  return type.model->make(type.parameters, traits, start, person.split("learner"));
+}
+
+}  // namespace kith
