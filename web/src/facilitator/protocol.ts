@@ -24,7 +24,7 @@ export interface StudyInfo {
   size?: number; // seats of a room unless said otherwise
 }
 
-// What the teacher thinks a seat's ability is: a number, or a number with its interval.
+// Share of screening tests that a person is expected to answer right: a number, or a number with its interval.
 export type Estimate = number | { value: number; low?: number; high?: number };
 
 export interface SeatRow {
@@ -35,8 +35,11 @@ export interface SeatRow {
   kind: 'person' | 'simulated';
   type?: string;
   presence: Presence;
-  since_ms: number;
+  since_ms: number; // of the presence; 0: nobody has come yet
+  stage_since_ms?: number;
   stage: string;
+  dropped?: boolean; // the group goes on without them
+  why?: string;
   latency_ms?: number;
   estimate?: Estimate;
   link?: string;
@@ -59,6 +62,8 @@ export interface RoomRow {
   component: number | string;
   started_ms?: number;
   ended?: string;
+  composition?: string;
+  next_strategy?: string;
   forecast?: Forecast;
 }
 
@@ -133,7 +138,7 @@ export interface Belief {
 
 export interface RoomDetail {
   id: string;
-  session: { period: number; component: number | string; components: ComponentState[]; phase: string };
+  session: { period: number; component: number | string | null; components: ComponentState[]; phase: string };
   lesson?: LessonNow;
   answers: Answer[];
   curves: CurvePoint[];

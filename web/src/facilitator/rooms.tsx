@@ -2,10 +2,10 @@
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { minutesText, spanText, useNow } from './clock';
-import { PresenceMark, stateText } from './live/group_table';
+import { PresenceMark, whereabouts } from './live/group_table';
 import type { FacilitatorView, RoomRow, RoomStage, SeatRow } from './protocol';
 import { Explained } from './tip';
-import { attention, counted, kPresence, kStages, roomTitle, seatTitle } from './words';
+import { attention, counted, endText, kStages, roomTitle, seatTitle } from './words';
 
 type Filter = 'all' | 'attention' | RoomStage;
 
@@ -109,7 +109,10 @@ function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
       <td>
         <span class={`badge ${room.stage}`}>{kStages[room.stage]}</span>
       </td>
-      <td>{room.strategy}</td>
+      <td>
+        {room.strategy}
+        {room.composition && <span class="hint"> {room.composition}</span>}
+      </td>
       <td>
         <ul class="seat-marks">
           {room.seats.map((seat) => (
@@ -123,15 +126,12 @@ function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
       <td>{room.stage === 'lobby' ? '' : room.component}</td>
       <td class="number">{room.started_ms === undefined || room.stage === 'ended' ? '' : spanText(now - room.started_ms)}</td>
       <td>{forecast && room.stage !== 'ended' ? minutesText(forecast.minutes_low, forecast.minutes_high) : ''}</td>
-      <td class={room.stage === 'ended' ? 'ended-cell' : 'worry-cell'}>{room.stage === 'ended' ? room.ended : attention(room)}</td>
+      <td class={room.stage === 'ended' ? 'ended-cell' : 'worry-cell'}>{room.stage === 'ended' ? endText(room.ended) : attention(room)}</td>
     </tr>
   );
 }
 
 function tipOf(seat: SeatRow, now: number): string {
-  if (seat.kind === 'simulated') return `${seat.label}: simulated learner`;
   const latency = seat.latency_ms === undefined ? '' : `, ${Math.round(seat.latency_ms)} ms`;
-  const state = seat.presence === 'here' ? `${kPresence.here}, ${stateText(seat)}` : stateText(seat);
-  if (seat.since_ms === 0) return `${seatTitle(seat)}: ${state}`; // nobody has come yet
-  return `${seatTitle(seat)}: ${state} for ${spanText(now - seat.since_ms)}${latency}`;
+  return `${seatTitle(seat)}: ${whereabouts(seat, now)}${latency}`;
 }

@@ -75,6 +75,16 @@ const kLogged: Record<string, string> = {
 
 export const loggedText = (what: string): string => kLogged[what] ?? what;
 
+const kEnds: Record<string, string> = {
+  complete: 'everything learned',
+  'max-periods': 'the largest number of periods was reached',
+  'time-limit': 'the time limit was reached',
+  'lobby-time': 'not enough people came in time',
+  facilitator: 'ended by the facilitator',
+};
+
+export const endText = (reason: string | undefined): string => (reason ? (kEnds[reason] ?? reason.replace(/-/g, ' ')) : '');
+
 const kPolicies: Record<string, string> = {
   'pause-then-continue': 'Pause the group; continue without the person when the grace period is over',
   'continue-now': 'Continue at once without the person',
@@ -98,9 +108,9 @@ export const kTerms = {
   gain: 'Information gain: how much smaller the demonstration makes the region of reward weights that are still possible for the belief that is taught (ratio of areas before and after; larger is better).',
   regret: 'Regret: by how much the answer\u2019s return is below that of the robot\u2019s own path. 0: as good as the robot\u2019s.',
   component: 'Knowledge component: a part of the reward that is taught and tested by itself, for example one feature against the cost of a step.',
-  forecast: 'Forecast: from simulated groups that start in the present state. The range covers 80 % of them.',
+  forecast: 'Forecast: each open component takes as many periods as those before did on average; the range is from the shortest to the longest period so far.',
   latency: 'Latency: how long a message to the browser and back takes.',
-  estimate: 'Ability: the teacher\u2019s estimate of how reliably this person learns from what is shown; 0.5 is by chance, 1 is perfect.',
+  estimate: 'Screening: the share of tests that this person is expected to answer right, from the tests before the lobby.',
   grace: 'Grace period: how long a person may be away before the dropout policy applies.',
   simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. Participants are told about it in the consent form.',
   interactions: 'Period: one round of demonstrations, tests and feedback.',

@@ -160,7 +160,7 @@ export function roomDetail(random, now, row) {
         { name: 'recharge', status: 'open' },
         { name: 'rubble and recharge', status: 'open' },
       ],
-      phase: 'tests',
+      phase: 'predict',
     },
     ...(stage === 'lobby' ? {} : { lesson: lessonOf(1) }),
     answers,
@@ -168,8 +168,8 @@ export function roomDetail(random, now, row) {
     beliefs: named.map((name, i) => ({ name, points: cloud(random, pullAt(period, Math.min(i, seats.length - 1))) })),
     truth: { weights: truth, bec, prior, features: ['rubble', 'recharge', 'step'] },
     timers: [
-      { name: 'tests', since_ms: now - 42 * kSecond },
-      ...(stage === 'paused' ? [{ name: 'grace period of Learner B', since_ms: now - 34 * kSecond, until_ms: now + 56 * kSecond }] : []),
+      { name: 'phase', since_ms: now - 42 * kSecond },
+      ...(stage === 'paused' ? [{ name: 'away: Learner B', since_ms: now - 34 * kSecond, until_ms: now + 56 * kSecond }] : []),
     ],
   };
 }

@@ -149,7 +149,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
       done: 'The message has been sent.',
     },
     {
-      when: isPerson && !isOver && (seat.presence === 'left' || seat.stage === 'replaced' || seat.stage === 'ended'),
+      when: isPerson && !isOver && (seat.dropped === true || seat.presence === 'left' || seat.stage === 'replaced' || seat.stage === 'ended'),
       command: 'readmit',
       label: 'Re-admit',
       title: `Let ${who} back in`,

@@ -1,10 +1,10 @@
 // One seat: who sits there, their link, their answers, and what can be done.
 import type { JSX } from 'preact';
-import { spanText, useNow } from '../clock';
-import { answerText, stateText } from '../live/group_table';
+import { useNow } from '../clock';
+import { answerText, whereabouts } from '../live/group_table';
 import type { Answer, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { LinkBox } from '../setup/link_box';
-import { counted, estimateText, kPresence, roomTitle, seatTitle, typeLabel } from '../words';
+import { counted, estimateText, roomTitle, seatTitle, typeLabel } from '../words';
 import { type Action, lower, seatActions } from './actions';
 import { Dialog } from './dialog';
 
@@ -27,14 +27,12 @@ export function SeatDialog({ study, room, seat, answers, mayAct, onAct, onClose 
     <Dialog title={`${seatTitle(seat)}, ${lower(roomTitle(room))}`} onClose={onClose} wide>
       <dl class="facts">
         <dt>State</dt>
-        <dd>
-          {seat.kind === 'simulated' ? 'simulated learner' : `${kPresence[seat.presence]}, ${stateText(seat)}`}{seat.since_ms === 0 ? '' : `, for ${spanText(now - seat.since_ms)}`}
-        </dd>
+        <dd>{whereabouts(seat, now)}</dd>
         {seat.type && <dt>Learner type</dt>}
         {seat.type && <dd>{`${seat.type}, ${typeLabel(study, seat.type)}`}</dd>}
         {seat.latency_ms !== undefined && <dt>Latency</dt>}
         {seat.latency_ms !== undefined && <dd>{Math.round(seat.latency_ms)} ms</dd>}
-        {seat.estimate !== undefined && <dt>Ability (teacher's estimate)</dt>}
+        {seat.estimate !== undefined && <dt>Screening (expected share right)</dt>}
         {seat.estimate !== undefined && <dd>{estimateText(seat.estimate)}</dd>}
         <dt>Answers</dt>
         <dd>{own.length === 0 ? 'none yet' : `${right} of ${counted(own.length, 'answer')} right`}</dd>

@@ -4,6 +4,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { secondsText, spanText, useNow } from '../clock';
 import type { Answer, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
+import { memberOfSeat } from './beliefs';
 import { estimateText, kPresence, personStage, seatTitle, typeLabel } from '../words';
 
 interface Column {
@@ -35,6 +36,9 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const now = useNow();
   const columns = columnsOf(detail.answers);
   const byPlace = new Map(detail.answers.map((answer) => [`${answer.seat}/${answer.period}/${answer.test}`, answer]));
+  const hasStageTimes = room.seats.some(({ stage_since_ms }) => stage_since_ms !== undefined);
+  const hasLatency = room.seats.some(({ latency_ms }) => latency_ms !== undefined);
+  const hasEstimate = room.seats.some(({ estimate }) => estimate !== undefined);
   const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
   // The latest answers are at the right end, which has to be seen.
   const box = useRef<HTMLDivElement>(null);
@@ -50,14 +54,18 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
             <th scope="col">Seat</th>
             <th scope="col">State</th>
             <th scope="col" class="number">
-              Since
+              {hasStageTimes ? 'Since' : 'Present'}
             </th>
-            <th scope="col" class="number">
-              <Explained term="latency">ms</Explained>
-            </th>
-            <th scope="col" class="number">
-              <Explained term="estimate">Ability</Explained>
-            </th>
+            {hasLatency && (
+              <th scope="col" class="number">
+                <Explained term="latency">ms</Explained>
+              </th>
+            )}
+            {hasEstimate && (
+              <th scope="col" class="number">
+                <Explained term="estimate">Screening</Explained>
+              </th>
+            )}
             {periods.map((period) => (
               <th scope="colgroup" class="period" colSpan={columns.filter((column) => column.period === period).length}>
                 <span class="visually-hidden">Answers in period </span>
@@ -71,10 +79,10 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
           {room.seats.map((seat) => (
             <tr
               key={seat.seat}
-              class={marked === (seat.member ?? seat.seat) ? 'marked' : undefined}
-              onPointerEnter={() => onMark(seat.member ?? seat.seat)}
+              class={marked === memberOfSeat(seat) ? 'marked' : undefined}
+              onPointerEnter={() => onMark(memberOfSeat(seat))}
               onPointerLeave={() => onMark(null)}
-              onFocusIn={() => onMark(seat.member ?? seat.seat)}
+              onFocusIn={() => onMark(memberOfSeat(seat))}
               onFocusOut={() => onMark(null)}
             >
               <th scope="row">
@@ -87,12 +95,12 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
                   </span>
                 )}
               </th>
-              <td class={`state ${seat.presence}`} data-tip={seat.since_ms === 0 ? stateText(seat) : `${stateText(seat)}, for ${spanText(now - seat.since_ms)}`}>
+              <td class={`state ${seat.dropped ? 'left' : seat.presence}`} data-tip={whereabouts(seat, now)}>
                 {seat.presence === 'away' ? kPresence.away : stateText(seat)}
               </td>
-              <td class="number">{seat.since_ms === 0 ? '' : spanText(now - seat.since_ms)}</td>
-              <td class="number">{seat.latency_ms === undefined ? '' : Math.round(seat.latency_ms)}</td>
-              <td class="number">{shortEstimate(seat)}</td>
+              <td class="number">{timeText(seat, now)}</td>
+              {hasLatency && <td class="number">{seat.latency_ms === undefined ? '' : Math.round(seat.latency_ms)}</td>}
+              {hasEstimate && <td class="number">{shortEstimate(seat)}</td>}
               {columns.map(({ period, test, isFirst }) => (
                 <Cell answer={byPlace.get(`${seat.seat}/${period}/${test}`)} where={`period ${period}, test ${test}`} longest={longest} isFirst={isFirst} />
               ))}
@@ -107,8 +115,25 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
 
 export function stateText(seat: SeatRow): string {
   if (seat.kind === 'simulated') return 'simulated';
+  if (seat.dropped) return 'dropped out';
   if (seat.presence === 'empty' || seat.presence === 'left') return kPresence[seat.presence];
   return seat.presence === 'away' ? `away (${personStage(seat.stage)})` : personStage(seat.stage);
+}
+
+// "answering; connected for 3:12"
+export function whereabouts(seat: SeatRow, now: number): string {
+  if (seat.kind === 'simulated') return 'simulated learner';
+  if (seat.presence === 'empty' || seat.since_ms === 0) return stateText(seat);
+  const doing = seat.dropped ? 'dropped out' : personStage(seat.stage);
+  const presence = `${kPresence[seat.presence]} for ${spanText(now - seat.since_ms)}`;
+  return seat.presence === 'left' ? presence : `${doing}; ${presence}`;
+}
+
+// How long somebody has been at their stage, or else connected or away.
+function timeText(seat: SeatRow, now: number): string {
+  if (seat.kind === 'simulated') return '';
+  const since = seat.presence === 'here' ? (seat.stage_since_ms ?? seat.since_ms) : seat.since_ms;
+  return since === 0 || seat.presence === 'empty' ? '' : spanText(now - since);
 }
 
 const shortEstimate = ({ estimate }: SeatRow): string =>

@@ -7,8 +7,8 @@ import { SeatDialog } from '../controls/seat_dialog';
 import { LogTable } from '../log';
 import type { FacilitatorView, RoomRow } from '../protocol';
 import { Explained } from '../tip';
-import { attention, kStages, roomTitle } from '../words';
-import { seatOf } from './beliefs';
+import { attention, endText, kStages, roomTitle } from '../words';
+import { memberOfSeat, seatOf } from './beliefs';
 import { Curves } from './curves';
 import { GroupTable } from './group_table';
 import { LessonPanel } from './lesson_now';
@@ -51,7 +51,7 @@ interface RoomBarProps extends Omit<LiveProps, 'selected'> {
 function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Element {
   const now = useNow();
   const worry = attention(room);
-  const { period } = view.room?.id === room.id ? view.room.session : room;
+  const { period } = room;
   return (
     <div class="room-bar">
       <h2 class="visually-hidden">{roomTitle(room)}</h2>
@@ -65,7 +65,8 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
       </select>
       <span class={`badge ${room.stage}`}>{kStages[room.stage]}</span>
       <span class="fact">
-        <b>{room.strategy}</b>
+        <b>{room.strategy}</b> {room.composition}
+        {room.next_strategy && ` (${room.next_strategy} from the next component on)`}
       </span>
       {period > 0 && (
         <span class="fact">
@@ -77,7 +78,7 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
           Running for <b>{spanText(now - room.started_ms)}</b>
         </span>
       )}
-      {room.ended && <span class="fact">{room.ended}</span>}
+      {room.ended && <span class="fact">{endText(room.ended)}</span>}
       {worry && worry !== 'Paused' && <span class="worry">{worry}</span>}
       {mayAct && (
         <span class="room-buttons" role="group" aria-label="Controls of the room">
@@ -125,7 +126,10 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
   if (!detail) return <Nothing text="Loading the room..." />;
   const seat = room.seats.find((one) => one.seat === opened);
   const nameOf = (belief: string): string => seatOf(room.seats, belief)?.label ?? belief;
-  const memberOfSeat = (number: string): number => room.seats.find(({ seat: one }) => String(one) === number)?.member ?? Number(number);
+  const memberOf = (number: string): number => {
+    const found = room.seats.find((one) => String(one.seat) === number);
+    return found ? memberOfSeat(found) : Number(number);
+  };
   return (
     <>
       <div class="live">
@@ -139,11 +143,11 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
             onMark={setMarked}
             onOpen={({ seat: number }) => setOpened(number)}
           />
-          {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} memberOfSeat={memberOfSeat} />}
+          {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} memberOfSeat={memberOf} />}
         </div>
         <div class="live-side">
           <Progress room={room} detail={detail} />
-          <LessonPanel lesson={detail.lesson} period={detail.session.period} />
+          <LessonPanel lesson={detail.lesson} period={detail.session.phase === 'teacher' ? room.period - 1 : room.period} />
         </div>
       </div>
       <section class="room-log" aria-labelledby="room-log-title">

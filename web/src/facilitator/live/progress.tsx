@@ -38,9 +38,9 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
           </dt>
           <dd>{forecast ? `${minutesText(forecast.minutes_low, forecast.minutes_high)}, about ${periodsText(forecast.periods)}` : 'unknown'}</dd>
         </div>
-        {detail.timers.map((timer) => (
+        {detail.timers.filter(isShown).map((timer) => (
           <div>
-            <dt>{upperFirst(timer.name)}</dt>
+            <dt>{timerName(timer, detail.session.phase)}</dt>
             <dd class={isLate(timer, now) ? 'late' : undefined}>{timerText(timer, now)}</dd>
           </div>
         ))}
@@ -48,6 +48,22 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
     </section>
   );
 }
+
+const kPhases: Record<string, string> = {
+  lobby: 'Lobby',
+  teacher: 'Teacher chooses',
+  watch: 'Demonstrations',
+  predict: 'Tests',
+  feedback: 'Feedback',
+  questions: 'Questions',
+};
+const kTimers: Record<string, string> = { session: 'Session', pause: 'Paused', lobby: 'Lobby' };
+
+// How long the session has been running is in the bar above.
+const isShown = ({ name, until_ms }: Timer): boolean => name !== 'session' || until_ms !== undefined;
+
+const timerName = ({ name }: Timer, phase: string): string =>
+  name === 'phase' ? (kPhases[phase] ?? upperFirst(phase)) : (kTimers[name] ?? upperFirst(name));
 
 function periodsText(periods: number): string {
   const n = Math.round(periods);
