@@ -174,7 +174,9 @@ class Script {
     }
     line();
     line("# Rows of a group belong together: random intercepts.");
-    line(fmt::format("model <- lmer({} ~ {}{}, data = data)", response(), right_side(model_), intercepts));
+    line(fmt::format("model <- lmer({} ~ {}{}, data = data,", response(), right_side(model_), intercepts));
+    // Small variances need more digits than the default gives.
+    line("              control = lmerControl(optimizer = \"bobyqa\", optCtrl = list(rhoend = 1e-9)))");
     line("emm_options(lmer.df = \"satterthwaite\", lmerTest.limit = nrow(data), pbkrtest.limit = 0)");
     if (!model_.terms.empty()) {
       line("tests <- anova(model, type = 2)");
