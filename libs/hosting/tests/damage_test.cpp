@@ -117,7 +117,7 @@ void flip_bits(std::size_t cases, unsigned seed) {
   EXPECT_GT(noticed, cases / 4);
 }
 
-TEST(DamagedSession, IsNoticedAndItsIntactEventsAreRecovered) { flip_bits(300, 7); }
+TEST(DamagedSession, IsNoticedAndItsIntactEventsAreRecovered) { flip_bits(200, 7); }
 TEST(SlowDamagedSession, IsNoticedAndItsIntactEventsAreRecovered) { flip_bits(2000, 8); }
 
 TEST(DamagedSession, IsNoticedIfAFileIsCutShort) {
