@@ -50,13 +50,14 @@ void EventStore::write(StoreBatch batch, Done done) {
     const std::lock_guard lock{mutex_};
     waiting_.push_back({std::move(batch), std::move(done)});
     ++counters_.waiting;
+    ++unfinished_;
   }
   changed_.notify_all();
 }
 
 void EventStore::flush() {
   std::unique_lock lock{mutex_};
-  changed_.wait(lock, [&] { return counters_.waiting == 0; });
+  changed_.wait(lock, [&] { return unfinished_ == 0; });
 }
 
 StoreCounters EventStore::counters() const {
@@ -76,7 +77,7 @@ void EventStore::run() {
     finish(group);
     {
       const std::lock_guard lock{mutex_};
-      counters_.waiting -= group.size();
+      unfinished_ -= group.size();
     }
     changed_.notify_all();
   }
@@ -99,6 +100,7 @@ void EventStore::finish(std::vector<Waiting>& group) {
     if (!saved) {
       const std::lock_guard lock{mutex_};
       ++counters_.failures;
+      --counters_.waiting;
     }
     group[i].done(saved);
   }
@@ -119,6 +121,7 @@ bool EventStore::save(std::vector<StoreBatch>& batches) {
   counters_.problem = problem;
   if (!problem.empty()) return false;
   counters_.events += events;
+  counters_.waiting -= batches.size();
   ++counters_.commits;
   counters_.last_commit_us = now_us_();
   return true;

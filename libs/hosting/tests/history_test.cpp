@@ -209,7 +209,10 @@ TEST(SessionHistoryChecker, FindsMessagesThatWereLostOrInvented) {
   EXPECT_THAT(refused.check(file, stage.study().study), ::testing::ElementsAre("refused, but stored: " + id));
 }
 
-TEST(SessionHistories, HoldWhateverGoesWrong) { tell(1, 10); }
+class SessionHistories : public ::testing::TestWithParam<unsigned> {};
+TEST_P(SessionHistories, HoldWhateverGoesWrong) { tell(GetParam(), GetParam() + 1); }
+INSTANTIATE_TEST_SUITE_P(Seeds, SessionHistories, ::testing::Values(1u, 3u, 5u, 7u, 9u));
+
 TEST(SlowSessionHistories, HoldWhateverGoesWrong) { tell(11, 110); }
 
 }  // namespace

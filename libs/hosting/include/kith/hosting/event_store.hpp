@@ -18,7 +18,7 @@ namespace kith {
 /// What an EventStore has done so far.
 struct StoreCounters {
   std::uint64_t events = 0;    ///< On the disk.
-  std::size_t waiting = 0;     ///< Batches handed in and not finished yet.
+  std::size_t waiting = 0;     ///< Batches handed in of which it is not known yet whether they are saved.
   std::uint64_t commits = 0;   ///< Transactions.
   std::uint64_t failures = 0;  ///< Batches that could not be saved.
   std::int64_t last_commit_us = 0;
@@ -71,6 +71,7 @@ class EventStore {
   std::condition_variable changed_;
   std::vector<Waiting> waiting_;
   StoreCounters counters_;
+  std::size_t unfinished_ = 0;  // batches whose Done has not returned yet
   bool stopping_ = false;
   std::thread writer_;
 };
