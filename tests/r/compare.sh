@@ -21,8 +21,8 @@ done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-"$kith" study paper -o run --quiet --set replicates=4
-"$kith" study paper -o others --quiet --set replicates=4 --set 'design.pairing="none"'
+"$kith" study paper -o run --quiet --set replicates=4 >/dev/null
+"$kith" study paper -o others --quiet --set replicates=4 --set 'design.pairing="none"' >/dev/null
 # Unbalanced tables: some teams are left out. The second has other people in every team.
 awk -F, 'NR == 1 || NR % 7 != 0' run/tables/teams.csv >unbalanced.csv
 awk -F, 'NR == 1 || NR % 7 != 0' others/tables/teams.csv >others.csv

@@ -36,7 +36,7 @@ function ratesOf(program) {
 function tableOf(rates) {
   const analyses = [...new Set(rates.map((rate) => rate.analysis))];
   return {
-    columns: ['analysis', 'studies in which p < .05, %', ''],
+    columns: ['analysis', 'studies in which p < .05, %', 'why fewer'],
     rows: analyses.map((analysis) => {
       const own = rates.filter((rate) => rate.analysis === analysis);
       const reasons = [...new Set(own.filter((rate) => Number(rate.percent) < 3).map((rate) => rate.reason))];

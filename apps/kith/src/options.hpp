@@ -239,9 +239,9 @@ struct ExplainOptions {
 struct ServeOptions {
   std::string study;
   std::vector<std::string> set;
-  std::string out;  ///< Folder of the session; empty: a temporary one.
+  std::string out;                    ///< Folder of the session; empty: a temporary one.
   std::optional<std::uint16_t> port;  ///< 0: any that is free.
-  std::string bind;  ///< An address; empty: this machine alone, or with `lan` every one.
+  std::string bind;                   ///< An address; empty: this machine alone, or with `lan` every one.
   bool lan = false;
   bool insecure_lan = false;  ///< Unencrypted through the network.
   std::string public_url;     ///< What a reverse proxy in front is called.

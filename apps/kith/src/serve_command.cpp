@@ -193,11 +193,13 @@ Links links_of(const std::string& base, const LiveService::StartLinks& tokens, L
   return links;
 }
 
-// Rooms are shown a moment after they are made, and their links with them.
+std::vector<std::string> persons(std::size_t n) { return std::vector<std::string>(n, "person"); }
+
+// Those of the latest room. Rooms are shown a moment after they are made, and their links with them.
 std::vector<std::string> links_of_seats(LocalFacilitator& facilitator) {
   const auto seats_of = [](const Json& view) {
     const auto rooms = view.value("rooms", Json::array());
-    return rooms.empty() ? Json::array() : rooms.front().value("seats", Json::array());
+    return rooms.empty() ? Json::array() : rooms.back().value("seats", Json::array());
   };
   const auto has_links = [&](const Json& view) {
     const auto seats = seats_of(view);
@@ -283,7 +285,8 @@ int run_serve(const ServeOptions& options, Console& console) {
       Links links;
       {
         LocalFacilitator facilitator{service, tokens.facilitator};
-        if (options.demo) facilitator.make_rooms(1, std::vector<std::string>(kDemoPeople, "person"));
+        // A room of its own for every start: the links of earlier ones are known to those who have them only.
+        if (options.demo) facilitator.make_rooms(facilitator.num_rooms() + 1, persons(kDemoPeople));
         facilitator.make_rooms(options.rooms);
         links = links_of(base, tokens, facilitator);
         if (options.demo) links.seats = links_of_seats(facilitator);

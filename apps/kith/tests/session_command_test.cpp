@@ -16,7 +16,6 @@ namespace kith::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using Json = nlohmann::ordered_json;
 
 // A session in which two groups got a room and one person joined and gave a name.
 class SessionCommand : public ::testing::Test {
@@ -60,12 +59,12 @@ TEST_F(SessionCommand, ListsAndShowsRooms) {
   const auto list = run_kith({"session", "list", folder()});
   EXPECT_EQ(list.code, 0) << list.err;
   EXPECT_THAT(list.out, HasSubstr("r1"));
-  const auto document = Json::parse(run_kith({"session", "list", folder(), "--json"}).out);
+  const auto document = kith::Json::parse(run_kith({"session", "list", folder(), "--json"}).out);
   EXPECT_EQ(document.at("schema"), "kith.session-list/1");
   ASSERT_EQ(document.at("rooms").size(), 2u);
   EXPECT_EQ(document["rooms"][0]["joined"], 1);
   EXPECT_EQ(document["rooms"][1]["events"], 0);
-  const auto shown = Json::parse(run_kith({"session", "show", folder(), "--room", "AAAAAA", "--json"}).out);
+  const auto shown = kith::Json::parse(run_kith({"session", "show", folder(), "--room", "AAAAAA", "--json"}).out);
   EXPECT_EQ(shown.at("events").size(), 2u);
   EXPECT_EQ(run_kith({"session", "show", folder()}).code, 2);
   const auto none = run_kith({"session", "show", folder(), "--room", "r9"});
@@ -77,7 +76,7 @@ TEST_F(SessionCommand, ExportsTablesThatAreCompleteAndChecked) {
   EXPECT_EQ(run_kith({"session", "export", folder()}).code, 2);
   const auto ran = run_kith({"session", "export", folder(), "-o", scratch_ / "tables", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const auto document = Json::parse(ran.out);
+  const auto document = kith::Json::parse(ran.out);
   EXPECT_EQ(document["rows"]["sessions.csv"], 2);
   EXPECT_EQ(document["rows"]["events.csv"], 2);
   EXPECT_EQ(document["identified"], false);
@@ -87,7 +86,7 @@ TEST_F(SessionCommand, ExportsTablesThatAreCompleteAndChecked) {
   EXPECT_EQ(again.code, 2) << "nothing is replaced";
   EXPECT_EQ(run_kith({"session", "export", folder(), "-o", scratch_ / "tables", "--yes"}).code, 0);
   const auto one = run_kith({"session", "export", folder(), "--room", "r1", "-o", scratch_ / "one", "--json"});
-  EXPECT_EQ(Json::parse(one.out)["rows"]["sessions.csv"], 1);
+  EXPECT_EQ(kith::Json::parse(one.out)["rows"]["sessions.csv"], 1);
 }
 
 TEST_F(SessionCommand, ReplaysAndSaysWhatDiffers) {
@@ -131,7 +130,7 @@ TEST_F(SessionCommand, RecoversADamagedSession) {
   EXPECT_EQ(run_kith({"session", "salvage", folder()}).code, 2);
   const auto ran = run_kith({"session", "salvage", folder(), "-o", scratch_ / "saved", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_EQ(Json::parse(ran.out)["events"], 2);
+  EXPECT_EQ(kith::Json::parse(ran.out)["events"], 2);
   EXPECT_EQ(run_kith({"session", "replay", scratch_ / "saved"}).code, 0);
 }
 

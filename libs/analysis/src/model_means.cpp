@@ -96,7 +96,7 @@ Adjustment adjustment_of(Correction correction) {
 // Differences against the smallest one that matters.
 class EquivalenceTests {
  public:
-  EquivalenceTests(const FixedEffects& model, const AnalysisOptions& options) : model_{model}, options_{options} {
+  EquivalenceTests(const FixedEffects& model, const AnalysisOptions& options) : options_{options} {
     if (!options.smallest_effect || !is_difference(model)) return;
     if (options.smallest_effect->standardized && !model.residual_sd) return;
     margin_ = options.smallest_effect->size * (options.smallest_effect->standardized ? *model.residual_sd : 1.0);
@@ -135,7 +135,6 @@ class EquivalenceTests {
   }
 
  private:
-  const FixedEffects& model_;
   const AnalysisOptions& options_;
   double margin_ = 0.0;
   std::vector<std::vector<TableCell>> rows_;

@@ -140,7 +140,9 @@ class Script {
     line();
     line("# Ratings: only their order counts.");
     line(fmt::format("data${0} <- factor(data${0}, ordered = TRUE)", response()));
-    line(fmt::format("model <- polr({} ~ {}, data = data, Hess = TRUE)", response(), right_side(model_)));
+    line("# Its default stops at 1e-8, which is too early for p-values of four digits.");
+    line(fmt::format("model <- polr({} ~ {}, data = data, Hess = TRUE, control = list(reltol = 1e-15, maxit = 1000))",
+                     response(), right_side(model_)));
     line("print(summary(model))");
     if (model_.terms.empty()) return;
     line("tests <- as.data.frame(car::Anova(model, type = 2))");
@@ -172,7 +174,9 @@ class Script {
     }
     line();
     line("# Rows of a group belong together: random intercepts.");
-    line(fmt::format("model <- lmer({} ~ {}{}, data = data)", response(), right_side(model_), intercepts));
+    line(fmt::format("model <- lmer({} ~ {}{}, data = data,", response(), right_side(model_), intercepts));
+    // Small variances need more digits than the default gives.
+    line("              control = lmerControl(optimizer = \"bobyqa\", optCtrl = list(rhoend = 1e-9)))");
     line("emm_options(lmer.df = \"satterthwaite\", lmerTest.limit = nrow(data), pbkrtest.limit = 0)");
     if (!model_.terms.empty()) {
       line("tests <- anova(model, type = 2)");

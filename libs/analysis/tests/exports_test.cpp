@@ -82,12 +82,22 @@ TEST(RProject, HasTheRowsThatWereAnalysedAndAScriptOfTheSameModel) {
   EXPECT_THAT(project.codebook, HasSubstr("\"data.csv\""));
 }
 
+TEST(RProject, FitsTheSameModelOfRatings) {
+  std::string text = "g,ease\n";
+  for (int i = 0; i < 24; ++i) text += (i % 2 == 0 ? "a," : "b,") + std::to_string(1 + i * 7 % 5) + "\n";
+  const auto project = r_project(Dataset::parse(text, "t.csv"),
+                                 {.formula = "ease ~ g", .response_kind = ColumnKind::kOrdinal}, few_draws());
+  EXPECT_THAT(project.script, AllOf(HasSubstr("library(MASS)"), HasSubstr("model <- polr(ease ~ g, data = data"),
+                                    HasSubstr("Likelihood-ratio tests (proportional odds model, type II)"),
+                                    Not(HasSubstr("<- lm(ease"))));
+}
+
 TEST(RProject, FitsTheSameRandomIntercepts) {
   std::string text = "team,g,y\n";
   for (int i = 0; i < 24; ++i)
     text += std::to_string(i / 3) + (i / 3 % 2 == 0 ? ",a," : ",b,") + std::to_string(i * 5 % 7) + "\n";
   const auto project = r_project(Dataset::parse(text, "t.csv"), {"y ~ g"}, few_draws());
-  EXPECT_THAT(project.script, AllOf(HasSubstr("library(lmerTest)"), HasSubstr("lmer(y ~ g + (1 | team), data = data)"),
+  EXPECT_THAT(project.script, AllOf(HasSubstr("library(lmerTest)"), HasSubstr("lmer(y ~ g + (1 | team), data = data,"),
                                     HasSubstr("anova(model, type = 2)")));
   EXPECT_THAT(project.data, ::testing::StartsWith("y,g,team\n0,a,0\n"));
 }

@@ -98,7 +98,11 @@ Finding analyse(const std::string& table, const ModelQuestion& question,
 std::size_t poisson(double mean, RandomStream& random) {
   const double limit = std::exp(-mean);
   std::size_t n = 0;
-  for (double product = uniform01(random); product > limit; product *= uniform01(random)) ++n;
+  double product = uniform01(random);
+  while (product > limit) {
+    ++n;
+    product *= uniform01(random);
+  }
   return n;
 }
 

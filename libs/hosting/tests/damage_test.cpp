@@ -80,9 +80,13 @@ void check_salvage(const fs::path& folder, const fs::path& target, const std::st
     ++recovered[event.room];
   }
   std::size_t incomplete = 0;
-  for (std::int64_t room = 1; room <= kDamagedRooms; ++room) incomplete += recovered[room] < kEventsOfARoom ? 1u : 0u;
+  std::size_t without_end = 0;  // only the last event is lost, which nothing after it can tell
+  for (std::int64_t room = 1; room <= kDamagedRooms; ++room) {
+    incomplete += recovered[room] < kEventsOfARoom ? 1u : 0u;
+    without_end += recovered[room] == kEventsOfARoom - 1 ? 1u : 0u;
+  }
   EXPECT_LE(incomplete, 1u) << story << ": a single bit costs one row at most";
-  EXPECT_EQ(report.lost.size(), incomplete) << story;
+  EXPECT_EQ(report.lost.size(), incomplete - without_end) << story;
 }
 
 void flip_bits(std::size_t cases, unsigned seed) {
@@ -113,7 +117,7 @@ void flip_bits(std::size_t cases, unsigned seed) {
   EXPECT_GT(noticed, cases / 4);
 }
 
-TEST(DamagedSession, IsNoticedAndItsIntactEventsAreRecovered) { flip_bits(300, 7); }
+TEST(DamagedSession, IsNoticedAndItsIntactEventsAreRecovered) { flip_bits(200, 7); }
 TEST(SlowDamagedSession, IsNoticedAndItsIntactEventsAreRecovered) { flip_bits(2000, 8); }
 
 TEST(DamagedSession, IsNoticedIfAFileIsCutShort) {

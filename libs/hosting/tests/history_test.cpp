@@ -177,6 +177,38 @@ void tell(unsigned first, unsigned last) {
   }
 }
 
+// The checker itself: what it must not overlook.
+TEST(SessionHistoryChecker, FindsMessagesThatWereLostOrInvented) {
+  const ScratchFolder scratch;
+  Stage stage{scratch / "live", shared().study};
+  Page person{stage.join(stage.join_code()), "a"};
+  person.connect(stage.service());
+  stage.service().settle();
+  person.read();
+  const auto step = next_step(person.view(), shared().solver, true);
+  const auto id = person.ask(stage.service(), step->first, step->second);
+  stage.service().settle();
+  person.read();
+  stage.stop();
+  auto file = EventFile::read(stage.folder());
+  SessionHistory right;
+  right.invoke("a", id, step->first, step->second);
+  right.ok(id);
+  right.saw("a", person.view());
+  EXPECT_THAT(right.check(file, stage.study().study, false), IsEmpty());
+  EXPECT_THAT(right.check(file, stage.study().study), ::testing::ElementsAre("a is left in 'check'"));
+  SessionHistory invented;
+  EXPECT_THAT(invented.check(file, stage.study().study), ::testing::ElementsAre("stored, but never sent: " + id));
+  right.invoke("a", "lost", "answer", {{"test", 0}, {"actions", {1, 2}}});
+  right.ok("lost");
+  EXPECT_THAT(right.check(file, stage.study().study, false),
+              ::testing::ElementsAre("acknowledged, but not stored: lost"));
+  SessionHistory refused;
+  refused.invoke("a", id, step->first, step->second);
+  refused.fail(id);
+  EXPECT_THAT(refused.check(file, stage.study().study), ::testing::ElementsAre("refused, but stored: " + id));
+}
+
 TEST(SessionHistories, HoldWhateverGoesWrong) { tell(1, 10); }
 TEST(SlowSessionHistories, HoldWhateverGoesWrong) { tell(11, 110); }
 

@@ -81,7 +81,9 @@ class SessionHistory {
       if (message.type != "answer" || stored.count(id) != 0) continue;
       // The same answer under another id may have been stored before.
       const bool is_there = std::any_of(stored.begin(), stored.end(), [&](const auto& one) {
-        const auto& other = invoked_.at(one.first);
+        const auto sent = invoked_.find(one.first);
+        if (sent == invoked_.end()) return false;
+        const auto& other = sent->second;
         return other.client == message.client && other.type == "answer" && other.body["test"] == message.body["test"] &&
                other.body["actions"] == message.body["actions"];
       });

@@ -90,7 +90,7 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
     const auto& test = past.lesson.tests[t];
     const auto world = atlas.id(test.demo).mdp;
     const bool right = t < verdicts.size() && verdicts[t].correct;
-    const auto robot = atlas.trajectory(test.demo);
+    const auto robot = expected_path(atlas, test.demo);
     Json entry{{"board", live_board(room.study, test.demo)},
                {"right", right},
                {"mine", nullptr},

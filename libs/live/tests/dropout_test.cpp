@@ -141,7 +141,16 @@ TEST_P(Dropouts, LeadToTheRightStateInTime) {
         const bool left = seat <= leavers && after_grace;
         if (play.room().is_person(seat) && !left) play.act(seat);
       }
-      if (i % 3 == 0) play.wait(kGrace + 5.0);  // who is waited for is away, so this is all it takes
+      if (i % 3 != 0) continue;
+      play.wait(kGrace + 5.0);
+      // Somebody who is there can do something: whoever was waited for has been away for longer than that.
+      bool can_act = play.room().stage() != RoomStage::kRunning;
+      for (std::size_t seat = 1; seat <= play.room().num_seats(); ++seat) {
+        const bool left = seat <= leavers && after_grace;
+        const auto stage_now = play.room().stage_of(seat);
+        can_act = can_act || (!left && (stage_now == "watch" || stage_now == "predict" || stage_now == "feedback"));
+      }
+      ASSERT_TRUE(can_act);
     }
     EXPECT_NE(play.room().stage(), RoomStage::kRunning);
   }

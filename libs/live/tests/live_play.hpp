@@ -187,7 +187,7 @@ class Play {
 
   [[nodiscard]] Json right_path(DemoIndex demo) const {
     Json actions = Json::array();
-    for (const auto action : study_->atlas->trajectory(demo).actions) actions.push_back(action.value());
+    for (const auto action : expected_path(*study_->atlas, demo).actions) actions.push_back(action.value());
     return actions;
   }
   /// Another first action, from where the robot goes on as it would; worse than the robot's own path.

@@ -161,6 +161,7 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
 }
 
 void BotFacilitator::end_rooms(const std::vector<Room>& rooms) {
+  if (!wait(kPatience, [this] { return shared_->is_welcome; })) return;
   for (const auto& room : rooms) {
     say("end", {{"room", room.id}});
     std::this_thread::sleep_for(kPace);

@@ -57,8 +57,9 @@ class WebSocketConnection::Handle final : public LiveApplication::Socket {
 WebSocketConnection::WebSocketConnection(ServerContext& context, tcp::socket socket, Admission::Place place,
                                          std::string remote)
     : context_{context},
-      stream_{std::move(socket)},
-      timer_{stream_.get_executor()},
+      strand_{socket.get_executor()},
+      stream_{std::in_place, std::move(socket)},
+      timer_{strand_},
       place_{std::move(place)},
       remote_{std::move(remote)},
       messages_{context.options.limits.messages_per_second, context.options.limits.message_burst,
@@ -75,18 +76,18 @@ WebSocketConnection::~WebSocketConnection() {
 void WebSocketConnection::start(HttpMessage request) {
   request_ = std::move(request);
   const auto& limits = context_.options.limits;
-  stream_.read_message_max(limits.frame_bytes);
-  stream_.auto_fragment(false);
+  stream_->read_message_max(limits.frame_bytes);
+  stream_->auto_fragment(false);
   websocket::stream_base::timeout timeout{};
   timeout.handshake_timeout = limits.hello_time;
   timeout.idle_timeout = limits.idle_time;
   timeout.keep_alive_pings = true;
-  stream_.set_option(timeout);
-  stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+  stream_->set_option(timeout);
+  stream_->set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
     for (const auto& [name, value] : security_headers()) response.set(name, value);
   }));
-  stream_.control_callback([this](websocket::frame_type, boost::beast::string_view) { on_control(); });
-  stream_.async_accept(request_, [self = shared_from_this()](NetError error) { self->on_open(error); });
+  stream_->control_callback([this](websocket::frame_type, boost::beast::string_view) { on_control(); });
+  stream_->async_accept(request_, [self = shared_from_this()](NetError error) { self->on_open(error); });
 }
 
 void WebSocketConnection::on_open(NetError error) {
@@ -107,7 +108,7 @@ void WebSocketConnection::on_open(NetError error) {
 }
 
 void WebSocketConnection::read() {
-  stream_.async_read(in_, [self = shared_from_this()](NetError error, std::size_t) { self->on_read(error); });
+  stream_->async_read(in_, [self = shared_from_this()](NetError error, std::size_t) { self->on_read(error); });
 }
 
 void WebSocketConnection::on_read(NetError error) {
@@ -122,7 +123,7 @@ void WebSocketConnection::deliver() {
   if (!messages_.take(std::chrono::steady_clock::now())) {
     return begin_close(Code::policy_error, "too many messages");
   }
-  if (!stream_.got_text()) return begin_close(Code::unknown_data, "only text is understood here");
+  if (!stream_->got_text()) return begin_close(Code::unknown_data, "only text is understood here");
   const auto data = in_.data();
   const std::string_view frame{static_cast<const char*>(data.data()), data.size()};
   if (!json_nests_within(frame, context_.options.limits.json_depth)) {
@@ -140,8 +141,7 @@ void WebSocketConnection::deliver() {
 // Pings are answered by Beast; they count as messages.
 void WebSocketConnection::on_control() {
   if (closing_ || messages_.take(std::chrono::steady_clock::now())) return;
-  asio::post(stream_.get_executor(),
-             [self = shared_from_this()] { self->begin_close(Code::policy_error, "too many messages"); });
+  asio::post(strand_, [self = shared_from_this()] { self->begin_close(Code::policy_error, "too many messages"); });
 }
 
 void WebSocketConnection::send(std::shared_ptr<const std::string> frame) {
@@ -159,7 +159,7 @@ void WebSocketConnection::send(std::shared_ptr<const std::string> frame) {
     ++context_.slow_clients;
     return close(Code::try_again_later, "messages are not read fast enough");
   }
-  asio::post(stream_.get_executor(), [self = shared_from_this()] { self->write_next(); });
+  asio::post(strand_, [self = shared_from_this()] { self->write_next(); });
 }
 
 void WebSocketConnection::write_next() {
@@ -173,9 +173,9 @@ void WebSocketConnection::write_next() {
     if (closing_) close_now();
     return;
   }
-  stream_.text(true);
-  stream_.async_write(asio::buffer(*out_),
-                      [self = shared_from_this()](NetError error, std::size_t) { self->on_written(error); });
+  stream_->text(true);
+  stream_->async_write(asio::buffer(*out_),
+                       [self = shared_from_this()](NetError error, std::size_t) { self->on_written(error); });
 }
 
 void WebSocketConnection::on_written(NetError error) {
@@ -185,7 +185,7 @@ void WebSocketConnection::on_written(NetError error) {
 }
 
 void WebSocketConnection::close(std::uint16_t code, std::string reason) {
-  asio::post(stream_.get_executor(),
+  asio::post(strand_,
              [self = shared_from_this(), code, reason = std::move(reason)] { self->begin_close(code, reason); });
 }
 
@@ -208,11 +208,11 @@ void WebSocketConnection::close_now() {
     const std::lock_guard lock{queue_mutex_};
     is_flushing_ = true;
   }
-  stream_.async_close(*closing_, [self = shared_from_this()](NetError) { self->finish(); });
+  stream_->async_close(*closing_, [self = shared_from_this()](NetError) { self->finish(); });
 }
 
 void WebSocketConnection::authenticated() {
-  asio::post(stream_.get_executor(), [self = shared_from_this()] {
+  asio::post(strand_, [self = shared_from_this()] {
     if (self->is_authenticated_ || self->is_finished_) return;
     self->is_authenticated_ = true;
     self->place_.trust();
@@ -224,7 +224,7 @@ void WebSocketConnection::authenticated() {
 }
 
 void WebSocketConnection::stop() {
-  asio::post(stream_.get_executor(), [self = shared_from_this()] {
+  asio::post(strand_, [self = shared_from_this()] {
     if (!self->is_open_) return self->finish();
     static const auto kBye = std::make_shared<const std::string>(R"({"t":"bye","reason":"server-stops"})");
     self->send(kBye);
@@ -233,7 +233,7 @@ void WebSocketConnection::stop() {
 }
 
 void WebSocketConnection::cut() {
-  asio::post(stream_.get_executor(), [self = shared_from_this()] { self->finish(); });
+  asio::post(strand_, [self = shared_from_this()] { self->finish(); });
 }
 
 void WebSocketConnection::arm(std::chrono::milliseconds time) {
@@ -257,7 +257,10 @@ void WebSocketConnection::finish() {
   ++timer_round_;
   timer_.cancel();
   NetError ignored;
-  stream_.next_layer().close(ignored);
+  stream_->next_layer().close(ignored);
+  // Beast's read and close may wait for each other when a client breaks the protocol while we close (1.74), and then
+  // they hold the connection for good. They end with the stream, which must not be destroyed by its own handler.
+  asio::post(strand_, [self = shared_from_this()] { self->stream_.reset(); });
   place_ = {};
   if (is_known_to_application_) {
     try {

@@ -51,7 +51,8 @@ class WebSocketConnection final : public ServerConnection, public std::enable_sh
   void finish();
 
   ServerContext& context_;
-  boost::beast::websocket::stream<tcp::socket> stream_;
+  tcp::socket::executor_type strand_;
+  std::optional<boost::beast::websocket::stream<tcp::socket>> stream_;  // until the connection has ended
   asio::steady_timer timer_;
   std::uint64_t timer_round_ = 0;
   Admission::Place place_;

@@ -1,6 +1,7 @@
 // Hand-made cases of RFC 6455: what a client sends after its hello, and the code that the server closes with.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -90,6 +91,17 @@ TEST_P(SocketCases, EndWithTheRightCode) {
     socket.raw().close();
     EXPECT_TRUE(served.application.wait_until_all_closed());
   }
+}
+
+// Beast's read would wait for its close and the other way round.
+TEST(WebSocket, LeavesNothingBehindWhenTheProtocolIsBrokenWhileItCloses) {
+  Served served{{.limits = {.close_time = std::chrono::milliseconds{100}}}};
+  for (int i = 0; i < 20; ++i) {
+    RawWebSocket socket{served.port()};
+    socket.send(frame_of(0x82, "binary") + frame_of(0x83, "reserved") + std::string(200, '\x7F'));
+    EXPECT_EQ(socket.close_code(), 1003);
+  }
+  EXPECT_TRUE(all_gone(served.server));
 }
 
 INSTANTIATE_TEST_SUITE_P(Rfc6455, SocketCases, ::testing::ValuesIn(socket_cases()),

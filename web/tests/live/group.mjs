@@ -54,9 +54,9 @@ function complain(list, what) {
   if (list.length > 0) throw new Error(`${what}: ${list.join('; ')}`);
 }
 
-// The demonstration of `kith serve`, on a free port: {links of its seats, stop}.
-export async function startKith(program, folder) {
-  const server = spawn(program, ['serve', '--demo', '--no-browser', '--json', '--port', '0', '-o', folder], {
+// The demonstration of `kith serve`, on a free port unless one is given: {port, join, seats, ..., stop}.
+export async function startKith(program, folder, port = 0) {
+  const server = spawn(program, ['serve', '--demo', '--no-browser', '--json', '-q', '--port', String(port), '-o', folder], {
     stdio: ['ignore', 'pipe', 'inherit'],
   });
   let text = '';

@@ -30,11 +30,11 @@ const kActs = {
 };
 
 async function until(isSo) {
-  for (let i = 0; i < 600; i += 1) {
+  for (let i = 0; i < 2400; i += 1) {
     if (isSo()) return;
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
-  throw new Error('it did not happen within 30 s');
+  throw new Error('it did not happen within two minutes');
 }
 
 // One screen of one person, or nothing while they wait.
@@ -51,42 +51,77 @@ async function act(person, isRight) {
 async function finish(people) {
   const isDone = () => people.every(({ view }) => ['debrief', 'ended'].includes(view?.stage));
   let tests = 0;
+  const seen = new Set();
   for (let turn = 0; !isDone() && turn < 400; turn += 1) {
     for (const [i, person] of people.entries()) {
-      if (person.view?.stage === 'predict') tests += 1;
+      if (i === 0 && person.view?.stage === 'predict') tests += 1;
+      seen.add(person.view?.stage);
       await act(person, !(i === 0 && tests < 2)); // the first person is wrong once
     }
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
   assert.ok(isDone(), `still at ${people.map(({ view }) => view?.stage)}`);
+  for (const stage of ['consent', 'check', 'watch', 'predict', 'feedback', 'questions']) assert.ok(seen.has(stage), stage);
+}
+
+// Three people who join the demonstration with its link.
+async function withDemonstration(setting, body) {
+  const folder = mkdtempSync(join(tmpdir(), 'kith-live-'));
+  const start = (port) => startKith(setting.kith, join(folder, 'session'), port);
+  const running = { server: await start(0), start };
+  const people = [];
+  try {
+    assert.equal(running.server.seats.length, 3);
+    for (let i = 0; i < 3; i += 1) {
+      const person = await openPerson(setting.browser, running.server.join, {});
+      people.push(person);
+      await person.open();
+      await person.button('Join').click();
+      await until(() => person.view !== null);
+    }
+    await body(people, running);
+    for (const person of people) assert.deepEqual(person.trouble, []);
+  } finally {
+    for (const person of people) await person.close();
+    await running.server.stop('SIGTERM');
+    rmSync(folder, { recursive: true, force: true });
+  }
 }
 
 export function kithTests(setting) {
   describe('kith serve', () => {
     it('teaches three people from consent to their codes, and tells them nothing too early', async () => {
-      const folder = mkdtempSync(join(tmpdir(), 'kith-live-'));
-      const server = await startKith(setting.kith, join(folder, 'session'));
-      const people = [];
-      try {
-        assert.equal(server.seats.length, 3);
-        for (const link of server.seats) {
-          people.push(await openPerson(setting.browser, link, {}));
-          await people[people.length - 1].open();
-          await until(() => people[people.length - 1].view !== null);
-        }
+      await withDemonstration(setting, async (people) => {
         await finish(people);
         for (const person of people) {
           await person.at('Thank you');
           assert.match(await person.page.textContent('.code'), /^[A-Z]+-[A-Z0-9]+$/);
-          assert.deepEqual(person.trouble, []);
           const sent = person.frames.filter(({ t, view }) => t === 'view' && !['feedback', 'debrief'].includes(view.stage));
           for (const frame of sent) assert.doesNotMatch(JSON.stringify(frame), kForbidden);
         }
-      } finally {
-        for (const person of people) await person.close();
-        await server.stop('SIGTERM');
-        rmSync(folder, { recursive: true, force: true });
-      }
+      });
+    });
+
+    it('is killed in mid-period, and nobody loses an answer or a path', async () => {
+      await withDemonstration(setting, async (people, running) => {
+        for (const person of people) person.expectLosses();
+        const areAt = (stage) => people.every(({ view }) => view.stage === stage);
+        for (let turn = 0; !areAt('predict') && turn < 40; turn += 1) {
+          for (const person of people) if (person.view.stage !== 'predict') await act(person, true);
+        }
+        const [first, second] = people;
+        const { index, of } = first.view.predict;
+        await second.drive((await second.best()).slice(0, 2));
+        await first.drive(await first.best());
+        await running.server.stop('SIGKILL');
+        await first.button('Submit').click(); // nobody is there to hear it
+        await first.counts('being saved');
+        running.server = await running.start(running.server.port);
+        await until(() => first.view.stage !== 'predict' || first.view.predict.index > index);
+        assert.equal(first.view.stage, of === 1 ? 'wait' : 'predict');
+        await second.page.reload();
+        await second.counts('2 steps');
+      });
     });
   });
 }

@@ -39,6 +39,7 @@ export class Person {
         if (frame.t === 'view') this.view = frame.view;
       });
     });
+    page.setDefaultTimeout(120_000); // the machine may be busy; nothing here is about time
     // A study without texts of its own answers 404, which a browser reports.
     this.expects.push(/api\/texts/);
   }

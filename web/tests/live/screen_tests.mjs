@@ -185,7 +185,7 @@ export function screenTests(setting) {
       });
     });
 
-    it('needs one script of less than 200 kB, before compression', async () => {
+    it('needs less than 200 kB of scripts, before compression', async () => {
       await withViews(setting, async ({ page, mock }) => {
         const sizes = [];
         page.on('response', async (response) => {
@@ -194,8 +194,8 @@ export function screenTests(setting) {
         await page.goto('about:blank');
         await page.goto(mock.link(1));
         await page.waitForSelector('h1');
-        assert.equal(sizes.length, 1);
-        assert.ok(sizes[0] < 200_000, `${sizes} bytes before compression`);
+        const sum = sizes.reduce((a, b) => a + b, 0);
+        assert.ok(sum > 10_000 && sum < 200_000, `${sizes} bytes before compression`);
       });
     });
   });
