@@ -1,10 +1,12 @@
 // Requests beside the WebSocket; the token goes into a header, never into an address.
+import { isObject } from './protocol';
+
 export class Api {
   constructor(private readonly token: string) {}
 
   private async get(target: string): Promise<Response> {
     const reply = await fetch(target, { headers: { Authorization: `Bearer ${this.token}` }, cache: 'no-store' });
-    if (!reply.ok) throw new Error(`the server answered ${reply.status} ${reply.statusText}`.trim());
+    if (!reply.ok) throw new Error(await problemOf(reply));
     return reply;
   }
 
@@ -31,4 +33,11 @@ export class Api {
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
     return name;
   }
+}
+
+// What the server says went wrong: {error, text}, or else its status.
+async function problemOf(reply: Response): Promise<string> {
+  const status = `the server answered ${reply.status} ${reply.statusText}`.trim();
+  const said: unknown = await reply.json().catch(() => null);
+  return isObject(said) && typeof said.text === 'string' ? said.text.trim().replace(/\.$/, '') : status;
 }

@@ -144,7 +144,7 @@ export function roomDetail(random, now, row) {
         ? {}
         : Object.fromEntries(
             seats.map(({ seat }) => {
-              const own = answers.filter((answer) => answer.seat === seat && answer.period === p);
+              const own = answers.filter((answer) => answer.seat === seat && answer.period <= p);
               return [seat, own.length === 0 ? 0 : own.filter(({ right }) => right).length / own.length];
             }),
           ),

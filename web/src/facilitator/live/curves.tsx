@@ -1,4 +1,4 @@
-// Two small charts over periods: p(BEC) of each belief, and the share of right answers.
+// Two small charts over periods: p(BEC) of each belief, and the share of right answers so far.
 import type { ComponentChildren, JSX } from 'preact';
 import type { RoomDetail } from '../protocol';
 import { Explained } from '../tip';
@@ -70,7 +70,7 @@ export function Curves({ detail, height, marked, nameOf, memberOfSeat }: CurvesP
         {beliefs.some(({ kind }) => kind === 'common') && <Key kind="common" text="common" />}
         {beliefs.some(({ kind }) => kind === 'joint') && <Key kind="joint" text="joint" />}
       </Chart>
-      <Chart title="Share of answers that are right" what="share right" series={[...seats, mean]} {...look}>
+      <Chart title="Share of right answers so far" what="Share of right answers so far" series={[...seats, mean]} {...look}>
         <Key kind="own" text="member" />
         <Key kind="mean" text="mean" />
       </Chart>

@@ -66,7 +66,8 @@ export function LessonPanel({ lesson, period }: { lesson: LessonNow | undefined;
       {choice && <Shown key={`${period}/${choice.id}`} choice={choice} />}
       <div class="why-text">
         <p>
-          <b>Why:</b> {upperFirst(lesson.why)} <span class="source">Source: {lesson.source}.</span>
+          <b>Why:</b> {upperFirst(lesson.why)}
+          {!lesson.why.includes(lesson.source) && <span class="source"> Source: {lesson.source}.</span>}
         </p>
       </div>
       <RunnersUp lesson={lesson} />

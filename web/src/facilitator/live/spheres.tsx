@@ -184,6 +184,7 @@ function Globe({ belief, name, outlines, truth, place, size, mass, isMarked, lab
         <path class="bec-region" d={regionPath(outlines.bec, place, kRadius)} />
         <path class="prior-line" d={linePath(outlines.prior, place, kRadius)} />
         <path class="dots" d={dotsPath(points, place, kRadius, true)} />
+        <path class="bec-line" d={regionPath(outlines.bec, place, kRadius)} />
         {labelled && <Axes features={truth.features ?? []} place={place} />}
         {star.z >= 0 && <path class="star" d={kStar} transform={`translate(${star.x * kRadius} ${star.y * kRadius})`} />}
       </svg>
