@@ -14,10 +14,14 @@
 namespace kith {
 namespace {
 
-const Outcome& likeliest(const Mdp& mdp, const Choice& choice) {
+// The likeliest outcome that changes the state: an action that mostly has no effect can still be worth trying.
+const Outcome& likeliest(const Mdp& mdp, StateIndex s, const Choice& choice) {
   const auto outcomes = mdp.outcomes(choice);
-  return *std::max_element(outcomes.begin(), outcomes.end(),
-                           [](const Outcome& a, const Outcome& b) { return a.probability < b.probability; });
+  return *std::max_element(outcomes.begin(), outcomes.end(), [&](const Outcome& a, const Outcome& b) {
+    const double of_a = a.next == s ? 0.0 : a.probability;
+    const double of_b = b.next == s ? 0.0 : b.probability;
+    return of_a < of_b;
+  });
 }
 
 class WorldTable {
@@ -64,7 +68,7 @@ class WorldTable {
     for (StateIndex s{0}; map_ && s.value() < mdp_.num_states(); ++s) {
       const auto from = map_->state(world_, s);
       for (const auto& choice : mdp_.choices(s)) {
-        const auto to = map_->state(world_, likeliest(mdp_, choice).next);
+        const auto to = map_->state(world_, likeliest(mdp_, s, choice).next);
         if (to.exited) continue;
         ++shifts[choice.action.value()][{to.robot.x - from.robot.x, from.robot.y - to.robot.y}];
       }
@@ -119,7 +123,7 @@ class WorldTable {
     Json row = Json::array();
     for (std::size_t a = 0; a < mdp_.num_actions(); ++a) row.push_back(-1);
     if (mdp_.is_terminal(s)) return row;
-    for (const auto& choice : mdp_.choices(s)) row[choice.action.value()] = likeliest(mdp_, choice).next.value();
+    for (const auto& choice : mdp_.choices(s)) row[choice.action.value()] = likeliest(mdp_, s, choice).next.value();
     return row;
   }
 
@@ -220,7 +224,7 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
       break;
     }
     judged.path.actions.push_back(choice->action);
-    judged.path.states.push_back(likeliest(mdp, *choice).next);
+    judged.path.states.push_back(likeliest(mdp, here, *choice).next);
     ++judged.legal;
   }
   judged.is_finished = mdp.is_terminal(judged.path.states.back());
@@ -230,8 +234,8 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
   } else if (domain.is_exact()) {
     IntegerVector counts(domain.num_features());
     for (std::size_t t = 0; t < judged.path.actions.size(); ++t) {
-      counts +=
-          mdp.integer_features(likeliest(mdp, *choice_of(mdp, judged.path.states[t], judged.path.actions[t].value())));
+      counts += mdp.integer_features(likeliest(mdp, judged.path.states[t],
+                                               *choice_of(mdp, judged.path.states[t], judged.path.actions[t].value())));
     }
     judged.counts = counts;
   } else {
@@ -248,8 +252,9 @@ Trajectory expected_path(const Atlas& atlas, DemoIndex test) {
   const auto most = std::min(kMaxAnswerActions, atlas.domain().max_steps());
   while (!mdp.is_terminal(path.states.back())) {
     if (path.actions.size() == most) return atlas.trajectory(test);
-    path.actions.push_back(robot_action(atlas, world, path.states.back()));
-    path.states.push_back(likeliest(mdp, *choice_of(mdp, path.states.back(), path.actions.back().value())).next);
+    const auto here = path.states.back();
+    path.actions.push_back(robot_action(atlas, world, here));
+    path.states.push_back(likeliest(mdp, here, *choice_of(mdp, here, path.actions.back().value())).next);
   }
   return path;
 }

@@ -41,7 +41,7 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
   const auto study = live_study({}, GetParam());
   const auto& atlas = *study->atlas;
   const auto& weights = atlas.domain().weights();
-  std::size_t others = 0;
+  std::size_t others = 0, circles = 0;
   for (std::size_t i = 0; i < atlas.num_demos(); i += 1 + atlas.num_demos() / 60) {
     const DemoIndex demo{i};
     const auto robot = expected_path(atlas, demo);
@@ -49,17 +49,18 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
     for (const auto action : robot.actions) actions.push_back(action.value());
     if (actions.size() > kMaxAnswerActions) continue;
     const auto judged = judged_path(atlas, demo, actions);
-    const auto finishes =
-        !robot.states.empty() && atlas.domain().mdp(atlas.id(demo).mdp).is_terminal(robot.states.back());
-    ASSERT_TRUE(judged.is_legal);
-    ASSERT_EQ(judged.is_finished, finishes);
-    if (!finishes) continue;
+    if (!judged.is_finished || !judged.is_legal) {  // with chance the likeliest steps may lead round in a circle
+      ASSERT_FALSE(atlas.domain().mdp(atlas.id(demo).mdp).is_deterministic());
+      ++circles;
+      continue;
+    }
     EXPECT_EQ(judged.counts, atlas.feature_counts(demo));
     EXPECT_EQ(judged.path, robot);
     actions.push_back(0);
     EXPECT_FALSE(judged_path(atlas, demo, actions).is_legal);  // nothing happens after the end
     // One other first action, and on as the robot would: the counts that the atlas has for it.
-    const auto [world, start] = atlas.id(demo);
+    const auto world = atlas.id(demo).mdp;
+    const auto start = atlas.id(demo).start;
     const auto& mdp = atlas.domain().mdp(world);
     for (std::size_t c = 0; c < mdp.choices(start).size(); ++c) {
       const auto& choice = mdp.choices(start)[c];
@@ -84,6 +85,7 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
     }
   }
   EXPECT_GT(others, 20u);
+  EXPECT_LT(circles, 10u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Domains, WorldTables,

@@ -27,8 +27,8 @@ inline constexpr std::size_t kMaxAnswerActions = 500;
 ///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool}
 /// States are numbers of this table. Frames are [robotColumn, robotRow, [[column, row, carried 0|1], ...],
 /// [index into stations, ...]], without a map {"state": name}. -1: nothing happens. Where chance has a part, next is
-/// the likeliest outcome. dx and dy are how the action moves the robot, row numbers growing downward; null for actions
-/// that do not move it. Nothing in it tells anything about the reward.
+/// the likeliest outcome that changes the state. dx and dy are how the action moves the robot, row numbers growing
+/// downward; null for actions that do not move it. Nothing in it tells anything about the reward.
 [[nodiscard]] Json world_json(const LiveStudy& study, MdpIndex world);
 /// The number of a state in that table; states that nothing leads to have none.
 [[nodiscard]] std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, StateIndex state);
