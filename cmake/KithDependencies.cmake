@@ -1,13 +1,14 @@
 # Everything kith needs from outside, all of it packaged in Debian 12; why each
 # was chosen: docs/adr/0008-dependencies.md. `./run.sh --setup` installs them.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(Boost 1.74 REQUIRED) # headers only: Boost.Math
+find_package(Boost 1.74 REQUIRED) # headers only: Boost.Math, Boost.Multiprecision, Boost.Beast, Boost.Asio
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(SQLite3 3.40 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Libcsv REQUIRED)
+find_package(Libqrencode REQUIRED)
 if(KITH_BUILD_APPS)
   find_package(CLI11 REQUIRED)
   if(KITH_MPI STREQUAL AUTO)
@@ -34,7 +35,7 @@ endif()
 # Header-only or without a CMake package of their own: say early, and by the
 # name of the package, what a compiler would only say as "no such file".
 foreach(header_and_package "Random123/philox.h|librandom123-dev" "toml++/toml.h|libtomlplusplus-dev"
-    "boost/math/distributions/fisher_f.hpp|libboost-math-dev")
+    "boost/math/distributions/fisher_f.hpp|libboost-math-dev" "boost/beast/core.hpp|libboost-dev")
   string(REPLACE "|" ";" header_and_package ${header_and_package})
   list(GET header_and_package 0 header)
   list(GET header_and_package 1 package)

@@ -19,7 +19,7 @@ configure_package_config_file(
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake DESTINATION ${package_dir} COMPONENT development)
+  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLibqrencode.cmake DESTINATION ${package_dir} COMPONENT development)
 
 if(TARGET kith)
   install(TARGETS kith COMPONENT program)
@@ -54,5 +54,5 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kith)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev")
+  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev, libqrencode-dev")
 include(CPack)

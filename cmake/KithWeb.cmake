@@ -56,6 +56,40 @@ function(kith_add_web_pages)
   endif()
 endfunction()
 
+function(kith_add_web_apps)
+  set(source ${PROJECT_SOURCE_DIR}/web)
+  set(build ${PROJECT_BINARY_DIR}/web)
+  foreach(page IN LISTS ARGN)
+    set(${page}_app ${build}/${page} PARENT_SCOPE)
+    if(NOT TARGET kith_web_packages)
+      file(WRITE ${build}/${page}/index.html "<!doctype html><title>kith</title><p>This kith was built without pages.</p>\n")
+      add_custom_target(kith_web_${page})
+      continue()
+    endif()
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${source}/src/*)
+    add_custom_command(OUTPUT ${build}/${page}/index.html
+      COMMAND ${KITH_NODE} ${source}/build_app.mjs --page ${page} --modules ${build} --out ${build}/${page}
+      DEPENDS kith_web_packages ${build}/node_modules/.kith-stamp ${source}/build_app.mjs ${source}/notices.mjs ${sources}
+      COMMENT "Bundling the ${page} page" VERBATIM)
+    add_custom_target(kith_web_${page} DEPENDS ${build}/${page}/index.html)
+    if(KITH_BUILD_TESTS AND KITH_CHROMIUM AND NOT KITH_SANITIZE AND EXISTS ${source}/tests/${page}_test.mjs)
+      string(SUBSTRING ${page} 0 1 first)
+      string(TOUPPER ${first} first)
+      string(SUBSTRING ${page} 1 -1 rest)
+      set(name ${first}${rest})
+      add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --app ${build}/${page}
+        --modules ${build} --chromium ${KITH_CHROMIUM})
+      # Three of the journeys of people fail now and then (text typed early is lost): nightly until that is mended.
+      set_tests_properties(web.${name} PROPERTIES RESOURCE_LOCK browser TIMEOUT 1800 LABELS slow)
+      if(page STREQUAL live)  # people on the pages that the program serves
+        add_test(NAME web.LiveOfKith COMMAND ${KITH_NODE} ${source}/tests/live_test.mjs --kith $<TARGET_FILE:kith>
+          --modules ${build} --chromium ${KITH_CHROMIUM})
+        set_tests_properties(web.LiveOfKith PROPERTIES RESOURCE_LOCK browser TIMEOUT 1800 LABELS slow)
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
 # Types, sample documents as a reader sees them, and documents that lack parts. One browser at a time.
 function(kith_test_web_pages source build)
   add_test(NAME web.Types COMMAND ${KITH_NODE} ${source}/tests/types_test.mjs --modules ${build})
@@ -74,4 +108,34 @@ function(kith_test_web_pages source build)
     --document ${source}/sample/lesson.json ${tools})
   set_tests_properties(web.Report web.ReportOfKith web.ReportParts web.Lesson PROPERTIES RESOURCE_LOCK browser TIMEOUT 600 LABELS web)
   set_property(TEST web.ReportParts PROPERTY LABELS slow)
+endfunction()
+
+# kith_embed_web_apps(<target> <page>...)
+#
+# Makes the folders of pages (see kith_add_web_apps) constants in a source file of the target: see web/embed.mjs.
+# Without Node.js there are no pages, and the table is empty.
+function(kith_embed_web_apps target)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/web_assets.cpp)
+  if(NOT TARGET kith_web_packages)
+    file(CONFIGURE OUTPUT ${output} CONTENT "#include \"web_assets.hpp\"
+
+namespace kith::cli {
+std::span<const Asset> web_assets() { return {}; }
+}  // namespace kith::cli
+")
+    target_sources(${target} PRIVATE ${output})
+    set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    return()
+  endif()
+  set(folders)
+  set(pages)
+  foreach(page IN LISTS ARGN)
+    list(APPEND folders ${page}=${PROJECT_BINARY_DIR}/web/${page})
+    list(APPEND pages kith_web_${page} ${PROJECT_BINARY_DIR}/web/${page}/index.html)
+  endforeach()
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${KITH_NODE} ${PROJECT_SOURCE_DIR}/web/embed.mjs --out ${output} ${folders}
+    DEPENDS ${pages} ${PROJECT_SOURCE_DIR}/web/embed.mjs VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+  set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

@@ -21,9 +21,13 @@ done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-"$kith" study paper -o run --quiet --set replicates=4
-# An unbalanced table: some teams are left out.
+"$kith" study paper -o run --quiet --set replicates=4 >/dev/null
+"$kith" study paper -o others --quiet --set replicates=4 --set 'design.pairing="none"' >/dev/null
+# Unbalanced tables: some teams are left out. The second has other people in every team.
 awk -F, 'NR == 1 || NR % 7 != 0' run/tables/teams.csv >unbalanced.csv
+awk -F, 'NR == 1 || NR % 7 != 0' others/tables/teams.csv >others.csv
+# Ratings from 1 to 5 that depend on the group.
+awk 'BEGIN { print "g;h;ease"; for (i = 0; i < 120; ++i) print "g" i % 3 ";h" int(i / 3) % 2 ";" 1 + (i * i * 7 + i % 3 * 2) % 11 % 5 }' >ratings.csv
 
 failed=0
 # compare NAME ARGS: the analysis `kith analyze ARGS` in kith and in R.
@@ -46,8 +50,14 @@ compare() {
 compare balanced run --model 'knowledge ~ strategy*composition' --where 'strategy!=baseline' --by composition \
   --contrast 'team beliefs: joint + common - individual-low - individual-high' --contrast 'joint - common'
 compare unbalanced unbalanced.csv --model 'knowledge ~ strategy + composition' --where 'strategy!=baseline'
+compare linear others --model 'knowledge ~ strategy*composition' --where 'strategy!=baseline' --by composition \
+  --contrast 'team beliefs: joint + common - individual-low - individual-high' --contrast 'joint - common'
+compare linear-unbalanced others.csv --model 'knowledge ~ strategy + composition' --where 'strategy!=baseline'
+compare linear-single others.csv --model 'knowledge ~ composition'
+compare ratings ratings.csv --model 'ease ~ g + h' --ordinal
 compare single unbalanced.csv --model 'knowledge ~ composition'
 compare members run --table learners --model 'p_bec ~ strategy*type' --where 'strategy!=baseline'
 compare periods run --table progress --model 'p_bec ~ type' --where 'strategy!=baseline'
-compare counts run --model 'periods ~ strategy + composition' --where 'strategy!=baseline' --observed completed
+compare counts others --model 'periods ~ strategy + composition' --where 'strategy!=baseline' --observed completed
+compare counts-same run --model 'periods ~ strategy + composition' --where 'strategy!=baseline' --observed completed
 exit $failed

@@ -6,6 +6,8 @@ import { join } from 'node:path';
 
 const both = (key, value) => [`learner.N.${key}=${value}`, `learner.P.${key}=${value}`];
 const study = (file, ...settings) => ['study', file, '-o', 'DIR', ...settings.flatMap((one) => ['--set', one])];
+const DOMAINS = ['two-goals', 'cookie-crumb', 'colored-tiles', 'skateboard'];
+const COMMON = 'common - the others: common - individual-low - individual-high - joint';
 const teamsOnly = 'record.level="team"';
 
 // Name of a run: its command. DIR is the folder of the run itself, DIR(NAME) that of another.
@@ -19,13 +21,16 @@ export const COMMANDS = {
   'less known': study('studies/paper.toml', 'replicates=200', ...both('prior', '[]'), teamsOnly),
   'more known': study('studies/paper.toml', 'replicates=200', ...both('prior', '[{step=-1},{rubble=-1}]'), teamsOnly),
   ...Object.fromEntries(
-    ['two-goals', 'cookie-crumb', 'colored-tiles', 'skateboard'].map((domain) => [
+    DOMAINS.map((domain) => [
       domain,
       study('studies/paper.toml', 'replicates=100', `domain="${domain}"`, teamsOnly),
     ]),
   ),
   'analysis, large': ['analyze', 'DIR(large)', '--json'],
   'analysis, small': ['analyze', 'DIR(small)', '--json'],
+  ...Object.fromEntries(
+    DOMAINS.map((domain) => [`analysis, ${domain}`, ['analyze', `DIR(${domain})`, '--contrast', COMMON, '--json']]),
+  ),
   calibration: ['calibrate', 'studies/paper-uncalibrated.toml', '--targets', 'studies/paper-targets.toml', '--json'],
   'findings, paired': ['power', 'studies/paper.toml', '--findings', 'studies/paper-targets.toml', '--json'],
   'findings, unpaired': [

@@ -117,29 +117,6 @@ function incompleteBeta(a, b, x) {
   return front * fraction;
 }
 
-// P(F >= f).
-export const upperTailOfF = (f, df1, df2) => incompleteBeta(df2 / 2, df1 / 2, df2 / (df2 + df1 * f));
-
-// Two-sided p of Student's t.
-export const pOfT = (t, df) => upperTailOfF(t * t, 1, df);
-
-// The Brown-Forsythe test of equal spread: an analysis of variance of distances from the medians.
-export function brownForsythe(groups) {
-  const distances = groups.map((values) => {
-    const sorted = [...values].sort((a, b) => a - b);
-    const half = sorted.length / 2;
-    const median = sorted.length % 2 ? sorted[Math.floor(half)] : (sorted[half - 1] + sorted[half]) / 2;
-    return values.map((value) => Math.abs(value - median));
-  });
-  const all = distances.flat();
-  const center = mean(all);
-  const between = sum(distances.map((values) => values.length * (mean(values) - center) ** 2));
-  const within = sum(distances.map((values) => variance(values) * (values.length - 1)));
-  const df = [groups.length - 1, all.length - groups.length];
-  const f = between / df[0] / (within / df[1]);
-  return { f, df, p: upperTailOfF(f, ...df) };
-}
-
 // P(F <= f) of the non-central F distribution: a Poisson mixture of beta distributions.
 function lowerTailOfNoncentralF(f, df1, df2, lambda) {
   const x = (df1 * f) / (df1 * f + df2);

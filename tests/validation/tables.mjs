@@ -5,13 +5,12 @@ import { COMMANDS, commandLine } from './runs.mjs';
 import { calibrationFigures, calibrationTables } from './calibration_tables.mjs';
 import { figure, fixed, grouped, interval, percent, probability, signed, withError, withInterval } from './format.mjs';
 import {
-  brownForsythe, errorOfMean, errorOfSd, groupBy, jackknife, mean, Moments, partialEtaSquared, pOfT, sd,
+  errorOfMean, errorOfSd, groupBy, jackknife, mean, Moments, partialEtaSquared,
 } from './statistics.mjs';
 import { readTables } from './toml.mjs';
 
 const GROUP = ['individual-low', 'individual-high', 'common', 'joint'];
 const BELIEFS = { group: ['common', 'joint'], individual: ['individual-low', 'individual-high'] };
-const OTHERS = GROUP.filter((strategy) => strategy !== 'common');
 const COMPOSITIONS = ['NNN', 'NNP', 'NPP', 'PPP'];
 const OUTCOMES = ['periods', 'knowledge'];
 const DIGITS = { periods: 2, knowledge: 3 };
@@ -63,32 +62,11 @@ export function makeContent(runs, source) {
       estimates['strategy range'] = Math.max(...strategyMeans) - Math.min(...strategyMeans);
       const byBelief = (prefix, kind) => mean(BELIEFS[kind].map((strategy) => estimates[`${prefix} ${strategy}`]));
       estimates['range difference'] = byBelief('range', 'group') - byBelief('range', 'individual');
-      const logRatio = (compositions) =>
-        Math.log(pool(cells, BELIEFS.group, compositions).variance() / pool(cells, BELIEFS.individual, compositions).variance());
-      estimates['log ratio all'] = logRatio(COMPOSITIONS);
-      for (const composition of COMPOSITIONS) estimates[`log ratio ${composition}`] = logRatio([composition]);
       estimates['gain of groups'] = estimates['mean group'] - estimates['mean baseline'];
       estimates['ratio of baseline'] = estimates['mean baseline'] / estimates['mean group'];
       return estimates;
     }),
   );
-
-  // A contrast of strategies within the same people: mean difference with its standard error.
-  const contrast = (run, outcome, plus, minus, compositions = COMPOSITIONS) => {
-    const teams = teamsOf(run, outcome).filter((team) => compositions.includes(team.stratum));
-    const differences = [...groupBy(teams, (team) => `${team.stratum} ${team.person}`).values()].map((people) => {
-      const of = (strategies) => mean(people.filter((team) => strategies.includes(team.cell)).map((team) => team.value));
-      return of(plus) - of(minus);
-    });
-    const value = mean(differences);
-    const byComposition = groupBy(
-      differences.map((difference, i) => ({ difference, stratum: i })),
-      ({ stratum }) => Math.floor(stratum / (differences.length / compositions.length)),
-    );
-    const squared = mean([...byComposition.values()].map((rows) => sd(rows.map((row) => row.difference)) ** 2));
-    const se = Math.sqrt(squared / differences.length);
-    return { value, se, df: differences.length - compositions.length, p: pOfT(value / se, differences.length - compositions.length) };
-  };
 
   const target = (quantity, statistic, teams) =>
     targets.target.find((one) => one.quantity === quantity && (one.statistic ?? 'mean') === statistic && one.teams === teams);
@@ -107,15 +85,29 @@ export function makeContent(runs, source) {
     return { value: (here.value - there.value) / there.se, se: here.se / there.se };
   };
 
-  // A row of a table of `kith analyze`, by the term in its first column.
+  // A row of a table of `kith analyze`, by the text in its first column.
   const row = (run, finding, caption, name) => {
     const table = runs.finding(`analysis, ${run}`, finding).tables.find((one) => one.caption === caption);
-    const found = table?.rows.find((one) => one.term === name);
-    if (!found) throw new Error(`'${finding}' of kith analyze has no term '${name}' in a table '${caption}'`);
+    const found = table?.rows.find((one) => one[table.columns[0].field] === name);
+    if (!found) throw new Error(`'${finding}' of kith analyze has no row '${name}' in a table '${caption}'`);
     return found;
   };
-  const term = (run, outcome, name) => row(run, outcome, 'Analysis of variance (type II)', name);
-  const termWithin = (outcome, name) => row('large', `${outcome}-paired`, 'Analysis of variance within people', name);
+  const AS_PUBLISHED = 'Analysis of variance as published, all teams taken as independent (type II)';
+  const term = (run, outcome, name) => row(run, outcome, AS_PUBLISHED, name);
+  const termWithin = (outcome, name) => row('large', outcome, 'Tests of the fixed effects (type II, Satterthwaite)', name);
+  // H1 and H2 of the large run, over all teams or at one composition.
+  const PLANNED = 'Planned contrasts of strategy';
+  const asEstimate = (found) => ({ ...found, value: found.difference, se: (found.upper_limit - found.lower_limit) / (2 * 1.96) });
+  const belief = (outcome, teams, run = 'large') =>
+    asEstimate(
+      teams === 'all'
+        ? row(run, `${outcome}-beliefs`, PLANNED, 'team beliefs - individual beliefs')
+        : row(run, `${outcome}-beliefs`, `${PLANNED} at each level of composition`, teams),
+    );
+  // Teaching for the common belief against the other strategies, in another domain.
+  const common = (run, outcome) => asEstimate(row(run, outcome, PLANNED, 'common - the others'));
+  const spread = (outcome, teams) =>
+    row('large', `${outcome}-variation`, 'Variance under team beliefs over that under individual beliefs', teams);
   const publishedF = (outcome, name) =>
     targets.finding.find((one) => one.effect === `${outcome}: ${name.replace(':', ' x ')}`);
 
@@ -211,7 +203,7 @@ export function makeContent(runs, source) {
     }),
 
     effects: () => ({
-      columns: ['effect', 'published F', 'its partial eta squared', 'kith: partial eta squared', 'F', 'p', 'p within people', '15 teams per cell: F', 'p (15)'],
+      columns: ['effect', 'published F', 'its partial eta squared', 'kith: partial eta squared', 'F', 'p', 'p, people as random intercepts', '15 teams per cell: F', 'p (15)'],
       rows: OUTCOMES.flatMap((outcome) =>
         ['strategy', 'composition', 'strategy:composition'].map((name) => {
           const there = publishedF(outcome, name);
@@ -225,7 +217,7 @@ export function makeContent(runs, source) {
             withInterval(large.partial_eta_squared, large.lower_limit, large.upper_limit, 4),
             { text: fixed(large.f, 2), value: large.f },
             { text: probability(large.p_value), value: large.p_value },
-            name === 'composition' ? '' : { text: probability(termWithin(outcome, name).p_value), value: termWithin(outcome, name).p_value },
+            { text: probability(termWithin(outcome, name).p_value), value: termWithin(outcome, name).p_value },
             { text: fixed(small.f, 2), value: small.f },
             { text: probability(small.p_value), value: small.p_value },
           ];
@@ -244,14 +236,15 @@ export function makeContent(runs, source) {
     hypotheses: () => ({
       columns: ['outcome', 'teams', 'group beliefs - individual beliefs', '95 % interval', 'p'],
       rows: OUTCOMES.flatMap((outcome) =>
-        [['all', COMPOSITIONS], ...COMPOSITIONS.map((one) => [one, [one]])].map(([label, compositions]) => {
-          const one = contrast('large', outcome, BELIEFS.group, BELIEFS.individual, compositions);
+        ['all', ...COMPOSITIONS].map((teams) => {
+          const one = belief(outcome, teams);
+          const digits = DIGITS[outcome] + 1;
           return [
             outcome,
-            label,
-            withError(one, DIGITS[outcome] + 1, signed),
-            { text: interval(one.value - 1.96 * one.se, one.value + 1.96 * one.se, DIGITS[outcome] + 1), value: one.value - 1.96 * one.se, se: one.se },
-            { text: probability(one.p), value: one.p },
+            teams,
+            withError(one, digits, signed),
+            { text: interval(one.lower_limit, one.upper_limit, digits), value: one.lower_limit, se: one.se },
+            { text: probability(one.p_value), value: one.p_value },
           ];
         }),
       ),
@@ -269,18 +262,15 @@ export function makeContent(runs, source) {
     }),
 
     'variance-ratios': () => ({
-      columns: ['teams', ...OUTCOMES.flatMap((outcome) => [`${outcome}: variance ratio, 95 % interval`, `Brown-Forsythe F, four strategies (${outcome})`, `p (${outcome})`])],
-      rows: [['all', COMPOSITIONS], ...COMPOSITIONS.map((one) => [one, [one]])].map(([label, compositions]) => [
-        label,
+      columns: ['teams', ...OUTCOMES.flatMap((outcome) => [`${outcome}: variance ratio, 95 % interval`, `p (${outcome})`, `p, Brown-Forsythe (${outcome})`])],
+      rows: ['all', ...COMPOSITIONS].map((teams) => [
+        teams,
         ...OUTCOMES.flatMap((outcome) => {
-          const { value, se } = summary('large', outcome)[`log ratio ${label}`];
-          const teams = teamsOf('large', outcome).filter((team) => compositions.includes(team.stratum));
-          const test = brownForsythe(GROUP.map((strategy) => teams.filter((team) => team.cell === strategy).map((team) => team.value)));
-          const [low, high] = [Math.exp(value - 1.96 * se), Math.exp(value + 1.96 * se)];
+          const one = spread(outcome, teams);
           return [
-            withInterval(Math.exp(value), low, high, 3),
-            { text: fixed(test.f, 2), value: test.f },
-            { text: probability(test.p), value: test.p },
+            withInterval(one.variance_ratio, one.lower_limit, one.upper_limit, 3),
+            { text: probability(one.p_value_jackknife), value: one.p_value_jackknife },
+            { text: probability(one.p_value_brown_forsythe), value: one.p_value_brown_forsythe },
           ];
         }),
       ]),
@@ -341,8 +331,8 @@ export function makeContent(runs, source) {
           rows: DOMAINS.map((domain) => [
             domain,
             ...['baseline', ...GROUP].map((strategy) => withError(summary(domain, outcome)[`mean ${strategy}`], DIGITS[outcome])),
-            withError(contrast(domain, outcome, ['common'], OTHERS), DIGITS[outcome], signed),
-            withError(contrast(domain, outcome, BELIEFS.group, BELIEFS.individual), DIGITS[outcome], signed),
+            withError(common(domain, outcome), DIGITS[outcome], signed),
+            withError(belief(outcome, 'all', domain), DIGITS[outcome], signed),
           ]),
         }),
       ]),
@@ -384,7 +374,7 @@ export function makeContent(runs, source) {
   };
 
   const large = (outcome, name) => summary('large', outcome)[name];
-  const eta = (outcome, name) => ({ value: term('large', outcome, name).partial_eta_squared, se: (term('large', outcome, name).upper_limit - term('large', outcome, name).lower_limit) / 3.92 });
+  const eta = (outcome, name) => ({ value: term('large', outcome, name).partial_eta_squared, se: (term('large', outcome, name).upper_limit - term('large', outcome, name).lower_limit) / (2 * 1.645) });
   const publishedMean = (outcome, teams) => publishedFigure(outcome, 'mean', teams).value;
   const figures = {
     version: () => ({ text: runs.json('version').version }),
@@ -428,7 +418,7 @@ export function makeContent(runs, source) {
   };
 
   const orderOf = (value) => GROUP.map((strategy) => [strategy, value(strategy)]).sort((a, b) => a[1] - b[1]).map(([strategy]) => strategy);
-  const insignificant = (outcome, name) => term('large', outcome, name).p_value > 0.05;
+  const insignificant = (outcome, name) => termWithin(outcome, name).p_value > 0.05;
   const claims = {
     'facts-agree': () => Object.entries(reference.facts).every(([name, value]) => factsHere()[name] === value),
     'common-conveys-least': () =>
@@ -443,18 +433,17 @@ export function makeContent(runs, source) {
       large('knowledge', 'strategy range').value < 0.02 &&
       OUTCOMES.every((outcome) => term('large', outcome, 'strategy').upper_limit < 0.01 && term('small', outcome, 'strategy').p_value > 0.05),
     'high-conveys-most-in-3': () => orderOf((strategy) => areaMean(strategy, 3).value)[0] === 'individual-high',
-    'no-difference-of-beliefs': () =>
-      OUTCOMES.every((outcome) => contrast('large', outcome, BELIEFS.group, BELIEFS.individual).p > 0.05),
+    'no-difference-of-beliefs': () => OUTCOMES.every((outcome) => belief(outcome, 'all').p_value > 0.05),
     'differences-are-small': () =>
       OUTCOMES.every((outcome) =>
-        [COMPOSITIONS, ...COMPOSITIONS.map((one) => [one])].every((compositions) => {
-          const { value, se } = contrast('large', outcome, BELIEFS.group, BELIEFS.individual, compositions);
-          return Math.abs(value) + 1.96 * se < { periods: 0.25, knowledge: 0.02 }[outcome];
+        ['all', ...COMPOSITIONS].every((teams) => {
+          const { lower_limit: low, upper_limit: high } = belief(outcome, teams);
+          return Math.max(-low, high) < { periods: 0.25, knowledge: 0.02 }[outcome];
         }),
       ),
-    'variances-agree-on-periods': () => Math.abs(large('periods', 'log ratio all').value) < 1.96 * large('periods', 'log ratio all').se,
+    'variances-agree-on-periods': () => spread('periods', 'all').p_value_jackknife > 0.05,
     'knowledge-varies-most-under-common': () =>
-      large('knowledge', 'log ratio all').value > 1.96 * large('knowledge', 'log ratio all').se &&
+      spread('knowledge', 'all').lower_limit > 1 &&
       orderOf((strategy) => large('knowledge', `sd ${strategy}`).value)[3] === 'common',
     'composition-too-strong': () => {
       const { f, df } = publishedF('periods', 'composition');
@@ -478,10 +467,10 @@ export function makeContent(runs, source) {
         return unlike.join() === ['knowledge: strategy x composition', 'knowledge: strategy in NNN', 'knowledge: strategy in PPP', 'area_sr: strategy', 'knowledge: group - baseline'].join();
       }),
     'common-teaches-less-elsewhere': () =>
-      DOMAINS.every((domain) => contrast(domain, 'knowledge', ['common'], OTHERS).value < 0) &&
-      DOMAINS.filter((domain) => contrast(domain, 'knowledge', ['common'], OTHERS).p < 0.05).join() === 'two-goals,cookie-crumb',
+      DOMAINS.every((domain) => common(domain, 'knowledge').value < 0) &&
+      DOMAINS.filter((domain) => common(domain, 'knowledge').p_value < 0.05).join() === 'two-goals,cookie-crumb',
     'periods-agree-elsewhere': () =>
-      DOMAINS.every((domain) => contrast(domain, 'periods', ['common'], OTHERS).p > 0.05 && contrast(domain, 'periods', BELIEFS.group, BELIEFS.individual).p > 0.05),
+      DOMAINS.every((domain) => common(domain, 'periods').p_value > 0.05 && belief('periods', 'all', domain).p_value > 0.05),
     'prior-matters-little': () =>
       ['less known', 'more known'].every((run) => Math.abs(summary(run, 'knowledge')['mean group'].value - large('knowledge', 'mean group').value) < 0.02),
   };

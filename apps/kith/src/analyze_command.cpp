@@ -158,10 +158,11 @@ std::string text_of(const ResultTable& table, const Console& console) {
 
 std::string text_of(const Finding& finding, bool brief, const Console& console) {
   std::string text = console.bold(finding.title) + "\n";
-  text += console.dim(finding.model) + "\n";
+  if (finding.model != finding.title) text += console.dim(finding.model) + "\n";
   text += wrapped(finding.sentence, kTextWidth) + "\n";
   for (const auto& warning : finding.warnings) text += wrapped("Note: " + warning + ".", kTextWidth, "      ") + "\n";
   if (brief) return text;
+  if (!finding.results.empty()) text += "\n" + wrapped("For a paper: " + finding.results, kTextWidth) + "\n";
   for (const auto& table : finding.tables) text += text_of(table, console);
   return text;
 }

@@ -126,10 +126,10 @@ std::string text_of(const FitReport& report, const Console& console) {
 
 std::string text_of(const AccuracyFit& fit, const Console& console) {
   std::string text = fmt::format(
-      "{} people, {} questions. These data tell who answered what, not what people saw between answers:\n"
-      "abilities below are log-odds of being right. They are silent about the gains from feedback, and about the\n"
-      "learning ability of kith's learners.\n\n"
-      "abilities vary between people with a standard deviation of {:.2f} log-odds; reliability {:.2f}\n\n",
+      "{} people, {} questions. The data contain answers, but not what people saw between them. The abilities\n"
+      "below are therefore log-odds of a right answer; the gains from feedback and the ability of kith's learners\n"
+      "cannot be estimated from these data.\n\n"
+      "The standard deviation of abilities between people is {:.2f} log-odds; reliability {:.2f}\n\n",
       fit.people.size(), fit.items.size(), fit.ability_sd, fit.reliability);
   TextTable table{"lrrl"};
   table.add({"person", "right", "ability", ""});

@@ -99,6 +99,11 @@ const std::vector<std::string>& examples_of(const std::string& command) {
         "kith export my-domain.toml --to prism -o models/my-domain"}},
       {"merge", {"kith merge results/part-* -o results/paper", "kith merge part-1 part-2 part-3 -o paper --json"}},
       {"bench", {"kith bench", "kith bench --save before.json", "kith bench --baseline before.json --filter belief"}},
+      {"serve",
+       {"kith serve --demo", "kith serve study.toml -o results/live", "kith serve study.toml --rehearse 20 --for 60"}},
+      {"session",
+       {"kith session list results/live", "kith session export results/live -o tables",
+        "kith session replay results/live --room r3"}},
       {"version", {"kith --version", "kith --version --json"}}};
   return kExamples.at(command);
 }

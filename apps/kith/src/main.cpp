@@ -65,6 +65,10 @@ int run(const Options& options, Console& console) {
       return run_export(options.export_model, console);
     case Command::kExplain:
       return run_explain(options.explain, console);
+    case Command::kServe:
+      return run_serve(options.serve, console);
+    case Command::kSession:
+      return run_session(options.session, console);
     case Command::kPower:
       return run_power(options.power, console);
   }

@@ -121,6 +121,67 @@ void add_export(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_serve(CLI::App& app, Options& options) {
+  auto& serve = options.serve;
+  auto& command = *app.add_subcommand("serve", "Teach groups of real people in their browsers");
+  command.add_option("study", serve.study, "Built-in study or file; '-' is standard input")->type_name("STUDY");
+  command.add_option("-o,--out", serve.out, "Folder for the answers; continued if there is a session in it")
+      ->type_name("DIR");
+  command.add_option("--set", serve.set, "Set a key of the study (may be repeated)")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  takes_integer(*command.add_option("--port", serve.port,
+                                    "Port to listen at; 0: any that is free (default: 8642, and 0 for a rehearsal)"),
+                0, 65535);
+  command.add_option("--bind", serve.bind, "Address to listen at (default: 127.0.0.1, this machine only)")
+      ->type_name("ADDRESS");
+  command.add_flag("--lan", serve.lan, "Listen at all addresses of this machine");
+  command.add_flag("--insecure-lan", serve.insecure_lan, "With --lan: accept that nothing is encrypted");
+  command.add_option("--public-url", serve.public_url, "Address of the reverse proxy that people use")
+      ->type_name("URL");
+  takes_integer(
+      *command.add_option("--rooms", serve.rooms, "Make rooms until there are N; others are made as people join"), 0,
+      2000);
+  takes_integer(*command.add_option("--join-limit", serve.join_limit, "Joins per minute from one address; 0: no limit")
+                     ->capture_default_str(),
+                0, 1'000'000);
+  auto* demo = command.add_flag("--demo", serve.demo, "A first look: a robot to understand, and a room for three");
+  command.add_flag("--no-browser", serve.no_browser, "With --demo: do not open a browser")->needs(demo);
+  auto* rehearse = &takes_integer(
+      *command.add_option("--rehearse", serve.rehearse, "Teach N groups of simulated people instead, and time it"), 1,
+      5000);
+  const auto positive = [](const std::string& text) { return wrong_positive(text); };
+  command.add_option("--for", serve.for_seconds, "With --rehearse: seconds (default: until everybody has finished)")
+      ->needs(rehearse)
+      ->check(positive)
+      ->type_name("SECONDS");
+  command
+      .add_option("--answer-every", serve.answer_every, "With --rehearse: seconds that a person takes for an answer")
+      ->capture_default_str()
+      ->needs(rehearse)
+      ->check(positive)
+      ->type_name("SECONDS");
+  command.add_option("--reconnects", serve.reconnects, "With --rehearse: share of people who reconnect every second")
+      ->capture_default_str()
+      ->needs(rehearse)
+      ->check([](const std::string& text) { return wrong_fraction(text); })
+      ->type_name("P");
+  add_common(command, options.common);
+}
+
+void add_session(CLI::App& app, Options& options) {
+  auto& session = options.session;
+  auto& command = *app.add_subcommand("session", "List, export, replay, redact or recover live sessions");
+  takes_word(*command.add_option("action", session.action, "What to do")->required(), "ACTION", session_actions());
+  command.add_option("folder", session.folder, "Folder that kith serve was given")->required()->type_name("DIR");
+  command.add_option("--room", session.room, "Only this room, by id or code")->type_name("ID");
+  command.add_option("-o,--out", session.out, "Folder to write tables or the recovered session to")->type_name("DIR");
+  command.add_flag("--names", session.names, "Export names, query parameters and completion codes, too");
+  command.add_flag("--text", session.text, "Export what people wrote in their own words, too");
+  command.add_flag("--yes", session.yes, "Replace an existing export; with redact: erase for good");
+  add_common(command, options.common);
+}
+
 void add_bench(CLI::App& app, Options& options) {
   auto& bench = options.bench;
   auto& command = *app.add_subcommand("bench", "Time kernels and studies, against rivals and a saved baseline");
@@ -181,6 +242,8 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_find(*app, options);
   add_teach(*app, options);
   add_study_commands(*app, options);
+  add_serve(*app, options);
+  add_session(*app, options);
   add_bench(*app, options);
   add_export(*app, options);
   add_explain(*app, options);
@@ -197,7 +260,7 @@ Command command_of(const std::string& name) {
       {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge},
       {"export", Command::kExport},   {"bench", Command::kBench},         {"curriculum", Command::kCurriculum},
       {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind},
-      {"explain", Command::kExplain}};
+      {"explain", Command::kExplain}, {"session", Command::kSession},     {"serve", Command::kServe}};
   return kCommands.at(name);
 }
 

@@ -100,6 +100,13 @@ std::string wrong_fraction(const std::string& text) {
   return "must be a number between 0 and 1, not '" + text + "'";
 }
 
+std::string wrong_positive(const std::string& text) {
+  constexpr double kLargest = 1e6;
+  const auto value = number_of(text);
+  if (value && *value > 0.0 && *value <= kLargest) return "";
+  return "must be a number above 0 and at most 1000000, not '" + text + "'";
+}
+
 std::string wrong_level(const std::string& text) {
   const auto value = number_of(text);
   if (value && *value >= 1e-6 && *value <= 1.0 - 1e-6) return "";

@@ -21,6 +21,9 @@ namespace kith::cli {
 /// Why the text is no number between 0 and 1, both excluded, or nothing.
 [[nodiscard]] std::string wrong_fraction(const std::string& text);
 
+/// Why the text is no number above 0 and up to a million, or nothing.
+[[nodiscard]] std::string wrong_positive(const std::string& text);
+
 /// Why the text is no level of a test, or nothing: far below 10^-6 and as near to 1 there are no quantiles any more.
 [[nodiscard]] std::string wrong_level(const std::string& text);
 

@@ -29,7 +29,9 @@ enum class Command {
   kAsk,
   kFind,
   kInit,
-  kExplain
+  kExplain,
+  kServe,
+  kSession
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -184,7 +186,8 @@ struct PowerCommandOptions {
   std::optional<std::size_t> pool;   ///< Teams per cell to draw studies from.
   std::size_t draws = 1000;
   bool paired = false;
-  std::string findings;  ///< A targets file: repeat the study and look for its findings.
+  std::string findings;     ///< A targets file: repeat the study and look for its findings.
+  std::string preregister;  ///< File for a preregistration of the study; empty: none.
   std::size_t studies = 200;
   std::optional<std::uint64_t> seed;
   std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
@@ -233,6 +236,35 @@ struct ExplainOptions {
   std::string id;  ///< "E0207", or a list of kinds ("strategies"); empty: list all ids.
 };
 
+struct ServeOptions {
+  std::string study;
+  std::vector<std::string> set;
+  std::string out;                    ///< Folder of the session; empty: a temporary one.
+  std::optional<std::uint16_t> port;  ///< 0: any that is free.
+  std::string bind;                   ///< An address; empty: this machine alone, or with `lan` every one.
+  bool lan = false;
+  bool insecure_lan = false;  ///< Unencrypted through the network.
+  std::string public_url;     ///< What a reverse proxy in front is called.
+  std::size_t rooms = 0;      ///< Rooms to make at the start.
+  std::size_t join_limit = 10;
+  bool demo = false;
+  bool no_browser = false;
+  std::size_t rehearse = 0;  ///< Groups of simulated people; 0: no rehearsal.
+  double for_seconds = 0.0;  ///< 0: until everybody has finished.
+  double answer_every = 5.0;
+  double reconnects = 0.0;
+};
+
+struct SessionOptions {
+  std::string action;  ///< One of session_actions().
+  std::string folder;
+  std::string room;    ///< Id or code; empty: all rooms.
+  std::string out;     ///< Folder for tables or for the recovered session.
+  bool names = false;  ///< Export what identifies people, too.
+  bool text = false;   ///< Export what people wrote in their own words, too.
+  bool yes = false;    ///< Replace an existing export; erase for good.
+};
+
 /// One command line, understood.
 struct Options {
   Command command = Command::kVersion;
@@ -257,9 +289,13 @@ struct Options {
   FindOptions find;
   InitOptions init;
   ExplainOptions explain;
+  ServeOptions serve;
+  SessionOptions session;
 };
 
 /// What `kith inspect --show` can show.
 [[nodiscard]] const std::vector<std::string>& inspect_parts();
+/// What `kith session` can do.
+[[nodiscard]] const std::vector<std::string>& session_actions();
 
 }  // namespace kith::cli

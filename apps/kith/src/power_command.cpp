@@ -12,9 +12,11 @@
 #include "kith/core/error.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/files/atomic_file.hpp"
 #include "kith/planning/power.hpp"
 #include "kith/present/json.hpp"
 #include "planning_input.hpp"
+#include "preregistration.hpp"
 #include "progress.hpp"
 #include "work_notice.hpp"
 
@@ -64,6 +66,17 @@ std::vector<std::size_t> sizes_of(const PowerCommandOptions& options) {
   std::sort(teams.begin(), teams.end());
   teams.erase(std::unique(teams.begin(), teams.end()), teams.end());
   return teams;
+}
+
+// The sizes and one more, ascending.
+std::vector<std::size_t> with_size(std::vector<std::size_t> sizes, std::size_t one) {
+  if (one < 2)
+    throw Error{ErrorKind::kUsage,
+                "--preregister: the study has one team per cell, so nothing can be tested; set replicates"};
+  sizes.push_back(one);
+  std::sort(sizes.begin(), sizes.end());
+  sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+  return sizes;
 }
 
 std::string list_of(const std::vector<std::size_t>& sizes) { return fmt::format("{}", fmt::join(sizes, ",")); }
@@ -265,10 +278,13 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   if (effects.empty()) effects = default_effects(spec);
   PowerOptions power;
   power.teams = sizes_of(options);
+  if (!options.preregister.empty()) power.teams = with_size(power.teams, spec.replicates);
   power.alpha = fraction(options.alpha, "--alpha");
   power.target = fraction(options.target, "--target");
   power.draws = options.draws;
-  power.paired = options.paired;
+  // A preregistration plans the tests of kith analyze, which knows which strategies teach the same people.
+  const bool same_people = spec.pairing == Pairing::kReplicate && spec.strategies.size() > 1;
+  power.paired = options.paired || (!options.preregister.empty() && same_people);
   power.seed = options.seed.value_or(spec.seed);
   auto pool_spec = spec;
   pool_spec.replicates = options.pool.value_or(std::max(kDefaultPool, 2 * power.teams.back()));
@@ -287,6 +303,8 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   if (!pools) return computed_nothing(console);
   const auto& pool = pools->front();
   const auto curves = power_curves(pool, effects, power);
+  if (!options.preregister.empty())
+    write_file_atomically(options.preregister, preregistration_text(spec, options.study, curves, power));
   if (console.json()) {
     Json list = Json::array();
     for (const auto& curve : curves) list.push_back(curve_json(curve));

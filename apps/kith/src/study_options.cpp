@@ -223,6 +223,12 @@ void add_power(CLI::App& app, Options& options) {
                       "Repeat the study and count how often the findings in this targets file are reproduced")
           ->type_name("FILE");
   findings->excludes(effects);
+  command
+      .add_option(
+          "--preregister", power.preregister,
+          "Write a preregistration of the study to this file: hypotheses, design, sample size, stopping, analyses")
+      ->excludes(findings)
+      ->type_name("FILE");
   takes_integer(*command.add_option("--studies", power.studies, "Repetitions for --findings")->capture_default_str(), 2,
                 100'000);
   takes_integer(*command.add_option("-j,--threads", power.threads,

@@ -8,6 +8,7 @@ namespace kith::detail {
 extern const std::string_view kBlankDomain;
 extern const std::string_view kStudyTemplate;
 extern const std::string_view kHumanStudyTemplate;
+extern const std::string_view kDemoStudy;
 extern const std::string_view kReadmeTemplate;
 extern const std::string_view kHumanStudyReadme;
 extern const std::string_view kConsentTemplate;

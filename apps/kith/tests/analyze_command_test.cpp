@@ -36,10 +36,24 @@ Scratch* AnalyzeCommand::scratch_ = nullptr;
 TEST_F(AnalyzeCommand, AnswersTheQuestionsOfAStudyInWordsAndTables) {
   const auto ran = run_kith({"analyze", folder()});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("Effects of strategy and composition: periods"), HasSubstr("(32 teams)"),
-                             HasSubstr("Permutation and rank tests"), HasSubstr("Kaplan-Meier"),
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("Effects of strategy and composition: periods"),
+                             HasSubstr("(32 teams in 8 groups)"), HasSubstr("Tests of the fixed effects"),
+                             HasSubstr("For a paper: "), HasSubstr("Analysis of variance as published"),
                              HasSubstr("Manipulation check"), HasSubstr("Taught together or alone: knowledge")));
   EXPECT_THAT(ran.out, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+}
+
+TEST_F(AnalyzeCommand, TakesTeamsOfOtherPeopleAsIndependent) {
+  const std::string others = *scratch_ / "others";
+  ASSERT_EQ(
+      run_kith({"study", "paper", "-o", others, "-q", "--set", "replicates=2", "--set", "design.pairing=\"none\""})
+          .code,
+      0);
+  const auto ran = run_kith({"analyze", others});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("(32 teams)"), HasSubstr("Permutation and rank tests"), HasSubstr("Kaplan-Meier"),
+                    HasSubstr("Welch's t test"), Not(HasSubstr("Tests of the fixed effects"))));
 }
 
 TEST_F(AnalyzeCommand, IsBriefWhenAsked) {

@@ -16,8 +16,8 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
-const std::vector<std::string> kCommands{"init",  "validate", "inspect", "curriculum", "ask",    "find",
-                                         "teach", "study",    "doctor",  "completion", "version"};
+const std::vector<std::string> kCommands{"init",  "validate", "inspect", "curriculum", "ask",        "find",
+                                         "teach", "study",    "serve",   "doctor",     "completion", "version"};
 
 TEST(CommandLine, HasShortAndFullHelpForEveryCommand) {
   for (const auto& command : kCommands) {

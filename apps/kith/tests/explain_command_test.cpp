@@ -299,8 +299,8 @@ TEST(Init, SaysWhatWorks) {
   EXPECT_THAT(text_of(scratch / "blank/domain.toml"), HasSubstr("2 to 8 of them can be taught"));
   EXPECT_THAT(text_of(scratch / "blank/README.md"), HasSubstr("2 to 8 features can be taught"));
   ASSERT_EQ(run_kith({"init", scratch / "people", "--template", "human-study"}).code, 0);
-  EXPECT_THAT(text_of(scratch / "people/study.toml"), HasSubstr("not read by any command yet"));
-  EXPECT_THAT(text_of(scratch / "people/README.md"), HasSubstr("kith cannot run sessions with people yet"));
+  EXPECT_THAT(text_of(scratch / "people/study.toml"), HasSubstr("simulated results do not depend on it"));
+  EXPECT_THAT(text_of(scratch / "people/README.md"), HasSubstr("says how groups of people are taught"));
 }
 
 TEST(ExplainCommand, SaysWhatAnIdMeans) {
@@ -375,9 +375,9 @@ TEST(Texts, FitEightyColumns) {
                                                  {"teach", "skateboard", "--group", "NP"},
                                                  {"curriculum", "item-delivery"},
                                                  {"ask", "item-delivery", "when does it recharge?"}};
-  for (const std::string name :
-       {"init",  "validate", "inspect", "curriculum", "ask", "find",  "teach",  "study",  "status", "verify",
-        "merge", "explain",  "analyze", "report",     "fit", "bench", "export", "doctor", "power",  "calibrate"}) {
+  for (const std::string name : {"init",   "validate", "inspect", "curriculum", "ask",     "find",   "teach", "study",
+                                 "status", "verify",   "merge",   "explain",    "analyze", "report", "fit",   "bench",
+                                 "export", "doctor",   "power",   "calibrate",  "session", "serve"}) {
     commands.push_back({"help", name});
   }
   for (const auto& command : commands) {

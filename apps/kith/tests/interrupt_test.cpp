@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <sstream>
 
 #include "large_map.hpp"
 #include "run_kith.hpp"
@@ -33,6 +34,16 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void send(int signal) const { kill(process_, signal); }
+  // Processor time that it has used, all threads together, in seconds.
+  [[nodiscard]] double processor_time() const {
+    auto stat = text_of("/proc/" + std::to_string(process_) + "/stat");
+    std::istringstream fields{stat.erase(0, stat.rfind(')') + 1)};
+    std::string skipped;
+    for (int i = 3; i < 14; ++i) fields >> skipped;
+    double user = 0.0, system = 0.0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
   // The exit code if it ends within so many seconds, else -1.
   [[nodiscard]] int code_within(double seconds) {
     const auto start = Clock::now();
@@ -68,7 +79,9 @@ TEST(Interrupt, EndsAStudyInTheMiddleOfALongStep) {
     std::ofstream{scratch / "in"} << "";
     Child child{start_kith(long_lesson(scratch), {}, scratch / "in", scratch / "out", scratch / "err")};
     for (int i = 0; i < 3000 && !fs::exists(scratch / "run/study.sqlite"); ++i) usleep(10'000);
-    usleep(100'000);  // well into the lesson
+    // Well into the lesson, however busy the machine is: what comes before it takes a tenth of this.
+    const double made = child.processor_time();
+    for (int i = 0; i < 3000 && child.processor_time() < made + 0.3; ++i) usleep(10'000);
     child.send(signal);
     EXPECT_EQ(child.code_within(kHang), 128 + signal);
     EXPECT_THAT(text_of(scratch / "err"), HasSubstr("interrupted in the middle of a long step"));

@@ -180,5 +180,26 @@ TEST(PowerCommand, SaysWhatIsWrong) {
   }
 }
 
+// The models are those that kith analyze then fits.
+TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
+  const Scratch scratch;
+  const auto file = scratch / "plan.md";
+  const auto ran = run_small({"power", "quick", "--effect", "periods: group - baseline", "--teams", "3", "--pool", "16",
+                              "--draws", "20", "--set", "replicates=4", "--preregister", file});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto plan = text_of(file);
+  EXPECT_THAT(plan, AllOf(HasSubstr("# Preregistration: "), HasSubstr("## Hypotheses"), HasSubstr("## Stopping rule"),
+                          HasSubstr("4 teams per cell."), HasSubstr("| periods: group - baseline | difference ")));
+  const auto folder = scratch / "run";
+  ASSERT_EQ(run_small({"study", "quick", "-o", folder, "-q", "--set", "replicates=4"}).code, 0);
+  const auto document = Json::parse(run_kith({"analyze", folder, "--json"}).out);
+  for (const auto& finding : document.at("findings")) {
+    if (finding.at("id") == "demonstrations") continue;
+    EXPECT_THAT(plan, HasSubstr("* Model: `" + finding.at("model").get<std::string>() + "`"));
+    EXPECT_THAT(plan, HasSubstr(finding.at("question").get<std::string>()));
+  }
+  EXPECT_EQ(run_kith({"power", "quick", "--findings", "f.toml", "--preregister", file}).code, 2);
+}
+
 }  // namespace
 }  // namespace kith::testing

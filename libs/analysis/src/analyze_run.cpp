@@ -108,8 +108,9 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
   add(beliefs,
       "team beliefs against individual beliefs: needs a strategy for the team's belief (common, joint) and one "
       "for a member's (individual-low, individual-high)");
-  if (auto finding = variation(teams, "periods", teams.periods, options))
-    analysis.findings.push_back(std::move(*finding));
+  for (const auto& [name, values] : responses) {
+    if (auto finding = variation(teams, name, *values, options)) analysis.findings.push_back(std::move(*finding));
+  }
   add(paired, "same people, different strategies: " + without_pairs(teams));
   if (auto finding = demonstrations(teams, run, options)) {
     analysis.findings.push_back(std::move(*finding));

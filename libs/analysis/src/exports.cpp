@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kith/table/csv_writer.hpp"
+#include "model.hpp"
 
 namespace kith {
 namespace {
@@ -49,12 +50,45 @@ std::string residual_df(const ResultTable& table, const std::vector<TableCell>& 
   return "";
 }
 
+// "the effect of g", "the interaction of a and b"; a row that is named otherwise is itself.
+std::string term_words(const ResultTable& table, const std::string& name) {
+  if (table.columns.front().name != "term") return name;
+  std::vector<std::string> factors(1);
+  for (const char c : name) {
+    if (c == ':') {
+      factors.emplace_back();
+    } else {
+      factors.back() += c;
+    }
+  }
+  return (factors.size() > 1 ? "the interaction of " : "the effect of ") + with_and(factors);
+}
+
+// The first p-value of these columns that a row has, and how it is named.
+std::string p_phrase(const ResultTable& table, const std::vector<TableCell>& row) {
+  for (const auto& [name, prefix] : {std::pair{"corrected p-value", "corrected "},
+                                     std::pair{"adjusted p-value", "adjusted "}, std::pair{"p-value", ""}}) {
+    const auto* const p = number_at(row, column_of(table, name));
+    if (p != nullptr) return prefix + apa_p(*p);
+  }
+  return "";
+}
+
+std::string sentence_start(std::string text) {
+  // Names of columns and levels stay as they are.
+  if (text.rfind("the ", 0) == 0) text[0] = 'T';
+  return text;
+}
+
 std::string test_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
   const auto f = column_of(table, "F"), p = column_of(table, "p-value"), df = column_of(table, "df");
   if (!f || !p || !df || number_at(row, f) == nullptr || number_at(row, p) == nullptr) return "";
   const auto below = residual_df(table, row);
-  auto text = fmt::format("{}: F({}{}) = {:.2f}, {}", text_at(row, 0), text_at(row, *df),
-                          below.empty() ? "" : ", " + below, *number_at(row, f), apa_p(*number_at(row, p)));
+  const auto* const corrected = number_at(row, column_of(table, "corrected p-value"));
+  const bool found = (corrected != nullptr ? *corrected : *number_at(row, p)) < alpha;
+  auto text = fmt::format("{} {} significant, F({}{}) = {:.2f}, {}", sentence_start(term_words(table, text_at(row, 0))),
+                          found ? "was" : "was not", text_at(row, *df), below.empty() ? "" : ", " + below,
+                          *number_at(row, f), p_phrase(table, row));
   const auto eta = column_of(table, "partial eta squared");
   const auto low = column_of(table, "lower limit"), high = column_of(table, "upper limit");
   if (number_at(row, eta) != nullptr) {
@@ -63,8 +97,29 @@ std::string test_sentence(const ResultTable& table, const std::vector<TableCell>
       text += fmt::format(", {:.3g} % CI [{}, {}]", 100.0 * (1.0 - 2.0 * alpha), share_text(*number_at(row, low)),
                           share_text(*number_at(row, high)));
   }
-  text[0] = text[0] >= 'a' && text[0] <= 'z' ? static_cast<char>(text[0] - 'a' + 'A') : text[0];
   return text + ".";
+}
+
+std::string estimate_text(double value) { return formatted(value, ResultKind::kNumber); }
+
+// A difference with its interval and test: of planned contrasts, and of t tests.
+std::string difference_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
+  const auto* const difference = number_at(row, column_of(table, "difference"));
+  const auto* const low = number_at(row, column_of(table, "lower limit"));
+  const auto* const high = number_at(row, column_of(table, "upper limit"));
+  if (difference == nullptr || low == nullptr || high == nullptr) return "";
+  auto text = fmt::format("{}: mean difference = {}, {:.3g} % CI [{}, {}]", text_at(row, 0), estimate_text(*difference),
+                          100.0 * (1.0 - alpha), estimate_text(*low), estimate_text(*high));
+  if (const auto* const t = number_at(row, column_of(table, "t")); t != nullptr) {
+    const auto* const df = number_at(row, column_of(table, "df"));
+    const auto n = column_of(table, "n");
+    const auto* const pairs = n ? std::get_if<std::int64_t>(&row[*n]) : nullptr;
+    const auto degrees = df != nullptr      ? fmt::format("({:.1f})", *df)
+                         : pairs != nullptr ? fmt::format("({})", *pairs - 1)
+                                            : std::string{};
+    text += fmt::format(", t{} = {:.2f}", degrees, *t);
+  }
+  return text + ", " + p_phrase(table, row) + ".";
 }
 
 std::string latex_escaped(const std::string& text) {
@@ -175,15 +230,22 @@ std::string file_stem(const std::string& id) {
 }  // namespace
 
 std::string results_paragraph(const Finding& finding, double alpha) {
+  std::string tests, differences;
+  const auto append = [](std::string& text, const std::string& sentence) {
+    if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
+  };
   for (const auto& table : finding.tables) {
-    std::string paragraph;
-    for (const auto& row : table.rows) {
-      const auto sentence = test_sentence(table, row, alpha);
-      if (!sentence.empty()) paragraph += (paragraph.empty() ? "" : " ") + sentence;
+    const bool is_planned =
+        table.caption.rfind("Planned contrasts", 0) == 0 && table.columns.front().name == "contrast";
+    if (tests.empty()) {
+      for (const auto& row : table.rows) append(tests, test_sentence(table, row, alpha));
     }
-    if (!paragraph.empty()) return paragraph;
+    if (!is_planned && !column_of(table, "t")) continue;
+    for (const auto& row : table.rows) append(differences, difference_sentence(table, row, alpha));
   }
-  return "";
+  append(tests, differences);
+  if (tests.empty() || finding.methods.empty()) return tests;
+  return fmt::format("{} ({}). {}", finding.model, finding.methods.front().text, tests);
 }
 
 std::string latex_text(const Analysis& analysis, double alpha) {

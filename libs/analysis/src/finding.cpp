@@ -24,7 +24,7 @@ std::string number_text(double value) {
 std::string real_text(double value, ResultKind kind) {
   switch (kind) {
     case ResultKind::kFraction:
-      return fmt::format("{:.3f}", value);
+      return fmt::format("{:.3f}", std::abs(value) < 0.0005 ? 0.0 : value);
     case ResultKind::kP:
       return value < kSmallestShownP ? "< 0.001" : fmt::format("{:.3f}", value);
     default:

@@ -55,7 +55,9 @@ Method eta_squared_method(double alpha) {
 std::string formula_text(const ModelData& data) {
   Formula formula{data.response, {}, data.terms, {}};
   for (const auto& factor : data.factors) formula.factors.push_back(factor.name);
-  return to_string(formula);
+  auto text = to_string(formula);
+  for (const auto& groups : data.groups) text += " + (1|" + groups.name + ")";
+  return text;
 }
 
 ModelResult fit_model(const ModelData& data, const AnalysisOptions& options, const RandomStream& random) {

@@ -11,6 +11,7 @@
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/factor.hpp"
 #include "kith/stats/linear_model.hpp"
+#include "kith/stats/mixed_model.hpp"
 
 namespace kith {
 
@@ -53,7 +54,8 @@ struct ModelResult {
 void add_anova_results(const ModelData& data, const ModelResult& result, const AnalysisOptions& options,
                        Finding& finding, const std::string& about = "");
 
-// Counts that may be cut off: rate ratios, survival. Adds to the finding if the response is a count.
+// Counts that may be cut off: rate ratios, survival. Adds to the finding if the response is a count; without tests if
+// rows belong together, because these assume independent rows.
 void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
 
 // The raw means of every combination of levels; missing if there are too many. Without limits: rows that belong
@@ -62,6 +64,9 @@ void add_count_results(const ModelData& data, const AnalysisOptions& options, Fi
 
 // A mixed model with data.groups as random intercepts: tests, variances, means and pairs.
 [[nodiscard]] Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& options);
+// Its tables, and the methods behind them. Captions begin with `about`.
+void add_mixed_results(const ModelData& data, const MixedModel& model, const AnalysisOptions& options, Finding& finding,
+                       const std::string& about = "");
 
 // A proportional odds model of ratings: tests, odds ratios of pairs, how often every rating was given.
 [[nodiscard]] Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& options);

@@ -77,8 +77,8 @@ void add_rates(const ModelData& data, const AnalysisOptions& options, Finding& f
     return;
   }
   if (!model->theta) return add_quasi_poisson(data, options, finding);
-  const std::string family = fmt::format("negative binomial, theta {:.2f}", *model->theta);
-  ResultTable table{"Rate ratios (" + family + " regression, main effects)",
+  const auto detail = fmt::format("theta {:.2f}", *model->theta);
+  ResultTable table{"Rate ratios (negative binomial regression, main effects, " + detail + ")",
                     {{"ratio", Kind::kText},
                      {"estimate", Kind::kFraction},
                      {"lower limit", Kind::kFraction},
@@ -89,7 +89,7 @@ void add_rates(const ModelData& data, const AnalysisOptions& options, Finding& f
     table.rows.push_back(
         {text_cell(ratio.name), ratio.ratio.estimate, ratio.ratio.low, ratio.ratio.high, ratio.test.p});
   ResultTable tests{
-      "Likelihood-ratio tests (" + family + " regression)",
+      "Likelihood-ratio tests (negative binomial regression, " + detail + ")",
       {{"factor", Kind::kText}, {"chi-squared", Kind::kNumber}, {"df", Kind::kCount}, {"p-value", Kind::kP}},
       {}};
   for (std::size_t f = 0; f < data.factors.size(); ++f)
@@ -110,7 +110,9 @@ std::optional<Factor> strata_without(const ModelData& data, std::size_t left_out
   return strata;
 }
 
+// Medians that allow for counts that are cut off; with tests if the values are independent.
 void add_survival(const ModelData& data, double confidence, Finding& finding) {
+  const bool with_tests = data.groups.empty();
   ResultTable curves{
       fmt::format("Median {} (Kaplan-Meier)", data.response),
       {{"group", Kind::kText}, {"n", Kind::kCount}, {"censored", Kind::kCount}, {"median", Kind::kNumber}},
@@ -136,6 +138,7 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
                              count_cell(curve.observations - curve.events),
                              curve.median ? TableCell{*curve.median} : text_cell("not reached")});
     }
+    if (!with_tests) continue;
     const auto strata = strata_without(data, f);
     const auto test =
         strata ? log_rank(data.values, data.observed, factor, *strata) : log_rank(data.values, data.observed, factor);
@@ -146,7 +149,7 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
   add_method(finding, {"Kaplan-Meier estimates", "kaplan1958"});
   if (any_tested)
     add_method(finding, {stratified ? "log-rank tests stratified by the other factors" : "the log-rank test"});
-  finding.tables.push_back(std::move(tests));
+  if (with_tests) finding.tables.push_back(std::move(tests));
   finding.tables.push_back(std::move(curves));
 }
 
@@ -154,16 +157,22 @@ void add_survival(const ModelData& data, double confidence, Finding& finding) {
 
 void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
   if (data.factors.empty() || !data.is_count) return;
-  add_rates(data, options, finding);
-  if (data.observed.empty()) return;
+  const bool is_mixed = !data.groups.empty();
   const auto cut_off = static_cast<std::size_t>(std::count(data.observed.begin(), data.observed.end(), false));
+  if (is_mixed) {
+    finding.warnings.push_back(
+        "the counts are analysed by a linear mixed model, as count regressions here have no random intercepts");
+  } else {
+    add_rates(data, options, finding);
+  }
   if (cut_off > 0) {
     finding.warnings.push_back(
-        fmt::format("{} of {} {} were stopped before they finished, so their counts are lower bounds; the "
-                    "analysis of variance takes them as they are, the regression of counts and the log-rank tests do "
-                    "not",
-                    cut_off, data.values.size(), data.observations));
+        fmt::format("{} of {} {} were stopped before they finished, so their counts are lower bounds; the {} takes "
+                    "them as they are{}",
+                    cut_off, data.values.size(), data.observations, is_mixed ? "mixed model" : "analysis of variance",
+                    is_mixed ? "" : ", the regression of counts and the log-rank tests do not"));
   }
+  if (data.observed.empty() || (is_mixed && cut_off == 0)) return;
   if (std::all_of(data.values.begin(), data.values.end(), [](double value) { return value > 0.0; }))
     add_survival(data, 1.0 - options.alpha, finding);
 }

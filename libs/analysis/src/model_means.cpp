@@ -44,13 +44,19 @@ ResultTable comparison_table(const std::string& caption, const std::string& firs
   return table;
 }
 
+// An estimate that is as small beside its limits as rounding makes it is 0.
+double without_rounding(double estimate, double low, double high) {
+  constexpr double kRounding = 1e-12;
+  return std::abs(estimate) <= kRounding * std::max(std::abs(low), std::abs(high)) ? 0.0 : estimate;
+}
+
 void add_row(const Comparison& comparison, const FixedEffects& model, bool by, bool with_d, ResultTable& table) {
   auto& row = table.rows.emplace_back();
   if (by) row.push_back(text_cell(comparison.group));
   row.push_back(text_cell(comparison.estimate.name));
   const auto shown = response_contrast(model.link, comparison.estimate);
   if (shown) {
-    row.insert(row.end(), {shown->estimate, shown->low, shown->high});
+    row.insert(row.end(), {without_rounding(shown->estimate, shown->low, shown->high), shown->low, shown->high});
   } else {
     row.insert(row.end(), {is_difference(model) ? cell_of(comparison.estimate.estimate) : TableCell{}, {}, {}});
   }
@@ -58,7 +64,8 @@ void add_row(const Comparison& comparison, const FixedEffects& model, bool by, b
   if (with_d) {
     if (comparison.estimate.estimate && inference && model.residual_sd) {
       const double sd = *model.residual_sd;
-      row.insert(row.end(), {*comparison.estimate.estimate / sd, inference->low / sd, inference->high / sd});
+      const double difference = without_rounding(*comparison.estimate.estimate, inference->low, inference->high);
+      row.insert(row.end(), {difference / sd, inference->low / sd, inference->high / sd});
     } else {
       row.insert(row.end(), {TableCell{}, {}, {}});
     }
@@ -89,7 +96,7 @@ Adjustment adjustment_of(Correction correction) {
 // Differences against the smallest one that matters.
 class EquivalenceTests {
  public:
-  EquivalenceTests(const FixedEffects& model, const AnalysisOptions& options) : model_{model}, options_{options} {
+  EquivalenceTests(const FixedEffects& model, const AnalysisOptions& options) : options_{options} {
     if (!options.smallest_effect || !is_difference(model)) return;
     if (options.smallest_effect->standardized && !model.residual_sd) return;
     margin_ = options.smallest_effect->size * (options.smallest_effect->standardized ? *model.residual_sd : 1.0);
@@ -118,21 +125,16 @@ class EquivalenceTests {
                        {"p-value", Kind::kP},
                        {"verdict", Kind::kText}},
                       std::move(rows_)});
-    if (others_ == 0) {
-      finding.sentence += fmt::format(" {} of {} are equivalent: {} smaller than {}.",
-                                      equivalent_ > 1 ? "All differences" : "The levels", what,
-                                      equivalent_ > 1 ? "each is" : "the difference is", margin);
-    } else if (equivalent_ == 0) {
-      finding.sentence += fmt::format(" No difference of {} was shown to be smaller than {}.", what, margin);
-    } else {
-      finding.sentence += fmt::format(" {} of {} differences of {} were shown to be smaller than {}.", equivalent_,
-                                      equivalent_ + others_, what, margin);
-    }
+    const auto n = equivalent_ + others_;
+    const auto which = n == 1             ? std::string{"The difference was "} + (equivalent_ == 1 ? "" : "not ")
+                       : others_ == 0     ? fmt::format("All {} differences were ", n)
+                       : equivalent_ == 0 ? fmt::format("None of the {} differences was ", n)
+                                          : fmt::format("{} of {} differences were ", equivalent_, n);
+    finding.sentence += fmt::format(" {}shown to be smaller than {} ({}).", which, margin, what);
     add_method(finding, {fmt::format("two one-sided tests of equivalence within {}", margin)});
   }
 
  private:
-  const FixedEffects& model_;
   const AnalysisOptions& options_;
   double margin_ = 0.0;
   std::vector<std::vector<TableCell>> rows_;
@@ -271,9 +273,11 @@ class Writer {
     }
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
     const auto how = by ? fmt::format("at each level of {}", by_name) + (is_family ? "; Tukey-Kramer" : "")
-                        : std::string{is_family ? "Tukey-Kramer" : "t test"};
+                        : std::string{is_family               ? "Tukey-Kramer"
+                                      : is_difference(model_) ? "t test"
+                                                              : "Wald test"};
     auto what = fmt::format("Pairs of {} ({})", factor.name, how);
-    add_table(what, "pair", by_name, comparisons, true);
+    add_table(what, "pair", by_name, comparisons, is_family);
     if (is_family && !comparisons.empty())
       add_method(finding_, {"Tukey-Kramer tests for pairs of estimated marginal means", "kramer1956"});
     EquivalenceTests equivalence{model_, options_};

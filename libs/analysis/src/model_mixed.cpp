@@ -83,9 +83,7 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
   for (const auto& one : model.components) {
     if (one.variance == 0.0) {
       finding.warnings.push_back(fmt::format(
-          "the variance between values of {} is estimated as 0: rows that have it in common are no more alike "
-          "than others",
-          one.name));
+          "the variance of {0} is estimated as 0: rows with the same {0} are no more alike than other rows", one.name));
     }
     if (one.groups < kFewGroups) {
       finding.warnings.push_back(fmt::format(
@@ -96,22 +94,40 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
     finding.warnings.push_back(
         "ratings are analysed as numbers with equal steps, as ordinal models here have no random intercepts");
   }
-  if (data.is_count) {
-    finding.warnings.push_back(
-        "the counts are analysed by a linear mixed model, as count regressions here have no random intercepts");
-  }
-}
-
-std::string intercepts_of(const ModelData& data) {
-  std::string text;
-  for (const auto& groups : data.groups) text += (text.empty() ? "(1|" : " + (1|") + groups.name + ")";
-  return text;
 }
 
 }  // namespace
 
+void add_mixed_results(const ModelData& data, const MixedModel& model, const AnalysisOptions& options, Finding& finding,
+                       const std::string& about) {
+  const auto tests = term_tests(model.fixed, SumsOfSquares::kTypeII);
+  std::vector<ResultTable> tables;
+  if (!data.terms.empty()) {
+    tables.push_back(tests_table("Tests of the fixed effects (type II, Satterthwaite)", tests, options.alpha));
+    add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
+    add_method(finding, eta_squared_method(options.alpha));
+  }
+  if (data.terms.size() > 1) {
+    const auto other = term_tests(model.fixed, SumsOfSquares::kTypeIII);
+    const auto differs = [&](std::size_t t) {
+      return other[t].test && tests[t].test && std::abs(other[t].test->p - tests[t].test->p) > 1e-6;
+    };
+    bool any = false;
+    for (std::size_t t = 0; t < tests.size(); ++t) any = any || differs(t);
+    if (any)
+      tables.push_back(tests_table("Tests of the fixed effects (type III, Satterthwaite)", other, options.alpha));
+  }
+  tables.push_back(variances_table(model, data.groups));
+  if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) tables.push_back(std::move(*means));
+  add_marginal_results(model.fixed, options, true, finding, tables);
+  for (auto& table : tables) {
+    table.caption = about + table.caption;
+    finding.tables.push_back(std::move(table));
+  }
+}
+
 Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& options) {
-  Finding finding{.id = data.response, .model = formula_text(data) + " + " + intercepts_of(data)};
+  Finding finding{.id = data.response, .model = formula_text(data)};
   finding.title = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
   MixedModelOptions fit;
@@ -134,25 +150,8 @@ Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& option
   }
   finding.sentence += likeness_sentence(*model, data);
   add_mixed_warnings(*model, data, finding);
-  if (!data.terms.empty()) {
-    finding.tables.push_back(tests_table("Tests of the fixed effects (type II, Satterthwaite)", tests, options.alpha));
-    add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
-    add_method(finding, eta_squared_method(options.alpha));
-  }
-  if (data.terms.size() > 1) {
-    const auto other = term_tests(model->fixed, SumsOfSquares::kTypeIII);
-    const auto differs = [&](std::size_t t) {
-      return other[t].test && tests[t].test && std::abs(other[t].test->p - tests[t].test->p) > 1e-6;
-    };
-    bool any = false;
-    for (std::size_t t = 0; t < tests.size(); ++t) any = any || differs(t);
-    if (any)
-      finding.tables.push_back(
-          tests_table("Tests of the fixed effects (type III, Satterthwaite)", other, options.alpha));
-  }
-  finding.tables.push_back(variances_table(*model, data.groups));
-  if (auto means = raw_means_table(data, 1.0 - options.alpha, false)) finding.tables.push_back(std::move(*means));
-  add_marginal_results(model->fixed, options, true, finding, finding.tables);
+  add_mixed_results(data, *model, options, finding);
+  add_count_results(data, options, finding);
   return finding;
 }
 

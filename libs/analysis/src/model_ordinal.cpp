@@ -66,7 +66,10 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
       tests.rows.push_back({text_cell(term.name), count_cell(term.df), cell_of(term.test, &TestResult::statistic),
                             cell_of(term.test, &TestResult::p)});
     }
-    if (!tests.rows.empty()) finding.tables.push_back(std::move(tests));
+    if (!tests.rows.empty()) {
+      finding.tables.push_back(std::move(tests));
+      finding.sentence += " An odds ratio above 1 stands for higher ratings.";
+    }
     add_method(finding, {"proportional odds model with likelihood-ratio tests", "mccullagh1980"});
     if (model->proportional_odds && model->proportional_odds->p < options.alpha) {
       finding.warnings.push_back(

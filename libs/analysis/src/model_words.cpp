@@ -141,10 +141,11 @@ std::string term_sentence(const ModelData& data, std::size_t t, const Estimable<
   const auto& factor = data.factors[term.front()];
   if (!found) return fmt::format("No effect of {} was found ({}).", factor.name, p);
   const auto range = means == nullptr ? std::string{} : range_of_means(*means, factor.name);
-  return fmt::format("{} has a {}effect ({}){}.", at_start(factor.name), size.empty() ? "" : size + " ", p,
-                     range.empty()              ? ""
-                     : data.factors.size() == 1 ? ": means range " + range
-                                                : ": estimated marginal means range " + range);
+  const bool are_raw = data.factors.size() == 1 && data.groups.empty();
+  return fmt::format("{} has {} effect ({}){}.", at_start(factor.name), size.empty() ? "an" : "a " + size, p,
+                     range.empty() ? ""
+                     : are_raw     ? ": means range " + range
+                                   : ": estimated marginal means range " + range);
 }
 
 std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -80,6 +81,35 @@ void check_counts(const Dataset& data, const std::string& column, const std::vec
                             .column = 1,
                             .hint = "counts are whole numbers from 0; leave out --count, or mend the codebook"}}};
   }
+}
+
+// "minutes 4, team 1": how many values the columns lack.
+std::string missing_text(const Dataset& data, const std::vector<std::string>& columns) {
+  std::string text;
+  for (const auto& column : columns) {
+    const auto& cells = data.cells(column);
+    const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
+    if (missing > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", column, missing);
+  }
+  return text;
+}
+
+bool is_binary(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0 || value == 1.0; });
+}
+
+// Numbers on the right are levels as all others are: no trend is fitted.
+std::optional<std::string> note_on_numbers_as_levels(const Factor& factor) {
+  constexpr std::size_t kFewestOfATrend = 3;
+  if (factor.levels.size() < kFewestOfATrend) return std::nullopt;
+  const auto is_number = [](const std::string& text) {
+    double value = 0.0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    return result.ec == std::errc{} && result.ptr == text.data() + text.size();
+  };
+  if (!std::all_of(factor.levels.begin(), factor.levels.end(), is_number)) return std::nullopt;
+  return fmt::format("{} holds numbers, which are compared as {} levels of a factor; no trend is fitted", factor.name,
+                     factor.levels.size());
 }
 
 // Whole numbers are not taken for counts or ratings unless somebody says so, but people should know that they can.
@@ -174,8 +204,11 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   check_comparisons(model.factors, options);
   if (question.observed) model.observed = observed_of(complete, *question.observed);
   if (const auto dropped = data.num_rows() - complete.num_rows(); dropped > 0)
-    prepared.notes.push_back(
-        fmt::format("{} of {} rows were left out because they lack a value", dropped, data.num_rows()));
+    prepared.notes.push_back(fmt::format("{} of {} rows were left out because they lack a value ({})", dropped,
+                                         data.num_rows(), missing_text(data, columns)));
+  for (const auto& factor : model.factors) {
+    if (auto note = note_on_numbers_as_levels(factor)) prepared.notes.push_back(std::move(*note));
+  }
   find_groups(data, formula, question, prepared);
   auto kind = kind_of_response(data, formula, question);
   if (kind == ColumnKind::kUnspecified && is_named_rating(formula.response) && are_ratings(model.values))
@@ -183,6 +216,13 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   model.is_count = kind == ColumnKind::kCount;
   model.is_ordinal = kind == ColumnKind::kOrdinal;
   if (model.is_count) check_counts(complete, formula.response, model.values);
+  if (is_binary(model.values)) {
+    prepared.notes.push_back(
+        fmt::format("{} is true or false (1 or 0), and its means are proportions; where these are near 0 or 1, a "
+                    "logistic regression "
+                    "is more accurate, for example in R (--r)",
+                    formula.response));
+  }
   if (kind == ColumnKind::kUnspecified) {
     if (auto note = note_on_whole_numbers(formula.response, model.values)) prepared.notes.push_back(std::move(*note));
   }

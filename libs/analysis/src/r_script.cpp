@@ -71,12 +71,15 @@ class Script {
 
   std::string write() {
     head();
-    if (model_.groups.empty()) {
+    const bool is_ordinal = model_.is_ordinal && model_.groups.empty();
+    if (is_ordinal) {
+      ordinal();
+    } else if (model_.groups.empty()) {
       linear();
     } else {
       mixed();
     }
-    if (!model_.terms.empty()) means();
+    if (!model_.terms.empty() && !is_ordinal) means();
     if (model_.is_count) counts();
     beyond();
     return std::move(text_);
@@ -96,7 +99,7 @@ class Script {
     line("library(car)");
     line("library(emmeans)");
     if (!model_.groups.empty()) line("library(lmerTest)  # lme4 with Satterthwaite's degrees of freedom");
-    if (model_.is_count) line("library(MASS)");
+    if (model_.is_count || model_.is_ordinal) line("library(MASS)");
     if (!model_.observed.empty()) line("library(survival)");
     text_ += kHelpers;
     line();
@@ -105,7 +108,11 @@ class Script {
     for (const auto& factor : model_.factors)
       line(fmt::format("data${0} <- factor(data${0}, levels = {1})", symbol(factor.name), vector_of(factor.levels)));
     for (const auto& columns : prepared_.intercepts) {
-      for (const auto& column : columns) line(fmt::format("data${0} <- factor(data${0})", symbol(column)));
+      for (const auto& column : columns) {
+        const auto is_column = [&](const Factor& factor) { return factor.name == column; };
+        if (std::none_of(model_.factors.begin(), model_.factors.end(), is_column))
+          line(fmt::format("data${0} <- factor(data${0})", symbol(column)));
+      }
     }
     if (question_.observed) line(fmt::format("data${0} <- tolower(data${0}) == \"true\"", symbol(*question_.observed)));
   }
@@ -129,6 +136,35 @@ class Script {
     }
   }
 
+  void ordinal() {
+    line();
+    line("# Ratings: only their order counts.");
+    line(fmt::format("data${0} <- factor(data${0}, ordered = TRUE)", response()));
+    line("# Its default stops at 1e-8, which is too early for p-values of four digits.");
+    line(fmt::format("model <- polr({} ~ {}, data = data, Hess = TRUE, control = list(reltol = 1e-15, maxit = 1000))",
+                     response(), right_side(model_)));
+    line("print(summary(model))");
+    if (model_.terms.empty()) return;
+    line("tests <- as.data.frame(car::Anova(model, type = 2))");
+    line("keep(\"Likelihood-ratio tests (proportional odds model, type II)\",");
+    line("     data.frame(term = rownames(tests), df = tests[[\"Df\"]], chi_squared = tests[[\"LR Chisq\"]],");
+    line("                p_value = tests[[\"Pr(>Chisq)\"]]))");
+    for (const auto& factor : model_.factors) {
+      if (factor.levels.size() < 2) continue;
+      const bool is_family = factor.levels.size() > 2;
+      line();
+      line(fmt::format("means <- emmeans(model, {}, level = {})", quoted(factor.name), level()));
+      line(fmt::format(
+          "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
+          quoted(is_family ? "tukey" : "none"), level()));
+      line(fmt::format("keep({},",
+                       quoted(fmt::format("Pairs of {} ({})", factor.name, is_family ? "Tukey-Kramer" : "Wald test"))));
+      line("     data.frame(pair = pairs$contrast, odds_ratio = exp(pairs$estimate),");
+      line("                lower_limit = exp(pairs$asymp.LCL), upper_limit = exp(pairs$asymp.UCL),");
+      line(fmt::format("                {} = pairs$p.value))", is_family ? "adjusted_p_value" : "p_value"));
+    }
+  }
+
   void mixed() {
     std::string intercepts;
     for (const auto& columns : prepared_.intercepts) {
@@ -138,7 +174,9 @@ class Script {
     }
     line();
     line("# Rows of a group belong together: random intercepts.");
-    line(fmt::format("model <- lmer({} ~ {}{}, data = data)", response(), right_side(model_), intercepts));
+    line(fmt::format("model <- lmer({} ~ {}{}, data = data,", response(), right_side(model_), intercepts));
+    // Small variances need more digits than the default gives.
+    line("              control = lmerControl(optimizer = \"bobyqa\", optCtrl = list(rhoend = 1e-9)))");
     line("emm_options(lmer.df = \"satterthwaite\", lmerTest.limit = nrow(data), pbkrtest.limit = 0)");
     if (!model_.terms.empty()) {
       line("tests <- anova(model, type = 2)");
@@ -189,7 +227,7 @@ class Script {
                      quoted(fmt::format("Pairs of {} ({})", factor.name, is_family ? "Tukey-Kramer" : "t test"))));
     line("     data.frame(pair = pairs$contrast, difference = pairs$estimate, lower_limit = pairs$lower.CL,");
     line("                upper_limit = pairs$upper.CL, d = pairs$estimate / residual_sd,");
-    line("                adjusted_p_value = pairs$p.value))");
+    line(fmt::format("                {} = pairs$p.value))", is_family ? "adjusted_p_value" : "p_value"));
     planned_of(factor);
     equivalence();
   }
@@ -210,7 +248,7 @@ class Script {
         fmt::format("                         pairs$upper.CL, pairs$p.value), c({}, \"pair\", \"difference\", "
                     "\"lower_limit\",",
                     quoted(by)));
-    line("              \"upper_limit\", \"adjusted_p_value\")))");
+    line(fmt::format("              \"upper_limit\", {})))", quoted(is_family ? "adjusted_p_value" : "p_value")));
   }
 
   void planned_of(const Factor& factor) {
@@ -266,8 +304,18 @@ class Script {
     if (mains.empty()) return;
     line();
     line("# Counts: quasi-Poisson regression, which estimates the dispersion, and negative binomial regression.");
-    line(fmt::format("quasi <- glm({} ~ {}, family = quasipoisson, data = data)", response(), mains));
+    line(fmt::format("quasi <- glm({} ~ {}, family = quasipoisson, data = data)", response(), right_side(model_)));
     line("print(summary(quasi))");
+    if (model_.groups.empty() &&
+        std::find(model_.observed.begin(), model_.observed.end(), false) == model_.observed.end()) {
+      line("dispersion <- summary(quasi)$dispersion");
+      line("tests <- car::Anova(quasi, type = 2, test.statistic = \"F\")");
+      line("terms <- head(rownames(tests), -1)");
+      line("if (dispersion < 1)  # else kith's regression is negative binomial");
+      line("  keep(sprintf(\"F tests of the quasi-Poisson regression (type II, dispersion %.2f)\", dispersion),");
+      line("       data.frame(term = terms, df = tests[terms, \"Df\"], f = tests[terms, \"F value\"],");
+      line("                  p_value = tests[terms, \"Pr(>F)\"]))");
+    }
     line(fmt::format("try(print(summary(glm.nb({} ~ {}, data = data))), silent = TRUE)", response(), mains));
     if (!question_.observed) return;
     line();
@@ -297,6 +345,13 @@ class Script {
                          symbol(model_.factors.front().name), name));
       line("# confint(model, method = \"boot\")");
     } else {
+      if (model_.is_ordinal) {
+        line(fmt::format("# library(ordinal); clmm({} ~ {} + (1 | GROUP), data = data)  # random intercepts",
+                         response(), right_side(model_)));
+        line(fmt::format("# nominal_test(clm({} ~ {}, data = data))  # proportional odds", response(),
+                         right_side(model_)));
+        return;
+      }
       line("# plot(model)  # residuals");
       line(fmt::format("# library(BayesFactor); anovaBF({} ~ {}, data = data)", response(), right_side(model_)));
     }

@@ -21,6 +21,8 @@ constexpr std::array<std::string_view, 9> kIdentifierWords{"team",    "person", 
 // Of people, who may be numbered anew in every one of the others.
 constexpr std::array<std::string_view, 6> kPeople{"person", "member", "participant", "subject", "learner", "student"};
 constexpr std::array<std::string_view, 2> kCollectives{"team", "group"};
+// In kith's own tables, the address of the random numbers that draw the people of a team.
+constexpr std::string_view kSeedAddress = "seed_address";
 
 // "participant_id" and "participantID" have the words participant and id.
 std::vector<std::string> words_of(const std::string& name) {
@@ -73,7 +75,7 @@ std::vector<Identifier> identifiers_of(const Dataset& rows, const std::vector<st
   for (const auto& column : rows.columns()) {
     if (std::find(used.begin(), used.end(), column) != used.end()) continue;
     const auto kind = rows.kind(column);
-    const bool is_stated = kind == ColumnKind::kIdentifier;
+    const bool is_stated = kind == ColumnKind::kIdentifier || column == kSeedAddress;
     if (!is_stated && (kind != ColumnKind::kUnspecified || !is_identifier_name(column))) continue;
     const auto& cells = rows.cells(column);
     const auto has_value = [](const auto& cell) { return cell.has_value(); };
@@ -81,6 +83,19 @@ std::vector<Identifier> identifiers_of(const Dataset& rows, const std::vector<st
     identifiers.push_back({column, is_stated, row_factor(rows, {column})});
   }
   return identifiers;
+}
+
+// In kith's own tables without that address: replicates of a composition are the same people under every strategy,
+// unless the study says otherwise.
+std::vector<std::vector<std::string>> shared_people_of(const Dataset& rows, const std::vector<std::string>& used) {
+  for (const auto* const column : {"strategy", "composition", "replicate", "team"}) {
+    if (!rows.has(column)) return {};
+  }
+  const bool is_used = std::find(used.begin(), used.end(), "replicate") != used.end();
+  if (rows.has(kSeedAddress) || is_used) return {};
+  std::vector<std::vector<std::string>> people{{"composition", "replicate"}};
+  if (rows.has("member")) people.push_back({"composition", "replicate", "member"});
+  return people;
 }
 
 // Whether the grouping is none of those before, under another name.
@@ -154,6 +169,7 @@ RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& u
     });
     add({outer->column, inner->column});
   }
+  for (const auto& people : shared_people_of(rows, used)) add(people);
   return groups;
 }
 

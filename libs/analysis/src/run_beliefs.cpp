@@ -4,8 +4,9 @@
 #include <array>
 #include <map>
 
+#include "kith/stats/clustered_tests.hpp"
+#include "kith/stats/mixed_model.hpp"
 #include "kith/stats/moments.hpp"
-#include "kith/stats/tests.hpp"
 #include "model_means.hpp"
 #include "run_findings.hpp"
 
@@ -53,10 +54,17 @@ std::optional<BeliefTeams> belief_teams(const RunTeams& teams) {
   return found;
 }
 
-// Mean over the strategies of either kind that taught the same people.
-std::pair<std::vector<double>, std::vector<double>> same_people(const RunTeams& teams, const BeliefTeams& beliefs,
-                                                                const std::vector<double>& values) {
+// What the same people differ by under team and individual beliefs (means over the strategies of either kind), and
+// their composition.
+struct PeopleDifferences {
+  std::vector<double> values;
+  Factor composition;
+};
+
+PeopleDifferences differences_of_people(const RunTeams& teams, const BeliefTeams& beliefs,
+                                        const std::vector<double>& values) {
   struct Sums {
+    std::size_t composition = 0;
     std::array<double, 2> sum{};
     std::array<std::size_t, 2> n{};
   };
@@ -64,62 +72,58 @@ std::pair<std::vector<double>, std::vector<double>> same_people(const RunTeams& 
   for (std::size_t i = 0; i < beliefs.rows.size(); ++i) {
     const auto row = beliefs.rows[i];
     auto& sums = people[teams.setting[row] + teams.seed_address[row]];
+    sums.composition = teams.composition.codes[row];
     sums.sum.at(beliefs.belief.codes[i]) += values[row];
     ++sums.n.at(beliefs.belief.codes[i]);
   }
-  std::pair<std::vector<double>, std::vector<double>> pairs;
+  PeopleDifferences differences{{}, {"composition", teams.composition.levels, {}}};
   for (const auto& [address, sums] : people) {
     if (sums.n[0] == 0 || sums.n[1] == 0) continue;
-    pairs.first.push_back(sums.sum[0] / static_cast<double>(sums.n[0]));
-    pairs.second.push_back(sums.sum[1] / static_cast<double>(sums.n[1]));
+    differences.values.push_back(sums.sum[0] / static_cast<double>(sums.n[0]) -
+                                 sums.sum[1] / static_cast<double>(sums.n[1]));
+    differences.composition.codes.push_back(sums.composition);
   }
-  return pairs;
+  differences.composition = drop_unused(differences.composition);
+  return differences;
 }
 
-void add_same_people_beliefs(const RunTeams& teams, const BeliefTeams& beliefs, const std::vector<double>& values,
-                             const AnalysisOptions& options, Finding& finding) {
-  const auto [team, individual] = same_people(teams, beliefs, values);
-  const auto test = paired_t_test(team, individual, 1.0 - options.alpha);
-  if (!test) return;
-  finding.tables.push_back({"The same people under team and individual beliefs (paired t test)",
-                            {{"comparison", Kind::kText},
-                             {"n", Kind::kCount},
-                             {"difference"},
-                             {"lower limit"},
-                             {"upper limit"},
-                             {"t"},
-                             {"p-value", Kind::kP}},
-                            {{text_cell("team - individual"), count_cell(team.size()), test->difference, test->low,
-                              test->high, test->test.statistic, test->test.p}}});
-  finding.sentence +=
-      fmt::format(" Within {} of the same people the difference is {} [{}, {}], {}.",
-                  number_and_noun(team.size(), "group"), formatted(test->difference, Kind::kNumber),
-                  formatted(test->low, Kind::kNumber), formatted(test->high, Kind::kNumber), p_text(test->test.p));
-  add_method(finding, {"a paired t test of the same people"});
+// The fixed effects of a model of teams, with people as a random intercept if several teams consist of them.
+Estimable<FixedEffects> effects_of(const ModelData& model, double alpha) {
+  using Result = Estimable<FixedEffects>;
+  if (model.groups.empty()) {
+    const auto fit = fit_linear_model(model.values, model.factors, model.terms);
+    return fit ? Result{fit->effects} : Result::impossible(fit.reason());
+  }
+  MixedModelOptions options;
+  options.confidence = 1.0 - alpha;
+  options.test_variances = false;
+  const auto fit = fit_mixed_model(model.values, model.factors, model.terms, model.groups, options);
+  return fit ? Result{fit->fixed} : Result::impossible(fit.reason());
 }
 
 // Does the difference depend on who is in the team?
-void add_dependence(const BeliefTeams& beliefs, const Factor& composition, const std::vector<double>& values,
-                    const AnalysisOptions& options, Finding& finding) {
-  if (composition.levels.size() < 2) return;
+Estimable<TestResult> test_dependence(const BeliefTeams& beliefs, const Factor& composition,
+                                      const std::vector<double>& values) {
   const std::vector<Factor> factors{beliefs.belief, composition};
   const std::vector<std::vector<std::size_t>> terms{{0}, {1}, {0, 1}};
-  const auto table = anova(values, factors, terms, SumsOfSquares::kTypeII);
-  const auto& test = table.terms.back().test;
+  return anova(values, factors, terms, SumsOfSquares::kTypeII).terms.back().test;
+}
+
+void add_dependence(const Estimable<TestResult>& test, const AnalysisOptions& options, Finding& finding) {
   const auto eta_squared = eta_squared_of(test, options.alpha);
-  finding.tables.push_back(
-      {"Does the difference between beliefs depend on the composition?",
-       {{"term", Kind::kText},
-        {"df", Kind::kText},
-        {"F"},
-        {"p-value", Kind::kP},
-        {"partial eta squared", Kind::kFraction},
-        {"lower limit", Kind::kFraction},
-        {"upper limit", Kind::kFraction}},
-       {{text_cell("belief:composition"), text_cell(fmt::format("{}, {}", table.terms.back().df, table.residual_df)),
-         cell_of(test, &TestResult::statistic), cell_of(test, &TestResult::p),
-         cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
-         cell_of(eta_squared, &Interval::high)}}});
+  finding.tables.push_back({"Does the difference between beliefs depend on the composition?",
+                            {{"term", Kind::kText},
+                             {"df", Kind::kText},
+                             {"F"},
+                             {"p-value", Kind::kP},
+                             {"partial eta squared", Kind::kFraction},
+                             {"lower limit", Kind::kFraction},
+                             {"upper limit", Kind::kFraction}},
+                            {{text_cell("belief:composition"),
+                              text_cell(test ? fmt::format("{:.0f}, {:.0f}", test->df[0], test->df[1]) : ""),
+                              cell_of(test, &TestResult::statistic), cell_of(test, &TestResult::p),
+                              cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
+                              cell_of(eta_squared, &Interval::high)}}});
   if (!test) return;
   finding.sentence +=
       test->p < options.alpha
@@ -134,7 +138,7 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
   const auto found = belief_teams(teams);
   if (!found) return std::nullopt;
   const auto model = team_model(teams, found->rows, response, values);
-  const auto fit = fit_linear_model(model.values, model.factors, model.terms);
+  const auto fit = effects_of(model, options.alpha);
   Finding finding{
       .id = response + "-beliefs",
       .title = "Team beliefs against individual beliefs: " + response,
@@ -143,7 +147,10 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
                               with_and(found->team), response == "periods" ? "fewer" : "more", response,
                               with_and(found->individual)),
       .model = formula_text(model)};
-  finding.sentence = fmt::format("Planned contrast of {} ({} teams).", response, model.values.size());
+  finding.sentence = fmt::format(
+      "Planned contrast of {} ({} teams{}).", response, model.values.size(),
+      model.groups.empty() ? std::string{}
+                           : " of " + number_and_noun(model.groups.front().levels.size(), "group") + " of people");
   if (!fit) {
     finding.sentence += " It cannot be estimated: " + fit.reason() + ".";
     return finding;
@@ -154,24 +161,38 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
   planned.by.clear();
   const auto composition = selected(teams.composition, found->rows);
   if (composition.levels.size() > 1) planned.by = {"composition"};
-  add_contrast_results(fit->effects, planned, finding, finding.tables);
-  add_dependence(*found, composition, model.values, options, finding);
-  add_same_people_beliefs(teams, *found, values, options, finding);
+  add_contrast_results(*fit, planned, finding, finding.tables);
+  if (!model.groups.empty())
+    add_method(finding, {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "kuznetsova2017"});
+  if (composition.levels.size() < 2) return finding;
+  if (model.groups.empty()) {
+    add_dependence(test_dependence(*found, composition, model.values), options, finding);
+  } else {
+    const auto differences = differences_of_people(teams, *found, values);
+    if (differences.values.empty()) return finding;
+    add_dependence(one_way_anova(differences.values, differences.composition), options, finding);
+    add_method(finding, {"analysis of variance of differences within people between compositions"});
+  }
   return finding;
 }
 
 std::optional<Finding> variation(const RunTeams& teams, const std::string& response, const std::vector<double>& values,
                                  const AnalysisOptions& options) {
   const auto found = belief_teams(teams);
-  if (!found || response != "periods") return std::nullopt;
+  if (!found) return std::nullopt;
   Finding finding{.id = response + "-variation",
                   .title = "Variation of " + response + " under team and individual beliefs",
-                  .question =
-                      "Does the number of periods vary less between teams if demonstrations are chosen for the "
-                      "team's belief?",
+                  .question = response == "periods"
+                                  ? "Does the number of periods vary less between teams if demonstrations are chosen "
+                                    "for the team's belief?"
+                                  : "Does " + response +
+                                        " vary less between teams if demonstrations are chosen for one "
+                                        "member's belief?",
                   .model = "variance of " + response + " ~ team or individual beliefs"};
   const auto composition = selected(teams.composition, found->rows);
   const auto part = selected(values, found->rows);
+  const auto people = shared_people(teams, found->rows);
+  const bool is_clustered = !people.empty();
   ResultTable table{"Variance under team beliefs over that under individual beliefs",
                     {{"composition", Kind::kText},
                      {"n, team", Kind::kCount},
@@ -181,21 +202,24 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
                      {"variance ratio", Kind::kFraction},
                      {"lower limit", Kind::kFraction},
                      {"upper limit", Kind::kFraction},
-                     {"p-value, F", Kind::kP},
+                     {is_clustered ? "p-value, jackknife" : "p-value, F", Kind::kP},
                      {"p-value, Brown-Forsythe", Kind::kP}},
                     {}};
   // Rows whose code is `level`; all of them for the number of levels.
   const auto add = [&](const std::string& name, std::size_t level) -> Estimable<VarianceRatio> {
     std::vector<double> team, individual, both;
     Factor belief{"belief", found->belief.levels, {}};
+    Factor cluster{"people", is_clustered ? people.front().levels : std::vector<std::string>{}, {}};
     for (std::size_t i = 0; i < part.size(); ++i) {
       if (level < composition.levels.size() && composition.codes[i] != level) continue;
       (found->belief.codes[i] == 0 ? team : individual).push_back(part[i]);
       both.push_back(part[i]);
       belief.codes.push_back(found->belief.codes[i]);
+      if (is_clustered) cluster.codes.push_back(people.front().codes[i]);
     }
-    auto ratio = variance_ratio(team, individual, 1.0 - options.alpha);
-    const auto robust = brown_forsythe(both, belief);
+    auto ratio = is_clustered ? clustered_variance_ratio(both, belief, cluster, 1.0 - options.alpha)
+                              : variance_ratio(team, individual, 1.0 - options.alpha);
+    const auto robust = is_clustered ? clustered_brown_forsythe(both, belief, cluster) : brown_forsythe(both, belief);
     const auto sd = [](const std::vector<double>& some) {
       TableCell cell;
       if (const auto value = standard_deviation(some)) cell = *value;
@@ -226,14 +250,19 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
                                          : "they make it vary more (" + p_text(overall->test.p) + ")");
     if (robust != nullptr && (*robust < options.alpha) != (overall->test.p < options.alpha))
       finding.warnings.push_back(
-          fmt::format("the F test assumes normal values, and the Brown-Forsythe test, which does not, disagrees ({})",
-                      p_text(*robust)));
+          is_clustered
+              ? fmt::format("the Brown-Forsythe test of spread disagrees with that of variances ({})", p_text(*robust))
+              : fmt::format("the F test assumes normal values, and the Brown-Forsythe test, which does not, "
+                            "disagrees ({})",
+                            p_text(*robust)));
   }
   if (composition.levels.size() > 1) {
     for (std::size_t level = 0; level < composition.levels.size(); ++level) (void)add(composition.levels[level], level);
   }
-  add_method(finding, {"F tests of variance ratios"});
-  add_method(finding, {"Brown-Forsythe tests of equal variances"});
+  add_method(finding, {is_clustered ? "variance ratios with jackknife intervals that keep the same people together"
+                                    : "F tests of variance ratios"});
+  add_method(finding, {is_clustered ? "Brown-Forsythe tests of equal variances within people"
+                                    : "Brown-Forsythe tests of equal variances"});
   finding.tables.push_back(std::move(table));
   return finding;
 }

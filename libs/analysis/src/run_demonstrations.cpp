@@ -27,6 +27,25 @@ std::string range_of(const std::vector<double>& values, const Factor& strategy) 
   return fmt::format("from {:.3f} ({}) to {:.3f} ({})", least->first, least->second, most->first, most->second);
 }
 
+// Adds the tables of one component, and returns the test of the strategies.
+Estimable<TestResult> add_component(const ModelData& one, const AnalysisOptions& options, std::size_t level,
+                                    const std::string& about, Finding& finding) {
+  if (one.groups.empty()) {
+    const auto test = one_way_anova(one.values, one.factors.front());
+    if (!test) return test;
+    const auto result = fit_model(one, options, RandomStream{options.seed}.split("log area").split(level));
+    add_anova_results(one, result, options, finding, about);
+    return test;
+  }
+  MixedModelOptions fit;
+  fit.confidence = 1.0 - options.alpha;
+  const auto model = fit_mixed_model(one.values, one.factors, one.terms, one.groups, fit);
+  if (!model) return Estimable<TestResult>::impossible(model.reason());
+  auto test = term_tests(model->fixed, SumsOfSquares::kTypeII).front().test;
+  if (test) add_mixed_results(one, *model, options, finding, about);
+  return test;
+}
+
 }  // namespace
 
 ConveyedAreas read_areas(const RunTeams& teams, const PublishedRun& run) {
@@ -66,14 +85,12 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
   const auto rows = group_teams(teams);
   const auto model = team_model(teams, rows, "area_sr", teams.area_sr);
   if (selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
-  const auto as_published = fit_model(model, options, RandomStream{options.seed}.split("area_sr"));
-  Finding finding{.id = "demonstrations",
-                  .title = "Manipulation check: how much the demonstrations convey",
-                  .question = "Do the demonstrations that the strategies choose convey different amounts?",
-                  .model = formula_text(model)};
-  finding.sentence = "The smaller the area, the fewer reward weights fit what was shown. " +
-                     sentence_of(model, as_published, options.alpha);
-  add_anova_results(model, as_published, options, finding);
+  auto finding = analyze_model(model, options, RandomStream{options.seed}.split("area_sr"));
+  finding.id = "demonstrations";
+  finding.title = "Manipulation check: how much the demonstrations convey";
+  finding.question = "Do the demonstrations that the strategies choose convey different amounts?";
+  finding.sentence = "The smaller the area, the fewer reward weights fit what was shown. " + finding.sentence;
+  if (!model.groups.empty()) add_as_published(model, options, finding);
   const auto areas = read_areas(teams, run);
   if (areas.team.empty()) {
     finding.warnings.push_back("periods were not recorded, so components cannot be analysed separately");
@@ -89,7 +106,14 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
       values.push_back(areas.mean_log_area[i]);
     }
     const auto strategy = selected(teams.strategy, part_teams);
-    const auto test = one_way_anova(values, strategy);
+    const ModelData one{.response = "log area",
+                        .observations = "teams",
+                        .values = values,
+                        .factors = {strategy},
+                        .terms = {{0}},
+                        .groups = shared_people(teams, part_teams)};
+    const auto about = "Component " + components.levels[level] + ", mean log area without the first period: ";
+    const auto test = add_component(one, options, level, about, finding);
     if (!test) {
       finding.warnings.push_back(fmt::format("component {}: no test: {}", components.levels[level], test.reason()));
       continue;
@@ -97,11 +121,6 @@ std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun&
     finding.sentence += fmt::format(" Component {}: {} ({}); mean log areas range {}.", components.levels[level],
                                     test->p < options.alpha ? "the strategies differ" : "no difference was found",
                                     p_text(test->p), range_of(values, strategy));
-    ModelData one{
-        .response = "log area", .observations = "teams", .values = values, .factors = {strategy}, .terms = {{0}}};
-    const auto result = fit_model(one, options, RandomStream{options.seed}.split("log area").split(level));
-    add_anova_results(one, result, options, finding,
-                      "Component " + components.levels[level] + ", mean log area without the first period: ");
   }
   return finding;
 }

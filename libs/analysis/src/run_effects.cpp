@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
-#include <map>
+#include <cmath>
 
+#include "kith/stats/clustered_tests.hpp"
+#include "kith/stats/mixed_model.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -13,59 +15,65 @@ RandomStream stream_of(const AnalysisOptions& options, const std::string& id) {
   return RandomStream{options.seed}.split(id);
 }
 
-// Where several strategies taught the same people, their teams are not independent, and a test of the composition has
-// to compare people: one mean for each group of them.
-void add_between_people(const RunTeams& teams, const std::vector<double>& values, double alpha, Finding& finding) {
-  struct People {
-    std::size_t composition = 0;
-    double sum = 0.0;
-    std::size_t teams = 0;
-  };
-  std::map<std::string, People> people;
-  const auto rows = group_teams(teams);
-  for (const auto row : rows) {
-    auto& one = people[teams.setting[row] + teams.seed_address[row]];
-    one.composition = teams.composition.codes[row];
-    one.sum += values[row];
-    ++one.teams;
-  }
-  if (people.size() == rows.size()) return;  // everybody was taught once
-  std::vector<double> means;
-  Factor composition{"composition", teams.composition.levels, {}};
-  for (const auto& [address, one] : people) {
-    means.push_back(one.sum / static_cast<double>(one.teams));
-    composition.codes.push_back(one.composition);
-  }
-  finding.warnings.push_back(fmt::format(
-      "several strategies taught the same people ({} teams of {} groups of people), but the analysis of variance takes "
-      "teams as independent: it misses small differences between strategies, for which see the comparison within "
-      "people, "
-      "and overrates differences between compositions, for which see the test between people",
-      rows.size(), people.size()));
-  composition = drop_unused(composition);
-  if (composition.levels.size() < 2) return;
-  const auto test = one_way_anova(means, composition);
-  const auto eta_squared = eta_squared_of(test, alpha);
-  if (test)
-    finding.sentence += fmt::format(" Between {} groups of people, {} of composition was found ({}).", people.size(),
-                                    test->p < alpha ? "an effect" : "no effect", p_text(test->p));
-  finding.tables.push_back(
-      {"Composition, between groups of people (means over strategies)",
-       {{"term", Kind::kText},
-        {"df", Kind::kText},
-        {"F"},
-        {"p-value", Kind::kP},
-        {"partial eta squared", Kind::kFraction},
-        {"lower limit", Kind::kFraction},
-        {"upper limit", Kind::kFraction}},
-       {{text_cell("composition"), text_cell(test ? fmt::format("{:.0f}, {:.0f}", test->df[0], test->df[1]) : ""),
-         cell_of(test, &TestResult::statistic), cell_of(test, &TestResult::p),
-         cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
-         cell_of(eta_squared, &Interval::high)}}});
-  add_method(finding, {"analysis of variance of means over strategies between groups of people"});
+// Tests of strategy within one composition.
+struct WithinTest {
+  Estimable<TestResult> test = Estimable<TestResult>::impossible("not computed");
+  Estimable<TestResult> ranks = Estimable<TestResult>::impossible("not computed");
+};
+
+WithinTest test_within(const std::vector<double>& values, const Factor& strategy, const std::vector<Factor>& people) {
+  if (people.empty()) return {one_way_anova(values, strategy), kruskal_wallis(values, strategy)};
+  MixedModelOptions fit;
+  fit.test_variances = false;
+  const std::vector<std::vector<std::size_t>> terms{{0}};
+  const std::vector factors{strategy};
+  WithinTest tests;
+  const auto model = fit_mixed_model(values, factors, terms, people, fit);
+  tests.test = model ? term_tests(model->fixed, SumsOfSquares::kTypeII).front().test
+                     : Estimable<TestResult>::impossible(model.reason());
+  tests.ranks = friedman(values, strategy, people.back());
+  return tests;
+}
+
+std::string degrees_text(const TestResult& test) {
+  return std::isinf(test.df[1]) ? fmt::format("{:.0f}, inf", test.df[0])
+                                : fmt::format("{:.0f}, {:.4g}", test.df[0], test.df[1]);
 }
 
 }  // namespace
+
+void add_as_published(const ModelData& model, const AnalysisOptions& options, Finding& finding) {
+  finding.warnings.push_back(fmt::format(
+      "several strategies taught the same people ({} teams, {} groups of people), so people are a random intercept; "
+      "the "
+      "analysis of variance as published, which takes all teams as independent, misses small differences between "
+      "strategies and finds differences between compositions too often",
+      model.values.size(), model.groups.front().levels.size()));
+  const auto table = anova(model.values, model.factors, model.terms, SumsOfSquares::kTypeII);
+  ResultTable result{"Analysis of variance as published, all teams taken as independent (type II)",
+                     {{"term", Kind::kText},
+                      {"df", Kind::kCount},
+                      {"sum of squares"},
+                      {"F"},
+                      {"p-value", Kind::kP},
+                      {"partial eta squared", Kind::kFraction},
+                      {"lower limit", Kind::kFraction},
+                      {"upper limit", Kind::kFraction}},
+                     {}};
+  for (const auto& term : table.terms) {
+    const auto eta_squared = eta_squared_of(term.test, options.alpha);
+    result.rows.push_back({text_cell(term.name), count_cell(term.df), term.sum_of_squares,
+                           cell_of(term.test, &TestResult::statistic), cell_of(term.test, &TestResult::p),
+                           cell_of(term.partial_eta_squared), cell_of(eta_squared, &Interval::low),
+                           cell_of(eta_squared, &Interval::high)});
+  }
+  std::vector<TableCell> residuals(result.columns.size(), text_cell(""));
+  residuals[0] = text_cell("residuals");
+  residuals[1] = count_cell(table.residual_df);
+  residuals[2] = table.residual_sum_of_squares;
+  result.rows.push_back(std::move(residuals));
+  finding.tables.push_back(std::move(result));
+}
 
 std::optional<Finding> effects(const RunTeams& teams, const std::string& response, const std::vector<double>& values,
                                const AnalysisOptions& options) {
@@ -77,7 +85,7 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
   finding.title = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names) + ": " + response;
   finding.question = "Do " + response + " depend on how a group is taught and who is in it?";
   if (response == "knowledge") finding.question.replace(0, 2, "Does");
-  add_between_people(teams, values, options.alpha, finding);
+  if (!model.groups.empty()) add_as_published(model, options, finding);
   return finding;
 }
 
@@ -93,7 +101,9 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
                   .title = "Strategy within each composition: " + response,
                   .question = "Does the strategy affect " + response + " within any single composition?",
                   .model = response + " ~ strategy, for each composition separately"};
-  ResultTable table{"One-way analyses of variance (" + correction + ")",
+  const auto people = shared_people(teams, rows);
+  const std::string tests = people.empty() ? "One-way analyses of variance" : "Tests within the same people";
+  ResultTable table{tests + " (" + correction + ")",
                     {{"composition", Kind::kText},
                      {"df", Kind::kText},
                      {"F", Kind::kNumber},
@@ -102,7 +112,7 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
                      {"partial eta squared", Kind::kFraction},
                      {"lower limit", Kind::kFraction},
                      {"upper limit", Kind::kFraction},
-                     {"Kruskal-Wallis p-value", Kind::kP}},
+                     {people.empty() ? "Kruskal-Wallis p-value" : "Friedman p-value", Kind::kP}},
                     {}};
   std::vector<double> p_values;
   std::vector<std::size_t> tested;
@@ -114,18 +124,16 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
     }
     const auto group_values = selected(values, part);
     const auto strategy = selected(teams.strategy, part);
-    const auto test = one_way_anova(group_values, strategy);
+    const auto [test, ranks] = test_within(group_values, strategy, shared_people(teams, part));
     std::vector<TableCell> row{text_cell(compositions.levels[level])};
     if (test) {
       const auto eta_squared = eta_squared_of(test, options.alpha);
       p_values.push_back(test->p);
       tested.push_back(level);
-      const auto ranks = kruskal_wallis(group_values, strategy);
       any_ranks = any_ranks || ranks;
-      row.insert(row.end(),
-                 {text_cell(fmt::format("{:.0f}, {:.0f}", test->df[0], test->df[1])), test->statistic, test->p,
-                  TableCell{}, cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
-                  cell_of(eta_squared, &Interval::high), cell_of(ranks, &TestResult::p)});
+      row.insert(row.end(), {text_cell(degrees_text(*test)), test->statistic, test->p, TableCell{},
+                             cell_of(eta_squared, &Interval::estimate), cell_of(eta_squared, &Interval::low),
+                             cell_of(eta_squared, &Interval::high), cell_of(ranks, &TestResult::p)});
     } else {
       row.resize(table.columns.size());
       finding.warnings.push_back(compositions.levels[level] + ": no test: " + test.reason());
@@ -139,7 +147,7 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
     if (corrected[i] >= options.alpha) continue;
     found += fmt::format("{}{} ({})", found.empty() ? "" : ", ", compositions.levels[tested[i]], p_text(corrected[i]));
   }
-  finding.sentence = fmt::format("One-way analyses of variance of {} within {} compositions ({} teams, {}): ", response,
+  finding.sentence = fmt::format("{} of {} in {} compositions ({} teams, {}): ", tests, response,
                                  compositions.levels.size(), rows.size(), correction) +
                      (tested.empty()  ? "no composition could be tested."
                       : found.empty() ? "no effect of strategy was found in any of them."
@@ -147,12 +155,13 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
   if (!tested.empty()) {
     add_method(
         finding,
-        {"one-way analyses of variance" +
+        {std::string{people.empty() ? "one-way analyses of variance" : "mixed models of each composition"} +
          (is_corrected ? fmt::format(" with {} correction for {}", name, number_and_noun(tested.size(), "composition"))
                        : std::string{})});
   }
   if (!tested.empty()) add_method(finding, eta_squared_method(options.alpha));
-  if (any_ranks) add_method(finding, {"Kruskal-Wallis tests (uncorrected)"});
+  if (any_ranks)
+    add_method(finding, {people.empty() ? "Kruskal-Wallis tests (uncorrected)" : "Friedman tests (uncorrected)"});
   finding.tables.push_back(std::move(table));
   return finding;
 }

@@ -26,9 +26,11 @@ namespace kith {
 // Strategies for the team's belief against strategies for one member's, as a planned contrast.
 [[nodiscard]] std::optional<Finding> beliefs(const RunTeams& teams, const std::string& response,
                                              const std::vector<double>& values, const AnalysisOptions& options);
-// Whether the number of periods varies less under the former.
+// Whether the number of periods varies less under the former, and knowledge less under the latter.
 [[nodiscard]] std::optional<Finding> variation(const RunTeams& teams, const std::string& response,
                                                const std::vector<double>& values, const AnalysisOptions& options);
+// Adds the analysis of variance that takes all teams as independent, and a warning: teams of a mixed model of a run.
+void add_as_published(const ModelData& model, const AnalysisOptions& options, Finding& finding);
 // How much the demonstrations convey: the manipulation check.
 [[nodiscard]] std::optional<Finding> demonstrations(const RunTeams& teams, const PublishedRun& run,
                                                     const AnalysisOptions& options);

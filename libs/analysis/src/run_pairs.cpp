@@ -246,18 +246,20 @@ std::pair<std::vector<double>, std::vector<double>> same_people(const RunTeams& 
   return pairs;
 }
 
-// Adds what the same people gain by being taught together, if there are such people.
-void add_same_people(const RunTeams& teams, const std::vector<double>& values, const AnalysisOptions& options,
-                     Finding& finding) {
-  const auto [together, alone] = same_people(teams, values);
-  if (together.empty()) return;
-  const auto test = paired_t_test(together, alone, 1.0 - options.alpha);
+// What the same people gain by being taught together.
+void add_same_people(const std::vector<double>& together, const std::vector<double>& alone,
+                     const AnalysisOptions& options, Finding& finding) {
+  const double confidence = 1.0 - options.alpha;
+  const auto test = paired_t_test(together, alone, confidence);
   ResultTable table{"The same people, taught together and alone (paired t test)",
                     {{"comparison", Kind::kText},
                      {"n", Kind::kCount},
                      {"difference", Kind::kNumber},
                      {"lower limit", Kind::kNumber},
                      {"upper limit", Kind::kNumber},
+                     {"d", Kind::kFraction},
+                     {"d, lower limit", Kind::kFraction},
+                     {"d, upper limit", Kind::kFraction},
                      {"t", Kind::kNumber},
                      {"p-value", Kind::kP}},
                     {}};
@@ -265,35 +267,25 @@ void add_same_people(const RunTeams& teams, const std::vector<double>& values, c
   row[0] = text_cell("together - alone");
   row[1] = count_cell(together.size());
   if (test) {
-    row[2] = test->difference;
-    row[3] = test->low;
-    row[4] = test->high;
-    row[5] = test->test.statistic;
-    row[6] = test->test.p;
-    finding.sentence += fmt::format(" The same people were taught both ways: {} within {} ({}).",
-                                    test->test.p < options.alpha
-                                        ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
-                                        : "no difference was found",
-                                    number_and_noun(together.size(), "group"), p_text(test->test.p));
+    const auto d = standardized_interval(test->test.statistic, test->test.df.front(),
+                                         1.0 / std::sqrt(static_cast<double>(together.size())), confidence);
+    row = {row[0], row[1], test->difference,     test->low,   test->high, d.estimate,
+           d.low,  d.high, test->test.statistic, test->test.p};
+    finding.sentence += fmt::format(
+        ". Within {} of the same people {} ({}).", number_and_noun(together.size(), "group"),
+        test->test.p < options.alpha ? "the mean difference is " + formatted(test->difference, Kind::kNumber)
+                                     : "no difference was found",
+        p_text(test->test.p));
     add_method(finding, {"a paired t test of the same people"});
   } else {
+    finding.sentence += ".";
     finding.warnings.push_back("no paired test of the same people: " + test.reason());
   }
   finding.tables.push_back(std::move(table));
 }
 
-}  // namespace
-
-std::optional<Finding> against_baseline(const RunTeams& teams, const std::string& response,
-                                        const std::vector<double>& values, const AnalysisOptions& options) {
-  std::vector<double> group, alone;
-  for (std::size_t i = 0; i < teams.size(); ++i) (teams.is_baseline(i) ? alone : group).push_back(values[i]);
-  if (group.empty() || alone.empty()) return std::nullopt;
-  Finding finding{.id = response + "-baseline",
-                  .title = "Taught together or alone: " + response,
-                  .question = response == "periods" ? "Does teaching together change how many periods are needed?"
-                                                    : "Does teaching together change final " + response + "?",
-                  .model = response + " ~ taught together or alone"};
+void add_other_people(const std::vector<double>& group, const std::vector<double>& alone,
+                      const AnalysisOptions& options, Finding& finding) {
   const auto test = welch_t_test(group, alone, 1.0 - options.alpha);
   ResultTable table{"Group strategies and the baseline (Welch's t test)",
                     {{"comparison", Kind::kText},
@@ -312,11 +304,6 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
                      {}};
   auto& row = table.rows.emplace_back(table.columns.size());
   row[0] = text_cell("together - alone");
-  finding.sentence =
-      fmt::format("Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other",
-                  response, response == "periods" ? "were" : "was", formatted(mean(group), Kind::kNumber),
-                  number_and_noun(group.size(), "group"), formatted(mean(alone), Kind::kNumber),
-                  number_and_noun(alone.size(), "group"));
   if (test) {
     row[1] = test->difference;
     row[2] = test->low;
@@ -347,7 +334,31 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
                          "hedges1981"});
     finding.tables.push_back(std::move(effect));
   }
-  add_same_people(teams, values, options, finding);
+}
+
+}  // namespace
+
+std::optional<Finding> against_baseline(const RunTeams& teams, const std::string& response,
+                                        const std::vector<double>& values, const AnalysisOptions& options) {
+  std::vector<double> group, alone;
+  for (std::size_t i = 0; i < teams.size(); ++i) (teams.is_baseline(i) ? alone : group).push_back(values[i]);
+  if (group.empty() || alone.empty()) return std::nullopt;
+  Finding finding{.id = response + "-baseline",
+                  .title = "Taught together or alone: " + response,
+                  .question = response == "periods" ? "Does teaching together change how many periods are needed?"
+                                                    : "Does teaching together change final " + response + "?",
+                  .model = response + " ~ taught together or alone"};
+  finding.sentence =
+      fmt::format("Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other",
+                  response, response == "periods" ? "were" : "was", formatted(mean(group), Kind::kNumber),
+                  number_and_noun(group.size(), "group"), formatted(mean(alone), Kind::kNumber),
+                  number_and_noun(alone.size(), "group"));
+  const auto [together, apart] = same_people(teams, values);
+  if (together.empty()) {
+    add_other_people(group, alone, options, finding);
+  } else {
+    add_same_people(together, apart, options, finding);
+  }
   return finding;
 }
 

@@ -94,6 +94,21 @@ Factor selected(const Factor& factor, const std::vector<std::size_t>& rows) {
   return drop_unused({factor.name, factor.levels, selected(factor.codes, rows)});
 }
 
+std::vector<Factor> shared_people(const RunTeams& teams, const std::vector<std::size_t>& rows) {
+  // A seed address says who is taught. Settings that vary may change what these people are like.
+  std::vector<std::string> people, in_setting;
+  for (const auto row : rows) {
+    people.push_back(teams.seed_address[row]);
+    in_setting.push_back(teams.setting[row] + teams.seed_address[row]);
+  }
+  std::vector<Factor> groups;
+  auto all = make_factor("people", people), inner = make_factor("people within settings", in_setting);
+  const auto num_people = all.levels.size(), num_inner = inner.levels.size();
+  if (num_people < rows.size()) groups.push_back(std::move(all));
+  if (num_inner < rows.size() && num_inner > num_people) groups.push_back(std::move(inner));
+  return groups;
+}
+
 ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows, const std::string& response,
                      const std::vector<double>& values) {
   ModelData data{.response = response, .observations = "teams", .values = selected(values, rows)};
@@ -110,6 +125,7 @@ ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows
   if (strategies && compositions) data.terms.push_back({0, 1});
   data.is_count = response == "periods";
   if (data.is_count) data.observed = selected(teams.completed, rows);
+  data.groups = shared_people(teams, rows);
   return data;
 }
 

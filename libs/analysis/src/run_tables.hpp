@@ -47,7 +47,11 @@ template <typename T>
 // The factor of these rows; levels that none of them has are dropped.
 [[nodiscard]] Factor selected(const Factor& factor, const std::vector<std::size_t>& rows);
 
-// strategy * composition, and varied keys as main effects, each only if it has levels to compare.
+// Which of these teams consist of the same simulated people, as random intercepts; empty if everybody was taught once.
+[[nodiscard]] std::vector<Factor> shared_people(const RunTeams& teams, const std::vector<std::size_t>& rows);
+
+// strategy * composition, and varied keys as main effects, each only if it has levels to compare. Teams of the same
+// people have a random intercept.
 [[nodiscard]] ModelData team_model(const RunTeams& teams, const std::vector<std::size_t>& rows,
                                    const std::string& response, const std::vector<double>& values);
 

@@ -25,8 +25,27 @@ constexpr const char* kThreeGroups = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\nc,7\nc,
 TEST(ResultsParagraph, IsInTheMannerOfTheApa) {
   const auto analysis = analyze_table(Dataset::parse(kThreeGroups, "t.csv"), {"y ~ g"}, few_draws());
   EXPECT_EQ(analysis.findings.front().results,
-            "G: F(2, 6) = 27.00, p = .001, partial eta squared = .900, 90 % CI [.545, .930].");
+            "y ~ g (one-way analysis of variance). The effect of g was significant, F(2, 6) = 27.00, p = .001, partial "
+            "eta squared = .900, 90 % CI [.545, .930].");
   EXPECT_EQ(results_paragraph(Finding{}, 0.05), "");
+}
+
+// By hand: the means are 2, 5 and 8, with a standard error of differences of sqrt(2 / 3) and t(6, .975) = 2.4469.
+TEST(ResultsParagraph, HasThePlannedContrasts) {
+  auto options = few_draws();
+  options.contrasts = {parse_contrast("step: b - a")};
+  const auto analysis = analyze_table(Dataset::parse(kThreeGroups, "t.csv"), {"y ~ g"}, options);
+  EXPECT_THAT(analysis.findings.front().results,
+              ::testing::EndsWith(" step: mean difference = 3.000, 95 % CI [1.002, 4.998], p = .010."));
+}
+
+TEST(ResultsParagraph, SaysWhatWasNotFoundAndNamesInteractions) {
+  std::string text = "a,b,y\n";
+  for (int i = 0; i < 24; ++i)
+    text += std::to_string(i % 2) + "," + std::to_string(i / 2 % 2) + "," + std::to_string(i * 7 % 11) + "\n";
+  const auto results = analyze_table(Dataset::parse(text, "t.csv"), {"y ~ a*b"}, few_draws()).findings.front().results;
+  EXPECT_THAT(results, AllOf(HasSubstr("The effect of a was not significant, F(1, 20) = "),
+                             HasSubstr("The interaction of a and b was not significant, F(1, 20) = ")));
 }
 
 TEST(Latex, EscapesWhatLatexReads) {
@@ -63,12 +82,22 @@ TEST(RProject, HasTheRowsThatWereAnalysedAndAScriptOfTheSameModel) {
   EXPECT_THAT(project.codebook, HasSubstr("\"data.csv\""));
 }
 
+TEST(RProject, FitsTheSameModelOfRatings) {
+  std::string text = "g,ease\n";
+  for (int i = 0; i < 24; ++i) text += (i % 2 == 0 ? "a," : "b,") + std::to_string(1 + i * 7 % 5) + "\n";
+  const auto project = r_project(Dataset::parse(text, "t.csv"),
+                                 {.formula = "ease ~ g", .response_kind = ColumnKind::kOrdinal}, few_draws());
+  EXPECT_THAT(project.script, AllOf(HasSubstr("library(MASS)"), HasSubstr("model <- polr(ease ~ g, data = data"),
+                                    HasSubstr("Likelihood-ratio tests (proportional odds model, type II)"),
+                                    Not(HasSubstr("<- lm(ease"))));
+}
+
 TEST(RProject, FitsTheSameRandomIntercepts) {
   std::string text = "team,g,y\n";
   for (int i = 0; i < 24; ++i)
     text += std::to_string(i / 3) + (i / 3 % 2 == 0 ? ",a," : ",b,") + std::to_string(i * 5 % 7) + "\n";
   const auto project = r_project(Dataset::parse(text, "t.csv"), {"y ~ g"}, few_draws());
-  EXPECT_THAT(project.script, AllOf(HasSubstr("library(lmerTest)"), HasSubstr("lmer(y ~ g + (1 | team), data = data)"),
+  EXPECT_THAT(project.script, AllOf(HasSubstr("library(lmerTest)"), HasSubstr("lmer(y ~ g + (1 | team), data = data,"),
                                     HasSubstr("anova(model, type = 2)")));
   EXPECT_THAT(project.data, ::testing::StartsWith("y,g,team\n0,a,0\n"));
 }

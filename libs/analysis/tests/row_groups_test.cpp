@@ -59,6 +59,26 @@ TEST(RowGroups, CrossWherePeopleAreInSeveralTeams) {
   EXPECT_EQ(find_row_groups(Dataset::parse(text, "t.csv"), {"y"}).intercepts, (Intercepts{{"team"}, {"person"}}));
 }
 
+// kith's own tables: the address of the random numbers says who was taught, else composition and replicate do.
+TEST(RowGroups, AreTheSamePeopleUnderSeveralStrategies) {
+  std::string teams = "strategy,composition,replicate,team,seed_address,y\n";
+  std::string learners = "strategy,composition,replicate,team,member,y\n";
+  for (int team = 0; team < 12; ++team) {
+    const std::string who = (team % 2 == 0 ? "NNN," : "PPP,") + std::to_string(team / 2 % 3);
+    const std::string start = (team < 6 ? "common," : "joint,") + who + "," + std::to_string(team);
+    teams += start + ",7/" + who + "," + std::to_string(team * 5 % 7) + "\n";
+    for (int member = 1; member <= 2; ++member) learners += start + "," + std::to_string(member) + ",0.5\n";
+  }
+  for (std::size_t at = teams.find("7/NNN,"); at != std::string::npos; at = teams.find("7/NNN,")) teams[at + 5] = '/';
+  for (std::size_t at = teams.find("7/PPP,"); at != std::string::npos; at = teams.find("7/PPP,")) teams[at + 5] = '/';
+  EXPECT_EQ(find_row_groups(Dataset::parse(teams, "t.csv"), {"y", "strategy", "composition"}).intercepts,
+            (Intercepts{{"seed_address"}}));
+  const auto rows = Dataset::parse(learners, "t.csv");
+  EXPECT_EQ(find_row_groups(rows, {"y", "strategy"}).intercepts,
+            (Intercepts{{"team"}, {"composition", "replicate"}, {"composition", "replicate", "member"}}));
+  EXPECT_EQ(find_row_groups(rows, {"y", "replicate"}).intercepts, (Intercepts{{"team"}}));
+}
+
 // A column "group" is often the condition, not a group of people.
 TEST(RowGroups, AreNotMadeOfAFewValuesUnlessSomebodySaysSo) {
   auto rows = Dataset::parse("group,y\na,1\na,2\nb,3\nb,4\n", "t.csv");

@@ -174,6 +174,11 @@ Statement& Statement::bind_blob(int parameter, std::string_view value) {
   return *this;
 }
 
+Statement& Statement::bind_null(int parameter) {
+  check(sqlite3_bind_null(handle_, parameter));
+  return *this;
+}
+
 bool Statement::step() {
   const int code = sqlite3_step(handle_);
   check(code);

@@ -115,7 +115,7 @@ constexpr double kNothing = 0.1;
 std::string learned_about(const std::string& what, double contraction) {
   const std::string percent = figure(100.0 * std::max(contraction, 0.0), 0) + " %";
   if (contraction < kNothing)
-    return "about a single person's " + what + " the answers say next to nothing (" + percent + ")";
+    return "the answers tell almost nothing about a single person's " + what + " (" + percent + " of its variance)";
   return "a person's answers remove " + percent + " of the population's variance of the " + what;
 }
 

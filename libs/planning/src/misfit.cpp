@@ -136,7 +136,7 @@ double Misfit::effective_parameters(std::span<const double> unit) const {
 }
 
 DiscrepancyEstimate estimate_discrepancy(const Surfaces& surfaces, const RandomStream& random) {
-  constexpr double kLeastDegrees = 0.5;
+  constexpr double kFewestDegrees = 0.5;
   constexpr std::size_t kSteps = 30;
   const Fixed none(surfaces.box().low.size());
   const auto num_targets = static_cast<double>(surfaces.covariance().rows());
@@ -145,7 +145,7 @@ DiscrepancyEstimate estimate_discrepancy(const Surfaces& surfaces, const RandomS
   result.unit = exact.minimum(none, random);
   result.misfit = exact.at(result.unit);
   result.degrees_of_freedom = num_targets - exact.effective_parameters(result.unit);
-  if (result.degrees_of_freedom < kLeastDegrees || result.misfit <= result.degrees_of_freedom) return result;
+  if (result.degrees_of_freedom < kFewestDegrees || result.misfit <= result.degrees_of_freedom) return result;
   // What is left over beyond chance; falls as the discrepancy grows.
   const auto excess = [&](double discrepancy) {
     const Misfit misfit{surfaces, discrepancy};

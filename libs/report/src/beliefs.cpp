@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "kith/geometry/outline.hpp"
 #include "kith/study/team_run.hpp"
-#include "outline.hpp"
 #include "parameters.hpp"
 
 namespace kith::detail {

@@ -6,7 +6,7 @@
 
 #include "beliefs.hpp"
 #include "bibliography.hpp"
-#include "outline.hpp"
+#include "kith/geometry/outline.hpp"
 #include "parameters.hpp"
 
 namespace kith::detail {

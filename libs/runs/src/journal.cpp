@@ -6,6 +6,7 @@
 
 #include "journal_file.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/folder_lock.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/files/sqlite.hpp"
 #include "kith/runs/team_codec.hpp"
@@ -179,10 +180,12 @@ std::optional<Journal> Journal::open(const fs::path& path, const JournalIdentity
 
 Journal Journal::read(const fs::path& path) {
   const auto file = current_file(path).value_or(path);
+  // Whoever writes to it has made sure that the log is its own. Meanwhile the file alone can look damaged: when the log
+  // is put into it, its first page names pages that follow later.
+  const bool is_written = is_busy(path.parent_path());
   Database database{file, Database::Mode::kRead};
   auto identity = read_identity(database);
-  const auto alone = identify(path);
-  if (!identity || alone != identity) {
+  if (!identity || (!is_written && identify(path) != identity)) {
     throw Error{ErrorKind::kIo, file.string() + " is damaged",
                 Advice{"rerun the command that ran the study, which recovers what can be read", Remedy::kStartOver}};
   }

@@ -11,6 +11,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/folder_lock.hpp"
 #include "kith/runs/team_codec.hpp"
 #include "run_support.hpp"
 
@@ -116,6 +117,23 @@ TEST_F(JournalTest, HoldsWhatWasWrittenWhoeverLooks) {
   });
   EXPECT_THAT(teams, ElementsAre(1, 3, 4, 5));
   EXPECT_THAT(reader.progress().failures, ElementsAre(TeamFailure{7, "why"}));
+}
+
+// Halfway through, its first page names pages that are not there yet.
+TEST_F(JournalTest, CanBeReadWhileItsLogIsPutIntoTheFile) {
+  const auto lock = FolderLock::try_acquire(scratch_.path());
+  std::string log;
+  std::uintmax_t size = 0;
+  {
+    auto journal = Journal::create(file_, identity());
+    journal.write(entries(1, 100));
+    log = read_file(fs::path{file_}.concat("-wal"));
+    size = fs::file_size(file_);
+  }
+  fs::resize_file(file_, size);
+  std::ofstream{fs::path{file_}.concat("-wal"), std::ios::binary} << log;
+  EXPECT_EQ(Journal::identify(file_), std::nullopt);  // from the file alone
+  EXPECT_EQ(Journal::read(file_).find(100), entry(100).bytes);
 }
 
 TEST_F(JournalTest, KnowsAfterwardsWhatIsDone) {

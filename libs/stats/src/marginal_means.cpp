@@ -1,7 +1,6 @@
 #include "kith/stats/marginal_means.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "kith/stats/distributions.hpp"
 #include "kith/stats/multiple.hpp"
 #include "kith/stats/multivariate_t.hpp"
+#include "term_hypotheses.hpp"
 
 namespace kith {
 namespace {
@@ -367,20 +367,6 @@ std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const 
   return results;
 }
 
-namespace {
-
-// Of F = mean of the squares of independent t statistics: that with which F has the same mean (2 if one has none).
-double denominator_df(const std::vector<double>& dfs) {
-  const auto [smallest, largest] = std::minmax_element(dfs.begin(), dfs.end());
-  if (*smallest == *largest || *largest - *smallest < 1e-8) return *smallest;
-  if (*smallest <= 2.0) return 2.0;
-  double excess = 0.0;  // of the sum of nu / (nu - 2) over the number
-  for (const double nu : dfs) excess += std::isinf(nu) ? 0.0 : 2.0 / (nu - 2.0);
-  return 2.0 + 2.0 * static_cast<double>(dfs.size()) / excess;
-}
-
-}  // namespace
-
 Estimable<TestResult> test_equal_means(const FixedEffects& model, const MarginalGroup& means) {
   using Result = Estimable<TestResult>;
   std::vector<const MarginalMean*> estimable;
@@ -401,23 +387,14 @@ Estimable<TestResult> test_equal_means(const FixedEffects& model, const Marginal
     differences.row(i) = (combination_of(static_cast<std::size_t>(i) + 1) - combination_of(0)).transpose();
   const Eigen::Map<const Eigen::MatrixXd> covariance{model.covariance.data(), p, p};
   const Eigen::Map<const Eigen::VectorXd> coefficients{model.coefficients.data(), p};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{differences * covariance * differences.transpose()};
-  const double largest = solver.eigenvalues().maxCoeff();
-  if (!(largest > 0.0)) return Result::impossible("the standard errors of all differences are zero");
-  double sum = 0.0;
-  std::vector<double> dfs;
-  for (Eigen::Index i = 0; i < differences.rows(); ++i) {
-    const double variance = solver.eigenvalues()(i);
-    if (variance <= 1e-10 * largest) continue;
-    const Eigen::VectorXd contrast = differences.transpose() * solver.eigenvectors().col(i);
-    const double estimate = contrast.dot(coefficients);
-    sum += estimate * estimate / variance;
-    dfs.push_back(model.df({contrast.data(), static_cast<std::size_t>(p)}));
-  }
-  const auto rank = static_cast<double>(dfs.size());
-  const double df = denominator_df(dfs);
-  if (std::isinf(df)) return TestResult{"chi-squared", sum, {rank}, chi_squared_upper(sum, rank)};
-  return TestResult{"F", sum / rank, {rank, df}, f_upper(sum / rank, rank, df)};
+  const auto df = [&](const Eigen::VectorXd& contrast) {
+    return model.df({contrast.data(), static_cast<std::size_t>(p)});
+  };
+  auto test = detail::satterthwaite_test("", differences, coefficients, covariance, df).test;
+  if (!test) return Result::impossible("the standard errors of all differences are zero");
+  if (!std::isinf(test->df[1])) return test;
+  const double sum = test->statistic * test->df[0], rank = test->df[0];
+  return TestResult{"chi-squared", sum, {rank}, chi_squared_upper(sum, rank)};
 }
 
 namespace {

@@ -68,10 +68,9 @@ class GroupReader {
   void read_consent() {
     take(options_.consent_file, group_.string("consent_file", Presence::kOptional));
     const auto* value = group_.content().find("consent");
-    if (value != nullptr && value->string() != nullptr) {
+    if (value != nullptr && value->string() != nullptr) {  // as templates of earlier versions have it: a file
       group_.know("consent");
-      report_.error("E0422", value->place(), "'consent' is a table with a version and a text",
-                    "if this is a file, write consent_file = " + to_toml(*value));
+      options_.consent_file = *value->string();
       return;
     }
     auto consent = group_.table("consent", Presence::kOptional);

@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0421", "[design]", "group.questions = [{ id = \"a\", kind = \"choice\", text = \"?\" }]\n[design]",
                 6},
         Mistake{"E0109", "[design]", "group.questions = [{ id = \"a\", kind = \"text\" }]\n[design]", 6},
-        Mistake{"E0422", "[design]", "group.consent = \"consent.md\"\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.consent_file = \"a\"\ngroup.consent.text = \"b\"\n[design]", 6},
         Mistake{"E0422", "[design]", "group.dropout.reserves = 1\n[design]", 6},
         Mistake{"E0422", "[design]", "group.dropout.min_active = 3\n[design]", 6},
         Mistake{"E0422", "[design]", "group.people = [3]\n[design]", 6},

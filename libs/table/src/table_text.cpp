@@ -24,8 +24,8 @@ Error too_large(const std::string& file, const std::string& size, std::uint64_t 
 }  // namespace
 
 std::string read_table_text(std::istream& stream, const std::string& name) {
-  constexpr std::size_t kPiece = std::size_t{1} << 20U;
-  std::vector<char> piece(kPiece);
+  constexpr std::size_t kPieceSize = std::size_t{1} << 20U;
+  std::vector<char> piece(kPieceSize);
   std::string text;
   MemoryGuard guard{"reading " + name, "keep only the rows and columns that are needed"};
   while (stream) {

@@ -190,6 +190,30 @@ TEST(SessionEvents, SayWhyTheyAreRefused) {
   EXPECT_EQ(refusal(FeedbackGiven{}), "feedback cannot be given: everybody is away");
 }
 
+TEST(SessionEvents, GoOnWithAnotherStrategy) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of(cache, "common", 2, quick(20));
+  ASSERT_TRUE(session.propose(cache));
+  EXPECT_EQ(session.lesson().source.rule, "common");
+  EXPECT_THROW(session.change_strategy(strategy_named("joint")), Error);  // a lesson is under way
+  std::vector<Answer> right;
+  for (const auto& test : session.lesson().tests) right.emplace_back(session.atlas().feature_counts(test.demo));
+  session.submit(std::vector<std::vector<Answer>>(2, right));
+  EXPECT_THROW(session.change_strategy(strategy_named("baseline")), std::invalid_argument);
+  session.change_strategy(strategy_named("joint"));
+  EXPECT_EQ(session.strategy().name, "joint");
+  ASSERT_TRUE(session.propose(cache));
+  EXPECT_EQ(session.lesson().source.rule, "joint");
+  EXPECT_EQ(name_of(SessionEvent{StrategyChanged{strategy_named("joint")}}), "strategy-changed");
+  EXPECT_EQ(replay(session, session_of(cache, "common", 2, quick(20)), cache), session);
+
+  auto options = quick();
+  options.keep_members = options.keep_rules = false;
+  auto narrow = session_of(cache, "common", 2, options);
+  EXPECT_THROW(narrow.change_strategy(strategy_named("joint")), std::invalid_argument);
+  EXPECT_THROW(narrow.change_strategy(strategy_named("individual-low")), std::invalid_argument);
+}
+
 // An assumed ability of 1 and answers that contradict what was taught: the teacher goes on.
 TEST(SessionEvents, CertaintyAboutPeopleDoesNotEndTheSession) {
   TeachingCache cache{item_delivery()};

@@ -1,43 +1,9 @@
 // The document that kith writes (schema kith.curriculum/1), as far as the page uses it.
-
-// Column and row from the top left, from 1.
-export type Place = [number, number];
-
-export interface Part {
-  kind: 'wall' | 'terrain' | 'station' | 'destination' | 'goal' | 'start' | 'item';
-  name: string;
-}
-
-export interface LegendEntry extends Part {
-  symbol: string;
-  parts?: Part[]; // all that the symbol puts on a cell; `kind` and `name` are the first
-}
-
-export interface Item {
-  name: string;
-  cell: Place;
-  carried: boolean;
-}
-
-// A state. On a map: where the robot and the things are. Without one: a name.
-export interface Frame {
-  robot?: Place;
-  items?: Item[];
-  stations?: Place[];
-  state?: string;
-  action?: string | null; // that follows; null in the last frame
-}
+import type { Board, Frame, MapDomain, Place } from '../shared/board/types';
 
 export interface Sentence {
   normal: number[];
   text: string;
-}
-
-export interface Board {
-  world: number;
-  map?: string[]; // absent where the domain has none
-  start: Frame;
-  frames: Frame[];
 }
 
 export interface Flip extends Board {
@@ -66,13 +32,9 @@ export interface Component {
   tests: Test[];
 }
 
-export interface Domain {
-  id: string;
+export interface Domain extends MapDomain {
   title: string;
   features: { name: string; words: string; weight: number }[];
-  legend?: LegendEntry[];
-  width?: number;
-  height?: number;
 }
 
 export interface Lesson {

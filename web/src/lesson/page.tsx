@@ -1,12 +1,12 @@
 // The lesson: what the map's things are, then every component with its demonstrations and tests.
 import type { JSX } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { kFew } from '../shared/board/board';
+import { Patterns, PartGlyph, Robot } from '../shared/board/glyphs';
+import { Legend } from '../shared/board/legend';
 import { themeToggle } from '../shared/theme';
 import { DemonstrationView, Sentences } from './demonstration';
 import type { Component, Lesson } from './document';
-import { kFew } from './board';
-import { Patterns, PartGlyph, Robot } from './glyphs';
-import { Legend } from './legend';
 import type { Context } from './scene';
 import { TestView } from './test_card';
 import { counted, upperFirst } from './words';

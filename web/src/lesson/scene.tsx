@@ -1,9 +1,11 @@
 // A board that plays, with its caption and its description in words. Without a map: the steps as a list.
 import type { ComponentChildren, JSX } from 'preact';
-import { BoardView } from './board';
-import type { Board, Domain, Frame, Place } from './document';
-import type { Legend } from './legend';
-import { Player, usePlayback } from './player';
+import { BoardView } from '../shared/board/board';
+import type { Legend } from '../shared/board/legend';
+import type { Board, Frame, Place } from '../shared/board/types';
+import { usePlayback } from '../shared/playback';
+import type { Domain } from './document';
+import { Player } from './player';
 import { actionsText, cellText, listed, mapText, placedStepText, placeOf, upperFirst } from './words';
 
 export interface Context {

@@ -1,6 +1,7 @@
 // What boards show, in words: for captions and for those who do not see them.
-import type { Board, Domain, Frame, Place } from './document';
-import type { Legend } from './legend';
+import type { Legend } from '../shared/board/legend';
+import type { Board, Frame, Place } from '../shared/board/types';
+import type { Domain } from './document';
 
 export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 

@@ -30,6 +30,7 @@ export interface Finding {
   title: string;
   question?: string;
   sentence: string;
+  results?: string; // as a results section of a paper reports it
   warnings?: string[];
   tables?: ResultTable[];
 }

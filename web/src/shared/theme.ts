@@ -143,9 +143,9 @@ function rules(scheme: Scheme): string {
     .join(';');
 }
 
-export function installTheme(): void {
-  const style = document.createElement('style');
-  style.textContent = [
+// The style sheet that defines the colours: a part of app.css where the page's policy allows no inline style.
+export function themeSheet(): string {
+  return [
     `:root{${rules(kLight)};color-scheme:light}`,
     `@media (prefers-color-scheme:dark){:root{${rules(kDark)};color-scheme:dark}}`,
     `:root[data-theme=light]{${rules(kLight)};color-scheme:light}`,
@@ -153,6 +153,11 @@ export function installTheme(): void {
     // Paper is white whatever the screen is; the doubled selector outweighs the ones above.
     `@media print{:root:root:root{${rules(kLight)};color-scheme:light}}`,
   ].join('\n');
+}
+
+export function installTheme(): void {
+  const style = document.createElement('style');
+  style.textContent = themeSheet();
   document.head.append(style);
 }
 

@@ -14,6 +14,7 @@ function finding(one: Finding): HTMLElement {
     el('p', {}, one.sentence),
     ...(one.warnings ?? []).map((text) => el('p', { class: 'warning' }, el('strong', {}, 'Note: '), text)),
     ...tables.slice(0, 1).map(resultTableView),
+    one.results ? el('p', { class: 'results' }, el('strong', {}, 'For a paper: '), one.results) : null,
     tables.length > 1
       ? el('details', {}, el('summary', {}, `More tables: ${one.title}`), ...tables.slice(1).map(resultTableView))
       : null,

@@ -29,11 +29,13 @@ struct AnalysisOptions {
 ///
 ///   periods, knowledge             strategy x composition without the baseline [jayaraman2024, section V]
 ///   ...-within-composition         strategy within each composition, corrected for their number
+///   ...-beliefs, ...-variation     team beliefs against individual ones: means, and how much teams vary
 ///   ...-paired                     strategies on the same simulated people, pair by pair
 ///   demonstrations                 the manipulation check: how much the demonstrations convey, per component
 ///   ...-baseline                   group strategies against teaching everybody alone
 ///
-/// What a study's design does not allow is left out, and a note says why.
+/// Teams of the same people are not independent: mixed models and paired tests. What a design does not allow is left
+/// out, and a note says why.
 /// @throws kith::Error kInvalidInput for a damaged table or an unfinished run, kIo if there is none, kInfeasible
 /// (E0906) if nothing can be analysed.
 [[nodiscard]] Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOptions& options);

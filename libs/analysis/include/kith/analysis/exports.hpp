@@ -7,9 +7,10 @@
 
 namespace kith {
 
-/// The tests of a finding as a results section reports them, in the manner of the American Psychological Association:
-/// "Composition: F(3, 224) = 10.82, p < .001, partial eta squared = .127, 90 % CI [.059, .187]." Empty if its tables
-/// have no F tests.
+/// What a results section reports of a finding, in the manner of the American Psychological Association: the model and
+/// the method, the F tests of its first table that has any, planned contrasts and t tests. "y ~ g (one-way analysis of
+/// variance). The effect of g was significant, F(3, 224) = 10.82, p < .001, partial eta squared = .127, 90 % CI [.059,
+/// .187]." Empty if the finding has none of these.
 /// @param alpha  of the analysis; intervals of partial eta squared have level 1 - 2 alpha.
 [[nodiscard]] std::string results_paragraph(const Finding& finding, double alpha);
 

@@ -80,6 +80,7 @@ class Statement {
   Statement& bind(int parameter, double value);
   Statement& bind_text(int parameter, std::string_view value);
   Statement& bind_blob(int parameter, std::string_view value);
+  Statement& bind_null(int parameter);
   /// Advances to the next row. @return whether there is one.
   bool step();
   /// Runs it to the end and makes it ready to be run again.

@@ -74,8 +74,8 @@ struct PopulationMasses {
 /// log of the probability of one person's answers in a population: the likelihood averaged over the prior masses.
 [[nodiscard]] double log_marginal(const LikelihoodSurface& surface, std::size_t person, const PopulationMasses& masses);
 
-/// An interval of a parameter. An end at which the data set no limit (the likelihood stays within the bound up to the
-/// edge of what is searched) is open.
+/// An interval of a parameter. An end is open if the data do not limit the parameter there: the likelihood stays within
+/// the bound up to the edge of what is searched.
 struct FitInterval {
   double lower = 0.0;
   double upper = 0.0;

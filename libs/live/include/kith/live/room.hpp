@@ -17,10 +17,10 @@ namespace kith {
 
 /// What a room is made with; it never changes.
 struct RoomSetup {
-  std::string id;                 ///< Unique among the rooms of a server.
-  std::string code;               ///< That people type in to join.
-  std::string strategy;           ///< A strategy of the study.
-  std::string composition;        ///< One letter of a learner type per member.
+  std::string id{};               ///< Unique among the rooms of a server.
+  std::string code{};             ///< That people type in to join.
+  std::string strategy{};         ///< A strategy of the study.
+  std::string composition{};      ///< One letter of a learner type per member.
   std::vector<bool> simulated{};  ///< Per member; empty: all are people, or as `group.people` says.
   std::size_t replicate = 1;      ///< Streams are those of this replicate of the cell, see team_streams.hpp.
   std::string salt{};             ///< Secret of the server, for completion codes.

@@ -27,8 +27,8 @@ inline constexpr std::size_t kMaxAnswerActions = 500;
 ///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool}
 /// States are numbers of this table. Frames are [robotColumn, robotRow, [[column, row, carried 0|1], ...],
 /// [index into stations, ...]], without a map {"state": name}. -1: nothing happens. Where chance has a part, next is
-/// the likeliest outcome. dx and dy are how the action moves the robot, row numbers growing downward; null for actions
-/// that do not move it. Nothing in it tells anything about the reward.
+/// the likeliest outcome that changes the state. dx and dy are how the action moves the robot, row numbers growing
+/// downward; null for actions that do not move it. Nothing in it tells anything about the reward.
 [[nodiscard]] Json world_json(const LiveStudy& study, MdpIndex world);
 /// The number of a state in that table; states that nothing leads to have none.
 [[nodiscard]] std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, StateIndex state);
@@ -48,5 +48,10 @@ struct JudgedPath {
 /// Judges nothing but whether the path is possible, and counts its features. See docs/model.md.
 /// @param actions  numbers of actions, as in the table of moves.
 [[nodiscard]] JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions);
+
+/// The robot's own way from a start if every action leads to its likeliest outcome: what a right answer looks like on a
+/// page. Without chance it is Atlas::trajectory(); with chance that one may show another outcome. If this way does not
+/// come to an end it is Atlas::trajectory() all the same.
+[[nodiscard]] Trajectory expected_path(const Atlas& atlas, DemoIndex test);
 
 }  // namespace kith

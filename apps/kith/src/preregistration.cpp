@@ -1,0 +1,133 @@
+#include "preregistration.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "build_facts.hpp"
+#include "kith/analysis/plan.hpp"
+
+namespace kith::cli {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<StrategyChoice>& strategies) {
+  std::vector<std::string> names;
+  for (const auto& one : strategies) names.push_back(one.name);
+  return names;
+}
+
+std::string weights_text(const PlannedContrast& contrast) {
+  std::string text;
+  for (const auto& [level, weight] : contrast.weights)
+    text += fmt::format("{}{:.3g} {}",
+                        text.empty()   ? (weight < 0.0 ? "-" : "")
+                        : weight < 0.0 ? " - "
+                                       : " + ",
+                        std::abs(weight), level);
+  return text;
+}
+
+std::vector<PlannedContrast> contrasts_of(const StudySpec& spec) {
+  std::vector<PlannedContrast> contrasts;
+  for (const auto& one : spec.contrasts) {
+    PlannedContrast contrast{.name = one.name, .factor = one.factor, .response = one.response};
+    for (const auto& [level, weight] : one.weights) contrast.weights.push_back({level, weight});
+    contrasts.push_back(std::move(contrast));
+  }
+  return contrasts;
+}
+
+std::string design_text(const StudySpec& spec) {
+  const auto cells = spec.strategies.size() * spec.compositions.size();
+  const bool same = spec.pairing == Pairing::kReplicate && spec.strategies.size() > 1;
+  std::string text = "## Design\n\n";
+  text += fmt::format("* Strategies ({}): {}\n", spec.strategies.size(), fmt::join(names_of(spec.strategies), ", "));
+  text += fmt::format("* Compositions ({}): {}\n", spec.compositions.size(), fmt::join(spec.compositions, ", "));
+  for (const auto& factor : spec.factors) text += fmt::format("* {}: {}\n", factor.key, factor.value);
+  text += same ? "* Every strategy teaches the same people, so strategies are compared within people.\n"
+               : "* Every team has people of its own.\n";
+  text +=
+      "* Outcomes: the number of interaction periods until everything is learned (`periods`), and the mean over "
+      "members of the final belief in the true policy's behaviour (`knowledge`).\n";
+  text += fmt::format("* {} cells with {} teams each: {} teams.\n\n", cells, spec.replicates, cells * spec.replicates);
+  return text;
+}
+
+std::string size_row(const PowerCurve& curve, std::size_t teams) {
+  const auto point =
+      std::find_if(curve.points.begin(), curve.points.end(), [&](const PowerPoint& one) { return one.teams == teams; });
+  const bool is_contrast = curve.effect.kind == Effect::Kind::kContrast;
+  const auto power = point == curve.points.end()
+                         ? std::string{}
+                         : fmt::format("{:.2f} [{:.2f}, {:.2f}]", point->power, point->low, point->high);
+  const auto needed = curve.needed.estimate ? fmt::format("{:.0f}", std::ceil(*curve.needed.estimate))
+                                            : fmt::format("more than {}", curve.points.back().teams);
+  return fmt::format("| {} | {} {:.3g}{} | {} | {} |\n", to_string(curve.effect),
+                     is_contrast ? "difference" : "partial eta squared", curve.size,
+                     curve.effect.imposed ? "" : " (as simulated)", power, needed);
+}
+
+std::string sample_text(const StudySpec& spec, std::span<const PowerCurve> curves, const PowerOptions& options) {
+  auto text = fmt::format(
+      "## Sample size\n\n{} teams per cell. Power at a significance level of {:g} was estimated by drawing {} studies "
+      "of each size from simulated teams (`kith power`{}):\n\n"
+      "| effect | size | power with {} teams per cell [95 % interval] | teams per cell for power {:g} |\n"
+      "|---|---|---|---|\n",
+      spec.replicates, options.alpha, options.draws, options.paired ? ", `--paired`" : "", spec.replicates,
+      options.target);
+  for (const auto& curve : curves) text += size_row(curve, spec.replicates);
+  text += fmt::format(
+      "\n## Stopping rule\n\nData collection ends when every cell has {} teams. No test is made before that, and no "
+      "team is added after a test. A team that has not learned everything after {} periods is stopped.\n\n",
+      spec.replicates, spec.teaching.max_periods);
+  return text;
+}
+
+std::string analyses_text(const std::vector<PlannedAnalysis>& plan, double alpha) {
+  auto text = fmt::format(
+      "## Analyses\n\nAll tests are two-sided; p < {:g} counts as evidence for an effect, after the correction that an "
+      "analysis names. Effect sizes are reported with intervals. A test that finds nothing is not taken as evidence "
+      "that there is no effect.\n",
+      alpha);
+  std::size_t number = 0;
+  for (const auto& one : plan) {
+    text += fmt::format("\n### {}. {}\n\n{}\n\n* Model: `{}`\n", ++number, one.title, one.question, one.model);
+    for (const auto& contrast : one.contrasts)
+      text += fmt::format("* Planned contrast {}: {}\n", contrast.name, weights_text(contrast));
+    for (const auto& method : one.methods) text += "* " + method.text + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string preregistration_text(const StudySpec& spec, const std::string& source, std::span<const PowerCurve> curves,
+                                 const PowerOptions& options) {
+  const PlannedDesign design{.strategies = names_of(spec.strategies),
+                             .compositions = spec.compositions,
+                             .same_people = spec.pairing == Pairing::kReplicate,
+                             .contrasts = contrasts_of(spec)};
+  AnalysisOptions analysis;
+  analysis.alpha = options.alpha;
+  const auto plan = planned_analyses(design, analysis);
+  auto text = fmt::format("# Preregistration: {}\n\nStudy `{}`, written by {} before the study was run.\n\n",
+                          spec.title.empty() ? spec.id : spec.title, spec.id, program_name());
+  text += "## Hypotheses\n\nEach is tested against the hypothesis of no effect.\n\n";
+  std::size_t number = 0;
+  for (const auto& one : plan) text += fmt::format("{}. {} ({})\n", ++number, one.question, one.id);
+  text += "\n" + design_text(spec) + sample_text(spec, curves, options) +
+          "## Exclusions and missing data\n\nNo team is excluded. Teams that are stopped before they have learned "
+          "everything are analysed with the periods and the knowledge that they have reached, and their number is "
+          "reported.\n\n" +
+          analyses_text(plan, options.alpha);
+  text += fmt::format(
+      "\n## Exploratory analyses\n\nWhatever is not listed above, such as the manipulation check and comparisons that "
+      "the data suggest, is reported as exploratory.\n\n## Commands\n\n    kith study {0} -o RESULTS\n    kith analyze "
+      "RESULTS{1}\n",
+      source, options.alpha == AnalysisOptions{}.alpha ? "" : fmt::format(" --alpha {:g}", options.alpha));
+  return text;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,313 @@
+// kith serve: teaches groups of real people.
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "build_facts.hpp"
+#include "commands.hpp"
+#include "input.hpp"
+#include "interrupt.hpp"
+#include "kith/core/error.hpp"
+#include "kith/core/parallel_loop.hpp"
+#include "kith/hosting/live_service.hpp"
+#include "kith/hosting/session_study.hpp"
+#include "kith/present/json.hpp"
+#include "kith/server/server.hpp"
+#include "live_adapter.hpp"
+#include "local_facilitator.hpp"
+#include "serve_address.hpp"
+#include "serve_rehearsal.hpp"
+#include "templates.hpp"
+#include "web_assets.hpp"
+#include "work_notice.hpp"
+
+extern char** environ;
+
+namespace kith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kPoll{50};
+constexpr std::chrono::milliseconds kGoodbye{400};
+constexpr std::size_t kDemoPeople = 3;
+constexpr std::uint16_t kPort = 8642;
+constexpr std::uint16_t kAnyPort = 0;
+
+// What threads of the server report, until the main thread shows it. Each sentence once in ten seconds.
+class NoticeBoard {
+ public:
+  void add(const ServerNotice& notice) {
+    const auto now = std::chrono::steady_clock::now();
+    const std::lock_guard lock{mutex_};
+    auto& last = shown_[notice.text];
+    if (last != std::chrono::steady_clock::time_point{} && now - last < std::chrono::seconds{10}) return;
+    last = now;
+    if (shown_.size() > kMany) shown_.clear();
+    waiting_.push_back(notice.text);
+  }
+  void show(Console& console) {
+    std::vector<std::string> now;
+    {
+      const std::lock_guard lock{mutex_};
+      now.swap(waiting_);
+    }
+    for (const auto& text : now) console.warning(text);
+  }
+
+ private:
+  static constexpr std::size_t kMany = 100;
+  std::mutex mutex_;
+  std::map<std::string, std::chrono::steady_clock::time_point> shown_;
+  std::vector<std::string> waiting_;
+};
+
+// The folder of the session; one of its own where none was named.
+class SessionFolder {
+ public:
+  explicit SessionFolder(const ServeOptions& options) : path_{options.out}, removes_{false} {
+    if (!path_.empty()) return;
+    auto name = (fs::temp_directory_path() / "kith-session-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw Error{ErrorKind::kIo, "cannot make a temporary folder " + name};
+    path_ = name;
+    removes_ = options.rehearse > 0;
+  }
+  ~SessionFolder() {
+    std::error_code ignored;
+    if (removes_) fs::remove_all(path_, ignored);
+  }
+  SessionFolder(const SessionFolder&) = delete;
+  SessionFolder& operator=(const SessionFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+  bool removes_;
+};
+
+void check_options(const ServeOptions& options) {
+  if (options.demo == !options.study.empty()) {
+    throw Error{ErrorKind::kUsage, options.demo ? "--demo has a study of its own; leave out " + options.study
+                                                : "kith serve needs a study, or --demo"};
+  }
+  if (options.out.empty() && !options.demo && options.rehearse == 0) {
+    throw Error{ErrorKind::kUsage, "kith serve needs -o DIR, the folder for the answers"};
+  }
+  if (web_assets().empty() && options.rehearse == 0) {
+    throw Error{ErrorKind::kInfeasible, "this program was built without pages for browsers",
+                Advice{"install Node.js and npm and build it again"}};
+  }
+}
+
+StudyReading reading_of(const ServeOptions& options) {
+  if (!options.demo) return study_of(options.study, options.set);
+  auto reading =
+      parse_study(detail::kDemoStudy, "the study of --demo", {.overrides = options.set, .override_name = "--set"});
+  if (!reading.study) throw Error{reading.diagnostics};
+  return reading;
+}
+
+// Where files that the study names are looked for.
+fs::path folder_of(const ServeOptions& options) {
+  std::error_code ignored;
+  return fs::is_regular_file(options.study, ignored) ? fs::path{options.study}.parent_path() : fs::path{};
+}
+
+// A participant is one open file, and in a rehearsal two.
+void raise_file_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+LiveServiceOptions service_options(const ServeOptions& options, const SessionStudy& session, const fs::path& folder) {
+  LiveServiceOptions service;
+  service.inputs = session.inputs;
+  service.digest = session.digest;
+  service.folder = folder;
+  service.program = program_name();
+  service.teaching_workers = default_num_workers();
+  service.joins_per_minute = options.join_limit;
+  service.max_rooms = std::max(service.max_rooms, options.rooms + options.rehearse);
+  return service;
+}
+
+ServerOptions server_options(const ServeOptions& options, const ServeAddress& address, NoticeBoard& board) {
+  ServerOptions server;
+  server.bind = address.bind;
+  server.port = options.port.value_or(options.rehearse > 0 ? kAnyPort : kPort);
+  server.io_threads = default_num_workers();
+  server.hosts = address.hosts;
+  server.origins = address.origins;
+  server.behind_proxy = address.behind_proxy;
+  server.assets = web_assets();
+  const auto has = [&](const std::string& path) {
+    return std::any_of(server.assets.begin(), server.assets.end(), [&](const Asset& one) { return one.path == path; });
+  };
+  const auto add = [&](const std::string& page, const std::string& path) {
+    if (has(path)) server.pages.emplace(page, path);
+  };
+  add("/", "/assets/live/landing.html");
+  add("/", "/assets/live/index.html");
+  add("/j", "/assets/live/index.html");
+  add("/f", "/assets/facilitator/index.html");
+  server.on_notice = [&board](const ServerNotice& notice) { board.add(notice); };
+  if (options.rehearse > 0) {  // everybody comes from this machine at once
+    server.limits.unauthenticated_per_address = 3 * options.rehearse * 30;
+    server.limits.sockets = std::max(server.limits.sockets, 4 * options.rehearse * 30);
+  }
+  return server;
+}
+
+// What whoever started the server needs.
+struct Links {
+  std::string facilitator;
+  std::string observer;
+  std::string join;
+  std::string code;
+  std::vector<std::string> seats{};  // of the demonstration
+};
+
+Links links_of(const std::string& base, const LiveService::StartLinks& tokens, LocalFacilitator& facilitator) {
+  const auto view = facilitator.view([](const Json& now) { return now.contains("links"); });
+  Links links{.facilitator = base + "/f#t=" + tokens.facilitator,
+              .observer = base + "/f#t=" + tokens.observer,
+              .join = view["links"].value("join", ""),
+              .code = view["links"].value("code", "")};
+  if (links.code.empty() && links.join.find("code=") != std::string::npos) {
+    links.code = links.join.substr(links.join.find("code=") + 5);
+  }
+  return links;
+}
+
+std::vector<std::string> persons(std::size_t n) { return std::vector<std::string>(n, "person"); }
+
+// Those of the latest room. Rooms are shown a moment after they are made, and their links with them.
+std::vector<std::string> links_of_seats(LocalFacilitator& facilitator) {
+  const auto seats_of = [](const Json& view) {
+    const auto rooms = view.value("rooms", Json::array());
+    return rooms.empty() ? Json::array() : rooms.back().value("seats", Json::array());
+  };
+  const auto has_links = [&](const Json& view) {
+    const auto seats = seats_of(view);
+    return !seats.empty() &&
+           std::all_of(seats.begin(), seats.end(), [](const Json& seat) { return seat.contains("link"); });
+  };
+  std::vector<std::string> links;
+  for (const auto& seat : seats_of(facilitator.view(has_links))) links.push_back(seat.value("link", ""));
+  return links;
+}
+
+void print_links(const Links& links, const fs::path& folder, std::uint16_t port, Console& console) {
+  if (console.json()) {
+    Json document{{"schema", "kith.serve/1"},
+                  {"port", port},
+                  {"facilitator", links.facilitator},
+                  {"observer", links.observer},
+                  {"join", links.join},
+                  {"code", links.code},
+                  {"seats", links.seats},
+                  {"folder", folder.string()}};
+    console.print_json(document);
+    return;
+  }
+  std::string text = "facilitator  " + links.facilitator + "\n";
+  text += "observer     " + links.observer + "\n";
+  if (links.seats.empty()) {
+    text += "participants " + links.join + (links.code.empty() ? "" : "   (code " + links.code + ")") + "\n";
+  }
+  for (std::size_t i = 0; i < links.seats.size(); ++i) text += fmt::format("person {}     {}\n", i + 1, links.seats[i]);
+  text += "data         " + folder.string() + "\n";
+  console.print(text);
+}
+
+// A desktop has a display and a program that opens links.
+void open_in_browser(const std::vector<std::string>& links) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  for (auto link : links) {
+    std::string program = "xdg-open";
+    char* arguments[] = {program.data(), link.data(), nullptr};
+    pid_t child = 0;
+    if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds{500});  // in this order, in one window
+  }
+}
+
+void serve_until_stopped(NoticeBoard& board, Console& console) {
+  while (stop_signal() == 0) {
+    board.show(console);
+    std::this_thread::sleep_for(kPoll);
+  }
+}
+
+}  // namespace
+
+int run_serve(const ServeOptions& options, Console& console) {
+  check_options(options);
+  const auto address = serve_address(options);
+  for (const auto& warning : address.warnings) console.warning(warning);
+  const auto reading = reading_of(options);
+  if (!console.quiet()) console.show(reading.diagnostics);
+  watch_signals();
+  raise_file_limit();
+
+  std::optional<WorkNotice> notice{std::in_place, console, "planning " + reading.domain->id()};
+  const auto session = make_session_study(reading, folder_of(options));
+  notice.reset();
+
+  const SessionFolder folder{options};
+  NoticeBoard board;
+  RehearsalResult rehearsed;
+  {
+    LiveService service{session.study, service_options(options, session, folder.path())};
+    LiveAdapter adapter{service};
+    Server server{server_options(options, address, board), adapter};
+    const auto base = base_url(address, server.port());
+    service.set_base_url(base);
+    const auto tokens = service.start_links();
+    if (options.rehearse > 0) {
+      console.info("rehearsing; Ctrl-C ends it early");
+      rehearsed = rehearse(rehearsal_options(options, session.study, server.port(), tokens.facilitator));
+    } else {
+      Links links;
+      {
+        LocalFacilitator facilitator{service, tokens.facilitator};
+        // A room of its own for every start: the links of earlier ones are known to those who have them only.
+        if (options.demo) facilitator.make_rooms(facilitator.num_rooms() + 1, persons(kDemoPeople));
+        facilitator.make_rooms(options.rooms);
+        links = links_of(base, tokens, facilitator);
+        if (options.demo) links.seats = links_of_seats(facilitator);
+      }
+      print_links(links, folder.path(), server.port(), console);
+      console.info("the facilitator's link gives control over the session: keep it to yourself");
+      console.info("Ctrl-C stops the server; the same command continues the session");
+      if (options.demo && !options.no_browser) {
+        auto all = links.seats;
+        all.insert(all.begin(), links.facilitator);
+        open_in_browser(all);
+      }
+      serve_until_stopped(board, console);
+    }
+    server.stop(kGoodbye);
+    service.stop();
+    board.show(console);
+  }
+  if (options.rehearse > 0) return report_rehearsal(rehearsed, look_up(rehearsed.answers, folder.path()), console);
+  console.info("stopped; everything is saved in " + folder.path().string());
+  return 0;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,146 @@
+#include "serve_rehearsal.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+#include <utility>
+
+#include "exit_codes.hpp"
+#include "interrupt.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/hosting/event_file.hpp"
+#include "kith/live/world_json.hpp"
+#include "kith/present/json.hpp"
+
+namespace kith::cli {
+namespace {
+
+// The robot's own path from a state, as numbers of actions.
+std::optional<std::vector<int>> robots_path(const LiveStudy& study, const std::string& world, int start) {
+  const auto number = world_of_key(study, world);
+  if (!number || start < 0) return std::nullopt;
+  const auto& mdp = study.atlas->domain().mdp(*number);
+  const StateIndex state{static_cast<std::size_t>(start)};
+  if (state.value() >= mdp.num_states()) return std::nullopt;
+  const auto path = study.atlas->trajectory(study.atlas->index({*number, state}));
+  std::vector<int> actions;
+  for (const auto action : path.actions) actions.push_back(static_cast<int>(action.value()));
+  return actions;
+}
+
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+Json to_json(const LatencySummary& times) {
+  return {{"count", times.count},
+          {"p50_ms", times.p50},
+          {"p95_ms", times.p95},
+          {"p99_ms", times.p99},
+          {"max_ms", times.max}};
+}
+
+Json document_of(const RehearsalResult& result, const StoredAnswers& stored) {
+  Json document{
+      {"schema", "kith.rehearsal/1"},
+      {"groups", result.groups},
+      {"people", result.people},
+      {"seconds", result.seconds},
+      {"answers", {{"acknowledged", result.answers.size()}, {"lost", stored.lost}, {"stored_twice", stored.twice}}},
+      {"messages", {{"acknowledged", result.messages}, {"refused", result.refused}, {"unanswered", result.unanswered}}},
+      {"refusals", Json::object()},
+      {"acknowledgement", to_json(result.acknowledgement)},
+      {"next_lesson", to_json(result.next_lesson)},
+      {"reconnect", to_json(result.reconnect)},
+      {"reconnects", result.reconnects},
+      {"connections_lost", result.connections_lost},
+      {"finished", result.num_finished()},
+      {"stages", Json::object()},
+      {"peak_memory_mb", peak_megabytes()}};
+  for (const auto& [reason, count] : result.refusals) document["refusals"][reason] = count;
+  for (const auto& [stage, count] : result.stages) document["stages"][stage] = count;
+  return document;
+}
+
+std::vector<std::string> row_of(const std::string& name, const LatencySummary& times) {
+  if (times.count == 0) return {name, "0", "-", "-", "-", "-"};
+  return {name,
+          std::to_string(times.count),
+          fmt::format("{:.1f}", times.p50),
+          fmt::format("{:.1f}", times.p95),
+          fmt::format("{:.1f}", times.p99),
+          fmt::format("{:.1f}", times.max)};
+}
+
+std::string counts_text(const auto& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<const LiveStudy> study,
+                                   std::uint16_t port, std::string facilitator) {
+  RehearsalOptions rehearsal;
+  rehearsal.port = port;
+  rehearsal.facilitator = std::move(facilitator);
+  rehearsal.groups = options.rehearse;
+  rehearsal.duration = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.for_seconds)};
+  rehearsal.answer_every = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.answer_every)};
+  rehearsal.reconnects = options.reconnects;
+  rehearsal.right_path = [study = std::move(study)](const std::string& world, int start) {
+    return robots_path(*study, world, start);
+  };
+  rehearsal.on_tick = [](std::chrono::milliseconds) { return stop_signal() == 0; };
+  return rehearsal;
+}
+
+StoredAnswers look_up(const std::vector<std::string>& answers, const std::filesystem::path& folder) {
+  std::unordered_map<std::string, std::size_t> times;
+  auto file = EventFile::read(folder);
+  file.for_each_event([&](const StoredEvent& event) {
+    if (event.message && event.type == "answered") ++times[*event.message];
+  });
+  StoredAnswers stored;
+  for (const auto& id : answers) {
+    const auto found = times.find(id);
+    const auto count = found == times.end() ? 0 : found->second;
+    stored.lost += count == 0;
+    stored.twice += count > 1;
+  }
+  return stored;
+}
+
+int report_rehearsal(const RehearsalResult& result, const StoredAnswers& stored, const Console& console) {
+  if (console.json()) {
+    console.print_json(document_of(result, stored));
+  } else {
+    std::string text = fmt::format(
+        "{} with {}, {:.0f} s\n", counted(result.groups, "group"),
+        result.people == 1 ? "1 simulated person" : fmt::format("{} simulated people", result.people), result.seconds);
+    text += fmt::format("answers    {} acknowledged, {} lost, {} stored twice\n", result.answers.size(), stored.lost,
+                        stored.twice);
+    text += fmt::format("messages   {} acknowledged, {} refused, {} unanswered\n", result.messages, result.refused,
+                        result.unanswered);
+    if (result.refused > 0) text += fmt::format("refused    {}\n", counts_text(result.refusals));
+    text += fmt::format("reconnects {}; connections lost otherwise: {}\n", result.reconnects, result.connections_lost);
+    text += fmt::format("ended at   {}\n", counts_text(result.stages));
+    text += fmt::format("memory     {:.0f} MB at most, the simulated people included\n\n", peak_megabytes());
+    TextTable table{"lrrrrr"};
+    table.add({"milliseconds", "count", "median", "95 %", "99 %", "max"});
+    table.add(row_of("acknowledgement", result.acknowledgement));
+    table.add(row_of("next lesson", result.next_lesson));
+    table.add(row_of("view after reconnecting", result.reconnect));
+    console.print(text + table.text(console));
+  }
+  if (stored.lost + stored.twice > 0) return exit_code(ErrorKind::kMismatch);
+  if (stop_signal() != 0) return 128 + stop_signal();
+  return result.num_finished() < result.people ? exit_code(ErrorKind::kPartial) : 0;
+}
+
+}  // namespace kith::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "console.hpp"
+#include "kith/live/live_study.hpp"
+#include "kith/server/rehearsal.hpp"
+#include "options.hpp"
+
+namespace kith::cli {
+
+/// What `kith serve --rehearse` does against a server of this process.
+[[nodiscard]] RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<const LiveStudy> study,
+                                                 std::uint16_t port, std::string facilitator);
+
+/// What became of the answers that were acknowledged.
+struct StoredAnswers {
+  std::size_t lost = 0;   ///< Not in the store.
+  std::size_t twice = 0;  ///< In the store more than once.
+};
+/// Looks them up in the store of a folder that is not being served. @throws kith::Error as EventFile::read().
+[[nodiscard]] StoredAnswers look_up(const std::vector<std::string>& answers, const std::filesystem::path& folder);
+
+/// Prints the result as a table or as JSON. @return the exit code: 7 if an answer was lost or
+/// stored twice, 6 if somebody did not come to an end, else 0.
+[[nodiscard]] int report_rehearsal(const RehearsalResult& result, const StoredAnswers& stored, const Console& console);
+
+}  // namespace kith::cli

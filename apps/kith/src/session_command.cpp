@@ -1,0 +1,266 @@
+// kith session: what live sessions left in their folder.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/folder_lock.hpp"
+#include "kith/hosting/event_file.hpp"
+#include "kith/hosting/session_export.hpp"
+#include "kith/hosting/session_review.hpp"
+#include "kith/hosting/session_study.hpp"
+#include "kith/present/json.hpp"
+
+namespace kith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t now_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+// "2026-01-31 12:00" in UTC; "-" for no time.
+std::string time_text(std::int64_t us) {
+  if (us == 0) return "-";
+  const std::time_t seconds = us / 1'000'000;
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &parts)};
+}
+
+std::string state_of(const RoomSummary& room) {
+  if (!room.ended.empty()) return "ended: " + room.ended;
+  return room.has_started ? "started" : "lobby";
+}
+
+Json room_json(const RoomSummary& room) {
+  return {{"room", room.id},
+          {"strategy", room.strategy},
+          {"composition", room.composition},
+          {"created_us", room.created_us},
+          {"last_us", room.last_us == 0 ? Json{} : Json(room.last_us)},
+          {"events", room.events},
+          {"joined", room.joined},
+          {"lessons", room.lessons},
+          {"answers", room.answers},
+          {"started", room.has_started},
+          {"ended", room.ended.empty() ? Json{} : Json(room.ended)}};
+}
+
+int list(const SessionOptions& options, Console& console) {
+  auto file = EventFile::read(options.folder);
+  const auto rooms = list_rooms(file);
+  if (console.json()) {
+    Json document{{"schema", "kith.session-list/1"}, {"session", file.id()},
+                  {"study", file.identity().study},  {"program", file.identity().program},
+                  {"created_us", file.created_us()}, {"served", is_busy(options.folder)},
+                  {"rooms", Json::array()}};
+    for (const auto& room : rooms) document["rooms"].push_back(room_json(room));
+    console.print_json(document);
+    return 0;
+  }
+  if (rooms.empty()) {
+    console.print("no rooms\n");
+    return 0;
+  }
+  TextTable table{"lllrrrll"};
+  table.add({"room", "strategy", "group", "joined", "lessons", "answers", "last event (UTC)", "state"});
+  for (const auto& room : rooms) {
+    table.add({room.id, room.strategy, room.composition, std::to_string(room.joined), std::to_string(room.lessons),
+               std::to_string(room.answers), time_text(room.last_us), state_of(room)});
+  }
+  console.print(table.text(console));
+  return 0;
+}
+
+int show(const SessionOptions& options, Console& console) {
+  if (options.room.empty())
+    throw Error{ErrorKind::kUsage, "kith session show needs --room ID", "list the rooms with 'kith session list'"};
+  auto file = EventFile::read(options.folder);
+  const auto stored = find_room(file, options.room);
+  Json events = Json::array();
+  std::string text;
+  file.for_each_event(
+      [&](const StoredEvent& event) {
+        if (console.json()) {
+          events.push_back(to_json(room_event_of(event)));
+        } else {
+          text += fmt::format("{:>6}  {}  {:<12} {:<12} {}\n", event.seq, time_text(event.at_us), event.actor,
+                              event.type, event.json);
+        }
+      },
+      stored.number);
+  if (console.json()) {
+    console.print_json({{"schema", "kith.session-room/1"}, {"room", options.room}, {"events", events}});
+  } else {
+    console.print(text);
+  }
+  return 0;
+}
+
+// Files of an export, written beside their folder and put in place when all of them are complete.
+class ExportFolder {
+ public:
+  ExportFolder(fs::path path, bool replace) : path_{std::move(path)}, partial_{fs::path{path_}.concat(".partial")} {
+    std::error_code none;
+    if (fs::exists(path_, none) && !fs::is_empty(path_, none) && !replace)
+      throw Error{ErrorKind::kUsage, path_.string() + " exists already", Remedy::kReplaceContents};
+    fs::remove_all(partial_);
+    fs::create_directories(partial_);
+  }
+  ~ExportFolder() {
+    std::error_code none;
+    fs::remove_all(partial_, none);
+  }
+  ExportFolder(const ExportFolder&) = delete;
+  ExportFolder& operator=(const ExportFolder&) = delete;
+
+  void write(std::string_view file, std::string_view piece) {
+    const std::string name{file};
+    auto found = files_.find(name);
+    if (found == files_.end()) found = files_.try_emplace(name, partial_ / name).first;
+    found->second.write(piece);
+  }
+
+  void commit() {
+    for (auto& [name, file] : files_) file.commit(FolderSync::kLater);
+    synchronise_folder(partial_);
+    fs::remove_all(path_);
+    fs::rename(partial_, path_);
+    synchronise_folder(path_.has_parent_path() ? path_.parent_path() : fs::path{"."});
+  }
+
+ private:
+  fs::path path_;
+  fs::path partial_;
+  std::map<std::string, AtomicFile> files_;
+};
+
+int write_tables(const SessionOptions& options, Console& console) {
+  if (options.out.empty())
+    throw Error{ErrorKind::kUsage, "kith session export needs -o DIR, the folder for the tables"};
+  auto file = EventFile::read(options.folder);
+  SessionExportOptions what{.room = {}, .with_names = options.names, .with_text = options.text};
+  if (!options.room.empty()) what.room = find_room(file, options.room).number;
+  const auto study = restore_session_study(file.identity().inputs);
+  TeachingCache cache{study.study->atlas};
+  ExportFolder folder{options.out, options.yes};
+  const auto report = export_session(file, study.study, cache, what,
+                                     [&](std::string_view name, std::string_view piece) { folder.write(name, piece); });
+  folder.commit();
+  if (console.json()) {
+    Json rows = Json::object();
+    for (const auto& [name, count] : report.rows) rows[name] = count;
+    console.print_json({{"schema", "kith.session-export/1"},
+                        {"folder", options.out},
+                        {"identified", options.names || options.text},
+                        {"rows", rows},
+                        {"sha256", report.hashes}});
+    return 0;
+  }
+  TextTable table{"lr"};
+  table.add({"table", "rows"});
+  for (const auto& [name, count] : report.rows) table.add({name, std::to_string(count)});
+  console.print(table.text(console));
+  if (options.names || options.text) console.warning("the tables identify people; keep them accordingly");
+  return 0;
+}
+
+int replay_rooms(const SessionOptions& options, Console& console) {
+  auto file = EventFile::read(options.folder);
+  file.verify();
+  const auto study = restore_session_study(file.identity().inputs);
+  TeachingCache cache{study.study->atlas};
+  std::vector<StoredRoom> rooms = file.rooms();
+  if (!options.room.empty()) rooms = {find_room(file, options.room)};
+  std::vector<Diagnostic> problems;
+  Json list = Json::array();
+  std::size_t events = 0, lessons = 0;
+  for (const auto& stored : rooms) {
+    const auto replayed = replay_room(file, stored, study.study, cache);
+    events += replayed.events;
+    lessons += replayed.lessons;
+    list.push_back({{"room", replayed.id},
+                    {"events", replayed.events},
+                    {"lessons", replayed.lessons},
+                    {"digest", replayed.digest.empty() ? Json{} : Json(replayed.digest)},
+                    {"problem", replayed.problem.empty() ? Json{} : Json(replayed.problem)}});
+    if (replayed.problem.empty()) continue;
+    Diagnostic problem;
+    problem.id = "E1614";
+    problem.file = options.folder;
+    problem.message = "room " + replayed.id + " does not replay to what it was: " + replayed.problem;
+    problem.hint = "use the version of kith and the kind of machine that the session was run with";
+    problems.push_back(std::move(problem));
+  }
+  if (!problems.empty()) throw Error{ErrorKind::kMismatch, counted(problems.size(), "mismatch"), problems};
+  if (console.json()) {
+    console.print_json({{"schema", "kith.session-replay/1"}, {"rooms", list}});
+  } else {
+    console.print(fmt::format("replayed {} with {} and {}: all identical\n", counted(rooms.size(), "room"),
+                              counted(events, "event"), counted(lessons, "lesson")));
+  }
+  return 0;
+}
+
+int erase_persons(const SessionOptions& options, Console& console) {
+  if (!options.yes) {
+    throw Error{ErrorKind::kUsage, "kith session redact erases names, free text and query parameters for good",
+                "export what you need first, then add --yes"};
+  }
+  const auto room = options.room.empty() ? std::nullopt : std::optional{options.room};
+  const auto changed = redact(options.folder, room, now_us());
+  if (console.json()) {
+    console.print_json({{"schema", "kith.session-redact/1"}, {"events", changed}});
+  } else {
+    console.print(fmt::format("erased what identifies people in {}; backups and exports still hold it\n",
+                              counted(changed, "event")));
+  }
+  return 0;
+}
+
+int salvage(const SessionOptions& options, Console& console) {
+  if (options.out.empty())
+    throw Error{ErrorKind::kUsage, "kith session salvage needs -o DIR, the folder for the recovered session"};
+  const auto report = salvage_session(options.folder, options.out);
+  if (console.json()) {
+    console.print_json({{"schema", "kith.session-salvage/1"},
+                        {"rooms", report.rooms},
+                        {"events", report.events},
+                        {"links", report.links},
+                        {"lost", report.lost}});
+  } else {
+    console.print(fmt::format("recovered {} and {} in {}\n", counted(report.rooms, "room"),
+                              counted(report.events, "event"), options.out));
+  }
+  for (const auto& lost : report.lost) console.warning("missing: " + lost);
+  return report.lost.empty() ? 0 : 6;
+}
+
+}  // namespace
+
+const std::vector<std::string>& session_actions() {
+  static const std::vector<std::string> kActions{"list", "show", "export", "replay", "redact", "salvage"};
+  return kActions;
+}
+
+int run_session(const SessionOptions& options, Console& console) {
+  if (options.action == "list") return list(options, console);
+  if (options.action == "show") return show(options, console);
+  if (options.action == "export") return write_tables(options, console);
+  if (options.action == "replay") return replay_rooms(options, console);
+  if (options.action == "redact") return erase_persons(options, console);
+  return salvage(options, console);
+}
+
+}  // namespace kith::cli

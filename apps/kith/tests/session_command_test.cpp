@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/folder_lock.hpp"
+#include "kith/hosting/event_file.hpp"
+#include "kith/hosting/session_study.hpp"
+#include "kith/live/room.hpp"
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A session in which two groups got a room and one person joined and gave a name.
+class SessionCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto study = make_session_study(load_study("quick"));
+    std::filesystem::create_directories(folder());
+    auto file = EventFile::make(folder(), {.study = study.digest, .program = "kith test", .inputs = study.inputs},
+                                std::string(32, 'a'), 1'700'000'000'000'000);
+    StoreBatch batch;
+    for (const std::int64_t number : {1, 2}) {
+      const RoomSetup setup{.id = "r" + std::to_string(number),
+                            .code = number == 1 ? "AAAAAA" : "BBBBBB",
+                            .strategy = "common",
+                            .composition = "NP",
+                            .replicate = static_cast<std::size_t>(number)};
+      batch.rooms.push_back({.number = number, .setup = to_json(setup).dump(), .created_us = 1'700'000'001'000'000});
+    }
+    batch.events.push_back({.room = 1,
+                            .seq = 1,
+                            .at_us = 1'700'000'002'000'000,
+                            .actor = "server",
+                            .type = "joined",
+                            .json = R"({"seat":1,"member":0,"query":{}})"});
+    batch.events.push_back({.room = 1,
+                            .seq = 2,
+                            .at_us = 1'700'000'003'000'000,
+                            .actor = "seat:1",
+                            .type = "consented",
+                            .json = R"({"version":"1"})",
+                            .message = "m1"});
+    file.write({&batch, 1});
+  }
+
+  [[nodiscard]] std::string folder() const { return scratch_ / "live"; }
+
+  Scratch scratch_;
+};
+
+TEST_F(SessionCommand, ListsAndShowsRooms) {
+  const auto list = run_kith({"session", "list", folder()});
+  EXPECT_EQ(list.code, 0) << list.err;
+  EXPECT_THAT(list.out, HasSubstr("r1"));
+  const auto document = kith::Json::parse(run_kith({"session", "list", folder(), "--json"}).out);
+  EXPECT_EQ(document.at("schema"), "kith.session-list/1");
+  ASSERT_EQ(document.at("rooms").size(), 2u);
+  EXPECT_EQ(document["rooms"][0]["joined"], 1);
+  EXPECT_EQ(document["rooms"][1]["events"], 0);
+  const auto shown = kith::Json::parse(run_kith({"session", "show", folder(), "--room", "AAAAAA", "--json"}).out);
+  EXPECT_EQ(shown.at("events").size(), 2u);
+  EXPECT_EQ(run_kith({"session", "show", folder()}).code, 2);
+  const auto none = run_kith({"session", "show", folder(), "--room", "r9"});
+  EXPECT_EQ(none.code, 3);
+  EXPECT_THAT(none.err, HasSubstr("E1618"));
+}
+
+TEST_F(SessionCommand, ExportsTablesThatAreCompleteAndChecked) {
+  EXPECT_EQ(run_kith({"session", "export", folder()}).code, 2);
+  const auto ran = run_kith({"session", "export", folder(), "-o", scratch_ / "tables", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto document = kith::Json::parse(ran.out);
+  EXPECT_EQ(document["rows"]["sessions.csv"], 2);
+  EXPECT_EQ(document["rows"]["events.csv"], 2);
+  EXPECT_EQ(document["identified"], false);
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "tables.partial"));
+  ASSERT_EQ(std::system(("cd '" + (scratch_ / "tables") + "' && sha256sum --quiet -c SHA256SUMS").c_str()), 0);
+  const auto again = run_kith({"session", "export", folder(), "-o", scratch_ / "tables"});
+  EXPECT_EQ(again.code, 2) << "nothing is replaced";
+  EXPECT_EQ(run_kith({"session", "export", folder(), "-o", scratch_ / "tables", "--yes"}).code, 0);
+  const auto one = run_kith({"session", "export", folder(), "--room", "r1", "-o", scratch_ / "one", "--json"});
+  EXPECT_EQ(kith::Json::parse(one.out)["rows"]["sessions.csv"], 1);
+}
+
+TEST_F(SessionCommand, ReplaysAndSaysWhatDiffers) {
+  const auto ran = run_kith({"session", "replay", folder()});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("all identical"));
+  {
+    auto file = EventFile::open(folder(), EventFile::read(folder()).identity(), 0);
+    StoreBatch batch;
+    batch.events.push_back({.room = 1,
+                            .seq = 3,
+                            .at_us = 1'700'000'004'000'000,
+                            .actor = "seat:1",
+                            .type = "answered",
+                            .json = R"({"test":0,"actions":[],"keys":[],"ms":1})"});
+    file.write({&batch, 1});
+  }
+  const auto wrong = run_kith({"session", "replay", folder()});
+  EXPECT_EQ(wrong.code, 7);
+  EXPECT_THAT(wrong.err, HasSubstr("E1614"));
+}
+
+TEST_F(SessionCommand, ErasesOnlyWhenTold) {
+  EXPECT_EQ(run_kith({"session", "redact", folder()}).code, 2);
+  EXPECT_EQ(run_kith({"session", "redact", folder(), "--yes"}).code, 0);
+  const auto lock = FolderLock::try_acquire(folder());
+  const auto busy = run_kith({"session", "redact", folder(), "--yes"});
+  EXPECT_EQ(busy.code, 8);
+  EXPECT_THAT(busy.err, HasSubstr("E1610"));
+}
+
+TEST_F(SessionCommand, RecoversADamagedSession) {
+  {
+    std::fstream file{std::filesystem::path{folder()} / kEventFile, std::ios::in | std::ios::out | std::ios::binary};
+    file.seekp(0);
+    file << "not a database";
+  }
+  const auto list = run_kith({"session", "list", folder()});
+  EXPECT_EQ(list.code, 7);
+  EXPECT_THAT(list.err, HasSubstr("E1612"));
+  EXPECT_EQ(run_kith({"session", "salvage", folder()}).code, 2);
+  const auto ran = run_kith({"session", "salvage", folder(), "-o", scratch_ / "saved", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(kith::Json::parse(ran.out)["events"], 2);
+  EXPECT_EQ(run_kith({"session", "replay", scratch_ / "saved"}).code, 0);
+}
+
+TEST_F(SessionCommand, RefusesFoldersThatHoldNoSession) {
+  for (const std::string action : {"list", "show", "export", "replay", "redact", "salvage"}) {
+    const auto ran = run_kith({"session", action, scratch_ / "none", "--room", "r1", "-o", scratch_ / "x", "--yes"});
+    EXPECT_EQ(ran.code, 3) << action << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("E1616")) << action;
+  }
+  EXPECT_EQ(run_kith({"session", "lst", folder()}).code, 2);
+}
+
+}  // namespace
+}  // namespace kith::testing

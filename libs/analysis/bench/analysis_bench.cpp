@@ -1,0 +1,76 @@
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <string>
+
+#include "kith/analysis/analysis.hpp"
+#include "kith/random/distributions.hpp"
+#include "run_findings.hpp"
+
+namespace kith {
+namespace {
+
+// Five strategies, four compositions; the same people under every strategy, or other people in every team.
+RunTeams teams_of(std::size_t replicates, bool same_people) {
+  RunTeams teams;
+  teams.strategy = {"strategy", {"baseline", "individual-low", "individual-high", "common", "joint"}, {}};
+  teams.composition = {"composition", {"NNN", "NNP", "NPP", "PPP"}, {}};
+  RandomStream random{31};
+  for (std::size_t s = 0; s < 5; ++s) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t r = 0; r < replicates; ++r) {
+        const auto team = teams.team.size();
+        teams.strategy.codes.push_back(s);
+        teams.composition.codes.push_back(c);
+        teams.setting.emplace_back();
+        teams.replicate.push_back(std::to_string(r));
+        teams.team.push_back(std::to_string(team));
+        teams.seed_address.push_back(fmt::format("7/{}/{}", c, same_people ? r : team));
+        teams.completed.push_back(true);
+        teams.periods.push_back(static_cast<double>(4 + uniform_index(6, random)));
+        teams.knowledge.push_back(uniform01(random));
+        teams.area_sr.push_back(uniform01(random));
+      }
+    }
+  }
+  return teams;
+}
+
+// What does the analysis of a study cost? All findings but the manipulation check, of 300 and of 20 000 teams.
+void analyse_study(benchmark::State& state, bool same_people) {
+  const auto teams = teams_of(static_cast<std::size_t>(state.range(0)) / 20, same_people);
+  const AnalysisOptions options;
+  for (auto _ : state) {
+    for (const auto& [name, values] :
+         {std::pair{"periods", &teams.periods}, std::pair{"knowledge", &teams.knowledge}}) {
+      benchmark::DoNotOptimize(effects(teams, name, *values, options));
+      benchmark::DoNotOptimize(effects_within(teams, name, *values, options));
+      benchmark::DoNotOptimize(beliefs(teams, name, *values, options));
+      benchmark::DoNotOptimize(variation(teams, name, *values, options));
+      benchmark::DoNotOptimize(paired(teams, name, *values, options));
+      benchmark::DoNotOptimize(against_baseline(teams, name, *values, options));
+    }
+  }
+}
+void BM_StudyOfTheSamePeople(benchmark::State& state) { analyse_study(state, true); }
+BENCHMARK(BM_StudyOfTheSamePeople)->Arg(300)->Arg(20'000)->Unit(benchmark::kMillisecond);
+void BM_StudyOfOtherPeople(benchmark::State& state) { analyse_study(state, false); }
+BENCHMARK(BM_StudyOfOtherPeople)->Arg(300)->Arg(20'000)->Unit(benchmark::kMillisecond);
+
+// What does a mixed model of a table cost, with reading it? 60 000 learners of 20 000 teams.
+void BM_TableOfLearners(benchmark::State& state) {
+  std::string text = "strategy,team,member,type,p_bec\n";
+  RandomStream random{32};
+  for (std::int64_t team = 0; team < state.range(0); ++team) {
+    const double common = uniform01(random);
+    for (int member = 1; member <= 3; ++member)
+      text += fmt::format("s{},{},{},{},{}\n", team % 4, team, member, member % 2 == 0 ? "N" : "P",
+                          common + uniform01(random));
+  }
+  for (auto _ : state)
+    benchmark::DoNotOptimize(analyze_table(Dataset::parse(text, "learners.csv"), {"p_bec ~ strategy*type"}, {}));
+}
+BENCHMARK(BM_TableOfLearners)->Arg(240)->Arg(20'000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,76 @@
+#include "kith/analysis/plan.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "kith/random/distributions.hpp"
+#include "model_means.hpp"
+#include "run_findings.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kReplicates = 12;  // enough for every analysis
+
+RunTeams made_up_teams(const PlannedDesign& design) {
+  RunTeams teams;
+  teams.strategy = {"strategy", design.strategies, {}};
+  teams.composition = {"composition", design.compositions, {}};
+  RandomStream random{1};
+  for (std::size_t s = 0; s < design.strategies.size(); ++s) {
+    for (std::size_t c = 0; c < design.compositions.size(); ++c) {
+      for (std::size_t r = 0; r < kReplicates; ++r) {
+        const auto people = c * kReplicates + r, team = teams.team.size();
+        teams.strategy.codes.push_back(s);
+        teams.composition.codes.push_back(c);
+        teams.setting.emplace_back();
+        teams.replicate.push_back(std::to_string(r + 1));
+        teams.team.push_back(std::to_string(team + 1));
+        teams.seed_address.push_back(std::to_string(design.same_people ? people : team));
+        teams.completed.push_back(true);
+        // Between 1 and 4, and so with less spread than Poisson's counts, as the periods of simulated teams have.
+        teams.periods.push_back(1.0 + static_cast<double>(uniform_index(4, random)));
+        teams.knowledge.push_back(uniform01(random));
+        teams.area_sr.push_back(uniform01(random));
+      }
+    }
+  }
+  return teams;
+}
+
+}  // namespace
+
+std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const AnalysisOptions& options) {
+  if (design.strategies.empty() || design.compositions.empty())
+    throw std::invalid_argument{"planned_analyses: the design has no strategies or no compositions"};
+  const auto teams = made_up_teams(design);
+  const auto rows = group_teams(teams);
+  std::vector<PlannedAnalysis> plan;
+  const auto add = [&](const std::optional<Finding>& finding, const std::vector<PlannedContrast>& contrasts) {
+    if (finding)
+      plan.push_back({finding->id, finding->title, finding->question, finding->model, finding->methods, contrasts});
+  };
+  const std::vector<std::pair<std::string, const std::vector<double>*>> responses{{"periods", &teams.periods},
+                                                                                  {"knowledge", &teams.knowledge}};
+  if (!rows.empty()) {
+    const auto factors = team_model(teams, rows, "knowledge", teams.knowledge).factors;
+    for (const auto& [name, values] : responses) {
+      auto planned = options;
+      planned.permutations = std::max<std::size_t>(options.permutations, 1);
+      std::vector<PlannedContrast> contrasts;
+      for (const auto& one : design.contrasts) {
+        if ((one.response.empty() || one.response == name) && is_testable(factors, one)) contrasts.push_back(one);
+      }
+      planned.contrasts.insert(planned.contrasts.end(), contrasts.begin(), contrasts.end());
+      add(effects(teams, name, *values, planned), contrasts);
+    }
+    for (const auto& [name, values] : responses) add(effects_within(teams, name, *values, options), {});
+    for (const auto& [name, values] : responses) add(beliefs(teams, name, *values, options), {});
+    for (const auto& [name, values] : responses) add(variation(teams, name, *values, options), {});
+    for (const auto& [name, values] : responses) add(paired(teams, name, *values, options), {});
+  }
+  for (const auto& [name, values] : responses) add(against_baseline(teams, name, *values, options), {});
+  return plan;
+}
+
+}  // namespace kith

@@ -1,0 +1,462 @@
+// How often each documented analysis finds an effect that is not there: 1000 simulated studies without effects, tests
+// at 5 %. The standard error of a rate of 5 % is 0.7 %. docs/analysis.md has the rates; error_rates.mjs writes them
+// there from the property "rates" of these tests.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/analysis/analysis.hpp"
+#include "kith/random/distributions.hpp"
+#include "kith/stats/equivalence.hpp"
+#include "kith/stats/marginal_means.hpp"
+#include "kith/stats/multiple.hpp"
+#include "run_findings.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kStudies = 1'000;
+constexpr double kAlpha = 0.05;
+
+// Rates by the name of the analysis, in the order in which they first occur.
+class Rates {
+ public:
+  // `p` of one study. @param conservative  why the rate may be below 3 %; empty: it may not.
+  void add(const std::string& name, const std::optional<double>& p, const std::string& conservative = "") {
+    auto found = std::find_if(rates_.begin(), rates_.end(), [&](const Rate& rate) { return rate.name == name; });
+    if (found == rates_.end()) {
+      rates_.push_back({name, conservative});
+      found = std::prev(rates_.end());
+    }
+    if (!p) return;
+    ++found->studies;
+    found->rejected += *p < kAlpha ? 1u : 0u;
+  }
+  // Every rate within 3 to 7 %.
+  void expect_nominal() const {
+    std::string text;
+    for (const auto& rate : rates_) {
+      const double share = static_cast<double>(rate.rejected) / static_cast<double>(rate.studies);
+      EXPECT_GE(rate.studies, kStudies * 99 / 100) << rate.name;
+      EXPECT_LE(share, 0.07) << rate.name;
+      if (rate.conservative.empty()) {
+        EXPECT_GE(share, 0.03) << rate.name;
+      }
+      text += fmt::format("{}|{:.1f}|{}\n", rate.name, 100.0 * share, rate.conservative);
+    }
+    ::testing::Test::RecordProperty("rates", text);
+  }
+
+ private:
+  struct Rate {
+    std::string name, conservative;
+    std::size_t studies = 0, rejected = 0;
+  };
+  std::vector<Rate> rates_;
+};
+
+// A p-value of the first table whose caption begins with `caption`: of the row that is named `row`, or the smallest if
+// `row` is empty.
+std::optional<double> p_of(const Finding& finding, const std::string& caption, const std::string& row,
+                           const std::string& column = "p-value") {
+  for (const auto& table : finding.tables) {
+    if (table.caption.rfind(caption, 0) != 0) continue;
+    std::optional<double> least;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (table.columns[c].name != column) continue;
+      for (const auto& cells : table.rows) {
+        const auto* const p = std::get_if<double>(&cells[c]);
+        if (p == nullptr || (!row.empty() && std::get<std::string>(cells.front()) != row)) continue;
+        least = least ? std::min(*least, *p) : *p;
+      }
+    }
+    return least;
+  }
+  return std::nullopt;
+}
+
+AnalysisOptions few_permutations() {
+  AnalysisOptions options;
+  options.permutations = 199;
+  return options;
+}
+
+Finding analyse(const std::string& table, const ModelQuestion& question,
+                const AnalysisOptions& how = few_permutations()) {
+  return analyze_table(Dataset::parse(table, "t.csv"), question, how).findings.front();
+}
+
+std::size_t poisson(double mean, RandomStream& random) {
+  const double limit = std::exp(-mean);
+  std::size_t n = 0;
+  double product = uniform01(random);
+  while (product > limit) {
+    ++n;
+    product *= uniform01(random);
+  }
+  return n;
+}
+
+std::size_t binomial(std::size_t trials, double share, RandomStream& random) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < trials; ++i) n += uniform01(random) < share ? 1u : 0u;
+  return n;
+}
+
+// Negative binomial with theta 2: a Poisson mean that varies as the sum of two exponentials.
+std::size_t negative_binomial(double mean, RandomStream& random) {
+  const double rate = -0.5 * mean * (std::log1p(-uniform01(random)) + std::log1p(-uniform01(random)));
+  return poisson(rate, random);
+}
+
+// A table of factors a (2 levels) and b (3 levels) with `sizes` rows per cell, whose response does not depend on them.
+std::string crossed(const std::array<std::size_t, 6>& sizes, const std::function<std::string()>& response,
+                    const std::string& columns = "y") {
+  std::string text = "a,b," + columns + "\n";
+  for (std::size_t cell = 0; cell < 6; ++cell) {
+    for (std::size_t i = 0; i < sizes.at(cell); ++i)
+      text += fmt::format("a{},b{},{}\n", cell / 3, cell % 3, response());
+  }
+  return text;
+}
+
+// Tests whose suites CTest labels `slow`.
+TEST(FalsePositivesSlow, OfLinearModels) {
+  Rates rates;
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{101}.split(study);
+    const auto normal = [&] { return fmt::format("{}", standard_normal(random)); };
+    const auto two_way = analyse(crossed({8, 8, 8, 8, 8, 8}, normal), {"y ~ a*b"});
+    for (const auto* term : {"a", "b", "a:b"}) {
+      const std::string name = term;
+      rates.add("Analysis of variance, type II: " + name, p_of(two_way, "Analysis of variance (type II)", name));
+      rates.add("Permutation test: " + name, p_of(two_way, "Permutation", name, "p-value, permutation"));
+      rates.add("Aligned ranks: " + name, p_of(two_way, "Permutation", name, "p-value, aligned ranks"));
+    }
+    rates.add("Tukey-Kramer, any of three pairs", p_of(two_way, "Pairs of b", "", "adjusted p-value"));
+    rates.add("t test of a pair", p_of(two_way, "Pairs of a", ""));
+    const auto unbalanced = analyse(crossed({4, 12, 6, 10, 5, 9}, normal), {"y ~ a*b"});
+    for (const auto* term : {"a", "b", "a:b"}) {
+      const std::string name = term;
+      rates.add("Analysis of variance, type II, unbalanced: " + name,
+                p_of(unbalanced, "Analysis of variance (type II)", name));
+      rates.add("Analysis of variance, type III, unbalanced: " + name,
+                p_of(unbalanced, "Analysis of variance (type III)", name));
+    }
+    rates.add("Tukey-Kramer, any of three pairs, unbalanced", p_of(unbalanced, "Pairs of b", "", "adjusted p-value"));
+    const auto one_way = analyse(crossed({5, 5, 5, 5, 5, 5}, normal), {"y ~ b"});
+    rates.add("Kruskal-Wallis", p_of(one_way, "Permutation", "b", "p-value, Kruskal-Wallis"));
+  }
+  rates.expect_nominal();
+}
+
+TEST(FalsePositivesSlow, OfUnequalVariances) {
+  Rates rates;
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{102}.split(study);
+    std::string text = "b,y\n";
+    std::vector<double> values;
+    Factor groups{"b", {"b0", "b1", "b2"}, {}};
+    constexpr std::array<std::size_t, 3> kSizes{20, 10, 15};
+    constexpr std::array<double, 3> kSpreads{1.0, 4.0, 2.0};
+    for (std::size_t level = 0; level < 3; ++level) {
+      for (std::size_t i = 0; i < kSizes.at(level); ++i) {
+        values.push_back(kSpreads.at(level) * standard_normal(random));
+        groups.codes.push_back(level);
+        text += fmt::format("b{},{}\n", level, values.back());
+      }
+    }
+    rates.add("Welch's analysis of variance, unequal variances",
+              p_of(analyse(text, {"y ~ b"}), "Test that does not assume equal variances", "b"));
+    const auto pairs = games_howell(values, groups);
+    std::optional<double> least;
+    for (const auto& pair : *pairs) least = std::min(least.value_or(1.0), pair.difference->test.p);
+    rates.add("Games-Howell, any of three pairs, unequal variances", least);
+  }
+  rates.expect_nominal();
+}
+
+TEST(FalsePositivesSlow, OfContrastsAndFamilies) {
+  Rates rates;
+  auto planned = few_permutations();
+  planned.contrasts = {parse_contrast("one: b1 - b0")};
+  planned.by = {"a"};
+  auto family = few_permutations();
+  family.contrasts = {parse_contrast("c0 [b]: b1 - b0"), parse_contrast("c1 [b]: b2 - b0"),
+                      parse_contrast("c2 [b]: b2 - b1")};
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{103}.split(study);
+    const auto table = crossed({6, 9, 7, 8, 6, 10}, [&] { return fmt::format("{}", standard_normal(random)); });
+    const auto found = analyse(table, {"y ~ a*b"}, planned);
+    rates.add("Planned contrast", p_of(found, "Planned contrasts of b", "one"));
+    rates.add("Planned contrast at each level, Bonferroni, any",
+              p_of(found, "Planned contrasts of b at each level of a", "", "corrected p-value"));
+    for (const auto& [correction, name] : {std::pair{Correction::kBonferroni, "Bonferroni"},
+                                           std::pair{Correction::kHolm, "Holm"}, std::pair{Correction::kFdr, "FDR"}}) {
+      family.correction = correction;
+      rates.add(fmt::format("Three contrasts that depend on each other, {}, any", name),
+                p_of(analyse(table, {"y ~ a*b"}, family), "Planned contrasts of b", "", "adjusted p-value"));
+    }
+    // Dunnett's test: every level with the first.
+    std::vector<double> values;
+    Factor groups{"g", {"control", "x", "y", "z"}, {}};
+    for (std::size_t i = 0; i < 40; ++i) {
+      values.push_back(standard_normal(random));
+      groups.codes.push_back(i % 4);
+    }
+    const std::vector factors{groups};
+    const std::vector<std::vector<std::size_t>> terms{{0}};
+    const auto model = fit_linear_model(values, factors, terms);
+    const std::vector<std::size_t> over{0};
+    const auto means = marginal_means(model->effects, over);
+    const std::vector<MeanContrast> controls{
+        {"x", {-1.0, 1.0, 0.0, 0.0}}, {"y", {-1.0, 0.0, 1.0, 0.0}}, {"z", {-1.0, 0.0, 0.0, 1.0}}};
+    std::optional<double> least;
+    for (const auto& one :
+         estimate_contrasts(model->effects, means.groups.front(), controls, Adjustment::kMultivariateT, 0.95))
+      least = std::min(least.value_or(1.0), one.inference->p);
+    rates.add("Dunnett, any of three comparisons with a control", least);
+  }
+  rates.expect_nominal();
+}
+
+// The difference is as large as the smallest one that matters: claiming equivalence is an error.
+TEST(FalsePositivesSlow, OfEquivalenceTests) {
+  Rates rates;
+  auto margin = few_permutations();
+  margin.smallest_effect = SmallestEffect{0.5, false};
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{104}.split(study);
+    std::string text = "g,y\n";
+    for (std::size_t i = 0; i < 80; ++i)
+      text += fmt::format("g{},{}\n", i % 2, 0.5 * standard_normal(random) + (i % 2 == 0 ? 0.0 : 0.5));
+    rates.add("Equivalence (two one-sided tests), true difference at the margin",
+              p_of(analyse(text, {"y ~ g"}, margin), "Equivalence within", ""));
+  }
+  rates.expect_nominal();
+}
+
+TEST(FalsePositivesSlow, OfMixedModels) {
+  Rates rates;
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{105}.split(study);
+    // Teams of three with an intraclass correlation of .6, as the p_bec of learners; every team has one strategy.
+    std::string learners = "team,member,strategy,type,y\n";
+    for (std::size_t team = 0; team < 32; ++team) {
+      const double common = 1.2 * standard_normal(random);
+      for (std::size_t member = 0; member < 3; ++member)
+        learners += fmt::format("{},{},s{},{},{}\n", team, member + 1, team % 4, team / 4 % 3 > member ? "N" : "P",
+                                common + standard_normal(random));
+    }
+    const auto found = analyse(learners, {"y ~ strategy*type"});
+    for (const auto* term : {"strategy", "type", "strategy:type"})
+      rates.add(std::string{"Mixed model of learners in teams: "} + term, p_of(found, "Tests of the fixed", term));
+    // The same people under every strategy: kith's own tables.
+    std::string paired = "strategy,composition,replicate,team,y\n", addressed = "strategy,composition,seed_address,y\n";
+    for (std::size_t people = 0; people < 16; ++people) {
+      const double common = standard_normal(random);
+      for (std::size_t strategy = 0; strategy < 4; ++strategy) {
+        const double value = common + standard_normal(random);
+        paired += fmt::format("s{},{},{},{},{}\n", strategy, people % 2 == 0 ? "NNN" : "PPP", people / 2,
+                              people * 4 + strategy, value);
+        addressed += fmt::format("s{},{},7/{},{}\n", strategy, people % 2 == 0 ? "NNN" : "PPP", people, value);
+      }
+    }
+    const auto by_replicate = analyse(paired, {"y ~ strategy*composition"});
+    const auto by_address = analyse(addressed, {"y ~ strategy*composition"});
+    for (const auto* term : {"strategy", "composition", "strategy:composition"}) {
+      rates.add(std::string{"Mixed model of teams of the same people: "} + term,
+                p_of(by_address, "Tests of the fixed", term));
+      rates.add(std::string{"The same without seed addresses: "} + term,
+                p_of(by_replicate, "Tests of the fixed", term));
+    }
+    // Several periods of every learner of every team.
+    std::string progress = "team,member,type,y\n";
+    for (std::size_t team = 0; team < 12; ++team) {
+      const double common = 0.7 * standard_normal(random);
+      for (std::size_t member = 0; member < 3; ++member) {
+        const double own = common + 0.7 * standard_normal(random);
+        for (std::size_t period = 0; period < 4; ++period)
+          progress += fmt::format("{},{},{},{}\n", team, member + 1, (team + member) % 2 == 0 ? "N" : "P",
+                                  own + standard_normal(random));
+      }
+    }
+    rates.add("Mixed model of periods of learners in teams: type",
+              p_of(analyse(progress, {"y ~ type"}), "Tests of the fixed", "type"));
+    // Every person under every condition.
+    std::string within = "person,condition,y\n";
+    for (std::size_t person = 0; person < 15; ++person) {
+      const double own = 1.5 * standard_normal(random);
+      for (std::size_t condition = 0; condition < 3; ++condition)
+        within += fmt::format("{},c{},{}\n", person, condition, own + standard_normal(random));
+    }
+    const auto repeated = analyse(within, {"y ~ condition"});
+    rates.add("Mixed model of repeated people: condition", p_of(repeated, "Tests of the fixed", "condition"));
+    rates.add("Mixed model of repeated people: Tukey-Kramer, any of three pairs",
+              p_of(repeated, "Pairs of condition", "", "adjusted p-value"));
+  }
+  rates.expect_nominal();
+}
+
+TEST(FalsePositivesSlow, OfCounts) {
+  Rates rates;
+  const std::array<std::size_t, 6> sizes{15, 15, 15, 15, 15, 15};
+  const ModelQuestion counts{.formula = "y ~ a*b", .response_kind = ColumnKind::kCount};
+  const ModelQuestion main_effects{.formula = "y ~ a + b", .response_kind = ColumnKind::kCount};
+  const ModelQuestion censored{.formula = "y ~ a + b", .observed = "done"};
+  auto how = few_permutations();
+  how.permutations = 1;
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{106}.split(study);
+    // Periods are underdispersed: 2 and more, with a variance of about .3 times the mean.
+    const auto periods = [&] { return 2 + binomial(8, 0.7, random); };
+    const auto under = analyse(crossed(sizes, [&] { return fmt::format("{}", periods()); }), counts, how);
+    for (const auto* term : {"a", "b", "a:b"})
+      rates.add(std::string{"Quasi-Poisson, underdispersed: "} + term, p_of(under, "F tests of the quasi", term));
+    rates.add("Quasi-Poisson: Tukey-Kramer, any of three ratios",
+              p_of(under, "Ratios of means: Pairs of b", "", "adjusted p-value"));
+    const auto over =
+        analyse(crossed(sizes, [&] { return fmt::format("{}", negative_binomial(8.0, random)); }), main_effects, how);
+    for (const auto* term : {"a", "b"})
+      rates.add(std::string{"Negative binomial: "} + term, p_of(over, "Likelihood-ratio tests (neg", term));
+    const auto cut = [&](std::size_t value, std::size_t limit) {
+      return fmt::format("{},{}", std::min(value, limit), value <= limit ? "true" : "false");
+    };
+    const auto cut_over = analyse(crossed(
+                                      sizes, [&] { return cut(1 + negative_binomial(8.0, random), 16); }, "y,done"),
+                                  censored, how);
+    const auto cut_under = analyse(crossed(
+                                       sizes, [&] { return cut(periods(), 8); }, "y,done"),
+                                   censored, how);
+    for (const auto* term : {"a", "b"}) {
+      rates.add(std::string{"Negative binomial, censored: "} + term,
+                p_of(cut_over, "Likelihood-ratio tests of the censored", term));
+      rates.add(std::string{"Poisson, censored and underdispersed: "} + term,
+                p_of(cut_under, "Likelihood-ratio tests of the censored", term),
+                "Poisson's variance is about three times the true one, and nothing estimates it where counts are cut "
+                "off; use the log-rank test");
+      rates.add(std::string{"Log-rank, stratified: "} + term, p_of(cut_over, "Log-rank", term));
+      rates.add(std::string{"Log-rank, stratified, underdispersed: "} + term, p_of(cut_under, "Log-rank", term));
+    }
+  }
+  rates.expect_nominal();
+}
+
+TEST(FalsePositivesSlow, OfRatings) {
+  Rates rates;
+  const ModelQuestion ratings{.formula = "y ~ a*b", .response_kind = ColumnKind::kOrdinal};
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{107}.split(study);
+    const auto rating = [&] {
+      const double value = 3.4 + 1.1 * standard_normal(random);
+      return fmt::format("{}", static_cast<int>(std::clamp(std::round(value), 1.0, 5.0)));
+    };
+    const auto found = analyse(crossed({15, 15, 15, 15, 15, 15}, rating), ratings);
+    for (const auto* term : {"a", "b", "a:b"})
+      rates.add(std::string{"Cumulative logit: "} + term, p_of(found, "Likelihood-ratio tests", term));
+    rates.add("Cumulative logit: Tukey-Kramer, any of three odds ratios",
+              p_of(found, "Pairs of b", "", "adjusted p-value"));
+  }
+  rates.expect_nominal();
+}
+
+// Teams of a study without effects. `periods` are counts if everybody was taught once, else any numbers.
+RunTeams null_study(bool same_people, RandomStream& random) {
+  RunTeams teams;
+  teams.strategy = {"strategy", {"baseline", "individual-low", "individual-high", "common", "joint"}, {}};
+  teams.composition = {"composition", {"NNN", "PPP"}, {}};
+  constexpr std::size_t kReplicates = 10;
+  std::vector<double> periods_of(2 * kReplicates), knowledge_of(2 * kReplicates);
+  for (auto& one : periods_of) one = standard_normal(random);
+  for (auto& one : knowledge_of) one = standard_normal(random);
+  for (std::size_t strategy = 0; strategy < 5; ++strategy) {
+    for (std::size_t composition = 0; composition < 2; ++composition) {
+      for (std::size_t replicate = 0; replicate < kReplicates; ++replicate) {
+        const auto people = composition * kReplicates + replicate;
+        const double shared = same_people ? 0.7 * periods_of[people] : 0.0;
+        teams.strategy.codes.push_back(strategy);
+        teams.composition.codes.push_back(composition);
+        teams.setting.emplace_back();
+        teams.replicate.push_back(std::to_string(replicate));
+        teams.team.push_back(std::to_string(teams.team.size()));
+        teams.seed_address.push_back(same_people ? fmt::format("7/{}", people)
+                                                 : fmt::format("7/{}", teams.team.back()));
+        teams.completed.push_back(true);
+        teams.periods.push_back(same_people ? 8.0 + shared + standard_normal(random)
+                                            : static_cast<double>(2 + binomial(8, 0.7, random)));
+        teams.knowledge.push_back((same_people ? knowledge_of[people] : 0.0) + standard_normal(random));
+        teams.area_sr.push_back(1.0);
+      }
+    }
+  }
+  return teams;
+}
+
+void add_study(const RunTeams& teams, bool same_people, Rates& rates) {
+  const std::string kind = same_people ? "Study, same people: " : "Study, other people: ";
+  auto how = few_permutations();
+  how.permutations = 1;
+  const auto main = *effects(teams, "knowledge", teams.knowledge, how);
+  const auto* const tests = same_people ? "Tests of the fixed" : "Analysis of variance (type II)";
+  for (const auto* term : {"strategy", "composition", "strategy:composition"})
+    rates.add(kind + "`knowledge`, " + term, p_of(main, tests, term));
+  const auto within = *effects_within(teams, "knowledge", teams.knowledge, how);
+  rates.add(kind + "`knowledge-within-composition`, any", p_of(within, "", "", "corrected p-value"));
+  rates.add(kind + (same_people ? "Friedman" : "Kruskal-Wallis") + " in one composition",
+            p_of(within, "", "NNN", same_people ? "Friedman p-value" : "Kruskal-Wallis p-value"));
+  const auto belief = *beliefs(teams, "knowledge", teams.knowledge, how);
+  rates.add(kind + "`knowledge-beliefs`", p_of(belief, "Planned contrasts", "team beliefs - individual beliefs"));
+  rates.add(kind + "`knowledge-beliefs`, at each composition, any",
+            p_of(belief, "Planned contrasts of strategy at each", "", "corrected p-value"));
+  rates.add(kind + "`knowledge-beliefs`, dependence on composition", p_of(belief, "Does the difference", ""));
+  const auto varied = *variation(teams, "periods", teams.periods, how);
+  rates.add(kind + "`periods-variation`, variance ratio",
+            p_of(varied, "Variance", "all", same_people ? "p-value, jackknife" : "p-value, F"),
+            same_people ? ""
+                        : "the values of this simulation, like periods, have lighter tails than the normal "
+                          "distribution that the F test assumes");
+  rates.add(kind + "`periods-variation`, Brown-Forsythe", p_of(varied, "Variance", "all", "p-value, Brown-Forsythe"));
+  const auto alone = *against_baseline(teams, "knowledge", teams.knowledge, how);
+  rates.add(kind + "`knowledge-baseline`", p_of(alone, "", "together - alone"));
+  if (!same_people) return;
+  const auto pairs = *paired(teams, "knowledge", teams.knowledge, how);
+  rates.add(kind + "`knowledge-paired`, any pair (Holm)", p_of(pairs, "Differences within", "", "corrected p-value"),
+            "the pairs depend on each other, which Holm's correction does not use");
+  for (const auto* term : {"strategy", "strategy:composition"}) {
+    rates.add(kind + "within people, " + term, p_of(pairs, "Analysis of variance within", term));
+    rates.add(kind + "within people, " + term + ", Greenhouse-Geisser",
+              p_of(pairs, "Corrections", term, "p-value, Greenhouse-Geisser"));
+    rates.add(kind + "within people, " + term + ", Huynh-Feldt",
+              p_of(pairs, "Corrections", term, "p-value, Huynh-Feldt"));
+  }
+}
+
+TEST(FalsePositivesSlow, OfStudiesWithTheSamePeople) {
+  Rates rates;
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{108}.split(study);
+    add_study(null_study(true, random), true, rates);
+  }
+  rates.expect_nominal();
+}
+
+TEST(FalsePositivesSlow, OfStudiesWithOtherPeople) {
+  Rates rates;
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{109}.split(study);
+    add_study(null_study(false, random), false, rates);
+  }
+  rates.expect_nominal();
+}
+
+}  // namespace
+}  // namespace kith

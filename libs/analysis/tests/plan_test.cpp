@@ -1,0 +1,67 @@
+#include "kith/analysis/plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace kith {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+
+std::vector<std::string> ids_of(const std::vector<PlannedAnalysis>& plan) {
+  std::vector<std::string> ids;
+  for (const auto& one : plan) ids.push_back(one.id);
+  return ids;
+}
+
+bool uses(const PlannedAnalysis& analysis, const std::string& method) {
+  return std::any_of(analysis.methods.begin(), analysis.methods.end(),
+                     [&](const Method& one) { return one.text == method; });
+}
+
+AnalysisOptions plan_options() {
+  AnalysisOptions options;
+  options.permutations = 19;
+  return options;
+}
+
+TEST(PlannedAnalyses, AreThoseOfTheDesign) {
+  const PlannedDesign design{.strategies = {"baseline", "individual-low", "joint"},
+                             .compositions = {"NNN", "PPP"},
+                             .same_people = true,
+                             .contrasts = {parse_contrast("mine: joint - individual-low")}};
+  const auto plan = planned_analyses(design, plan_options());
+  EXPECT_THAT(ids_of(plan),
+              ElementsAre("periods", "knowledge", "periods-within-composition", "knowledge-within-composition",
+                          "periods-beliefs", "knowledge-beliefs", "periods-variation", "knowledge-variation",
+                          "periods-paired", "knowledge-paired", "periods-baseline", "knowledge-baseline"));
+  EXPECT_EQ(plan.at(1).model, "knowledge ~ strategy + composition + strategy:composition + (1|people)");
+  ASSERT_EQ(plan.at(1).contrasts.size(), 1u);
+  EXPECT_EQ(plan.at(1).contrasts.front().name, "mine");
+  EXPECT_TRUE(uses(plan.at(1), "linear mixed model (REML) with Satterthwaite's degrees of freedom"));
+  EXPECT_TRUE(uses(plan.back(), "a paired t test of the same people"));
+}
+
+TEST(PlannedAnalyses, DependOnWhetherPeopleAreTheSame) {
+  const PlannedDesign design{
+      .strategies = {"baseline", "joint", "common"}, .compositions = {"NNN", "PPP"}, .same_people = false};
+  const auto plan = planned_analyses(design, plan_options());
+  EXPECT_EQ(plan.front().model, "periods ~ strategy + composition + strategy:composition");
+  EXPECT_TRUE(uses(plan.front(), "quasi-Poisson regression with F tests"));
+  EXPECT_TRUE(uses(plan.back(), "Welch's t test"));
+  const auto ids = ids_of(plan);
+  EXPECT_THAT(ids, ::testing::Not(Contains("periods-paired")));
+}
+
+TEST(PlannedAnalyses, OfOneGroupStrategyAreComparisonsWithTheBaseline) {
+  const PlannedDesign design{.strategies = {"baseline", "joint"}, .compositions = {"NP"}};
+  EXPECT_THAT(ids_of(planned_analyses(design, plan_options())), ElementsAre("periods-baseline", "knowledge-baseline"));
+  EXPECT_THROW((void)planned_analyses({}, plan_options()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kith {
+
+class LiveStudy;
+
+/// How live groups are kept and served.
+struct LiveServiceOptions {
+  /// What the study can be made from again, and its digest: see SessionStudy. Rooms of another digest are refused.
+  std::map<std::string, std::string> inputs{};
+  std::string digest{};
+  std::filesystem::path folder{};                   ///< Where the store is; made if it does not exist.
+  std::string program = "kith";                     ///< Name and version, told to clients and written into the store.
+  std::size_t teaching_workers = 2;                 ///< Threads that choose lessons, >= 1.
+  std::size_t cache_bytes = std::size_t{24} << 20;  ///< What each of them remembers, see TeachingCache.
+  std::size_t joins_per_minute = 10;                ///< POST /api/join per address; 0: no limit.
+  std::size_t max_rooms = 2000;                     ///< No room is made beyond this number.
+  bool makes_rooms = true;                          ///< Who joins the study finds a room, made for them if need be.
+  std::int64_t token_hours = 24 * 14;               ///< How long links are valid, in hours.
+  std::int64_t hello_limit_ms = 5000;               ///< A connection that has not said hello by then is closed.
+  /// Microseconds since 1970; empty: the system's clock. Called from several threads.
+  std::function<std::int64_t()> now_us{};
+  /// Whether a thread calls tick() every 100 ms. Tests with a clock of their own call it themselves.
+  bool ticks = true;
+  /// Free bytes of the file system of a folder; empty: asks the system.
+  std::function<std::uint64_t(const std::filesystem::path&)> free_bytes{};
+};
+
+/// Rooms of a study with people in them: kept in a store (EventStore), taught by threads of their own, shown to
+/// connections. Knows nothing of networks: connections are Sockets, requests are HttpRequests.
+///
+/// A message is acknowledged, and its effect shown to anybody, only after it is on the disk. All functions may be
+/// called from any thread; receive() and http() never wait for teaching, and receive() never for the disk.
+class LiveService {
+ public:
+  /// A connection, as the service sees it. Both functions may be called from any thread and must not block; they may be
+  /// called after the connection was closed by the other side, and then do nothing.
+  struct Socket {
+    virtual ~Socket() = default;
+    /// Sends one text frame. Frames arrive in the order of the calls.
+    virtual void send(std::shared_ptr<const std::string> frame) = 0;
+    /// Closes the connection after the frames sent so far, with a close code of WebSocket.
+    virtual void close(std::uint16_t code, std::string reason) = 0;
+  };
+  using ConnectionId = std::uint64_t;
+
+  struct HttpRequest {
+    std::string method;  ///< "GET", "POST"
+    std::string target;  ///< Path with query, such as "/api/health".
+    std::string bearer;  ///< The token of the header Authorization; empty without.
+    std::string body;
+    std::string remote;  ///< Address of the client, for limits only; never stored.
+  };
+  struct HttpReply {
+    int status = 200;
+    std::string content_type = "application/json";
+    std::string body{};
+    std::map<std::string, std::string> headers{};
+  };
+
+  /// The tokens of links for the person who started the service.
+  struct StartLinks {
+    std::string facilitator;  ///< Token for /f#t=...
+    std::string observer;
+  };
+
+  /// Opens the store, or makes a new one, and rebuilds all rooms from it.
+  /// @throws kith::Error  kBusy E1610 (another process serves this folder), kMismatch E1611 (the store is of another
+  /// study), E1612 (the store is damaged), kUsage E1613 (of another version of kith); kIo. A room that cannot be
+  /// rebuilt as it was is left out and reported to facilitators.
+  LiveService(std::shared_ptr<const LiveStudy> study, LiveServiceOptions options);
+  /// As stop().
+  ~LiveService();
+  LiveService(const LiveService&) = delete;
+  LiveService& operator=(const LiveService&) = delete;
+
+  /// New tokens of a facilitator and an observer. Those given earlier stay valid until they expire or are revoked.
+  [[nodiscard]] StartLinks start_links();
+  /// How links begin, such as "http://127.0.0.1:8080"; views show them so.
+  void set_base_url(std::string url);
+
+  // --- connections ----------------------------------------------------------
+  /// A new connection. It is told nothing until its first frame is a valid hello.
+  [[nodiscard]] ConnectionId open(std::shared_ptr<Socket> socket, std::string remote);
+  /// One text frame of a connection. Never throws for what is in it.
+  void receive(ConnectionId connection, std::string_view frame);
+  /// The connection is closed.
+  void closed(ConnectionId connection);
+
+  // --- requests -------------------------------------------------------------
+  /// Everything below /api. Never throws for what is in the request.
+  [[nodiscard]] HttpReply http(const HttpRequest& request);
+
+  // --- time -----------------------------------------------------------------
+  /// Does what is due by the clock: people become away, time limits end, messages that could not be saved are tried
+  /// again. Called by a thread of the service unless LiveServiceOptions::ticks is false.
+  void tick();
+  /// Waits until nothing is being saved, taught or sent. For tests and for stop().
+  void settle();
+  /// Says goodbye to all connections ("server-stops"), saves what is left and ends all threads. Further calls of
+  /// receive() do nothing. May be called twice.
+  void stop();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace kith

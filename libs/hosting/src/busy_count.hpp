@@ -1,0 +1,34 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+
+namespace kith {
+
+// Counts what is under way on any thread, so that somebody can wait until nothing is.
+class BusyCount {
+ public:
+  void begin() {
+    const std::lock_guard lock{mutex_};
+    ++count_;
+  }
+  void end() {
+    {
+      const std::lock_guard lock{mutex_};
+      --count_;
+    }
+    changed_.notify_all();
+  }
+  void wait_for_none() {
+    std::unique_lock lock{mutex_};
+    changed_.wait(lock, [&] { return count_ == 0; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace kith

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kith/hosting/session_export.hpp"
+#include "kith/table/codebook.hpp"
+
+// What the tables of an export are: the one place where their columns are defined.
+namespace kith {
+
+inline constexpr const char* kSessionsFile = "sessions.csv";
+inline constexpr const char* kParticipantsFile = "participants.csv";
+inline constexpr const char* kPeriodsFile = "periods.csv";
+inline constexpr const char* kTestsFile = "tests.csv";
+inline constexpr const char* kKeysFile = "keypresses.csv";
+inline constexpr const char* kQuestionsFile = "questions.csv";
+inline constexpr const char* kTrialsFile = "trials.csv";
+inline constexpr const char* kEventsFile = "events.csv";
+
+[[nodiscard]] TableDescription sessions_table();
+[[nodiscard]] TableDescription participants_table(const SessionExportOptions& options);
+[[nodiscard]] TableDescription periods_table();
+[[nodiscard]] TableDescription tests_table();
+[[nodiscard]] TableDescription keys_table();
+[[nodiscard]] TableDescription questions_table(const SessionExportOptions& options);
+[[nodiscard]] TableDescription trials_table();
+[[nodiscard]] TableDescription events_table();
+
+}  // namespace kith

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "kith/hosting/event_file.hpp"
+#include "kith/live/room.hpp"
+#include "strands.hpp"
+#include "teaching_pool.hpp"
+
+namespace kith {
+
+// What became of a command: events that are on the disk, or a refusal; neither if it was accepted before.
+struct CommandOutcome {
+  std::vector<RoomEvent> events;
+  std::optional<Refusal> refusal;
+};
+
+// A room on the server. Decides one command at a time, has its events saved, applies them, and only then tells anybody;
+// has lessons chosen. All functions but those marked are called on the room's strand.
+class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
+ public:
+  // What a room needs of the service.
+  class Host {
+   public:
+    virtual ~Host() = default;
+    [[nodiscard]] virtual std::int64_t now_us() const = 0;
+    virtual void post(std::int64_t room, Strands::Job job) = 0;
+    virtual void save(StoreBatch batch, std::function<void(bool)> done) = 0;
+    virtual void teach(TeachingPool::Urgency urgency, TeachingPool::Job job) = 0;
+    // How many demonstrations a facilitator who watches this room wants to see besides the chosen ones.
+    [[nodiscard]] virtual std::size_t num_runners_up(std::int64_t room) const = 0;
+    // Events were saved and applied: on the strand of the room.
+    virtual void on_applied(HostedRoom& room, std::span<const RoomEvent> events) = 0;
+    // Something is wrong that people should hear of; empty: no longer.
+    virtual void on_trouble(std::int64_t room, const std::string& what) = 0;
+  };
+  using Done = std::function<void(const CommandOutcome& outcome)>;
+
+  HostedRoom(Host& host, std::shared_ptr<const LiveStudy> study, StoredRoom stored, RoomSetup setup)
+      : host_{host}, study_{std::move(study)}, stored_{std::move(stored)}, setup_{std::move(setup)} {}
+
+  // From any thread.
+  [[nodiscard]] std::int64_t number() const noexcept { return stored_.number; }
+  [[nodiscard]] const RoomSetup& setup() const noexcept { return setup_; }
+  // From any thread: when the clock demands something, in microseconds.
+  [[nodiscard]] std::int64_t next_due_us() const noexcept { return next_due_us_.load(); }
+  // From any thread: whether somebody may find a seat; as long as nobody knows, yes.
+  [[nodiscard]] bool may_have_free_seat() const noexcept { return may_have_free_seat_.load(); }
+  // From any thread: whether events wait for a disk that refused them.
+  [[nodiscard]] bool is_unsaved() const noexcept { return is_unsaved_.load(); }
+
+  // A new room.
+  void begin(TeachingCache& cache);
+  // From any thread: rebuilds it from what is stored, on a thread of the teaching pool. Commands wait meanwhile.
+  void rebuild(std::vector<StoredEvent> events);
+
+  // Nothing while it is being rebuilt, or if it could not be.
+  [[nodiscard]] const Room* room() const noexcept { return room_ ? &*room_ : nullptr; }
+  // Has a command decided. `id` of the command may be empty.
+  void ask(RoomCommand command, Done done);
+  // Something may be due by the clock, or could not be saved and is to be tried again.
+  void wake();
+
+ private:
+  struct Asked {
+    RoomCommand command;
+    Done done;
+  };
+  // Events on their way to the disk.
+  struct Saving {
+    std::vector<RoomEvent> events;
+    std::string message;
+    Done done;
+    std::shared_ptr<const TaughtLesson> lesson;
+    bool has_failed = false;
+  };
+
+  [[nodiscard]] std::int64_t now() const;
+  void finish_rebuild(std::optional<Room> room, std::vector<std::uint64_t> messages, const std::string& problem);
+  void advance();
+  [[nodiscard]] bool begin_next();
+  void save(Saving saving);
+  void hand_in();
+  void on_saved(bool saved, TeachingCache& cache);
+  void seek_lesson();
+  void look_ahead();
+  void start_task(TeachingPool::Urgency urgency, const TeachingTask& task);
+  void on_lesson(std::shared_ptr<const TaughtLesson> lesson);
+  [[nodiscard]] static std::uint64_t mark_of(const std::string& actor, const std::string& message);
+
+  Host& host_;
+  std::shared_ptr<const LiveStudy> study_;
+  StoredRoom stored_;
+  RoomSetup setup_;
+  std::atomic<std::int64_t> next_due_us_ = std::numeric_limits<std::int64_t>::max();
+  std::atomic<bool> is_unsaved_ = false;
+  std::atomic<bool> may_have_free_seat_ = true;
+
+  std::optional<Room> room_;
+  std::string broken_;                          // why it cannot go on
+  std::int64_t last_us_ = 0;                    // of the last event
+  std::unordered_set<std::uint64_t> messages_;  // whose effects are saved
+  std::deque<Asked> asked_;
+  std::optional<Saving> saving_;
+  std::uint64_t sought_ = 0;  // one more than the number of the event after which a lesson was last asked for
+  std::string wanted_;        // key of the lesson that is waited for
+  std::map<std::string, std::shared_ptr<const TaughtLesson>> lessons_;  // by key; null: somebody is at it
+  bool has_changed_ = false;                                            // so that other lessons are likely
+};
+
+}  // namespace kith

@@ -1,0 +1,143 @@
+#include "room_history.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "kith/core/error.hpp"
+#include "kith/files/published_run.hpp"
+
+namespace kith {
+namespace {
+
+std::size_t count_member(const Json& body, const char* name) {
+  const auto found = body.find(name);
+  return found != body.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
+}
+
+std::string text_member(const Json& body, const char* name) {
+  const auto found = body.find(name);
+  return found != body.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+class Collector {
+ public:
+  explicit Collector(RoomHistory& history) : history_{history} {}
+
+  void take(const Room& room, const RoomEvent& event) {
+    const auto& body = event.body;
+    const auto by = seat_of_actor(event.actor);
+    const auto seat = by ? *by : count_member(body, "seat");
+    history_.room = room;
+    if (event.type == "joined") {
+      auto& row = history_.seats[count_member(body, "seat")];
+      row.joined_us = event.at_us;
+      if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
+        row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
+      if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
+    } else if (event.type == "consented") {
+      history_.seats[seat].consent = text_member(body, "version");
+    } else if (event.type == "named") {
+      history_.seats[seat].name = text_member(body, "name");
+    } else if (event.type == "started") {
+      history_.started_us = event.at_us;
+    } else if (event.type == "ended") {
+      history_.ended = text_member(body, "reason");
+    } else if (event.type == "away" || event.type == "present") {
+      note_presence(history_.seats[seat], event.type == "away", event.at_us);
+    } else if (event.type == "dropped" || event.type == "simulate" || event.type == "left") {
+      replace(seat, count_member(body, "by"), event.at_us);
+    } else if (event.type == "lesson") {
+      note_lesson(room, event);
+    } else if (event.type == "answered") {
+      note_answer(seat, event);
+    } else if (event.type == "questions") {
+      if (const auto answers = body.find("answers"); answers != body.end() && answers->is_object())
+        history_.seats[seat].answers = *answers;
+    }
+  }
+
+ private:
+  static void note_presence(SeatRow& row, bool is_away, std::int64_t at_us) {
+    if (is_away && row.away_since_us == 0) {
+      ++row.times_away;
+      row.away_since_us = at_us;
+    } else if (!is_away && row.away_since_us != 0) {
+      row.away_us += at_us - std::exchange(row.away_since_us, 0);
+    }
+  }
+
+  void replace(std::size_t seat, std::size_t by, std::int64_t at_us) {
+    if (by == 0) return;
+    auto& row = history_.seats[by];
+    row.member = history_.seats[seat].member;
+    if (row.joined_us != 0) return;
+    row.joined_us = at_us;
+    row.simulated = true;
+  }
+
+  void note_lesson(const Room& room, const RoomEvent& event) {
+    const auto& session = room.session();
+    if (session.finished()) return;
+    history_.lessons.push_back(
+        {.lesson = session.lesson(), .chosen_us = event.at_us, .digest = text_member(event.body, "digest")});
+  }
+
+  void note_answer(std::size_t seat, const RoomEvent& event) {
+    AnswerRow row;
+    row.period = history_.lessons.empty() ? 0 : history_.lessons.back().lesson.period;
+    row.test = count_member(event.body, "test");
+    row.seat = seat;
+    row.member = history_.seats[seat].member.value_or(0);
+    if (const auto actions = event.body.find("actions"); actions != event.body.end() && actions->is_array()) {
+      for (const auto& action : *actions) {
+        if (action.is_number_unsigned()) row.actions.push_back(action.get<std::size_t>());
+      }
+    }
+    if (const auto keys = event.body.find("keys"); keys != event.body.end()) row.keys = *keys;
+    if (const auto ms = event.body.find("ms"); ms != event.body.end() && ms->is_number_integer())
+      row.ms = ms->get<std::int64_t>();
+    row.at_us = event.at_us;
+    history_.answers.push_back(std::move(row));
+  }
+
+  RoomHistory& history_;
+};
+
+}  // namespace
+
+std::size_t RoomHistory::seat_of(std::size_t member) const {
+  std::size_t last = 0;
+  for (const auto& [seat, row] : seats) {
+    if (row.member == member) last = seat;
+  }
+  return last;
+}
+
+RoomHistory read_history(EventFile& file, const StoredRoom& stored, const std::shared_ptr<const LiveStudy>& study,
+                         TeachingCache& cache) {
+  RoomHistory history;
+  history.stored = stored;
+  Room fresh{study, room_setup(Json::parse(stored.setup)), cache};
+  for (std::size_t seat = 1; seat <= fresh.num_seats(); ++seat) {
+    if (fresh.is_person(seat)) continue;
+    history.seats[seat].member = seat;
+    history.seats[seat].simulated = true;
+  }
+  history.room = std::move(fresh);
+  Collector collector{history};
+  history.replayed = replay_room(file, stored, study, cache,
+                                 [&](const Room& room, const RoomEvent& event) { collector.take(room, event); });
+  if (!history.replayed.problem.empty()) {
+    refuse_run(ErrorKind::kMismatch, "E1614", file.path(),
+               "room " + history.replayed.id + " does not replay to what it was: " + history.replayed.problem,
+               "use the version of kith and the kind of machine that the session was run with");
+  }
+  file.for_each_event([&](const StoredEvent& event) { history.events.push_back(event); }, stored.number);
+  const auto last = history.events.empty() ? 0 : history.events.back().at_us;
+  for (auto& [seat, row] : history.seats) {
+    if (row.away_since_us != 0) row.away_us += last - row.away_since_us;
+  }
+  return history;
+}
+
+}  // namespace kith

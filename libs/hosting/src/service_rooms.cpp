@@ -1,0 +1,298 @@
+// Rooms: loading, making, links, and the log of what was done outside of rooms.
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "kith/core/error.hpp"
+#include "random_token.hpp"
+#include "service_state.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kCodeLength = 6;
+constexpr std::size_t kSaltBytes = 16;
+constexpr std::size_t kLogLength = 200;
+constexpr std::size_t kMostAtOnce = 200;
+
+std::string hexadecimal(const std::string& bytes) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += {kDigits[byte >> 4], kDigits[byte & 15u]};
+  }
+  return text;
+}
+
+std::string text_in(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+LogEntry entry_of(const StoredEvent& event, const std::string& room) {
+  const auto body = Json::parse(event.json, nullptr, false);
+  return {.at_us = event.at_us,
+          .room = room,
+          .actor = event.actor,
+          .what = event.type,
+          .reason = body.is_object() ? text_in(body, "reason") : std::string{}};
+}
+
+// What a facilitator asks for when making rooms.
+struct Wish {
+  std::string strategy;
+  std::vector<std::string> seats;
+  std::size_t count = 1;
+};
+
+std::optional<Wish> wish_of(const Json& body) {
+  Wish wish{.strategy = text_in(body, "strategy"), .seats = {}};
+  if (const auto seats = body.find("seats"); seats != body.end()) {
+    if (!seats->is_array() || seats->size() > 30) return std::nullopt;
+    for (const auto& seat : *seats) {
+      if (!seat.is_string()) return std::nullopt;
+      wish.seats.push_back(seat.get<std::string>());
+    }
+  }
+  if (const auto count = body.find("count"); count != body.end()) {
+    if (!count->is_number_unsigned() || *count < 1 || *count > kMostAtOnce) return std::nullopt;
+    wish.count = count->get<std::size_t>();
+  }
+  return wish;
+}
+
+// The cell of the design that has the fewest rooms, among those that fit the wish.
+LiveCell next_cell(const LiveStudy& study, const Wish& wish, const std::map<std::string, std::size_t>& rooms_of) {
+  LiveCell best;
+  std::size_t fewest = 0;
+  for (const auto& cell : live_cells(study)) {
+    if (!wish.strategy.empty() && cell.strategy != wish.strategy) continue;
+    if (!wish.seats.empty() && cell.composition.size() != wish.seats.size()) continue;
+    const auto found = rooms_of.find(cell.strategy + "/" + cell.composition);
+    const auto count = found == rooms_of.end() ? 0 : found->second;
+    if (best.strategy.empty() || count < fewest) {
+      best = cell;
+      fewest = count;
+    }
+  }
+  return best;
+}
+
+// The setup of one room; the people and stand-ins that the wish names are put into the composition of the cell.
+RoomSetup setup_of(const LiveStudy& study, const Wish& wish, const std::map<std::string, std::size_t>& rooms_of) {
+  const auto cell = next_cell(study, wish, rooms_of);
+  RoomSetup setup;
+  setup.strategy = cell.strategy.empty() ? wish.strategy : cell.strategy;
+  setup.composition = cell.composition;
+  if (!wish.seats.empty()) {
+    setup.composition.resize(wish.seats.size(), study.spec.learner_types.front().letter);
+    setup.simulated.resize(wish.seats.size());
+    for (std::size_t i = 0; i < wish.seats.size(); ++i) {
+      if (wish.seats[i] == "person") continue;
+      setup.simulated[i] = true;
+      setup.composition[i] = wish.seats[i].size() == 1 ? wish.seats[i].front() : '?';
+    }
+  }
+  const auto found = rooms_of.find(setup.strategy + "/" + setup.composition);
+  setup.replicate = found == rooms_of.end() ? 1 : found->second + 1;
+  return setup;
+}
+
+}  // namespace
+
+std::string room_id(std::int64_t number) { return "r" + std::to_string(number); }
+
+std::int64_t room_number(const std::string& id) {
+  std::int64_t number = 0;
+  if (id.size() < 2 || id.front() != 'r') return 0;
+  const auto* end = id.data() + id.size();
+  const auto [rest, error] = std::from_chars(id.data() + 1, end, number);
+  return error == std::errc{} && rest == end && number > 0 ? number : 0;
+}
+
+std::shared_ptr<HostedRoom> LiveService::State::room_of(std::int64_t number) const {
+  const std::lock_guard lock{mutex};
+  const auto found = rooms.find(number);
+  return found == rooms.end() ? nullptr : found->second;
+}
+
+std::shared_ptr<HostedRoom> LiveService::State::room_named(const std::string& name) const {
+  if (const auto room = room_of(room_number(name))) return room;
+  const std::lock_guard lock{mutex};
+  for (const auto& [number, room] : rooms) {
+    if (room->setup().code == name) return room;
+  }
+  return nullptr;
+}
+
+void LiveService::State::load_rooms() {
+  auto& file = store->file();
+  tokens.emplace(file.tokens());
+  std::map<std::int64_t, std::vector<StoredEvent>> events;
+  const auto now = now_us();
+  file.for_each_event([&](const StoredEvent& event) {
+    if (event.actor == "facilitator") write_log(entry_of(event, event.room == 0 ? std::string{} : room_id(event.room)));
+    if (event.room == 0) next_service_seq = event.seq + 1;
+    if (event.room != 0 && event.type == "joined") {
+      const auto body = Json::parse(event.json);
+      const auto seat = body.value("seat", std::int64_t{0});
+      joined.insert({event.room, seat});
+      contacts[{event.room, seat}].last_seen_us = now;
+    }
+    events[event.room].push_back(event);
+  });
+  std::stable_sort(log.begin(), log.end(), [](const LogEntry& a, const LogEntry& b) { return a.at_us < b.at_us; });
+  for (auto& stored : file.rooms()) {
+    auto setup = room_setup(Json::parse(stored.setup));
+    const auto number = stored.number;
+    rooms.emplace(number, std::make_shared<HostedRoom>(*this, study, std::move(stored), std::move(setup)));
+    changed_rooms.insert(number);
+  }
+  for (const auto& [number, room] : rooms) room->rebuild(std::move(events[number]));
+}
+
+void LiveService::State::write_log(LogEntry entry) {
+  log.push_back(std::move(entry));
+  if (log.size() > kLogLength) log.pop_front();
+  has_news = true;
+}
+
+void LiveService::State::record(StoreBatch batch, const std::string& actor, const std::string& type, const Json& body,
+                                const std::string& message, std::function<void(bool saved)> done) {
+  StoredEvent event{.actor = actor, .type = type, .json = body.dump()};
+  if (!message.empty()) event.message = message;
+  batch.events.insert(batch.events.begin(), std::move(event));
+  post(0, [this, batch = std::move(batch), done = std::move(done)](TeachingCache&) mutable {
+    recordings.push_back({std::move(batch), std::move(done)});
+    record_next();
+  });
+}
+
+void LiveService::State::record_next() {
+  if (is_recording || recordings.empty()) return;
+  is_recording = true;
+  auto recording = std::move(recordings.front());
+  recordings.pop_front();
+  auto& event = recording.batch.events.front();
+  event.seq = next_service_seq;
+  event.at_us = now_us();
+  const auto entry = entry_of(event, {});
+  save(std::move(recording.batch), [this, entry, done = std::move(recording.done)](bool saved) {
+    post(0, [this, entry, done, saved](TeachingCache&) {
+      is_recording = false;
+      if (saved) {
+        ++next_service_seq;
+        const std::lock_guard lock{mutex};
+        write_log(entry);
+      }
+      done(saved);
+      record_next();
+    });
+  });
+}
+
+void LiveService::State::make_rooms(const Json& body, const std::string& actor, const std::string& message,
+                                    std::function<void(const RoomsMade&)> made) {
+  const auto refuse = [&](const char* reason, const std::string& text) {
+    made({.rooms = {}, .refusal = Refusal{reason, text}});
+  };
+  const auto wish = wish_of(body);
+  if (!wish) return refuse("bad-body", "A room needs a strategy, up to 30 seats and a count from 1 to 200.");
+  std::map<std::string, std::size_t> rooms_of;
+  std::int64_t next = 1;
+  {
+    const std::lock_guard lock{mutex};
+    if (rooms.size() + wish->count > options.max_rooms)
+      return refuse("full", "This server takes no more than " + std::to_string(options.max_rooms) + " rooms.");
+    if (free_space < kNoSpace) return refuse("no-space", "The disk is almost full: no new rooms are made.");
+    for (const auto& [number, room] : rooms) {
+      ++rooms_of[room->setup().strategy + "/" + room->setup().composition];
+      next = number + 1;
+    }
+  }
+  StoreBatch batch;
+  RoomsMade result;
+  std::vector<std::shared_ptr<HostedRoom>> hosted;
+  std::vector<Tokens::Issued> links;
+  TeachingCache cache{study->atlas};
+  for (std::size_t i = 0; i < wish->count; ++i) {
+    auto setup = setup_of(*study, *wish, rooms_of);
+    const auto number = next + static_cast<std::int64_t>(i);
+    setup.id = room_id(number);
+    setup.code = random_code(kCodeLength);
+    setup.salt = hexadecimal(random_bytes(kSaltBytes));
+    ++rooms_of[setup.strategy + "/" + setup.composition];
+    std::size_t seats = 0;
+    try {
+      const Room room{study, setup, cache};
+      seats = room.num_seats();
+      const std::lock_guard lock{mutex};
+      for (std::size_t seat = 1; seat <= seats; ++seat) {
+        if (!room.is_person(seat)) continue;
+        links.push_back(tokens->issue(Role::kParticipant, number, static_cast<std::int64_t>(seat),
+                                      now_us() + options.token_hours * 3600 * kSecond));
+        batch.tokens.push_back(links.back().row);
+      }
+    } catch (const Error& error) {
+      return refuse("bad-room", error.what());
+    }
+    StoredRoom stored{.number = number, .setup = to_json(setup).dump(), .created_us = now_us()};
+    batch.rooms.push_back(stored);
+    result.rooms.push_back(number);
+    hosted.push_back(std::make_shared<HostedRoom>(*this, study, std::move(stored), std::move(setup)));
+  }
+  Json what = body;
+  what["rooms"] = Json::array();
+  for (const auto number : result.rooms) what["rooms"].push_back(room_id(number));
+  record(std::move(batch), actor, "room-make", what, message, [this, result, hosted, made](bool saved) {
+    if (!saved) return made({.rooms = {}, .refusal = Refusal{"not-saved", "This could not be saved; try again."}});
+    {
+      const std::lock_guard lock{mutex};
+      for (const auto& room : hosted) {
+        rooms.emplace(room->number(), room);
+        changed_rooms.insert(room->number());
+      }
+    }
+    for (const auto& room : hosted) {
+      post(room->number(), [room](TeachingCache& own) { room->begin(own); });
+    }
+    made(result);
+  });
+}
+
+void LiveService::State::make_link(std::int64_t room, std::int64_t seat, std::function<void(std::string token)> made) {
+  Tokens::Issued issued;
+  {
+    const std::lock_guard lock{mutex};
+    issued = tokens->issue(Role::kParticipant, room, seat, now_us() + options.token_hours * 3600 * kSecond);
+  }
+  StoreBatch batch;
+  batch.tokens.push_back(issued.row);
+  save(std::move(batch), [this, issued, room, made = std::move(made)](bool saved) {
+    const std::lock_guard lock{mutex};
+    if (!saved) tokens->revoke(issued.row.hash);
+    changed_rooms.insert(room);
+    made(saved ? issued.token : std::string{});
+  });
+}
+
+LiveService::StartLinks LiveService::start_links() {
+  auto& state = *state_;
+  StartLinks links;
+  StoreBatch batch;
+  {
+    const std::lock_guard lock{state.mutex};
+    const auto expires = state.now_us() + state.options.token_hours * 3600 * kSecond;
+    auto facilitator = state.tokens->issue(Role::kFacilitator, 0, 0, expires);
+    auto observer = state.tokens->issue(Role::kObserver, 0, 0, expires);
+    links = {.facilitator = facilitator.token, .observer = observer.token};
+    state.facilitator_token = links.facilitator;
+    state.observer_token = links.observer;
+    batch.tokens = {facilitator.row, observer.row};
+  }
+  state.save(std::move(batch), [](bool) {});
+  return links;
+}
+
+}  // namespace kith

@@ -1,0 +1,115 @@
+// What facilitators and observers see.
+#include <utility>
+
+#include "service_state.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::int64_t kMillisecond = 1000;
+
+Json or_null(const std::shared_ptr<const Json>& json) { return json ? *json : Json{}; }
+
+}  // namespace
+
+// Remembers how a room looks, for facilitators. On its strand.
+void LiveService::State::take_picture(HostedRoom& hosted) {
+  const auto* room = hosted.room();
+  if (room == nullptr) return;
+  const auto now = now_us();
+  const bool is_selected = [&] {
+    const std::lock_guard lock{mutex};
+    return selected.count(hosted.number()) != 0;
+  }();
+  RoomPicture picture;
+  const auto take = [&](Viewer::Role role, auto& row, auto& detail) {
+    const Viewer viewer{.role = role, .seat = 0};
+    row = std::make_shared<const Json>(room->row(viewer, now));
+    if (!is_selected) return;
+    auto view = room->view(viewer, now);
+    detail = std::make_shared<const Json>(std::move(view["room"]));
+  };
+  take(Viewer::Role::kFacilitator, picture.row, picture.detail);
+  take(Viewer::Role::kObserver, picture.observer_row, picture.observer_detail);
+  const std::lock_guard lock{mutex};
+  pictures[hosted.number()] = std::move(picture);
+  has_news = true;
+}
+
+// Shows facilitators what is new. On the strand of the service.
+void LiveService::State::show_facilitators() {
+  std::vector<std::shared_ptr<Connection>> watchers;
+  {
+    const std::lock_guard lock{mutex};
+    for (const auto& [id, connection] : connections) {
+      if (connection->is_known && connection->identity.role != Role::kParticipant) watchers.push_back(connection);
+    }
+  }
+  for (const auto& watcher : watchers) push_view(*watcher, facilitator_view(*watcher));
+}
+
+Json LiveService::State::facilitator_view(const Connection& connection) const {
+  const bool is_facilitator = connection.identity.role == Role::kFacilitator;
+  const auto counters = integrity();
+  const std::lock_guard lock{mutex};
+  Json view{{"v", 1},
+            {"role", name_of(connection.identity.role)},
+            {"server_ms", now_us() / kMillisecond},
+            {"study", live_study_json(*study)}};
+  if (is_facilitator) {
+    const auto page = [&](const char* path, const std::string& token) {
+      return token.empty() ? std::string{} : base_url + path + token;
+    };
+    view["links"] = {{"facilitator", page("/f#t=", facilitator_token)},
+                     {"observer", page("/f#t=", observer_token)},
+                     {"join", base_url + "/j?code=" + join_code},
+                     {"code", join_code}};
+  }
+  view["rooms"] = Json::array();
+  for (const auto& [number, picture] : pictures) {
+    auto row = or_null(is_facilitator ? picture.row : picture.observer_row);
+    if (row.is_null()) continue;
+    if (is_facilitator && row.contains("seats")) {
+      for (auto& seat : row["seats"]) {
+        const auto token = tokens->known(number, seat.value("seat", std::int64_t{0}));
+        if (token) seat["link"] = base_url + "/j#t=" + *token;
+      }
+    }
+    view["rooms"].push_back(std::move(row));
+  }
+  const auto selected_room = pictures.find(connection.selected);
+  if (selected_room != pictures.end()) {
+    auto detail = or_null(is_facilitator ? selected_room->second.detail : selected_room->second.observer_detail);
+    if (!detail.is_null()) view["room"] = std::move(detail);
+  }
+  view["log"] = Json::array();
+  for (const auto& entry : log) {
+    Json line{{"at_ms", entry.at_us / kMillisecond}, {"actor", entry.actor}, {"what", entry.what}};
+    if (!entry.room.empty()) line["room"] = entry.room;
+    if (is_facilitator && !entry.reason.empty()) line["reason"] = entry.reason;
+    view["log"].push_back(std::move(line));
+  }
+  view["integrity"] = counters;
+  return view;
+}
+
+Json LiveService::State::integrity() const {
+  const auto counters = store->counters();
+  const std::lock_guard lock{mutex};
+  std::size_t unsaved = counters.waiting;
+  for (const auto& [number, room] : rooms) unsaved += room->is_unsaved() ? 1u : 0u;
+  Json problems = Json::array();
+  if (!counters.problem.empty()) problems.push_back("The last event could not be saved: " + counters.problem);
+  if (free_space < kLittleSpace)
+    problems.push_back("Only " + std::to_string(free_space / 1'000'000) + " MB are free on the disk" +
+                       (free_space < kNoSpace ? ": nobody new is let in." : "."));
+  for (const auto& [room, what] : troubles) problems.push_back(what);
+  return {{"events", counters.events + unsaved},
+          {"stored", counters.events},
+          {"unsaved", unsaved},
+          {"free_mb", free_space / 1'000'000},
+          {"last_commit_ms", counters.last_commit_us / kMillisecond},
+          {"problems", problems}};
+}
+
+}  // namespace kith

@@ -1,0 +1,101 @@
+#include "store_schema.hpp"
+
+#include <algorithm>
+
+#include "kith/files/published_run.hpp"
+#include "kith/files/sqlite_pages.hpp"
+
+namespace kith {
+namespace {
+
+constexpr const char* kTables =
+    "PRAGMA application_id = 0x6B697468;"  // "kith"
+    "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;"
+    "CREATE TABLE room(number INTEGER PRIMARY KEY, setup TEXT NOT NULL, created_us INTEGER NOT NULL,"
+    " checksum BLOB NOT NULL) STRICT;"
+    "CREATE TABLE event(room INTEGER NOT NULL REFERENCES room(number), seq INTEGER NOT NULL, at_us INTEGER NOT NULL,"
+    " actor TEXT NOT NULL, type TEXT NOT NULL, json TEXT NOT NULL, message TEXT, checksum BLOB NOT NULL,"
+    " PRIMARY KEY(room, seq)) STRICT;"
+    "CREATE UNIQUE INDEX message ON event(room, actor, message) WHERE message IS NOT NULL;"
+    "CREATE TABLE token(hash BLOB NOT NULL, role TEXT NOT NULL, room INTEGER NOT NULL, seat INTEGER NOT NULL,"
+    " expires_us INTEGER NOT NULL, revoked INTEGER NOT NULL, checksum BLOB NOT NULL, UNIQUE(hash)) STRICT;";
+
+std::string quoted(const std::string& text) {
+  std::string sql{"'"};
+  for (const char c : text) sql += c == '\'' ? std::string{"''"} : std::string{c};
+  return sql + "'";
+}
+
+}  // namespace
+
+std::span<const Migration> migrations() { return {}; }
+
+void prepare_connection(Database& database) {
+  database.execute(
+      "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON; PRAGMA secure_delete = ON; PRAGMA temp_store = MEMORY");
+}
+
+void make_tables(Database& database, const StoreFacts& facts) {
+  database.execute("PRAGMA page_size = " + std::to_string(kSqlitePageSize) +
+                   "; PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
+  database.execute(kTables);
+  auto insert = database.prepare("INSERT INTO meta VALUES (?, ?)");
+  for (const auto& [key, value] : to_meta(facts)) insert.bind_text(1, key).bind_text(2, value).run();
+  database.execute("PRAGMA user_version = " + std::to_string(EventFile::kVersion) + "; COMMIT");
+}
+
+bool is_empty(Database& database) {
+  auto tables = database.prepare("SELECT count(*) FROM sqlite_schema");
+  return tables.step() && tables.integer(0) == 0;
+}
+
+int version_of(Database& database) {
+  auto version = database.prepare("PRAGMA user_version");
+  return version.step() ? static_cast<int>(version.integer(0)) : 0;
+}
+
+void migrate(Database& database, int version, std::span<const Migration> steps) {
+  const int found = version_of(database);
+  if (found == version) return;
+  const auto has_step = [&](int from) {
+    return std::any_of(steps.begin(), steps.end(), [&](const Migration& step) { return step.from == from; });
+  };
+  bool possible = found < version;
+  for (int from = found; possible && from < version; ++from) possible = has_step(from);
+  if (!possible) {
+    refuse_run(ErrorKind::kUsage, "E1613", database.path(),
+               "the session was written by another version of kith (its file has version " + std::to_string(found) +
+                   ", this program reads version " + std::to_string(version) + ")",
+               "use the version of kith that made it, or another folder");
+  }
+  const auto backup = database.path().string() + ".v" + std::to_string(found) + ".bak";
+  std::filesystem::remove(backup);
+  database.execute("VACUUM INTO " + quoted(backup));
+  database.execute("BEGIN IMMEDIATE");
+  try {
+    for (int from = found; from < version; ++from) {
+      for (const auto& step : steps) {
+        if (step.from == from) database.execute(step.sql);
+      }
+    }
+    database.execute("PRAGMA user_version = " + std::to_string(version) + "; COMMIT");
+  } catch (const SqliteError&) {
+    try {
+      database.execute("ROLLBACK");
+    } catch (const SqliteError&) {  // it has been rolled back
+    }
+    throw;
+  }
+}
+
+bool is_sound(Database& database) {
+  try {
+    auto check = database.prepare("PRAGMA integrity_check(1)");
+    return check.step() && check.text(0) == "ok";
+  } catch (const SqliteError& error) {
+    if (error.damaged()) return false;
+    throw;
+  }
+}
+
+}  // namespace kith

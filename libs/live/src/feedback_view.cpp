@@ -1,0 +1,121 @@
+#include <algorithm>
+
+#include "kith/explain/reason.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/present/board_json.hpp"
+#include "live_texts.hpp"
+#include "room_view.hpp"
+
+namespace kith {
+namespace {
+
+// One feature of which one way has more than the other.
+struct Excess {
+  std::size_t feature = 0;
+  std::int64_t n = 0;
+  bool more = false;  // the other way has some, too
+};
+
+std::string as_verbs(const Domain& domain, const std::vector<Excess>& all) {
+  std::vector<std::string> words;
+  for (const auto& one : all) words.push_back(doing(domain.wording(one.feature), one.n, one.more));
+  return listed(words);
+}
+
+std::string as_nouns(const Domain& domain, const std::vector<Excess>& all) {
+  std::vector<std::string> words;
+  for (const auto& one : all) {
+    const auto& wording = domain.wording(one.feature);
+    words.push_back(one.more ? times_more(wording, one.n) : times(wording, one.n));
+  }
+  return listed(words);
+}
+
+// A way that is worse in every respect.
+std::string detour_in_words(const Domain& domain, const std::vector<Excess>& costs, const std::vector<Excess>& lost) {
+  std::string text;
+  if (!costs.empty()) {
+    const bool has_verbs = std::none_of(costs.begin(), costs.end(),
+                                        [&](const Excess& one) { return domain.wording(one.feature).do_one.empty(); });
+    const bool all_more = std::all_of(costs.begin(), costs.end(), [](const Excess& one) { return one.more; });
+    text = has_verbs ? "Your way makes the robot " + as_verbs(domain, costs) + (all_more ? " than needed" : "")
+                     : "Your way costs the robot " + as_nouns(domain, costs);
+  }
+  if (!lost.empty()) {
+    text += (text.empty() ? "Your way leaves out " : ", and leaves out ") + as_nouns(domain, lost);
+  }
+  return text + '.';
+}
+
+// The first step at which the paths differ; null if they do not.
+Json first_difference(const Trajectory& mine, const Trajectory& robot) {
+  const auto steps = std::min(mine.actions.size(), robot.actions.size());
+  for (std::size_t t = 0; t < steps; ++t) {
+    if (mine.actions[t] != robot.actions[t]) return t;
+  }
+  return mine.actions.size() == robot.actions.size() ? Json{} : Json(steps);
+}
+
+}  // namespace
+
+std::string cost_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& mine) {
+  if (robot == mine || sign_of_dot(domain.weights().integer, robot - mine) <= 0) return {};
+  if (domain.count_scale() != 1) return sentence(on_average_in_words(domain, robot - mine));
+  std::vector<Excess> costs, lost;  // what the own way has more of, and what it has less of
+  bool is_trade = false;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    const auto n = mine[k] - robot[k];
+    if (n == 0) continue;
+    const bool is_cost = domain.weights().integer[k] < 0;
+    const Excess excess{k, n > 0 ? n : -n, mine[k] != 0 && robot[k] != 0};
+    if (n > 0 && is_cost) {
+      costs.push_back(excess);
+    } else if (n < 0 && !is_cost) {
+      lost.push_back(excess);
+    } else {
+      is_trade = true;
+    }
+  }
+  if (is_trade) return "The robot likes its own way better: " + choice_in_words(domain, robot, mine) + ".";
+  return detour_in_words(domain, costs, lost);
+}
+
+Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
+  const auto& atlas = *room.study.atlas;
+  const auto& domain = atlas.domain();
+  const auto& past = room.state.session->history().back();
+  const auto& verdicts = past.feedback.verdicts[*seat.member];
+  Json tests = Json::array();
+  for (std::size_t t = 0; t < past.lesson.tests.size(); ++t) {
+    const auto& test = past.lesson.tests[t];
+    const auto world = atlas.id(test.demo).mdp;
+    const bool right = t < verdicts.size() && verdicts[t].correct;
+    const auto robot = expected_path(atlas, test.demo);
+    Json entry{{"board", live_board(room.study, test.demo)},
+               {"right", right},
+               {"mine", nullptr},
+               {"robot", frames_json(domain, world, robot)},
+               {"differs_at", nullptr}};
+    Json why = Json::array();
+    for (const auto& half_space : test.covered) why.push_back(sentence(in_words(domain, half_space)));
+    entry["why"] = std::move(why);
+    const auto& path = t < seat.paths.size() ? seat.paths[t] : std::optional<GivenPath>{};
+    if (path) {
+      const auto mine = judged_path(atlas, test.demo, path->actions).path;
+      entry["mine"] = frames_json(domain, world, mine);
+      entry["differs_at"] = first_difference(mine, robot);
+    }
+    if (!right) {
+      std::string cost = "You gave no answer in time.";
+      if (path && !path->is_finished) cost = "Your way stops before the end.";
+      if (path && path->counts) cost = cost_in_words(domain, atlas.feature_counts(test.demo), *path->counts);
+      entry["cost"] = cost;
+    }
+    tests.push_back(std::move(entry));
+  }
+  return {{"tests", tests},
+          {"all_right", bool{past.feedback.all_correct[*seat.member]}},
+          {"learned", past.feedback.component_learned}};
+}
+
+}  // namespace kith

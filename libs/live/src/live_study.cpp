@@ -1,0 +1,210 @@
+#include "kith/live/live_study.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
+
+#include "kith/core/error.hpp"
+#include "kith/files/sha256.hpp"
+#include "kith/live/world_json.hpp"
+#include "kith/random/distributions.hpp"
+#include "live_texts.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kMostTextBytes = std::size_t{1} << 20u;
+
+std::string read_live_file(const std::filesystem::path& path, const std::string& key) {
+  std::error_code failure;
+  std::ifstream file{path, std::ios::binary};
+  if (!std::filesystem::is_regular_file(path, failure) || !file) {
+    throw Error{ErrorKind::kIo, "cannot read '" + path.string() + "', the file that group." + key + " names"};
+  }
+  std::string text{std::istreambuf_iterator<char>{file}, {}};
+  if (text.size() > kMostTextBytes) {
+    throw Error{ErrorKind::kInvalidInput, "'" + path.string() + "' is larger than 1 MiB"};
+  }
+  return text;
+}
+
+LiveLanguage parse_language(const std::string& text, const std::string& name) {
+  const auto refuse = [&](const std::string& why) {
+    return Error{ErrorKind::kInvalidInput, "'" + name + "' is not a file of texts: " + why};
+  };
+  const auto json = Json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw refuse("it is not a JSON object");
+  LiveLanguage language;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "lang" && value.is_string()) {
+      language.code = value.get<std::string>();
+    } else if (key == "dir" && (value == "ltr" || value == "rtl")) {
+      language.direction = value.get<std::string>();
+    } else if (key == "strings" && value.is_object()) {
+      for (const auto& [id, string] : value.items()) {
+        if (!string.is_string()) throw refuse("strings." + id + " is not a text");
+        language.strings.emplace(id, string.get<std::string>());
+      }
+    } else {
+      throw refuse("'" + key + R"(' is not one of lang, dir ("ltr" or "rtl") and strings)");
+    }
+  }
+  return language;
+}
+
+void require_small_worlds(const Domain& domain) {
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    const auto states = domain.mdp(m).num_states() + domain.mdp(m).num_terminals();
+    if (states <= kMaxLiveStates) continue;
+    throw Error{ErrorKind::kInfeasible,
+                "world " + std::to_string(m.value()) + " of domain '" + domain.id() + "' has " +
+                    std::to_string(states) + " states; people can be taught about worlds of at most " +
+                    std::to_string(kMaxLiveStates) + " states, because each browser gets the table of all moves"};
+  }
+}
+
+// A start that no test would use, simple to look at, where there is room to move.
+DemoIndex find_sandbox(const Atlas& atlas) {
+  constexpr std::size_t kRoom = 4;
+  std::optional<DemoIndex> best;
+  std::tuple<bool, bool, int, std::size_t> best_rank;
+  for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
+    const DemoIndex demo{i};
+    const bool tests = atlas.is_candidate(demo) && !atlas.tested_constraints(demo).without(atlas.prior()).empty();
+    const auto steps = std::min(kRoom, atlas.trajectory(demo).actions.size());
+    const std::tuple rank{tests, steps < 2, atlas.domain().complexity(atlas.id(demo)), kRoom - steps};
+    if (!best || rank < best_rank) {
+      best = demo;
+      best_rank = rank;
+    }
+  }
+  return best.value();
+}
+
+// Starts that test the constraints of the robot's policy, each in turn.
+std::vector<DemoIndex> draw_screening(const Atlas& atlas, std::size_t n, RandomStream random) {
+  std::vector<DemoIndex> chosen;
+  const auto unused = [&](std::span<const DemoIndex> candidates) {
+    std::vector<DemoIndex> left;
+    for (const auto demo : candidates) {
+      const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](DemoIndex other) {
+        return atlas.trajectory_class(other) == atlas.trajectory_class(demo);
+      });
+      if (is_new) left.push_back(demo);
+    }
+    return left;
+  };
+  const auto constraints = atlas.policy_bec().without(atlas.prior()).members();
+  std::size_t barren = 0;  // constraints in a row that nothing new tests
+  for (std::size_t i = 0; chosen.size() < n && !constraints.empty() && barren < constraints.size(); ++i) {
+    const auto left = unused(atlas.tests_for(constraints[i % constraints.size()]));
+    barren = left.empty() ? barren + 1 : 0;
+    if (!left.empty()) chosen.push_back(left[uniform_index(left.size(), random)]);
+  }
+  return chosen;
+}
+
+std::string filled_up(std::string composition, std::size_t size) {
+  if (composition.size() < size) composition.append(size - composition.size(), composition.back());
+  return composition;
+}
+
+}  // namespace
+
+std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
+                                                 const std::filesystem::path& folder) {
+  if (study.variants.size() != 1) {
+    throw Error{ErrorKind::kInvalidInput,
+                "a study with varied keys cannot be run with people: remove 'vary' from [design]"};
+  }
+  auto live = std::make_shared<LiveStudy>();
+  live->spec = study.variants.front();
+  auto& group = live->spec.group;
+  require_small_worlds(atlas->domain());
+  if (!group.consent_file.empty()) {
+    group.consent_text = paragraphs_of(read_live_file(folder / group.consent_file, "consent_file"));
+    if (group.consent_text.empty()) {
+      throw Error{ErrorKind::kInvalidInput, "the consent text '" + group.consent_file + "' is empty"};
+    }
+    group.consent_file.clear();
+  }
+  if (!group.language.empty()) {
+    live->language = parse_language(read_live_file(folder / group.language, "language"), group.language);
+  }
+  fill_in_texts(group);
+  live->sandbox = find_sandbox(*atlas);
+  live->screening = draw_screening(*atlas, group.screening.tests, RandomStream{live->spec.seed}.split("screening"));
+  if (live->screening.size() < group.screening.tests) {
+    throw Error{ErrorKind::kInfeasible, "the domain has only " + std::to_string(live->screening.size()) +
+                                            " different tests for a screening of " +
+                                            std::to_string(group.screening.tests)};
+  }
+  std::string identity = atlas->domain().id();
+  for (MdpIndex m{0}; m.value() < atlas->domain().num_mdps(); ++m) {
+    identity += '/' + std::to_string(atlas->domain().mdp(m).num_states()) + atlas->domain().describe_variant(m);
+  }
+  live->key = sha256(identity).substr(0, 8);
+  live->atlas = std::move(atlas);
+  return live;
+}
+
+std::vector<LiveCell> live_cells(const LiveStudy& study) {
+  std::vector<LiveCell> cells;
+  for (const auto& composition : study.spec.compositions) {
+    const auto seats = filled_up(composition, study.group().size);
+    for (const auto& strategy : study.spec.strategies) {
+      if (strategy.is_baseline() && seats.size() > 1) continue;
+      LiveCell cell{strategy.name, seats};
+      if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(std::move(cell));
+    }
+  }
+  return cells;
+}
+
+Json live_study_json(const LiveStudy& study) {
+  Json strategies = Json::array(), types = Json::array();
+  for (const auto& strategy : study.spec.strategies) {
+    strategies.push_back({{"name", strategy.name}, {"description", std::string{strategy.kind.description}}});
+  }
+  for (const auto& type : study.spec.learner_types) {
+    types.push_back({{"letter", std::string{type.letter}}, {"label", type.label}});
+  }
+  const auto& group = study.group();
+  return {{"id", study.spec.id},
+          {"title", study.spec.title},
+          {"domain", study.atlas->domain().id()},
+          {"strategies", strategies},
+          {"types", types},
+          {"dropout", std::string{name_of(group.dropout.policy)}},
+          {"grace_s", group.dropout.grace_s},
+          {"time",
+           {{"watch_s", group.time.watch_s},
+            {"predict_s", group.time.predict_s},
+            {"feedback_s", group.time.feedback_s},
+            {"lobby_s", group.time.lobby_s},
+            {"leave_after_s", group.time.leave_after_s},
+            {"max_minutes", group.time.max_minutes}}}};
+}
+
+Json language_json(const LiveStudy& study) {
+  Json strings = Json::object();
+  for (const auto& [key, text] : study.language.strings) strings[key] = text;
+  return {{"lang", study.language.code}, {"dir", study.language.direction}, {"strings", strings}};
+}
+
+std::string completion_code(const LiveStudy& study, std::string_view salt, std::string_view room, std::size_t seat) {
+  // Without letters and digits that look alike.
+  constexpr std::string_view kLetters = "23456789ABCDEFGHJKMNPQRSTUVWXYZ";
+  Sha256 hash;
+  hash.update(std::string{salt} + '\n' + std::string{room} + '\n' + std::to_string(seat));
+  const auto bytes = std::move(hash).digest();
+  auto code = study.group().completion.prefix;
+  if (!code.empty()) code += '-';
+  for (std::size_t i = 0; i < 10; ++i) code += kLetters[static_cast<unsigned char>(bytes[i]) % kLetters.size()];
+  return code;
+}
+
+}  // namespace kith

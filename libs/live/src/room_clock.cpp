@@ -1,0 +1,109 @@
+#include <algorithm>
+
+#include "room_state.hpp"
+
+namespace kith {
+namespace {
+
+// Collects what the clock demands, now or later.
+class RoomClock {
+ public:
+  explicit RoomClock(const RoomParts& room)
+      : room_{room}, state_{room.state}, group_{room.study.group()}, grace_{group_.dropout.grace_s * kSecond} {}
+
+  std::vector<ClockEvent> events() && {
+    if (state_.phase == RoomPhase::kLobby) {
+      lobby();
+    } else if (state_.phase != RoomPhase::kEnded && !state_.paused_us) {
+      absences();
+      limits();
+    }
+    // Of equal times the first one that was found.
+    std::stable_sort(events_.begin(), events_.end(),
+                     [](const ClockEvent& a, const ClockEvent& b) { return a.at_us < b.at_us; });
+    return std::move(events_);
+  }
+
+ private:
+  void add(std::int64_t at_us, std::string type, Json body) {
+    events_.push_back({std::max(at_us, state_.last_us), {0, 0, "server", std::move(type), std::move(body)}});
+  }
+
+  void lobby() {
+    const bool is_complete = std::all_of(state_.members.begin(), state_.members.end(), [&](const auto& member) {
+      if (!member.seat) return false;
+      const auto& seat = state_.seats[*member.seat];
+      return !seat.is_person ||
+             (seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here);
+    });
+    if (is_complete && group_.auto_start) add(state_.last_us, "started", {{"by", "server"}, {"fill", false}});
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+      const auto& seat = state_.seats[i];
+      if (!seat.is_person || seat.status != SeatStatus::kActive) continue;
+      if (!seat.is_here) add(seat.presence_us + grace_, "released", {{"seat", i + 1}, {"why", "away"}});
+      if (group_.time.lobby_s > 0 && seat.readiness != Readiness::kReady) {
+        add(seat.joined_us + group_.time.lobby_s * kSecond, "released", {{"seat", i + 1}, {"why", "not-ready"}});
+      }
+    }
+    if (!state_.lobby_us || group_.time.lobby_s == 0 || !group_.auto_start) return;
+    const auto limit = *state_.lobby_us + group_.time.lobby_s * kSecond;
+    const auto ready = std::count_if(state_.members.begin(), state_.members.end(), [&](const auto& member) {
+      return member.seat && state_.seats[*member.seat].is_person && state_.seats[*member.seat].is_here &&
+             state_.seats[*member.seat].readiness == Readiness::kReady;
+    });
+    if (group_.dropout.policy == DropoutPolicy::kSimulate && ready > 0) {
+      add(limit, "started", {{"by", "server"}, {"fill", true}});
+    } else {
+      add(limit, "ended", {{"reason", "lobby-time"}, {"text", "Not enough people came in time."}});
+    }
+  }
+
+  void absences() {
+    const bool runs = is_running(state_);
+    const auto policy = group_.dropout.policy;
+    const auto wait = policy == DropoutPolicy::kContinueNow ? 0 : grace_;
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+      const auto& seat = state_.seats[i];
+      if (!seat.is_person || seat.status != SeatStatus::kActive || seat.is_here) continue;
+      if (!seat.member) {
+        add(seat.presence_us + grace_, "released", {{"seat", i + 1}, {"why", "away"}});
+        continue;
+      }
+      Json body{{"seat", i + 1}, {"policy", std::string{name_of(policy)}}, {"by", nullptr}, {"type", nullptr}};
+      const auto reserve = first_reserve(state_);
+      if (runs && policy == DropoutPolicy::kReplaceFromPool && reserve) body["by"] = *reserve + 1;
+      if (runs && policy == DropoutPolicy::kSimulate && num_active_people(state_) > 1) {
+        body["by"] = state_.seats.size() + 1;
+        body["type"] = std::string{seat.type};
+      }
+      if (!runs && is_done(seat)) continue;
+      add(seat.presence_us + wait, "dropped", std::move(body));
+    }
+  }
+
+  [[nodiscard]] bool is_done(const LiveSeat& seat) const { return stage_of_seat(room_, seat) == "debrief"; }
+
+  void limits() {
+    if (state_.deadline_us) {
+      const auto* what = state_.phase == RoomPhase::kWatching  ? "watch"
+                         : state_.phase == RoomPhase::kTesting ? "predict"
+                                                               : "feedback";
+      add(*state_.deadline_us, "time", {{"what", what}});
+    }
+    if (state_.session_deadline_us && is_running(state_)) {
+      add(*state_.session_deadline_us, "time", {{"what", "session"}});
+    }
+  }
+
+  const RoomParts& room_;
+  const Room::State& state_;
+  const GroupOptions& group_;
+  std::int64_t grace_;
+  std::vector<ClockEvent> events_;
+};
+
+}  // namespace
+
+std::vector<ClockEvent> clock_events(const RoomParts& room) { return RoomClock{room}.events(); }
+
+}  // namespace kith

@@ -1,0 +1,314 @@
+#include <algorithm>
+#include <map>
+
+#include "room_body.hpp"
+#include "room_state.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::int64_t kMostMillis = 86'400'000;
+constexpr std::size_t kMostNameBytes = 80;
+constexpr std::size_t kMostAnswerBytes = 4000;
+
+// What a person asks for.
+class SeatDecider {
+ public:
+  SeatDecider(const RoomParts& room, std::size_t seat, const RoomCommand& command, std::int64_t now_us)
+      : room_{room}, state_{room.state}, seat_{room.state.seats[seat]}, command_{command}, now_us_{now_us} {}
+
+  [[nodiscard]] Decision decide() const {
+    using Rule = Decision (SeatDecider::*)() const;
+    static const std::map<std::string_view, Rule> kRules{
+        {"consent", &SeatDecider::consent}, {"checked", &SeatDecider::checked}, {"name", &SeatDecider::name},
+        {"screen", &SeatDecider::screen},   {"watched", &SeatDecider::watched}, {"draft", &SeatDecider::draft},
+        {"answer", &SeatDecider::answer},   {"continue", &SeatDecider::go_on},  {"questions", &SeatDecider::questions},
+        {"leave", &SeatDecider::leave}};
+    const auto rule = kRules.find(command_.type);
+    if (rule == kRules.end()) return refused("unknown-type", "This message is not known.");
+    if (!command_.body.is_object()) return bad_body();
+    if (seat_.status == SeatStatus::kEmpty) return refused("not-joined", "Nobody has joined with this link yet.");
+    if (seat_.status == SeatStatus::kGone) {
+      if (command_.type == "leave") return nothing_to_do();
+      return refused("gone", "Your part in this session is over.");
+    }
+    return (this->*rule->second)();
+  }
+
+ private:
+  [[nodiscard]] static Decision bad_body() { return refused("bad-body", "This message is not complete."); }
+  [[nodiscard]] static Decision not_now() { return refused("not-now", "This is not possible at the moment."); }
+  [[nodiscard]] static Decision too_late() { return refused("too-late", "The group has moved on."); }
+  [[nodiscard]] Decision accepted(std::string type, Json body) const {
+    return {{{state_.seq + 1, now_us_, command_.actor, std::move(type), std::move(body)}}, {}};
+  }
+
+  [[nodiscard]] Decision consent() const {
+    const auto accept = command_.body.find("accept");
+    const auto version = text_in(command_.body, "version", 100);
+    if (accept == command_.body.end() || !accept->is_boolean() || !version) return bad_body();
+    if (seat_.readiness != Readiness::kConsent) return *accept ? nothing_to_do() : not_now();
+    if (!accept->get<bool>()) return accepted("declined", Json::object());
+    if (*version != room_.study.group().consent_version) {
+      return refused("other-version", "The text has changed. Please reload the page and read it again.");
+    }
+    return accepted("consented", {{"version", *version}});
+  }
+
+  [[nodiscard]] Decision checked() const {
+    if (seat_.readiness == Readiness::kConsent) return not_now();
+    if (seat_.readiness != Readiness::kCheck) return nothing_to_do();
+    return accepted("checked", Json::object());
+  }
+
+  [[nodiscard]] Decision name() const {
+    const auto name = text_in(command_.body, "name", kMostNameBytes);
+    if (!name || name->find('\n') != std::string::npos) return bad_body();
+    if (!room_.study.group().ask_name || seat_.readiness == Readiness::kConsent) return not_now();
+    return *name == seat_.name ? nothing_to_do() : accepted("named", {{"name", *name}});
+  }
+
+  [[nodiscard]] Decision screen() const {
+    const auto test = integer_in(command_.body, "test", 0, 1000);
+    const auto actions = actions_in(command_.body);
+    const auto ms = integer_in(command_.body, "ms", 0, kMostMillis);
+    if (!test || !actions || !ms) return bad_body();
+    if (seat_.readiness == Readiness::kConsent || seat_.readiness == Readiness::kCheck) return not_now();
+    const auto number = static_cast<std::size_t>(*test);
+    if (number < seat_.screened.size()) return nothing_to_do();
+    if (seat_.readiness != Readiness::kScreening || number != seat_.screened.size()) return not_now();
+    const auto& atlas = *room_.study.atlas;
+    const auto judged = judged_path(atlas, room_.study.screening[number], *actions);
+    if (!judged.is_legal) return illegal();
+    return accepted("screened", {{"test", number},
+                                 {"actions", actions_json(*actions)},
+                                 {"right", is_as_good(atlas, room_.study.screening[number], judged.counts)},
+                                 {"ms", *ms}});
+  }
+
+  [[nodiscard]] static Decision illegal() {
+    return refused("illegal-path", "The robot cannot move like this. Please reset the path and try again.");
+  }
+
+  [[nodiscard]] Decision watched() const {
+    const auto demo = integer_in(command_.body, "demo", 0, 1000);
+    if (!demo) return bad_body();
+    if (state_.phase != RoomPhase::kWatching || !seat_.in_period) {
+      return is_running(state_) && state_.phase != RoomPhase::kWatching ? nothing_to_do() : not_now();
+    }
+    const auto number = static_cast<std::size_t>(*demo);
+    if (number < seat_.watched) return nothing_to_do();
+    if (number > seat_.watched) return not_now();
+    return accepted("watched", {{"demo", number}});
+  }
+
+  [[nodiscard]] Decision draft() const {
+    const auto test = integer_in(command_.body, "test", 0, 1000);
+    const auto actions = actions_in(command_.body);
+    if (!test || !actions) return bad_body();
+    if (state_.phase != RoomPhase::kTesting || !seat_.in_period || seat_.has_answered) return nothing_to_do();
+    const auto number = static_cast<std::size_t>(*test);
+    if (number != current_test(seat_)) return nothing_to_do();
+    if (*actions == seat_.draft) return nothing_to_do();
+    if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
+      return illegal();
+    return accepted("draft", {{"test", number}, {"actions", actions_json(*actions)}});
+  }
+
+  [[nodiscard]] Decision answer() const {
+    const auto test = integer_in(command_.body, "test", 0, 1000);
+    const auto actions = actions_in(command_.body);
+    const auto keys = keys_in(command_.body);
+    const auto ms = integer_in(command_.body, "ms", 0, kMostMillis);
+    if (!test || !actions || !keys || !ms) return bad_body();
+    const auto number = static_cast<std::size_t>(*test);
+    const bool was_given = number < seat_.paths.size() && seat_.paths[number];
+    if (was_given && seat_.paths[number]->actions == *actions) return nothing_to_do();
+    if (state_.phase != RoomPhase::kTesting || !seat_.in_period) {
+      return state_.phase == RoomPhase::kWatching ? not_now() : too_late();
+    }
+    if (was_given) return refused("already-answered", "You have already answered this question.");
+    if (seat_.has_answered) return too_late();
+    if (number != current_test(seat_)) return not_now();
+    if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
+      return illegal();
+    return accepted("answered", {{"test", number}, {"actions", actions_json(*actions)}, {"keys", *keys}, {"ms", *ms}});
+  }
+
+  [[nodiscard]] Decision go_on() const {
+    if (state_.phase != RoomPhase::kFeedback || !seat_.in_period) {
+      return is_running(state_) || state_.phase == RoomPhase::kQuestions ? nothing_to_do() : not_now();
+    }
+    return seat_.has_continued ? nothing_to_do() : accepted("continued", Json::object());
+  }
+
+  [[nodiscard]] Decision questions() const {
+    if (state_.phase != RoomPhase::kQuestions || !seat_.member) return not_now();
+    if (seat_.has_answered_questions || room_.study.group().questions.empty()) return nothing_to_do();
+    const auto given = command_.body.find("answers");
+    if (given == command_.body.end() || !given->is_object()) return bad_body();
+    Json answers = Json::object();
+    for (const auto& question : room_.study.group().questions) {
+      const auto value = given->find(question.id);
+      const bool is_missing = value == given->end() || value->is_null() || *value == "";
+      if (is_missing) {
+        if (question.required) {
+          return refused("missing-answer", "Please answer every question that is marked as required.");
+        }
+        continue;
+      }
+      auto answer = normalised(question, *value);
+      if (!answer) return bad_body();
+      answers[question.id] = *std::move(answer);
+    }
+    return accepted("questions", {{"answers", answers}});
+  }
+
+  // A step from 1 for Likert items, the option's text for choices, a text.
+  [[nodiscard]] static std::optional<Json> normalised(const GroupQuestion& question, const Json& value) {
+    switch (question.kind) {
+      case GroupQuestion::Kind::kLikert: {
+        const auto steps = question.options.empty() ? 7 : static_cast<std::int64_t>(question.options.size());
+        const auto step = integer_in({{"step", value}}, "step", 1, steps);
+        return step ? std::optional{Json(*step)} : std::nullopt;
+      }
+      case GroupQuestion::Kind::kChoice: {
+        if (const auto i = integer_in({{"i", value}}, "i", 0, static_cast<std::int64_t>(question.options.size()) - 1))
+          return Json(question.options[static_cast<std::size_t>(*i)]);
+        const bool is_option =
+            value.is_string() && std::find(question.options.begin(), question.options.end(),
+                                           value.get_ref<const std::string&>()) != question.options.end();
+        return is_option ? std::optional{value} : std::nullopt;
+      }
+      case GroupQuestion::Kind::kText:
+        if (!value.is_string() || !is_clean_text(value.get_ref<const std::string&>(), kMostAnswerBytes))
+          return std::nullopt;
+        return value;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Decision leave() const {
+    if (!seat_.member || state_.phase == RoomPhase::kEnded)
+      return accepted("left", {{"by", nullptr}, {"type", nullptr}});
+    if (stage_of_seat(room_, seat_) == "debrief") return nothing_to_do();
+    Json body{{"by", nullptr}, {"type", nullptr}};
+    if (is_running(state_)) {
+      const auto policy = room_.study.group().dropout.policy;
+      const auto reserve = first_reserve(state_);
+      if (policy == DropoutPolicy::kReplaceFromPool && reserve) body["by"] = *reserve + 1;
+      const auto others = num_active_people(state_) - (seat_.status == SeatStatus::kActive ? 1 : 0);
+      if (policy == DropoutPolicy::kSimulate && others > 0) {
+        body["by"] = state_.seats.size() + 1;
+        body["type"] = std::string{seat_.type};
+      }
+    }
+    return accepted("left", std::move(body));
+  }
+
+  const RoomParts& room_;
+  const Room::State& state_;
+  const LiveSeat& seat_;
+  const RoomCommand& command_;
+  std::int64_t now_us_;
+};
+
+// What the service reports: who came, who is there.
+class ServerDecider {
+ public:
+  ServerDecider(const RoomParts& room, const RoomCommand& command, std::int64_t now_us)
+      : room_{room}, state_{room.state}, command_{command}, now_us_{now_us} {}
+
+  [[nodiscard]] Decision decide() const {
+    if (!command_.body.is_object()) return refused("bad-body", "the body is not an object");
+    if (command_.type == "join") return join();
+    if (command_.type == "away" || command_.type == "present") return presence();
+    return refused("unknown-type", "the server has no command '" + command_.type + "'");
+  }
+
+ private:
+  [[nodiscard]] Decision accepted(std::string type, Json body) const {
+    return {{{state_.seq + 1, now_us_, command_.actor, std::move(type), std::move(body)}}, {}};
+  }
+
+  [[nodiscard]] Decision join() const {
+    if (state_.phase != RoomPhase::kLobby) return refused("started", "This group has already started.");
+    auto query = kept_query();
+    if (!query) return refused("bad-body", "the query parameters are not short texts");
+    const auto asked = integer_in(command_.body, "seat", 1, 1000);
+    if (command_.body.contains("seat") && !command_.body["seat"].is_null() && !asked)
+      return refused("bad-body", "'seat' is not a number of a seat");
+    if (asked) return join_seat(static_cast<std::size_t>(*asked) - 1, *std::move(query));
+    for (std::size_t m = 0; m < state_.members.size(); ++m) {
+      const auto& member = state_.members[m];
+      if (!member.seat) return joined(state_.seats.size(), m, *std::move(query));
+      if (state_.seats[*member.seat].status == SeatStatus::kEmpty) return joined(*member.seat, m, *std::move(query));
+    }
+    const auto waiting = std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
+      return !seat.member && seat.status == SeatStatus::kActive;
+    });
+    if (static_cast<std::size_t>(waiting) < room_.study.group().dropout.reserves) {
+      return joined(state_.seats.size(), std::nullopt, *std::move(query));
+    }
+    return refused("full", "All places in this group are taken.");
+  }
+
+  [[nodiscard]] Decision join_seat(std::size_t seat, Json query) const {
+    if (seat >= state_.seats.size() || !state_.seats[seat].is_person) {
+      return refused("no-seat", "There is no such place in this group.");
+    }
+    if (state_.seats[seat].status == SeatStatus::kActive) return nothing_to_do();
+    if (state_.seats[seat].status != SeatStatus::kEmpty) return refused("gone", "Your part in this session is over.");
+    return joined(seat, state_.seats[seat].member, std::move(query));
+  }
+
+  [[nodiscard]] Decision joined(std::size_t seat, std::optional<std::size_t> member, Json query) const {
+    return accepted("joined", {{"seat", seat + 1}, {"member", member ? Json(*member) : Json{}}, {"query", query}});
+  }
+
+  // Of the query parameters those that the study collects.
+  [[nodiscard]] std::optional<Json> kept_query() const {
+    Json kept = Json::object();
+    const auto query = command_.body.find("query");
+    if (query == command_.body.end() || query->is_null()) return kept;
+    if (!query->is_object()) return std::nullopt;
+    for (const auto& name : room_.study.group().collect_query) {
+      if (!query->contains(name)) continue;
+      auto value = text_in(*query, name, 200);
+      if (!value) return std::nullopt;
+      kept[name] = *std::move(value);
+    }
+    return kept;
+  }
+
+  [[nodiscard]] Decision presence() const {
+    const auto number = integer_in(command_.body, "seat", 1, static_cast<std::int64_t>(state_.seats.size()));
+    if (!number) return refused("no-seat", "There is no such place in this group.");
+    const auto& seat = state_.seats[static_cast<std::size_t>(*number) - 1];
+    if (!seat.is_person || seat.status == SeatStatus::kEmpty) {
+      return refused("not-joined", "Nobody has joined with this link yet.");
+    }
+    if (seat.is_here == (command_.type == "present")) return nothing_to_do();
+    return accepted(command_.type, {{"seat", *number}});
+  }
+
+  const RoomParts& room_;
+  const Room::State& state_;
+  const RoomCommand& command_;
+  std::int64_t now_us_;
+};
+
+}  // namespace
+
+Decision decide_in(const RoomParts& room, const RoomCommand& command, std::int64_t now_us) {
+  const auto now = std::max(now_us, room.state.last_us);
+  if (command.actor == "facilitator") return decide_facilitator(room, command, now);
+  if (command.actor == "server") return ServerDecider{room, command, now}.decide();
+  const auto seat = seat_of_actor(command.actor);
+  if (!seat || *seat > room.state.seats.size() || !room.state.seats[*seat - 1].is_person) {
+    return refused("no-seat", "There is no such place in this group.");
+  }
+  return SeatDecider{room, *seat - 1, command, now}.decide();
+}
+
+}  // namespace kith

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kith/explain/curriculum.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/geometry/outline.hpp"
+#include "kith/present/board_json.hpp"
+#include "live_texts.hpp"
+#include "room_view.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kNumPoints = 300;
+
+std::string base64(const std::string& bytes) {
+  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
+    };
+    const unsigned block = (byte(0) << 16u) | (byte(1) << 8u) | byte(2);
+    for (unsigned k = 0; k < 4; ++k) {
+      text += i + k > bytes.size() ? '=' : kLetters[(block >> (18u - 6u * k)) & 63u];
+    }
+  }
+  return text;
+}
+
+// Points drawn evenly by weight, always the same ones: int16 little endian x, y, z.
+std::string points_text(const ParticleBelief& belief) {
+  std::string bytes;
+  for (const auto& draw : belief.systematic_draws(kNumPoints, RandomStream{0})) {
+    for (std::size_t repeat = 0; repeat < draw.count; ++repeat) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto value = static_cast<std::int16_t>(std::lround(belief.axis(k)[draw.index] * 32767.0));
+        const auto bits = static_cast<std::uint16_t>(value);
+        bytes += static_cast<char>(bits & 255u);
+        bytes += static_cast<char>(bits >> 8u);
+      }
+    }
+  }
+  return base64(bytes);
+}
+
+Json outline_json(const Cone& cone) {
+  Json corners = Json::array();
+  for (const auto& corner : outline(cone)) corners.push_back({corner.x(), corner.y(), corner.z()});
+  return corners;
+}
+
+Json plain_sentences(const Domain& domain, std::span<const HalfSpace> half_spaces) {
+  Json list = Json::array();
+  for (const auto& half_space : half_spaces) list.push_back(sentence(in_words(domain, half_space)));
+  return list;
+}
+
+class RoomDetailPage {
+ public:
+  explicit RoomDetailPage(const RoomParts& room)
+      : room_{room}, state_{room.state}, atlas_{*room.study.atlas}, domain_{atlas_.domain()} {}
+
+  [[nodiscard]] Json json() const {
+    Json detail{{"id", room_.setup.id}, {"session", session()}};
+    if (const auto* lesson = current_lesson()) detail["lesson"] = lesson_json(*lesson);
+    detail["answers"] = answers();
+    detail["curves"] = curves();
+    detail["beliefs"] = beliefs();
+    detail["truth"] = truth();
+    detail["timers"] = timers();
+    return detail;
+  }
+
+ private:
+  [[nodiscard]] Json session() const {
+    Json components = Json::array();
+    const auto all = state_.session->components();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      constexpr std::array kWords{"open", "learned", "skipped"};
+      components.push_back(
+          {{"name", component_in_words(atlas_, i)}, {"status", kWords[static_cast<std::size_t>(all[i])]}});
+    }
+    constexpr std::array kPhases{"lobby", "teacher", "watch", "predict", "feedback", "questions", "ended"};
+    const auto* lesson = current_lesson();
+    return {{"period", state_.session->periods()},
+            {"component", lesson != nullptr ? Json(lesson->component + 1) : Json{}},
+            {"components", components},
+            {"phase", kPhases[static_cast<std::size_t>(state_.phase)]}};
+  }
+
+  // The one that people see; while they read the feedback that of the period behind them.
+  [[nodiscard]] const Lesson* current_lesson() const {
+    const auto& session = *state_.session;
+    if (state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting) return &session.lesson();
+    return session.history().empty() ? nullptr : &session.history().back().lesson;
+  }
+
+  [[nodiscard]] std::string why(const Lesson& lesson) const {
+    if (lesson.repeats) return "No demonstration would add anything, so the lesson before is shown again.";
+    std::string text;
+    if (lesson.source.is_member()) {
+      text = "Chosen for what the teacher believes about " + member_label(lesson.source.member) + ".";
+    } else if (lesson.source.rule == "common") {
+      text = "Chosen for the common belief: what all members know.";
+    } else if (lesson.source.rule == "joint") {
+      text = "Chosen for the joint belief: what at least one member knows.";
+    } else {
+      text = "Chosen for the belief '" + lesson.source.rule + "'.";
+    }
+    if (!lesson.demonstrations.empty() && lesson.demonstrations.front().gain > 1.0) {
+      const double share = 1.0 - 1.0 / lesson.demonstrations.front().gain;
+      text += " The first demonstration rules out " + std::to_string(std::lround(100.0 * share)) +
+              " % of the rewards that fitted what was taught before.";
+    }
+    return text;
+  }
+
+  [[nodiscard]] Json lesson_json(const Lesson& lesson) const {
+    const auto shown = [&](DemoIndex demo) {
+      return Json{{"board", live_board(room_.study, demo)}, {"frames", robot_frames(room_.study, demo)}};
+    };
+    Json demonstrations = Json::array(), tests = Json::array(), others = Json::array();
+    for (const auto& one : lesson.demonstrations) {
+      auto entry = shown(one.demo);
+      entry["gain"] = one.gain;
+      entry["sentences"] = plain_sentences(domain_, one.half_spaces);
+      demonstrations.push_back(std::move(entry));
+    }
+    for (const auto& test : lesson.tests) {
+      auto entry = shown(test.demo);
+      entry["sentences"] = plain_sentences(domain_, test.covered);
+      tests.push_back(std::move(entry));
+    }
+    const bool is_current = state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting;
+    if (state_.runners_up && is_current) {
+      for (const auto& other : *state_.runners_up) {
+        others.push_back({{"board", live_board(room_.study, other.demo)},
+                          {"gain", other.gain},
+                          {"sentences", plain_sentences(domain_, other.half_spaces)}});
+      }
+    }
+    const auto source =
+        lesson.source.is_member() ? "member " + std::to_string(lesson.source.member + 1) : lesson.source.rule;
+    return {{"source", source},
+            {"why", why(lesson)},
+            {"demonstrations", demonstrations},
+            {"tests", tests},
+            {"runners_up", others}};
+  }
+
+  [[nodiscard]] Json answers() const {
+    Json list = Json::array();
+    for (const auto& answer : state_.answers) {
+      list.push_back({{"seat", answer.seat + 1},
+                      {"period", answer.period},
+                      {"test", answer.test},
+                      {"right", answer.right},
+                      {"regret", answer.regret},
+                      {"ms", answer.ms},
+                      {"stopped_short", answer.stopped_short}});
+    }
+    return list;
+  }
+
+  [[nodiscard]] Json curves() const {
+    Json list = Json::array();
+    for (const auto& point : state_.curves) {
+      Json p_bec = Json::object(), right = Json::object();
+      for (const auto& [name, mass] : point.p_bec) p_bec[name] = mass;
+      for (const auto& [seat, share] : point.right) right[std::to_string(seat + 1)] = share;
+      list.push_back({{"period", point.period}, {"p_bec", p_bec}, {"right", right}});
+    }
+    return list;
+  }
+
+  [[nodiscard]] Json beliefs() const {
+    Json list = Json::array();
+    if (domain_.num_features() != 3) return list;
+    const auto& session = *state_.session;
+    for (std::size_t m = 0; m < session.num_members(); ++m) {
+      list.push_back(
+          {{"name", "member " + std::to_string(m + 1)}, {"points", points_text(session.belief().member(m))}});
+    }
+    for (const auto& rule : session.options().rules) {
+      list.push_back(
+          {{"name", std::string{rule.name}}, {"points", points_text(session.belief().aggregate(rule.name))}});
+    }
+    return list;
+  }
+
+  [[nodiscard]] Json truth() const {
+    Json weights = Json::array();
+    for (const double weight : domain_.weights().unit) weights.push_back(weight);
+    if (domain_.num_features() != 3) return {{"weights", weights}, {"bec", Json::array()}, {"prior", Json::array()}};
+    Cone bec = atlas_.prior_cone();
+    const bool has_room = bec.clip(atlas_.policy_bec_half_spaces());
+    return {{"weights", weights},
+            {"bec", has_room ? outline_json(bec) : Json::array()},
+            {"prior", outline_json(atlas_.prior_cone())}};
+  }
+
+  [[nodiscard]] Json timers() const {
+    Json list = Json::array();
+    const auto add = [&](const char* name, std::int64_t since_us, const std::optional<std::int64_t>& until_us) {
+      Json timer{{"name", name}, {"since_ms", in_ms(since_us)}};
+      if (until_us) timer["until_ms"] = in_ms(*until_us);
+      list.push_back(std::move(timer));
+    };
+    if (state_.phase == RoomPhase::kLobby) {
+      const auto limit = room_.study.group().time.lobby_s;
+      if (state_.lobby_us) {
+        add("lobby", *state_.lobby_us,
+            limit > 0 && room_.study.group().auto_start ? std::optional{*state_.lobby_us + limit * kSecond}
+                                                        : std::nullopt);
+      }
+      return list;
+    }
+    if (is_running(state_)) add("phase", state_.phase_us, state_.deadline_us);
+    if (state_.started_us && is_running(state_)) add("session", *state_.started_us, state_.session_deadline_us);
+    if (state_.paused_us) add("pause", *state_.paused_us, std::nullopt);
+    return list;
+  }
+
+  const RoomParts& room_;
+  const Room::State& state_;
+  const Atlas& atlas_;
+  const Domain& domain_;
+};
+
+}  // namespace
+
+Json detail_json(const RoomParts& room, std::int64_t) { return RoomDetailPage{room}.json(); }
+
+}  // namespace kith

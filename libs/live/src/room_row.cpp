@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+
+#include "kith/live/screening.hpp"
+#include "live_texts.hpp"
+#include "room_view.hpp"
+
+namespace kith {
+namespace {
+
+class RoomRowPage {
+ public:
+  RoomRowPage(const RoomParts& room, RoomStage stage, const Viewer& viewer)
+      : room_{room}, state_{room.state}, stage_{stage}, is_facilitator_{viewer.role == Viewer::Role::kFacilitator} {}
+
+  [[nodiscard]] Json json() const {
+    Json seats = Json::array();
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) seats.push_back(seat_row(i));
+    const auto& session = *state_.session;
+    Json row{{"id", room_.setup.id}};
+    if (is_facilitator_) row["code"] = room_.setup.code;
+    row["stage"] = stage_word();
+    row["strategy"] = session.strategy().name;
+    row["composition"] = room_.setup.composition;
+    row["replicate"] = room_.setup.replicate;
+    row["seats"] = std::move(seats);
+    row["period"] = session.periods() + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
+    row["component"] = component();
+    if (state_.started_us) row["started_ms"] = in_ms(*state_.started_us);
+    if (!state_.end_reason.empty()) row["ended"] = state_.end_reason;
+    if (auto ahead = forecast(); !ahead.is_null()) row["forecast"] = std::move(ahead);
+    if (state_.next_strategy) row["next_strategy"] = state_.next_strategy->name;
+    return row;
+  }
+
+ private:
+  [[nodiscard]] const char* stage_word() const {
+    switch (stage_) {
+      case RoomStage::kLobby:
+        return "lobby";
+      case RoomStage::kQuestions:
+        return "questions";
+      case RoomStage::kEnded:
+        return "ended";
+      case RoomStage::kRunning:
+        break;
+    }
+    return state_.paused_us ? "paused" : "running";
+  }
+
+  // The one under way, or the next one, from 1.
+  [[nodiscard]] std::size_t component() const {
+    const auto components = state_.session->components();
+    const auto open = std::find(components.begin(), components.end(), ComponentStatus::kOpen);
+    const auto index = static_cast<std::size_t>(open - components.begin());
+    return std::min(index + 1, components.size());
+  }
+
+  [[nodiscard]] Json seat_row(std::size_t i) const {
+    const auto& seat = state_.seats[i];
+    const char* presence = seat.is_here ? "here" : "away";
+    if (seat.status == SeatStatus::kGone) presence = "left";
+    if (seat.status == SeatStatus::kEmpty) presence = "empty";
+    Json row{{"seat", i + 1}, {"label", seat.member ? member_label(*seat.member) : std::string{"Reserve"}}};
+    if (is_facilitator_ && !seat.name.empty()) row["name"] = seat.name;
+    row["kind"] = seat.is_person ? "person" : "simulated";
+    row["type"] = std::string{seat.type};
+    row["presence"] = presence;
+    row["dropped"] = seat.status == SeatStatus::kDropped;
+    row["since_ms"] = in_ms(seat.presence_us);
+    row["stage"] = seat.is_person ? stage_of_seat(room_, seat) : std::string{"simulated"};
+    if (!seat.why.empty()) row["why"] = seat.why;
+    if (seat.tests > 0) {
+      row["right"] = seat.right;
+      row["tests"] = seat.tests;
+    }
+    if (!room_.study.screening.empty() && seat.screened.size() == room_.study.screening.size()) {
+      const auto right = static_cast<std::size_t>(std::count(seat.screened.begin(), seat.screened.end(), true));
+      const double estimate = screening_estimate(right, seat.screened.size());
+      row["estimate"] = estimate;
+      row["estimate_is_high"] = estimate >= room_.study.group().screening.cut;
+    }
+    const bool has_code = seat.gets_code || (seat.is_person && stage_of_seat(room_, seat) == "debrief");
+    if (is_facilitator_ && has_code) {
+      row["code"] = completion_code(room_.study, room_.setup.salt, room_.setup.id, i + 1);
+    }
+    return row;
+  }
+
+  // Periods: as many per open component as the components before took on average. Minutes: the shortest and the
+  // longest period so far times that.
+  [[nodiscard]] Json forecast() const {
+    if (!is_running(state_) || state_.durations_us.empty()) return {};
+    const auto components = state_.session->components();
+    const auto count = [&](ComponentStatus status) {
+      return static_cast<double>(std::count(components.begin(), components.end(), status));
+    };
+    const double learned = std::max(1.0, count(ComponentStatus::kLearned));
+    const double done = static_cast<double>(state_.session->periods());
+    const double most = static_cast<double>(state_.session->options().max_periods) - done;
+    const double periods = std::min(most, std::ceil(count(ComponentStatus::kOpen) * std::max(1.0, done / learned)));
+    const auto [shortest, longest] = std::minmax_element(state_.durations_us.begin(), state_.durations_us.end());
+    const auto minutes = [&](std::int64_t us) {
+      return std::ceil(periods * static_cast<double>(us) / (60.0 * static_cast<double>(kSecond)));
+    };
+    return {{"periods", periods}, {"minutes_low", minutes(*shortest)}, {"minutes_high", minutes(*longest)}};
+  }
+
+  const RoomParts& room_;
+  const Room::State& state_;
+  RoomStage stage_;
+  bool is_facilitator_;
+};
+
+}  // namespace
+
+Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer, std::int64_t) {
+  return RoomRowPage{room, stage, viewer}.json();
+}
+
+Json Room::row(const Viewer& viewer, std::int64_t now_us) const {
+  return row_json({*study_, *setup_, *state_}, stage(), viewer, now_us);
+}
+
+Json Room::view(const Viewer& viewer, std::int64_t now_us) const {
+  const RoomParts parts{*study_, *setup_, *state_};
+  if (viewer.role == Viewer::Role::kParticipant) {
+    if (viewer.seat < 1 || viewer.seat > state_->seats.size() || !state_->seats[viewer.seat - 1].is_person) {
+      throw std::invalid_argument{"Room::view: no person has this seat"};
+    }
+    return participant_view(parts, viewer.seat - 1, now_us);
+  }
+  return {{"row", row_json(parts, stage(), viewer, now_us)}, {"room", detail_json(parts, now_us)}};
+}
+
+}  // namespace kith

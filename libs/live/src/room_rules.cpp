@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cmath>
+
+#include "room_state.hpp"
+
+namespace kith {
+
+bool gates(const LiveSeat& seat) noexcept {
+  return seat.is_person && seat.status == SeatStatus::kActive && seat.in_period;
+}
+
+bool has_done_phase(const Room::State& state, const LiveSeat& seat) noexcept {
+  switch (state.phase) {
+    case RoomPhase::kWatching:
+      return seat.watched >= state.session->lesson().demonstrations.size();
+    case RoomPhase::kTesting:
+      return seat.has_answered;
+    case RoomPhase::kFeedback:
+      return seat.has_continued;
+    default:
+      return true;
+  }
+}
+
+std::size_t num_active_people(const Room::State& state) noexcept {
+  return static_cast<std::size_t>(std::count_if(state.seats.begin(), state.seats.end(), [](const LiveSeat& seat) {
+    return seat.is_person && seat.member && seat.status == SeatStatus::kActive;
+  }));
+}
+
+bool is_taken(const Room::State& state, const LiveMember& member) noexcept {
+  return member.seat && state.seats[*member.seat].status == SeatStatus::kActive;
+}
+
+bool is_running(const Room::State& state) noexcept {
+  return state.phase == RoomPhase::kTeaching || state.phase == RoomPhase::kWatching ||
+         state.phase == RoomPhase::kTesting || state.phase == RoomPhase::kFeedback;
+}
+
+std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat) {
+  if (!seat.is_person) return {};
+  if (seat.status == SeatStatus::kGone) return seat.last_page;
+  if (seat.status == SeatStatus::kEmpty || seat.readiness == Readiness::kConsent) return "consent";
+  if (seat.readiness == Readiness::kCheck) return "check";
+  if (seat.readiness == Readiness::kScreening) return "screening";
+  if (room.state.phase == RoomPhase::kLobby || !seat.member) return "lobby";
+  if (room.state.phase == RoomPhase::kQuestions || room.state.phase == RoomPhase::kEnded) {
+    return room.study.group().questions.empty() || seat.has_answered_questions ? "debrief" : "questions";
+  }
+  if (!seat.in_period || room.state.phase == RoomPhase::kTeaching || has_done_phase(room.state, seat)) return "wait";
+  if (room.state.phase == RoomPhase::kWatching) return "watch";
+  return room.state.phase == RoomPhase::kTesting ? "predict" : "feedback";
+}
+
+std::size_t current_test(const LiveSeat& seat) noexcept {
+  const auto first = std::find_if(seat.paths.begin(), seat.paths.end(), [](const auto& path) { return !path; });
+  return static_cast<std::size_t>(first - seat.paths.begin());
+}
+
+std::optional<std::size_t> first_reserve(const Room::State& state) noexcept {
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < state.seats.size(); ++i) {
+    const auto& seat = state.seats[i];
+    if (seat.member || seat.status != SeatStatus::kActive || seat.readiness != Readiness::kReady || !seat.is_here)
+      continue;
+    if (!first || seat.ready_us < state.seats[*first].ready_us) first = i;
+  }
+  return first;
+}
+
+bool is_as_good(const Atlas& atlas, DemoIndex test, const Answer& counts) {
+  constexpr double kTolerance = 1e-6;  // as in Session
+  if (!counts) return false;
+  const auto& weights = atlas.domain().weights();
+  const auto& robot = atlas.feature_counts(test);
+  const auto loss = robot - *counts;
+  if (atlas.domain().is_exact()) return sign_of_dot(weights.integer, loss) <= 0;
+  const auto scale = static_cast<double>(atlas.domain().count_scale());
+  return weights.return_of(loss) / scale <= kTolerance * std::max(1.0, std::abs(weights.return_of(robot)) / scale);
+}
+
+TeamAddress address_of(const RoomSetup& setup) {
+  TeamAddress address;
+  address.strategy = setup.strategy;
+  address.composition = setup.composition;
+  address.replicate = setup.replicate;
+  return address;
+}
+
+}  // namespace kith

@@ -1,0 +1,189 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kith/live/room.hpp"
+#include "kith/live/world_json.hpp"
+
+namespace kith {
+
+/// How far a person has come on the way to the lobby.
+enum class Readiness { kConsent, kCheck, kScreening, kReady };
+
+enum class SeatStatus {
+  kEmpty,    ///< Nobody came yet.
+  kActive,   ///< The group counts on them.
+  kDropped,  ///< Away for too long; they take part again when they return.
+  kGone,     ///< For good, unless a facilitator readmits them.
+};
+
+enum class RoomPhase { kLobby, kTeaching, kWatching, kTesting, kFeedback, kQuestions, kEnded };
+
+/// A person's path in answer to one test.
+struct GivenPath {
+  std::vector<std::size_t> actions;
+  bool is_finished = false;
+  Answer counts{};
+  std::int64_t ms = 0;
+};
+
+/// A person or a stand-in.
+struct LiveSeat {
+  bool is_person = true;
+  char type = 'N';
+  std::optional<std::size_t> member;  ///< Whose place they have or had; none: a reserve.
+  SeatStatus status = SeatStatus::kEmpty;
+  Readiness readiness = Readiness::kConsent;
+  std::string last_page;  ///< Of who is gone: declined, ended, replaced or full.
+  std::string why;        ///< Of who is gone: a stable word.
+  bool gets_code = false;
+  bool is_here = false;
+  std::int64_t presence_us = 0;  ///< Since when they are here or away.
+  std::int64_t joined_us = 0;
+  std::int64_t ready_us = 0;
+  std::int64_t since_us = 0;  ///< When they last finished something.
+  std::string name;
+  Json query;
+  std::vector<bool> screened;  ///< Whether each answer so far was right.
+
+  // Of the current period.
+  bool in_period = false;  ///< Takes part in it.
+  std::size_t watched = 0;
+  std::vector<std::optional<GivenPath>> paths;  ///< Per test.
+  bool has_answered = false;                    ///< All tests, or the time is over.
+  std::vector<std::size_t> draft;               ///< Of the first test without a path.
+  bool has_continued = false;
+
+  bool has_answered_questions = false;
+  std::size_t right = 0;
+  std::size_t tests = 0;
+};
+
+/// A place of the session.
+struct LiveMember {
+  std::optional<std::size_t> seat;         ///< Index into the seats; none: nobody has the place.
+  bool is_away = false;                    ///< As the session sees it.
+  bool is_new = false;                     ///< Taken over by somebody who takes part from the next lesson on.
+  std::shared_ptr<const Learner> learner;  ///< Of a stand-in.
+  Learner::Response response;              ///< To the tests of the current lesson.
+};
+
+struct LiveNotice {
+  std::string text;
+  std::int64_t at_us = 0;
+  std::optional<std::size_t> seat;  ///< Index; none: everybody.
+};
+
+/// What a facilitator sees of an answer.
+struct LiveAnswer {
+  std::size_t seat = 0;  ///< Index.
+  std::size_t period = 0;
+  std::size_t test = 0;
+  bool right = false;
+  double regret = 0.0;
+  std::int64_t ms = 0;
+  bool stopped_short = false;
+};
+
+/// Knowledge at the end of a period.
+struct LiveCurvePoint {
+  std::size_t period = 0;
+  std::vector<std::pair<std::string, double>> p_bec;  ///< By belief.
+  std::vector<std::pair<std::size_t, double>> right;  ///< By seat (index).
+};
+
+struct Room::State {
+  std::uint64_t seq = 0;
+  std::int64_t last_us = 0;
+  RoomPhase phase = RoomPhase::kLobby;
+  std::int64_t phase_us = 0;
+  std::vector<LiveSeat> seats;
+  std::vector<LiveMember> members;
+
+  std::shared_ptr<const Session> session;
+  // From the proposal of a lesson until its feedback: what was before, should the lesson be of no use any more.
+  std::shared_ptr<const Session> before;
+  std::vector<LiveMember> members_before;
+  std::optional<StrategyChoice> next_strategy;  ///< From the next component on.
+
+  std::optional<std::int64_t> lobby_us;  ///< When the first person was ready.
+  std::optional<std::int64_t> started_us;
+  std::optional<std::int64_t> ended_us;
+  std::optional<std::int64_t> deadline_us;  ///< Of the phase.
+  std::optional<std::int64_t> session_deadline_us;
+  std::optional<std::int64_t> paused_us;   ///< By the facilitator.
+  std::int64_t period_us = 0;              ///< When the period began.
+  std::vector<std::int64_t> durations_us;  ///< Of the periods so far.
+  std::string end_reason;  ///< Once teaching is over: complete, max-periods, time-limit, or why it ended early.
+  std::string end_text;
+  bool has_extra = false;  ///< Whether a time limit was extended.
+
+  std::vector<LiveNotice> notices;
+  std::vector<LiveAnswer> answers;
+  std::vector<LiveCurvePoint> curves;
+  std::shared_ptr<const std::vector<RunnerUp>> runners_up;
+};
+
+/// A room as its parts see it.
+struct RoomParts {
+  const LiveStudy& study;
+  const RoomSetup& setup;
+  const Room::State& state;
+};
+
+inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
+
+// --- what holds in a state -------------------------------------------------------------------------------------------
+
+/// Whether the group waits for the person in the current period.
+[[nodiscard]] bool gates(const LiveSeat& seat) noexcept;
+/// Whether the person has done their part of the current phase.
+[[nodiscard]] bool has_done_phase(const Room::State& state, const LiveSeat& seat) noexcept;
+/// People with a place who are neither gone nor dropped.
+[[nodiscard]] std::size_t num_active_people(const Room::State& state) noexcept;
+/// Whether the place has somebody whom the next lesson is for.
+[[nodiscard]] bool is_taken(const Room::State& state, const LiveMember& member) noexcept;
+[[nodiscard]] bool is_running(const Room::State& state) noexcept;
+/// The word of a person's page, see Room::stage_of().
+[[nodiscard]] std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat);
+/// The test that a person works on: the first without a path. @pre not all are given.
+[[nodiscard]] std::size_t current_test(const LiveSeat& seat) noexcept;
+/// A seat of the reserve that can take over: the one that has been ready for longest.
+[[nodiscard]] std::optional<std::size_t> first_reserve(const Room::State& state) noexcept;
+/// Whether the answer is as good as the robot's path.
+[[nodiscard]] bool is_as_good(const Atlas& atlas, DemoIndex test, const Answer& counts);
+/// The address of the room's streams.
+[[nodiscard]] TeamAddress address_of(const RoomSetup& setup);
+
+// --- what may happen -------------------------------------------------------------------------------------------------
+
+/// See Room::decide().
+[[nodiscard]] Decision decide_in(const RoomParts& room, const RoomCommand& command, std::int64_t now_us);
+/// The part of facilitators.
+[[nodiscard]] Decision decide_facilitator(const RoomParts& room, const RoomCommand& command, std::int64_t now_us);
+
+/// An event that the clock demands from a moment on.
+struct ClockEvent {
+  std::int64_t at_us = 0;
+  RoomEvent event;
+};
+/// All of them, in the order in which they are dealt with if several are due.
+[[nodiscard]] std::vector<ClockEvent> clock_events(const RoomParts& room);
+
+// --- what happens ----------------------------------------------------------------------------------------------------
+
+/// The state after an event that decide(), due() or taught() led to. @param lesson  of a "lesson" event.
+[[nodiscard]] Room::State state_after(const RoomParts& room, const RoomEvent& event, TeachingCache& cache,
+                                      const TaughtLesson* lesson);
+/// See Room::teaching().
+[[nodiscard]] std::optional<TeachingTask> next_task(const std::shared_ptr<const LiveStudy>& study,
+                                                    const RoomSetup& setup, const Room::State& state,
+                                                    std::vector<SessionEvent> ahead);
+
+}  // namespace kith

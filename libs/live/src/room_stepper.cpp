@@ -1,0 +1,304 @@
+#include "room_stepper.hpp"
+
+#include <algorithm>
+
+#include "kith/study/team_streams.hpp"
+
+namespace kith {
+
+std::shared_ptr<const Learner> make_stand_in(const LiveStudy& study, const RoomSetup& setup, std::size_t member,
+                                             char type, bool is_first, TeachingCache& cache) {
+  auto person = person_stream(team_stream(study.spec, address_of(setup)), member + 1);
+  if (!is_first) person = person.split("stand-in");
+  const auto& learner_of_type = learner_type(study.spec, type);
+  return make_learner(study.spec, learner_of_type, draw_traits(learner_of_type, person), person, cache);
+}
+
+// --- people and places ---------------------------------------------------------------------------------------------
+
+void RoomStepper::dismiss(std::size_t seat, const std::string& page, const std::string& why, bool gets_code) {
+  auto& who = state_.seats[seat];
+  who.status = SeatStatus::kGone;
+  who.last_page = page;
+  who.why = why;
+  who.gets_code = gets_code;
+  who.in_period = false;
+  who.since_us = at_us_;
+  if (who.member && state_.members[*who.member].seat == seat) state_.members[*who.member].seat.reset();
+}
+
+void RoomStepper::seat_stand_in(std::size_t member, char type) {
+  LiveSeat seat;
+  seat.is_person = false;
+  seat.type = type;
+  seat.member = member;
+  seat.status = SeatStatus::kActive;
+  seat.is_here = true;
+  seat.presence_us = seat.joined_us = seat.since_us = at_us_;
+  const auto learner = std::shared_ptr<Learner>{make_stand_in(study_, setup_, member, type, false, cache_)->clone()};
+  learner->begin_component();  // also in the middle of one
+  state_.members[member].seat = state_.seats.size();
+  state_.members[member].learner = learner;
+  state_.members[member].response = {};
+  state_.members[member].is_new = true;
+  state_.seats.push_back(std::move(seat));
+}
+
+void RoomStepper::seat_reserve(std::size_t seat, std::size_t member) {
+  state_.seats[seat].member = member;
+  state_.seats[seat].type = setup_.composition[member];
+  state_.members[member].seat = seat;
+  state_.members[member].learner.reset();
+  state_.members[member].is_new = true;
+}
+
+void RoomStepper::begin() {
+  state_.started_us = at_us_;
+  if (study_.group().time.max_minutes > 0) {
+    state_.session_deadline_us = at_us_ + study_.group().time.max_minutes * 60 * kSecond;
+  }
+  begin_phase(RoomPhase::kTeaching, 0);
+}
+
+void RoomStepper::end(const std::string& reason, const std::string& text) {
+  const bool taught = state_.started_us.has_value();
+  for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+    auto& seat = state_.seats[i];
+    if (!seat.is_person || seat.status == SeatStatus::kEmpty || seat.status == SeatStatus::kGone) continue;
+    if (state_.phase == RoomPhase::kQuestions && (seat.has_answered_questions || study_.group().questions.empty()))
+      continue;  // they have finished
+    const bool is_reserve = taught && !seat.member;
+    const bool was_ready = seat.readiness == Readiness::kReady;
+    dismiss(i, is_reserve ? "full" : "ended", reason, is_reserve ? study_.group().completion.pay_full : was_ready);
+  }
+  state_.end_reason = reason;
+  state_.end_text = text;
+  state_.ended_us = at_us_;
+  state_.paused_us.reset();
+  begin_phase(RoomPhase::kEnded, 0);
+}
+
+void RoomStepper::begin_questions(const std::string& reason) {
+  state_.end_reason = reason;
+  state_.ended_us = at_us_;
+  for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+    auto& seat = state_.seats[i];
+    seat.in_period = false;
+    if (seat.is_person && seat.status == SeatStatus::kActive && !seat.member) {
+      dismiss(i, "full", "not-needed", study_.group().completion.pay_full);
+    }
+  }
+  begin_phase(RoomPhase::kQuestions, 0);
+}
+
+// --- steps of the group --------------------------------------------------------------------------------------------
+
+void RoomStepper::settle() {
+  if (!is_running(state_)) return;
+  sync_members();
+  advance();
+}
+
+void RoomStepper::revert() {
+  state_.session = std::move(state_.before);
+  state_.before.reset();
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    auto& member = state_.members[m];
+    const auto& before = state_.members_before[m];
+    member.is_away = before.is_away;
+    // A stand-in who is still the same one forgets the lesson.
+    if (member.seat == before.seat) member.learner = before.learner;
+    member.response = {};
+  }
+  state_.members_before.clear();
+  state_.runners_up.reset();
+  for (auto& seat : state_.seats) seat.in_period = seat.in_period && state_.phase == RoomPhase::kFeedback;
+}
+
+// Who has a place takes part in the session, and nobody else does.
+void RoomStepper::sync_members() {
+  const auto differs = [&](const LiveMember& member) {
+    return is_taken(state_, member) == member.is_away || (member.is_new && member.seat);
+  };
+  if (state_.session->finished() || std::none_of(state_.members.begin(), state_.members.end(), differs)) return;
+  const bool is_ahead = state_.phase == RoomPhase::kFeedback || state_.phase == RoomPhase::kTeaching;
+  if (is_ahead && state_.before) revert();  // the lesson was chosen for others
+  auto session = *state_.session;
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    auto& member = state_.members[m];
+    if (!differs(member)) continue;
+    // Who takes a place over takes part from the next lesson on.
+    if (!member.is_away) session.leave(m);
+    if (is_taken(state_, member)) session.come_back(m);
+    member.is_away = !is_taken(state_, member);
+    member.is_new = false;
+  }
+  state_.session = std::make_shared<const Session>(std::move(session));
+  if (is_ahead) return;
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    if (state_.session->takes_part(m)) return;
+  }
+  // Nobody who watched this lesson is left: those who are here begin with a new one.
+  revert();
+  begin_phase(RoomPhase::kTeaching, 0);
+  sync_members();
+}
+
+bool RoomStepper::all_done() const {
+  return std::all_of(state_.seats.begin(), state_.seats.end(),
+                     [&](const LiveSeat& seat) { return !gates(seat) || has_done_phase(state_, seat); });
+}
+
+void RoomStepper::advance() {
+  while (!state_.paused_us) {
+    switch (state_.phase) {
+      case RoomPhase::kTeaching:
+        if (state_.session->finished()) {
+          const bool complete = state_.session->status() == SessionStatus::kComplete;
+          return begin_questions(complete ? "complete" : "max-periods");
+        }
+        if (state_.session->phase() != SessionPhase::kLesson) return;
+        begin_watching();
+        break;
+      case RoomPhase::kWatching:
+        if (!all_done()) return;
+        begin_tests();
+        break;
+      case RoomPhase::kTesting:
+        if (!all_done()) return;
+        finish_tests();
+        break;
+      case RoomPhase::kFeedback:
+        if (!all_done()) return;
+        state_.durations_us.push_back(at_us_ - state_.period_us);
+        begin_phase(RoomPhase::kTeaching, 0);
+        break;
+      default:
+        return;
+    }
+  }
+}
+
+void RoomStepper::begin_phase(RoomPhase phase, std::int64_t limit_s) {
+  state_.phase = phase;
+  state_.phase_us = at_us_;
+  state_.deadline_us.reset();
+  if (limit_s > 0) state_.deadline_us = at_us_ + limit_s * kSecond;
+}
+
+void RoomStepper::take_lesson(const TaughtLesson& lesson) {
+  state_.before = state_.session;
+  state_.members_before = state_.members;
+  state_.session = lesson.after;
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    auto& member = state_.members[m];
+    if (!member.learner) continue;
+    member.learner = std::shared_ptr<const Learner>{lesson.learners[m]->clone()};
+    member.response = lesson.responses[m];
+  }
+  state_.runners_up = std::make_shared<const std::vector<RunnerUp>>(lesson.runners_up);
+}
+
+void RoomStepper::begin_watching() {
+  const auto& session = *state_.session;
+  if (state_.next_strategy && session.strategy() == *state_.next_strategy) state_.next_strategy.reset();
+  for (auto& seat : state_.seats) {
+    seat.in_period = seat.status == SeatStatus::kActive && seat.member &&
+                     state_.members[*seat.member].seat == static_cast<std::size_t>(&seat - state_.seats.data()) &&
+                     session.takes_part(*seat.member);
+    seat.watched = 0;
+    seat.paths.clear();
+    seat.paths.resize(session.lesson().tests.size());
+    seat.draft.clear();
+    seat.has_answered = seat.paths.empty();
+    seat.has_continued = false;
+  }
+  state_.period_us = at_us_;
+  begin_phase(RoomPhase::kWatching, study_.group().time.watch_s);
+}
+
+void RoomStepper::begin_tests() {
+  auto session = *state_.session;
+  session.show();
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    const auto& member = state_.members[m];
+    if (member.learner && session.takes_part(m)) session.answer(m, member.response.answers);
+  }
+  state_.session = std::make_shared<const Session>(std::move(session));
+  begin_phase(RoomPhase::kTesting, study_.group().time.predict_s);
+}
+
+void RoomStepper::give_answers(std::size_t seat) {
+  auto& who = state_.seats[seat];
+  std::vector<Answer> answers;
+  for (const auto& path : who.paths) answers.push_back(path ? path->counts : std::nullopt);
+  auto session = *state_.session;
+  session.answer(*who.member, std::move(answers));
+  state_.session = std::make_shared<const Session>(std::move(session));
+  who.has_answered = true;
+  who.draft.clear();
+}
+
+void RoomStepper::finish_tests() {
+  auto session = *state_.session;
+  session.close_tests();
+  session.give_feedback();
+  const auto& past = session.history().back();
+  for (std::size_t m = 0; m < state_.members.size(); ++m) {
+    auto& member = state_.members[m];
+    if (!member.learner || !session.takes_part(m)) continue;
+    const auto learner = std::shared_ptr<Learner>{member.learner->clone()};
+    learner->hear_feedback(past.feedback.all_correct[m], past.feedback.half_spaces, past.lesson.period);
+    member.learner = learner;
+    member.response = {};
+  }
+  state_.session = std::make_shared<const Session>(std::move(session));
+  state_.before.reset();
+  state_.members_before.clear();
+  record_answers();
+  record_curves();
+  begin_phase(RoomPhase::kFeedback, study_.group().time.feedback_s);
+}
+
+void RoomStepper::record_answers() {
+  const auto& past = state_.session->history().back();
+  for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+    auto& seat = state_.seats[i];
+    if (!seat.member || state_.members[*seat.member].seat != i || !seat.in_period) continue;
+    const auto& verdicts = past.feedback.verdicts[*seat.member];
+    for (std::size_t t = 0; t < verdicts.size(); ++t) {
+      const auto path = seat.is_person && t < seat.paths.size() ? seat.paths[t] : std::nullopt;
+      seat.tests += 1;
+      seat.right += verdicts[t].correct ? 1u : 0u;
+      state_.answers.push_back({.seat = i,
+                                .period = past.lesson.period,
+                                .test = t,
+                                .right = verdicts[t].correct,
+                                .regret = verdicts[t].regret,
+                                .ms = path ? path->ms : 0,
+                                .stopped_short = path && !path->is_finished});
+    }
+  }
+}
+
+void RoomStepper::record_curves() {
+  const auto& session = *state_.session;
+  const auto& region = study_.atlas->policy_bec_half_spaces();
+  LiveCurvePoint point;
+  point.period = session.periods();
+  for (std::size_t m = 0; m < session.num_members(); ++m) {
+    point.p_bec.emplace_back("member " + std::to_string(m + 1), session.belief().member(m).mass_in(region));
+  }
+  for (const auto& rule : session.options().rules) {
+    point.p_bec.emplace_back(std::string{rule.name}, session.belief().aggregate(rule.name).mass_in(region));
+  }
+  for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+    const auto& seat = state_.seats[i];
+    if (seat.tests > 0) {
+      point.right.emplace_back(i, static_cast<double>(seat.right) / static_cast<double>(seat.tests));
+    }
+  }
+  state_.curves.push_back(std::move(point));
+}
+
+}  // namespace kith

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "room_state.hpp"
+
+namespace kith {
+
+/// Milliseconds of microseconds, as views have them.
+[[nodiscard]] inline std::int64_t in_ms(std::int64_t us) noexcept { return us / 1000; }
+
+/// A board as participants get it: the legend of the domain and the map, nothing about rewards.
+[[nodiscard]] Json live_board(const LiveStudy& study, DemoIndex demo);
+/// The robot's path from there, frame by frame.
+[[nodiscard]] Json robot_frames(const LiveStudy& study, DemoIndex demo);
+
+/// ParticipantView.
+[[nodiscard]] Json participant_view(const RoomParts& room, std::size_t seat, std::int64_t now_us);
+/// Its parts `debrief` and `end` without what belongs to one group.
+[[nodiscard]] Json end_json(const LiveStudy& study, const std::string& reason, const std::string& text,
+                            const std::string& code, const Json& query);
+/// The redirect of the study with the code and the query parameters filled in; null without one.
+[[nodiscard]] Json redirect_json(const LiveStudy& study, const std::string& code, const Json& query);
+/// What everybody sees of the study: title, story and goal.
+[[nodiscard]] Json study_texts_json(const LiveStudy& study);
+
+/// `feedback` of a participant.
+[[nodiscard]] Json feedback_json(const RoomParts& room, const LiveSeat& seat);
+/// What the robot's way has over another one, in words: "Your way makes the robot take 2 more steps than needed."
+[[nodiscard]] std::string cost_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& mine);
+
+/// RoomRow.
+[[nodiscard]] Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer, std::int64_t now_us);
+/// RoomDetail.
+[[nodiscard]] Json detail_json(const RoomParts& room, std::int64_t now_us);
+
+}  // namespace kith

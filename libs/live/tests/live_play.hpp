@@ -1,0 +1,233 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kith/live/room.hpp"
+#include "kith/live/world_json.hpp"
+#include "kith/study/study_file.hpp"
+
+namespace kith::testing {
+
+inline constexpr const char* kLiveStudy = R"(schema = "kith.study/1"
+id = "live"
+domain = "item-delivery"
+seed = 11
+replicates = 3
+[design]
+strategies = ["common", "joint", "individual-low", "baseline"]
+compositions = ["NNP", "NN", "N"]
+[learner.N]
+ability = { mean = 0.703, sd = 0.034 }
+confirm_gain = { half_normal = 0.033 }
+correct_gain = { half_normal = 0.056 }
+[learner.P]
+ability = { mean = 0.809, sd = 0.025 }
+confirm_gain = { half_normal = 0.022 }
+correct_gain = { half_normal = 0.052 }
+[teacher]
+particles = 120
+counterfactuals = 4
+)";
+
+inline std::shared_ptr<const Atlas> atlas_of(const std::string& domain) {
+  static std::vector<std::pair<std::string, std::shared_ptr<const Atlas>>> known;
+  for (const auto& [name, atlas] : known) {
+    if (name == domain) return atlas;
+  }
+  std::string text = kLiveStudy;
+  text.replace(text.find("item-delivery"), 13, domain);
+  auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
+  if (!reading.domain) throw std::logic_error{"no domain " + domain};
+  known.emplace_back(domain, std::make_shared<const Atlas>(*std::move(reading.domain)));
+  return known.back().second;
+}
+
+/// The study with more tables behind it, about a built-in domain or one of a file of the repository.
+inline std::shared_ptr<const LiveStudy> live_study(const std::string& group = {},
+                                                   const std::string& domain = "item-delivery") {
+  std::string text = kLiveStudy + group;
+  text.replace(text.find("item-delivery"), 13, domain);
+  static std::map<std::string, std::shared_ptr<const LiveStudy>> known;
+  auto& study = known[text];
+  if (study) return study;
+  const auto reading = parse_study(text, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
+  if (!reading.study) throw std::logic_error{to_text(reading.diagnostics.front())};
+  study = make_live_study(*reading.study, atlas_of(domain));
+  return study;
+}
+
+/// A room with a clock, and everything that happened in it.
+class Play {
+ public:
+  Play(std::shared_ptr<const LiveStudy> study, RoomSetup setup)
+      : study_{std::move(study)}, cache_{study_->atlas}, room_{study_, std::move(setup), cache_} {}
+  explicit Play(std::shared_ptr<const LiveStudy> study, const std::string& composition = "NNP",
+                std::vector<bool> simulated = {})
+      : Play{std::move(study), RoomSetup{.id = "r1",
+                                         .code = "ABC",
+                                         .strategy = "common",
+                                         .composition = composition,
+                                         .simulated = std::move(simulated),
+                                         .replicate = 1,
+                                         .salt = "salt"}} {}
+
+  [[nodiscard]] const Room& room() const { return room_; }
+  [[nodiscard]] const LiveStudy& study() const { return *study_; }
+  [[nodiscard]] TeachingCache& cache() { return cache_; }
+  [[nodiscard]] const std::vector<RoomEvent>& events() const { return events_; }
+  [[nodiscard]] std::int64_t now() const { return now_us_; }
+
+  /// Sends a command and applies what it leads to. @return the refusal's reason; empty if it was accepted.
+  std::string send(const std::string& actor, const std::string& type, Json body = Json::object()) {
+    const auto decision = room_.decide({actor, type, std::move(body), "id"}, now_us_);
+    if (decision.refusal) return decision.refusal->reason;
+    for (const auto& event : decision.events) apply(event);
+    settle();
+    return {};
+  }
+  std::string seat(std::size_t number, const std::string& type, Json body = Json::object()) {
+    return send(seat_actor(number), type, std::move(body));
+  }
+  std::string facilitator(const std::string& type, Json body = Json::object()) {
+    body["reason"] = "a test";
+    return send("facilitator", type, std::move(body));
+  }
+
+  /// Lets time pass, second by second where something is due.
+  void wait(double seconds) {
+    const auto end = now_us_ + static_cast<std::int64_t>(seconds * 1e6);
+    settle();
+    while (true) {
+      const auto next = room_.next_due();
+      if (!next || *next > end) break;
+      now_us_ = std::max(now_us_, *next);
+      settle();
+    }
+    now_us_ = end;
+  }
+
+  /// What is due now, and lessons. Without the teacher, lessons are left for later.
+  void settle() {
+    for (;;) {
+      const auto due = room_.due(now_us_);
+      const auto task = teacher_works_ ? room_.teaching() : std::nullopt;
+      if (!due.empty()) {
+        for (const auto& event : due) apply(event);
+      } else if (task) {
+        const auto lesson = task->run(cache_);
+        apply(room_.taught(lesson, now_us_), &lesson);
+      } else {
+        return;
+      }
+    }
+  }
+  void set_teacher(bool works) {
+    teacher_works_ = works;
+    settle();
+  }
+
+  void join(std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(send("server", "join"), "");
+    }
+  }
+  void get_ready(std::size_t number) {
+    ASSERT_EQ(seat(number, "consent", {{"accept", true}, {"version", study_->group().consent_version}}), "");
+    ASSERT_EQ(seat(number, "checked"), "");
+    for (std::size_t t = 0; room_.stage_of(number) == "screening"; ++t) {
+      ASSERT_EQ(seat(number, "screen", {{"test", t}, {"actions", right_path(study_->screening[t])}, {"ms", 5}}), "");
+    }
+  }
+  /// Everybody joins and is ready; the session starts if the study says so.
+  void start(std::size_t people) {
+    join(people);
+    for (std::size_t i = 1; i <= people; ++i) get_ready(i);
+  }
+
+  void watch(std::size_t number) {
+    while (room_.stage_of(number) == "watch") {
+      const auto view = room_.view({Viewer::Role::kParticipant, number}, now_us_);
+      ASSERT_EQ(seat(number, "watched", {{"demo", view["watch"]["index"]}}), "");
+    }
+  }
+  void answer(std::size_t number, bool right = true) {
+    while (room_.stage_of(number) == "predict") {
+      const auto t = room_.view({Viewer::Role::kParticipant, number}, now_us_)["predict"]["index"].get<std::size_t>();
+      const auto demo = room_.session().lesson().tests[t].demo;
+      ASSERT_EQ(
+          seat(number, "answer", {{"test", t}, {"actions", right ? right_path(demo) : wrong_path(demo)}, {"ms", 1000}}),
+          "");
+    }
+  }
+  /// One step on whatever page the person is on.
+  void act(std::size_t number, bool right = true) {
+    const auto stage = room_.stage_of(number);
+    if (stage == "watch") watch(number);
+    if (stage == "predict") answer(number, right);
+    if (stage == "feedback") {
+      ASSERT_EQ(seat(number, "continue"), "");
+    }
+    if (stage == "questions") {
+      ASSERT_EQ(seat(number, "questions", {{"answers", Json::object()}}), "");
+    }
+  }
+  /// People act until nothing more can be done by them.
+  void play_on(const std::vector<std::size_t>& people, bool right = true, std::size_t rounds = 400) {
+    for (std::size_t i = 0; i < rounds && room_.stage() == RoomStage::kRunning; ++i) {
+      for (const auto number : people) act(number, right);
+    }
+  }
+
+  [[nodiscard]] Json right_path(DemoIndex demo) const {
+    Json actions = Json::array();
+    for (const auto action : expected_path(*study_->atlas, demo).actions) actions.push_back(action.value());
+    return actions;
+  }
+  /// Another first action, from where the robot goes on as it would; worse than the robot's own path.
+  [[nodiscard]] Json wrong_path(DemoIndex demo) const {
+    const auto& atlas = *study_->atlas;
+    const auto [world, start] = atlas.id(demo);
+    const auto& mdp = atlas.domain().mdp(world);
+    for (const auto& choice : mdp.choices(start)) {
+      const auto next = mdp.outcomes(choice).front().next;
+      if (mdp.is_terminal(next)) continue;
+      Json actions = Json::array({choice.action.value()});
+      for (const auto action : atlas.trajectory(atlas.index({world, next})).actions) actions.push_back(action.value());
+      std::vector<std::size_t> list;
+      for (const auto& action : actions) list.push_back(action.get<std::size_t>());
+      const auto judged = judged_path(atlas, demo, list);
+      if (!judged.counts) continue;
+      if (atlas.domain().weights().return_of(atlas.feature_counts(demo) - *judged.counts) > 1e-3) return actions;
+    }
+    return Json::array();  // stops at once
+  }
+
+  void expect_replay() {
+    const auto again = replay(study_, room_.setup(), events_, cache_);
+    EXPECT_EQ(again.digest(), room_.digest());
+    EXPECT_EQ(again.seq(), room_.seq());
+  }
+
+  void apply(const RoomEvent& event, const TaughtLesson* lesson = nullptr) {
+    room_.apply(event, cache_, lesson);
+    events_.push_back(event);
+  }
+  void pass(double seconds) { now_us_ += static_cast<std::int64_t>(seconds * 1e6); }
+
+ private:
+  std::shared_ptr<const LiveStudy> study_;
+  TeachingCache cache_;
+  Room room_;
+  std::vector<RoomEvent> events_;
+  std::int64_t now_us_ = 1'700'000'000'000'000;
+  bool teacher_works_ = true;
+};
+
+}  // namespace kith::testing

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include "kith/core/error.hpp"
+#include "kith/random/distributions.hpp"
+#include "live_play.hpp"
+
+namespace kith {
+namespace {
+
+using testing::live_study;
+using testing::Play;
+
+// Anything that anybody might send, sensible or not.
+RoomCommand some_command(const Play& play, RandomStream& random) {
+  const auto pick = [&](std::size_t n) { return uniform_index(n, random); };
+  const auto actor = pick(8) == 0   ? std::string{"facilitator"}
+                     : pick(6) == 0 ? std::string{"server"}
+                                    : seat_actor(1 + pick(5));
+  static const std::vector<std::string> kTypes{"consent", "checked",  "name",      "screen", "watched", "draft",
+                                               "answer",  "continue", "questions", "leave",  "join",    "away",
+                                               "present", "start",    "pause",     "resume", "extend",  "message",
+                                               "readmit", "simulate", "strategy",  "end",    "dance"};
+  Json body{{"accept", pick(10) != 0}, {"version", "1"},           {"seat", pick(7)},
+            {"demo", pick(3)},         {"test", pick(3)},          {"ms", pick(5000)},
+            {"seconds", pick(100)},    {"text", "hello"},          {"name", pick(2) == 0 ? "joint" : "common"},
+            {"reason", "random"},      {"answers", Json::object()}};
+  Json actions = Json::array();
+  for (std::size_t i = pick(6); i > 0; --i) actions.push_back(pick(8));
+  body["actions"] = actions;
+  if (pick(12) == 0) body.erase(std::vector<std::string>{"seat", "test", "actions", "ms", "reason", "demo"}[pick(6)]);
+  if (pick(30) == 0) body = pick(2) == 0 ? Json::array() : Json("text");
+  auto type = kTypes[pick(kTypes.size())];
+  if (type == "end" && pick(10) != 0) type = "pause";
+  if (type == "leave" && pick(4) != 0) type = "draft";
+  static_cast<void>(play);
+  return {actor, type, body, "id"};
+}
+
+// Random commands, invalid ones among them, with time going by: nothing throws, a refused command changes nothing, and
+// the state is that of the accepted events, replayed with a fresh cache.
+TEST(RandomCommands, LeadToTheReplayOfWhatWasAccepted) {
+  const std::vector<std::string> policies{"pause-then-continue", "continue-now", "replace-from-pool", "simulate",
+                                          "end-group"};
+  std::vector<std::shared_ptr<const LiveStudy>> studies;
+  for (const auto& policy : policies) {
+    studies.push_back(live_study("[group]\ndropout = { policy = \"" + policy + "\", grace_s = 15" +
+                                 (policy == "replace-from-pool" ? ", reserves = 1" : "") +
+                                 " }\ntime = { watch_s = 200, feedback_s = 300 }\n"
+                                 "questions = [{ id = \"a\", kind = \"text\", text = \"?\" }]\n"));
+  }
+  std::size_t accepted = 0, refused = 0, periods = 0, finished = 0;
+  for (std::uint64_t round = 0; round < 40; ++round) {
+    auto random = RandomStream{23}.split(round);
+    Play play{studies[round % studies.size()], "NNP",
+              round % 4 == 3 ? std::vector<bool>{false, true, false} : std::vector<bool>{}};
+    play.join(round % 4 == 3 ? 2 : 3);
+    for (int i = 0; i < 140; ++i) {
+      if (uniform_index(3, random) == 0) {
+        const auto seat = 1 + uniform_index(play.room().num_seats(), random);
+        if (!play.room().is_person(seat)) continue;
+        const auto stage = play.room().stage_of(seat);
+        if (stage == "consent" && play.seat(seat, "consent", {{"accept", true}, {"version", "1"}}) == "") continue;
+        if (stage == "check" && play.seat(seat, "checked") == "") continue;
+        play.act(seat, uniform_index(4, random) != 0);
+        continue;
+      }
+      if (uniform_index(5, random) == 0) play.wait(static_cast<double>(uniform_index(10, random)));
+      const auto command = some_command(play, random);
+      const auto before = i % 4 == 0 ? play.room().digest() : std::string{};
+      const auto events = play.events().size();
+      const auto reason = play.send(command.actor, command.type, command.body);
+      if (reason.empty()) {
+        accepted += play.events().size() - events;
+      } else {
+        ++refused;
+        if (i % 4 == 0 && play.events().size() == events) {
+          ASSERT_EQ(play.room().digest(), before) << command.type;
+        }
+      }
+      for (std::size_t seat = 1; seat <= play.room().num_seats(); ++seat) {
+        if (i % 10 == 0 && play.room().is_person(seat)) {
+          ASSERT_FALSE(play.room().view({Viewer::Role::kParticipant, seat}, play.now()).empty());
+        }
+      }
+      if (i % 40 == 0) {
+        ASSERT_FALSE(play.room().view({Viewer::Role::kFacilitator, 0}, play.now()).empty());
+      }
+    }
+    periods += play.room().session().periods();
+    finished += play.room().stage() == RoomStage::kEnded ? 1u : 0u;
+    TeachingCache fresh{play.study().atlas};
+    const auto again = replay(studies[round % studies.size()], play.room().setup(), play.events(), fresh);
+    ASSERT_EQ(again.digest(), play.room().digest()) << round;
+    // Events survive being written down.
+    for (const auto& event : play.events()) ASSERT_EQ(room_event(Json::parse(to_json(event).dump())), event);
+  }
+  EXPECT_GT(accepted, 100u);
+  EXPECT_GT(refused, 1000u);
+  EXPECT_GT(periods, 25u);
+  EXPECT_GE(finished, 3u);
+}
+
+TEST(RandomCommands, CopiesGoOnIndependently) {
+  Play play{live_study()};
+  play.start(3);
+  play.watch(1);
+  const auto copy = play.room();
+  const auto digest = copy.digest();
+  play.play_on({1, 2, 3}, true, 4);
+  EXPECT_EQ(copy.digest(), digest);
+  EXPECT_NE(play.room().digest(), digest);
+}
+
+TEST(RoomEvents, AreRefusedIfSomethingIsMissing) {
+  const RoomEvent event{3, 5, "seat:1", "watched", {{"demo", 0}}};
+  const auto json = to_json(event);
+  EXPECT_EQ(room_event(json), event);
+  for (const char* key : {"seq", "at_us", "actor", "type", "body"}) {
+    auto broken = json;
+    broken.erase(key);
+    EXPECT_THROW((void)room_event(broken), Error) << key;
+    broken[key] = nullptr;
+    EXPECT_THROW((void)room_event(broken), Error) << key;
+  }
+  EXPECT_THROW((void)room_event(Json::array()), Error);
+  EXPECT_EQ(seat_of_actor("seat:12"), 12u);
+  for (const char* wrong : {"seat:", "seat:0", "seat:1x", "seat:-1", "sea:1", "", "server"}) {
+    EXPECT_EQ(seat_of_actor(wrong), std::nullopt) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include "kith/study/team_run.hpp"
+#include "live_play.hpp"
+
+namespace kith {
+namespace {
+
+using testing::live_study;
+using testing::Play;
+
+// The lessons and the beliefs of a simulated team.
+class TeamLog final : public TeamObserver {
+ public:
+  void on_session(const Session&, std::size_t) override {}
+  void on_lesson(const Session&, const Lesson&, const Learners&) override {}
+  void on_feedback(const Session&, const Lesson&, const std::vector<Learner::Response>&, const Feedback&,
+                   const Learners&) override {}
+  void on_end(const Session& session, const Learners&) override { end.emplace(session); }
+  std::optional<Session> end;
+};
+
+class RoomsOfStandIns : public ::testing::TestWithParam<std::tuple<const char*, const char*, std::size_t>> {};
+
+// A live session of simulated learners and `kith study` give the same lessons and beliefs, to the bit.
+TEST_P(RoomsOfStandIns, EqualTheStudy) {
+  const auto [strategy, composition, replicate] = GetParam();
+  const auto study = live_study();
+  Play play{study, RoomSetup{.id = "r",
+                             .code = "c",
+                             .strategy = strategy,
+                             .composition = composition,
+                             .simulated = std::vector<bool>(std::string{composition}.size(), true),
+                             .replicate = replicate}};
+  play.settle();
+  EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
+
+  TeachingCache cache{study->atlas};
+  TeamAddress address;
+  address.strategy = strategy;
+  address.composition = composition;
+  address.replicate = replicate;
+  TeamLog log;
+  const auto record = run_team(*study->atlas, cache, study->spec, address, &log);
+  ASSERT_TRUE(log.end);
+  const auto& live = play.room().session();
+  ASSERT_GT(record.periods, 2u);
+  EXPECT_EQ(live.periods(), record.periods);
+  ASSERT_EQ(live.history().size(), log.end->history().size());
+  EXPECT_TRUE(std::equal(live.history().begin(), live.history().end(), log.end->history().begin()));
+  EXPECT_EQ(live.belief(), log.end->belief());
+  EXPECT_EQ(digest_of(live), digest_of(*log.end));
+
+  // Killed and replayed: from the events alone, with a cache that has served nobody.
+  TeachingCache other{study->atlas};
+  const auto again = replay(study, play.room().setup(), play.events(), other);
+  EXPECT_EQ(again.session().belief(), live.belief());
+  EXPECT_EQ(again.digest(), play.room().digest());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RoomsOfStandIns,
+                         ::testing::Values(std::tuple{"common", "NNP", 1u}, std::tuple{"common", "NNP", 2u},
+                                           std::tuple{"common", "NN", 3u}, std::tuple{"joint", "NNP", 1u},
+                                           std::tuple{"joint", "NNP", 3u}, std::tuple{"individual-low", "NN", 2u},
+                                           std::tuple{"baseline", "N", 1u}));
+
+TEST(Room, ChoosesTheSameLessonWhoeverAnswersFirst) {
+  Play a{live_study()}, b{live_study()};
+  for (auto* play : {&a, &b}) {
+    play->start(3);
+    for (std::size_t i = 1; i <= 3; ++i) play->watch(i);
+  }
+  for (const std::size_t i : {1u, 2u, 3u}) a.answer(i, i != 2);
+  for (const std::size_t i : {3u, 2u, 1u}) b.answer(i, i != 2);
+  EXPECT_EQ(digest_of(a.room().session()), digest_of(b.room().session()));
+}
+
+TEST(Room, UsesALessonThatWasComputedAheadOfTime) {
+  Play play{live_study()};
+  play.set_teacher(false);
+  play.join(3);
+  const auto first = play.room().likely_teaching();
+  ASSERT_EQ(first.size(), 1u);
+  for (std::size_t i = 1; i <= 3; ++i) play.get_ready(i);
+  ASSERT_TRUE(play.room().teaching());
+  EXPECT_EQ(play.room().teaching()->key(), first.front().key());
+  play.set_teacher(true);
+  play.set_teacher(false);
+  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  play.answer(2);
+  const auto likely = play.room().likely_teaching();
+  ASSERT_EQ(likely.size(), 1u);
+  const auto ahead = likely.front().run(play.cache());
+  play.answer(3);
+  play.answer(1);
+  ASSERT_TRUE(play.room().teaching());
+  EXPECT_EQ(play.room().teaching()->key(), ahead.key);
+  EXPECT_EQ(play.room().teaching()->run(play.cache()).digest, ahead.digest);
+  play.apply(play.room().taught(ahead, play.now()), &ahead);
+  play.expect_replay();
+}
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,396 @@
+#include "kith/live/room.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kith/core/error.hpp"
+#include "kith/live/screening.hpp"
+#include "live_play.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::live_study;
+using testing::Play;
+
+Json page(const Play& play, std::size_t seat) {
+  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
+}
+
+constexpr const char* kQuestions = R"([group]
+completion = { prefix = "LAB", redirect = "https://example.org/done?cc={code}&pid={PID}" }
+collect_query = ["PID"]
+ask_name = true
+questions = [
+  { id = "clear", kind = "likert", text = "Was it clear?", required = true },
+  { id = "why", kind = "text", text = "Why?" },
+  { id = "age", kind = "choice", text = "Age?", options = ["young", "old"] },
+]
+)";
+
+TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
+  Play play{live_study(kQuestions)};
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(play.send("server", "join", {{"query", {{"PID", "p 1"}, {"x", "y"}}}}), "");
+  EXPECT_EQ(play.room().stage_of(1), "consent");
+  EXPECT_FALSE(play.room().has_free_seat());
+  EXPECT_EQ(page(play, 1)["consent"]["version"], "1");
+  ASSERT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "1"}}), "");
+  EXPECT_EQ(play.room().stage_of(1), "check");
+  EXPECT_TRUE(page(play, 1)["check"]["board"].contains("map"));
+  ASSERT_EQ(play.seat(1, "name", {{"name", "Ada"}}), "");
+  ASSERT_EQ(play.seat(1, "checked"), "");
+  EXPECT_EQ(play.room().stage_of(1), "lobby");
+  EXPECT_EQ(page(play, 1)["lobby"]["present"], 1);
+  EXPECT_EQ(page(play, 1)["lobby"]["size"], 3);
+  play.get_ready(2);
+  EXPECT_EQ(play.room().stage(), RoomStage::kLobby);
+  play.get_ready(3);
+  EXPECT_EQ(play.room().stage(), RoomStage::kRunning);  // everybody is there
+  for (std::size_t i = 1; i <= 3; ++i) EXPECT_EQ(play.room().stage_of(i), "watch");
+
+  EXPECT_EQ(page(play, 1)["watch"]["index"], 0);
+  EXPECT_GT(page(play, 1)["watch"]["frames"].size(), 1u);
+  play.watch(1);
+  EXPECT_EQ(play.room().stage_of(1), "wait");
+  EXPECT_EQ(page(play, 1)["wait"]["for"], "others-watching");
+  EXPECT_EQ(page(play, 1)["wait"]["missing"], 2);
+  play.watch(2);
+  play.watch(3);
+  EXPECT_EQ(play.room().stage_of(2), "predict");
+
+  const auto demo = play.room().session().lesson().tests.front().demo;
+  const auto right = play.right_path(demo);
+  const Json part = Json::array({right[0]});
+  ASSERT_EQ(play.seat(1, "draft", {{"test", 0}, {"actions", part}}), "");
+  EXPECT_EQ(page(play, 1)["predict"]["draft"], part);
+  play.answer(1, true);
+  play.answer(2, false);
+  EXPECT_EQ(page(play, 1)["wait"]["for"], "answers");
+  play.answer(3, true);
+  EXPECT_EQ(play.room().stage_of(1), "feedback");
+  const auto good = page(play, 1)["feedback"], bad = page(play, 2)["feedback"];
+  EXPECT_EQ(good["all_right"], true);
+  EXPECT_EQ(bad["all_right"], false);
+  EXPECT_EQ(good["learned"], false);
+  EXPECT_EQ(good["tests"][0]["right"], true);
+  EXPECT_FALSE(good["tests"][0]["why"].empty());
+  EXPECT_EQ(good["tests"][0]["differs_at"], nullptr);
+  EXPECT_EQ(bad["tests"][0]["right"], false);
+  EXPECT_EQ(bad["tests"][0]["differs_at"], 0);
+  EXPECT_THAT(bad["tests"][0]["cost"].get<std::string>(), HasSubstr(" way"));
+  for (std::size_t i = 1; i <= 3; ++i) ASSERT_EQ(play.seat(i, "continue"), "");
+  EXPECT_EQ(play.room().stage_of(1), "watch");  // the second period
+  EXPECT_EQ(play.room().session().periods(), 1u);
+
+  play.play_on({1, 2, 3});
+  EXPECT_EQ(play.room().stage(), RoomStage::kQuestions);
+  EXPECT_EQ(page(play, 2)["questions"]["items"].size(), 3u);
+  EXPECT_EQ(play.seat(2, "questions", {{"answers", {{"clear", 9}}}}), "bad-body");
+  EXPECT_EQ(play.seat(2, "questions", {{"answers", {{"why", "so"}}}}), "missing-answer");
+  EXPECT_EQ(play.seat(2, "questions", {{"answers", {{"clear", 7}, {"why", "so"}, {"age", 1}}}}), "");
+  EXPECT_EQ(play.events().back().body["answers"]["age"], "old");
+  EXPECT_EQ(play.room().stage_of(2), "debrief");
+  const auto debrief = page(play, 2)["debrief"];
+  EXPECT_THAT(debrief["code"].get<std::string>(), ::testing::StartsWith("LAB-"));
+  EXPECT_EQ(debrief["redirect"], "https://example.org/done?cc=" + debrief["code"].get<std::string>() + "&pid=p%201");
+  EXPECT_FALSE(debrief["summary"].empty());
+  EXPECT_LT(debrief["right"], debrief["tests"]);
+  for (const std::size_t i : {1u, 3u}) EXPECT_EQ(play.seat(i, "questions", {{"answers", {{"clear", 1}}}}), "");
+  EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
+  EXPECT_NE(page(play, 1)["debrief"]["code"], debrief["code"]);
+  play.expect_replay();
+}
+
+TEST(Room, TeachesASinglePersonAtAnyTime) {
+  for (const char* strategy : {"common", "baseline"}) {
+    Play play{live_study(), RoomSetup{.id = "r", .code = "c", .strategy = strategy, .composition = "N"}};
+    play.start(1);
+    play.play_on({1});
+    EXPECT_EQ(play.room().stage(), RoomStage::kEnded) << strategy;
+    EXPECT_EQ(play.room().stage_of(1), "debrief");
+    play.expect_replay();
+  }
+}
+
+TEST(Room, MixesPeopleAndStandIns) {
+  Play play{live_study(), "NNP", {false, true, true}};
+  play.start(1);
+  play.play_on({1});
+  EXPECT_EQ(play.room().stage_of(1), "debrief");
+  EXPECT_GT(play.room().session().periods(), 2u);
+  play.expect_replay();
+}
+
+TEST(Room, AcceptsARepeatedMessageWithoutAnEvent) {
+  Play play{live_study()};
+  play.start(3);
+  ASSERT_EQ(play.seat(1, "watched", {{"demo", 0}}), "");
+  const auto events = play.events().size();
+  EXPECT_EQ(play.seat(1, "watched", {{"demo", 0}}), "");
+  EXPECT_EQ(play.seat(1, "checked"), "");
+  EXPECT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "1"}}), "");
+  EXPECT_EQ(play.events().size(), events);
+  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  const auto path = play.right_path(play.room().session().lesson().tests.front().demo);
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", path}, {"ms", 1}}), "");
+  const auto after = play.events().size();
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", path}, {"ms", 1}}), "");
+  EXPECT_EQ(play.events().size(), after);
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", Json::array()}, {"ms", 1}}), "already-answered");
+}
+
+// What people can send and what they are told.
+TEST(Room, RefusesWhatCannotBe) {
+  Play play{live_study()};
+  EXPECT_EQ(play.seat(1, "watched", {{"demo", 0}}), "not-joined");
+  EXPECT_EQ(play.seat(9, "checked"), "no-seat");
+  EXPECT_EQ(play.send("nobody", "checked"), "no-seat");
+  play.join(3);
+  EXPECT_EQ(play.send("server", "join"), "full");
+  EXPECT_EQ(play.seat(1, "checked"), "not-now");
+  EXPECT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "0"}}), "other-version");
+  EXPECT_EQ(play.seat(1, "consent", {{"accept", 1}, {"version", "1"}}), "bad-body");
+  EXPECT_EQ(play.seat(1, "consent", "yes"), "bad-body");
+  EXPECT_EQ(play.seat(1, "dance"), "unknown-type");
+  EXPECT_EQ(play.seat(1, "name", {{"name", "x"}}), "not-now");  // nobody asks for names
+  for (std::size_t i = 1; i <= 3; ++i) play.get_ready(i);
+  EXPECT_EQ(play.seat(1, "watched", {{"demo", 7}}), "not-now");
+  EXPECT_EQ(play.seat(1, "watched", {{"demo", -1}}), "bad-body");
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", Json::array()}, {"ms", 1}}), "not-now");
+  EXPECT_EQ(play.send("server", "join"), "started");
+  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", Json::array({99})}, {"ms", 1}}), "illegal-path");
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", Json::array({-1})}, {"ms", 1}}), "bad-body");
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", Json::array()}, {"ms", -1}}), "bad-body");
+  EXPECT_EQ(play.seat(1, "answer", {{"test", 1000}, {"actions", Json::array()}, {"ms", 1}}), "not-now");
+  EXPECT_EQ(play.seat(1, "draft", {{"test", 0}, {"actions", Json::array({99})}}), "illegal-path");
+  EXPECT_EQ(play.seat(1, "questions", {{"answers", Json::object()}}), "not-now");
+  EXPECT_EQ(play.send("facilitator", "pause"), "no-reason");
+  EXPECT_EQ(play.facilitator("dance"), "unknown-type");
+  EXPECT_EQ(play.facilitator("start"), "not-now");
+  EXPECT_EQ(play.facilitator("extend", {{"seconds", 60}}), "not-now");
+  EXPECT_EQ(play.facilitator("strategy", {{"name", "commn"}}), "no-strategy");
+  EXPECT_EQ(play.facilitator("strategy", {{"name", "baseline"}}), "no-strategy");
+  EXPECT_EQ(play.facilitator("simulate", {{"seat", 1}, {"type", "X"}}), "no-type");
+  EXPECT_EQ(play.facilitator("simulate", {{"seat", 7}}), "no-seat");
+  EXPECT_EQ(play.facilitator("message", {{"text", 1}}), "bad-body");
+}
+
+TEST(Room, StopsShortIsAWrongAnswerAndNoEvidence) {
+  Play play{live_study(), "NN"};
+  play.start(2);
+  for (const std::size_t i : {1u, 2u}) play.watch(i);
+  play.answer(1);
+  const auto tests = play.room().session().lesson().tests.size();
+  for (std::size_t t = 0; t < tests; ++t) {
+    ASSERT_EQ(play.seat(2, "answer", {{"test", t}, {"actions", Json::array()}, {"ms", 1}}), "");
+  }
+  const auto& verdicts = play.room().session().history().back().feedback.verdicts[1];
+  EXPECT_FALSE(verdicts.front().correct);
+  EXPECT_FALSE(verdicts.front().answered);
+  EXPECT_EQ(page(play, 2)["feedback"]["tests"][0]["cost"], "Your way stops before the end.");
+  EXPECT_TRUE(play.room().view({Viewer::Role::kFacilitator, 0}, play.now())["room"]["answers"].back()["stopped_short"]);
+}
+
+TEST(Room, KeepsTimeLimits) {
+  Play play{live_study("[group]\ntime = { watch_s = 10, predict_s = 20, feedback_s = 30 }\n"), "NN"};
+  play.start(2);
+  play.watch(1);
+  play.wait(9);
+  EXPECT_EQ(play.room().stage_of(2), "watch");
+  play.wait(2);
+  EXPECT_EQ(play.room().stage_of(2), "predict");
+  play.answer(1);
+  ASSERT_EQ(play.facilitator("extend", {{"seconds", 10}}), "");
+  play.wait(25);
+  EXPECT_EQ(play.room().stage_of(2), "predict");
+  ASSERT_EQ(play.facilitator("pause"), "");
+  play.wait(1000);
+  EXPECT_EQ(page(play, 2)["pause"]["why"], "facilitator");
+  ASSERT_EQ(play.facilitator("resume"), "");
+  EXPECT_EQ(play.room().stage_of(2), "predict");
+  play.wait(6);
+  EXPECT_EQ(play.room().stage_of(2), "feedback");
+  EXPECT_EQ(page(play, 2)["feedback"]["tests"][0]["cost"], "You gave no answer in time.");
+  EXPECT_EQ(page(play, 2)["feedback"]["tests"][0]["mine"], nullptr);
+  play.wait(31);
+  EXPECT_EQ(play.room().stage_of(1), "watch");
+  play.expect_replay();
+}
+
+TEST(Room, EndsTeachingWhenTheTimeOfTheSessionIsOver) {
+  Play play{live_study("[group]\ntime = { max_minutes = 1 }\n"), "NN"};
+  play.start(2);
+  play.wait(61);
+  EXPECT_EQ(play.room().stage_of(1), "debrief");
+  EXPECT_EQ(play.room().row({Viewer::Role::kObserver, 0}, play.now())["ended"], "time-limit");
+}
+
+TEST(Room, LetsFacilitatorsInterveneWithAReason) {
+  Play play{live_study("[group]\nauto_start = false\nask_name = true\n")};
+  play.start(3);
+  EXPECT_EQ(play.room().stage(), RoomStage::kLobby);
+  ASSERT_EQ(play.facilitator("message", {{"text", "Soon."}}), "");
+  ASSERT_EQ(play.facilitator("message", {{"text", "You."}, {"seat", 2}}), "");
+  EXPECT_EQ(page(play, 1)["notices"].size(), 1u);
+  EXPECT_EQ(page(play, 2)["notices"].size(), 2u);
+  ASSERT_EQ(play.facilitator("start"), "");
+  EXPECT_EQ(play.room().stage_of(1), "watch");
+  ASSERT_EQ(play.facilitator("simulate", {{"seat", 3}, {"type", "P"}}), "");
+  EXPECT_EQ(play.room().stage_of(3), "replaced");
+  EXPECT_EQ(play.room().num_seats(), 4u);
+  EXPECT_FALSE(play.room().is_person(4));
+  play.play_on({1, 2}, false, 3);
+  EXPECT_TRUE(play.room().session().takes_part(2));  // the stand-in, from the next lesson on
+  ASSERT_EQ(play.facilitator("readmit", {{"seat", 3}}), "");
+  for (int i = 0; i < 3; ++i) play.play_on({1, 2, 3}, false, 3);
+  EXPECT_TRUE(play.room().session().takes_part(2));
+  EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
+  EXPECT_EQ(play.facilitator("end"), "");
+  EXPECT_EQ(play.room().stage_of(1), "ended");
+  EXPECT_TRUE(page(play, 1)["end"].contains("code"));
+  EXPECT_EQ(play.events().back().body["reason"], "a test");
+  EXPECT_EQ(play.facilitator("pause"), "not-now");
+  play.expect_replay();
+}
+
+TEST(Room, ChangesTheStrategyWithTheNextComponent) {
+  Play play{live_study()};
+  play.start(3);
+  ASSERT_EQ(play.facilitator("strategy", {{"name", "joint"}}), "");
+  EXPECT_EQ(play.room().session().strategy().name, "common");
+  play.play_on({1, 2, 3});
+  EXPECT_EQ(play.room().session().strategy().name, "joint");
+  const auto history = play.room().session().history();
+  for (const auto& past : history) {
+    EXPECT_EQ(past.lesson.source.rule, past.lesson.component == history.front().lesson.component ? "common" : "joint");
+  }
+  play.expect_replay();
+}
+
+TEST(Room, RefusesASetUpThatCannotBeTaught) {
+  const auto study = live_study();
+  TeachingCache cache{study->atlas};
+  const auto refusal = [&](RoomSetup setup) -> std::string {
+    try {
+      (void)Room{study, std::move(setup), cache};
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal({.id = "r", .strategy = "baseline", .composition = "NN"}), HasSubstr("one person at a time"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "commn", .composition = "NN"}), HasSubstr("no strategy 'commn'"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NX"}), HasSubstr("no learner type 'X'"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = ""}), HasSubstr("1 to 30 seats"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NN", .simulated = {true}}), HasSubstr("seats"));
+  const RoomSetup setup{.id = "r",
+                        .code = "c",
+                        .strategy = "common",
+                        .composition = "NN",
+                        .simulated = {true, false},
+                        .replicate = 7,
+                        .salt = "s"};
+  EXPECT_EQ(room_setup(to_json(setup)), setup);
+  EXPECT_THROW((void)room_setup(Json::array()), Error);
+}
+
+// Tampered events are not applied, and change nothing.
+TEST(Room, AppliesOnlyEventsThatItsStateCanHaveLedTo) {
+  Play play{live_study()};
+  play.start(3);
+  play.watch(1);
+  auto room = play.room();
+  const auto digest = room.digest();
+  const auto& last = play.events().back();
+  const auto refused = [&](RoomEvent event) {
+    try {
+      room.apply(event, play.cache());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kMismatch);
+      return room.digest() == digest;
+    }
+    return false;
+  };
+  const auto next = last.seq + 1;
+  EXPECT_TRUE(refused({next + 1, last.at_us, "seat:2", "watched", {{"demo", 0}}}));
+  EXPECT_TRUE(refused({next, last.at_us - 1, "seat:2", "watched", {{"demo", 0}}}));
+  EXPECT_TRUE(refused({next, last.at_us, "seat:2", "watched", {{"demo", 1}}}));
+  EXPECT_TRUE(refused({next, last.at_us, "seat:2", "watched", Json::array()}));
+  EXPECT_TRUE(refused({next, last.at_us, "seat:2", "danced", Json::object()}));
+  EXPECT_TRUE(refused({next, last.at_us, "server", "dropped", {{"seat", 1}}}));
+  EXPECT_TRUE(refused({next, last.at_us, "server", "lesson", {{"key", ""}}}));
+  EXPECT_TRUE(refused({next, last.at_us, "server", "time", {{"what", "watch"}}}));
+  room.apply({next, last.at_us, "seat:2", "watched", {{"demo", 0}}}, play.cache());
+  EXPECT_NE(room.digest(), digest);
+  // A lesson with another digest.
+  auto events = play.events();
+  const auto lesson =
+      std::find_if(events.begin(), events.end(), [](const RoomEvent& event) { return event.type == "lesson"; });
+  lesson->body["digest"] = "0";
+  EXPECT_THROW((void)replay(live_study(), play.room().setup(), events, play.cache()), Error);
+}
+
+TEST(Room, AsksScreeningTestsBeforeTheLobby) {
+  Play play{live_study("[group]\nscreening = { tests = 3 }\n"), "N"};
+  play.join(1);
+  ASSERT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "1"}}), "");
+  ASSERT_EQ(play.seat(1, "checked"), "");
+  ASSERT_EQ(play.room().stage_of(1), "screening");
+  EXPECT_EQ(page(play, 1)["predict"]["of"], 3);
+  EXPECT_EQ(play.seat(1, "screen", {{"test", 1}, {"actions", Json::array()}, {"ms", 1}}), "not-now");
+  const auto& tests = play.study().screening;
+  ASSERT_EQ(play.seat(1, "screen", {{"test", 0}, {"actions", play.right_path(tests[0])}, {"ms", 1}}), "");
+  ASSERT_EQ(play.seat(1, "screen", {{"test", 1}, {"actions", play.wrong_path(tests[1])}, {"ms", 1}}), "");
+  EXPECT_FALSE(page(play, 1).contains("feedback"));
+  ASSERT_EQ(play.seat(1, "screen", {{"test", 2}, {"actions", play.right_path(tests[2])}, {"ms", 1}}), "");
+  EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
+  const auto row = play.room().row({Viewer::Role::kFacilitator, 0}, play.now());
+  EXPECT_EQ(row["seats"][0]["estimate"], screening_estimate(2, 3));
+  EXPECT_EQ(row["seats"][0]["estimate_is_high"], true);
+  play.expect_replay();
+}
+
+TEST(Screening, EstimatesByTheRuleOfSuccession) {
+  EXPECT_EQ(screening_estimate(0, 0), 0.5);
+  EXPECT_EQ(screening_estimate(0, 2), 0.25);
+  EXPECT_EQ(screening_estimate(3, 3), 0.8);
+  EXPECT_THROW((void)screening_estimate(2, 1), std::invalid_argument);
+}
+
+TEST(Room, ShowsTheFacilitatorWhyALessonWasChosen) {
+  const auto study = live_study("[group]\nask_name = true\n");
+  TeachingCache cache{study->atlas};
+  Room room{
+      study, {.id = "r", .code = "ABC", .strategy = "common", .composition = "NN", .simulated = {true, false}}, cache};
+  const auto send = [&](const RoomCommand& command) {
+    for (const auto& event : room.decide(command, 5'000'000).events) room.apply(event, cache);
+  };
+  send({"server", "join", Json::object(), ""});
+  send({"seat:2", "consent", {{"accept", true}, {"version", "1"}}, ""});
+  send({"seat:2", "name", {{"name", "Ada"}}, ""});
+  send({"seat:2", "checked", Json::object(), ""});
+  for (const auto& event : room.due(5'000'000)) room.apply(event, cache);
+  const auto lesson = room.teaching()->run(cache, 3);
+  room.apply(room.taught(lesson, 6'000'000), cache, &lesson);
+  const auto view = room.view({Viewer::Role::kFacilitator, 0}, 6'000'000);
+  EXPECT_EQ(view["row"]["code"], "ABC");
+  EXPECT_EQ(view["row"]["seats"][1]["name"], "Ada");
+  EXPECT_EQ(view["row"]["seats"][0]["kind"], "simulated");
+  const auto& detail = view["room"];
+  EXPECT_EQ(detail["lesson"]["source"], "common");
+  EXPECT_THAT(detail["lesson"]["why"].get<std::string>(), HasSubstr("what all members know"));
+  EXPECT_GT(detail["lesson"]["demonstrations"].size(), 0u);
+  EXPECT_GT(detail["lesson"]["runners_up"].size(), 0u);
+  EXPECT_GT(detail["lesson"]["runners_up"][0]["gain"], 1.0);
+  EXPECT_EQ(detail["beliefs"].size(), 4u);
+  EXPECT_EQ(detail["beliefs"][0]["points"].get<std::string>().size(), 300u * 6u / 3u * 4u);
+  EXPECT_GE(detail["truth"]["bec"].size(), 3u);
+  const auto observer = room.view({Viewer::Role::kObserver, 0}, 6'000'000);
+  EXPECT_FALSE(observer["row"].contains("code"));
+  EXPECT_FALSE(observer["row"]["seats"][1].contains("name"));
+}
+
+}  // namespace
+}  // namespace kith

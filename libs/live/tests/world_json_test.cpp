@@ -1,0 +1,157 @@
+#include "kith/live/world_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include "live_play.hpp"
+
+namespace kith {
+namespace {
+
+using testing::live_study;
+
+// The table says exactly what the domain does.
+class WorldTables : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(WorldTables, MoveAsTheDomainDoes) {
+  const auto study = live_study({}, GetParam());
+  const auto& domain = study->atlas->domain();
+  for (const auto world : {MdpIndex{0}, MdpIndex{domain.num_mdps() - 1}}) {
+    const auto& mdp = domain.mdp(world);
+    const auto json = world_json(*study, world);
+    const auto states = mdp.num_states() + mdp.num_terminals();
+    ASSERT_EQ(json["frames"].size(), states);
+    ASSERT_EQ(json["next"].size(), states);
+    ASSERT_EQ(json["end"].size(), states);
+    EXPECT_EQ(json["actions"].size(), mdp.num_actions());
+    EXPECT_EQ(json["chance"], !mdp.is_deterministic());
+    EXPECT_EQ(world_of_key(*study, json["key"].get<std::string>()), world);
+    for (StateIndex s{0}; s.value() < states; ++s) {
+      EXPECT_EQ(json["end"][s.value()], mdp.is_terminal(s));
+      std::size_t moves = 0;
+      for (const auto& next : json["next"][s.value()]) moves += next != -1 ? 1u : 0u;
+      EXPECT_EQ(moves, mdp.is_terminal(s) ? 0u : mdp.choices(s).size());
+    }
+    EXPECT_EQ(world_state(*study, world, StateIndex{states - 1}), states - 1);
+    EXPECT_EQ(world_state(*study, world, StateIndex{states}), std::nullopt);
+  }
+}
+
+// The robot's own path is as good as itself; whatever else is legal is never better.
+TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
+  const auto study = live_study({}, GetParam());
+  const auto& atlas = *study->atlas;
+  const auto& weights = atlas.domain().weights();
+  std::size_t others = 0, circles = 0;
+  for (std::size_t i = 0; i < atlas.num_demos(); i += 1 + atlas.num_demos() / 60) {
+    const DemoIndex demo{i};
+    const auto robot = expected_path(atlas, demo);
+    std::vector<std::size_t> actions;
+    for (const auto action : robot.actions) actions.push_back(action.value());
+    if (actions.size() > kMaxAnswerActions) continue;
+    const auto judged = judged_path(atlas, demo, actions);
+    if (!judged.is_finished || !judged.is_legal) {  // with chance the likeliest steps may lead round in a circle
+      ASSERT_FALSE(atlas.domain().mdp(atlas.id(demo).mdp).is_deterministic());
+      ++circles;
+      continue;
+    }
+    EXPECT_EQ(judged.counts, atlas.feature_counts(demo));
+    EXPECT_EQ(judged.path, robot);
+    actions.push_back(0);
+    EXPECT_FALSE(judged_path(atlas, demo, actions).is_legal);  // nothing happens after the end
+    // One other first action, and on as the robot would: the counts that the atlas has for it.
+    const auto world = atlas.id(demo).mdp;
+    const auto start = atlas.id(demo).start;
+    const auto& mdp = atlas.domain().mdp(world);
+    for (std::size_t c = 0; c < mdp.choices(start).size(); ++c) {
+      const auto& choice = mdp.choices(start)[c];
+      const auto outcomes = mdp.outcomes(choice);
+      const auto likeliest = std::max_element(
+          outcomes.begin(), outcomes.end(), [](const auto& a, const auto& b) { return a.probability < b.probability; });
+      std::vector<std::size_t> other{choice.action.value()};
+      if (!mdp.is_terminal(likeliest->next)) {
+        for (const auto action : expected_path(atlas, atlas.index({world, likeliest->next})).actions) {
+          other.push_back(action.value());
+        }
+      }
+      const auto counts = judged_path(atlas, demo, other).counts;
+      if (!counts) continue;
+      const auto expected = atlas.deviation_counts(demo, c);
+      const auto scale = static_cast<double>(atlas.domain().count_scale());
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        EXPECT_NEAR(static_cast<double>((*counts)[k]) / scale, static_cast<double>(expected[k]) / scale, 1e-5);
+      }
+      EXPECT_GE(weights.return_of(atlas.feature_counts(demo) - *counts) / scale, -1e-6);
+      ++others;
+    }
+  }
+  EXPECT_GT(others, 20u);
+  EXPECT_LT(circles, 10u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Domains, WorldTables,
+                         ::testing::Values("item-delivery", "domains/icy_crossing.toml", "two-goals"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return c == '-' || c == '/' || c == '.'; }, '_');
+                           return name;
+                         });
+
+TEST(WorldTable, KnowsOnlyItsOwnKeys) {
+  const auto study = live_study();
+  EXPECT_EQ(world_of_key(*study, ""), std::nullopt);
+  EXPECT_EQ(world_of_key(*study, study->key), std::nullopt);
+  EXPECT_EQ(world_of_key(*study, study->key + "-"), std::nullopt);
+  EXPECT_EQ(world_of_key(*study, study->key + "-00"), std::nullopt);
+  EXPECT_EQ(world_of_key(*study, study->key + "-1x"), std::nullopt);
+  EXPECT_EQ(world_of_key(*study, study->key + "-99999999"), std::nullopt);
+  EXPECT_EQ(world_of_key(*study, study->key + "-1"), MdpIndex{1});
+}
+
+TEST(WorldTable, SaysWhereActionsMoveTheRobot) {
+  const auto json = world_json(*live_study(), MdpIndex{0});
+  for (const auto& action : json["actions"]) {
+    if (action["name"] == "up") {
+      EXPECT_EQ(action["dx"], 0);
+      EXPECT_EQ(action["dy"], -1);  // rows are numbered downward
+    }
+    if (action["name"] == "pickup") {
+      EXPECT_EQ(action["dx"], nullptr);
+    }
+  }
+}
+
+TEST(LiveStudy, ChoosesASandboxThatTestsNothing) {
+  const auto study = live_study("[group]\nscreening = { tests = 4 }\n");
+  const auto& atlas = *study->atlas;
+  EXPECT_TRUE(!atlas.is_candidate(study->sandbox) ||
+              atlas.tested_constraints(study->sandbox).without(atlas.prior()).empty());
+  EXPECT_EQ(study->screening.size(), 4u);
+  EXPECT_EQ(live_study("[group]\nscreening = { tests = 4 }\n")->screening, study->screening);
+}
+
+TEST(LiveStudy, ListsTheCellsThatRoomsAreMadeFor) {
+  const auto cells = live_cells(*live_study("[group]\nsize = 2\n"));
+  EXPECT_NE(std::find(cells.begin(), cells.end(), LiveCell{"joint", "NNP"}), cells.end());
+  EXPECT_NE(std::find(cells.begin(), cells.end(), LiveCell{"common", "NN"}), cells.end());
+  for (const auto& cell : cells) {
+    EXPECT_NE(cell.strategy, "baseline");  // it teaches one person
+    EXPECT_GE(cell.composition.size(), 2u);
+  }
+  const auto one = live_cells(*live_study());
+  EXPECT_NE(std::find(one.begin(), one.end(), LiveCell{"baseline", "N"}), one.end());
+}
+
+TEST(LiveStudy, GivesCodesThatCannotBeGuessed) {
+  const auto study = live_study();
+  const auto code = completion_code(*study, "salt", "r1", 1);
+  EXPECT_EQ(code.rfind("KITH-", 0), 0u);
+  EXPECT_EQ(code.size(), 15u);
+  EXPECT_EQ(completion_code(*study, "salt", "r1", 1), code);
+  EXPECT_NE(completion_code(*study, "other", "r1", 1), code);
+  EXPECT_NE(completion_code(*study, "salt", "r1", 2), code);
+  EXPECT_NE(completion_code(*study, "salt", "r2", 1), code);
+}
+
+}  // namespace
+}  // namespace kith

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kith {
+
+/// A rehearsal: groups of simulated people who use a server through its real protocol, as browsers do.
+struct RehearsalOptions {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;
+  std::string facilitator;  ///< Token of a facilitator: makes the rooms, and ends them when time is up.
+  std::size_t groups = 1;
+  std::size_t people = 0;                         ///< Per group; 0: as the study says.
+  std::string strategy{};                         ///< Of all groups; empty: those of the design in turn.
+  std::chrono::milliseconds duration{0};          ///< After it all groups are ended; 0: when everybody has finished.
+  std::chrono::milliseconds answer_every{5'000};  ///< How long a person takes for an answer, on average.
+  double reconnects = 0.0;                        ///< Share of people who lose their connection, per second.
+  double right = 0.8;                             ///< Share of answers for which a right path is used, where known.
+  std::uint64_t seed = 1;
+  std::size_t threads = 1;
+  /// A right answer, as numbers of actions; nothing if it is not known. Others are answered with a shortest path to an
+  /// end. @param world  its key; @param start  number of the state. Called from several threads.
+  std::function<std::optional<std::vector<int>>(const std::string& world, int start)> right_path{};
+  /// Called about every 100 ms with the time since the start; false ends the rehearsal.
+  std::function<bool(std::chrono::milliseconds elapsed)> on_tick{};
+};
+
+/// Times in milliseconds.
+struct LatencySummary {
+  std::size_t count = 0;
+  double p50 = 0.0;
+  double p95 = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+
+/// What came of it.
+struct RehearsalResult {
+  std::size_t groups = 0;
+  std::size_t people = 0;
+  double seconds = 0.0;
+  LatencySummary acknowledgement{};  ///< From sending a message to its acknowledgement, over one connection.
+  LatencySummary next_lesson{};      ///< From the last "continue" of a group to each member's first demonstration.
+  LatencySummary reconnect{};        ///< From losing a connection to the first view after it, without the wait.
+  std::uint64_t messages = 0;        ///< Acknowledged.
+  std::uint64_t refused = 0;         ///< Refused with a reason.
+  std::uint64_t unanswered = 0;      ///< Neither, when it was over.
+  std::uint64_t reconnects = 0;
+  std::uint64_t connections_lost = 0;               ///< Not by the rehearsal itself.
+  std::map<std::string, std::size_t> stages{};      ///< How many people ended where.
+  std::map<std::string, std::uint64_t> refusals{};  ///< How often for which reason.
+  std::vector<std::string> answers{};  ///< Ids of all acknowledged answers: each must be in the store once.
+
+  /// How many people came to an end: debrief, ended, declined, full or replaced.
+  [[nodiscard]] std::size_t num_finished() const;
+};
+
+/// Runs it. @throws kith::Error (kIo) if the server cannot be reached or makes no rooms.
+[[nodiscard]] RehearsalResult rehearse(const RehearsalOptions& options);
+
+}  // namespace kith

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client_socket.hpp"
+#include "net.hpp"
+
+namespace kith {
+
+/// The facilitator of a rehearsal. Its functions wait, so they are called by a thread that runs no handlers.
+class BotFacilitator {
+ public:
+  struct Room {
+    std::string id;
+    std::vector<std::string> tokens;  ///< Of the people's seats.
+  };
+
+  BotFacilitator(asio::io_context& io, const tcp::endpoint& server, std::string token);
+  ~BotFacilitator();
+  BotFacilitator(const BotFacilitator&) = delete;
+  BotFacilitator& operator=(const BotFacilitator&) = delete;
+
+  /// Makes rooms for so many people each; 0: as the study says. @throws kith::Error (kIo) if that fails.
+  [[nodiscard]] std::vector<Room> make_rooms(std::size_t count, std::size_t people, const std::string& strategy);
+  /// Asks for the end of rooms, at a pace that the server allows, and waits for the replies.
+  void end_rooms(const std::vector<Room>& rooms);
+
+ private:
+  struct Shared;
+  void say(const std::string& type, nlohmann::json body);
+  [[nodiscard]] bool wait(std::chrono::milliseconds time, const std::function<bool()>& holds);
+
+  std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace kith

@@ -1,0 +1,80 @@
+#include "bot_mind.hpp"
+
+namespace kith {
+namespace {
+
+using Json = nlohmann::json;
+
+// Something of the right kind for every question.
+Json answers_to(const Json& items) {
+  auto answers = Json::object();
+  for (const auto& item : items) {
+    const auto kind = item.value("kind", "");
+    auto& answer = answers[item.value("id", "")];
+    if (kind == "likert") {
+      answer = 3;
+    } else if (kind == "choice" && item.contains("options") && !item["options"].empty()) {
+      answer = item["options"][0];
+    } else {
+      answer = "rehearsal";
+    }
+  }
+  return answers;
+}
+
+std::string number(const Json& object, const char* name) {
+  return object.contains(name) ? object[name].dump() : std::string{};
+}
+
+// Which period this is, as far as a participant is told.
+std::string period_of(const Json& view) {
+  if (!view.contains("progress")) return {};
+  return number(view["progress"], "part") + "." + number(view["progress"], "round");
+}
+
+BotAct path_for(const Json& task, const std::string& type, const std::string& period) {
+  return {.type = type,
+          .body = {{"test", task.value("index", 0)}},
+          .key = type + period + "/" + number(task, "index"),
+          .pace = 1.0,
+          .world = task.value("world", ""),
+          .start = task.value("start", -1)};
+}
+
+}  // namespace
+
+bool is_last_stage(const std::string& stage) {
+  return stage == "debrief" || stage == "ended" || stage == "declined" || stage == "full" || stage == "replaced";
+}
+
+std::optional<BotAct> act_for(const Json& view) try {
+  if (view.contains("pause")) return std::nullopt;
+  const auto stage = view.value("stage", "");
+  const auto period = period_of(view);
+  if (stage == "consent") {
+    const Json body{{"accept", true}, {"version", view.at("consent").at("version")}};
+    return BotAct{.type = "consent", .body = body, .key = stage, .pace = 0.2};
+  }
+  if (stage == "check") return BotAct{.type = "checked", .body = Json::object(), .key = stage, .pace = 0.2};
+  if (stage == "screening") return path_for(view.at("screening"), "screen", period);
+  if (stage == "watch") {
+    const auto index = number(view.at("watch"), "index");
+    return BotAct{.type = "watched",
+                  .body = {{"demo", view["watch"].value("index", 0)}},
+                  .key = stage + period + "/" + index,
+                  .pace = 0.5};
+  }
+  if (stage == "predict") return path_for(view.at("predict"), "answer", period);
+  if (stage == "feedback") {
+    return BotAct{.type = "continue", .body = Json::object(), .key = stage + period, .pace = 0.3};
+  }
+  if (stage == "questions") {
+    const Json body{{"answers", answers_to(view.at("questions").at("items"))}};
+    return BotAct{.type = "questions", .body = body, .key = stage, .pace = 0.5};
+  }
+  return std::nullopt;
+} catch (const Json::exception&) {
+  return std::nullopt;
+}
+
+}  // namespace kith

@@ -1,0 +1,104 @@
+// What a client sends before anything is known of it. However the bytes are cut into pieces, the same requests come
+// out; what is refused is refused with a status for errors; what an application is asked is a path below /api, and no
+// reply has a line that we did not write.
+
+#include <algorithm>
+#include <vector>
+
+#include "../fuzzing.hpp"
+#include "asset_reply.hpp"
+#include "reply.hpp"
+#include "request_reader.hpp"
+#include "request_rules.hpp"
+
+using namespace kith;
+
+namespace {
+
+const std::vector<Asset>& assets() {
+  static const std::vector<Asset> kAssets{{"/assets/live/index.html", "text/html", "aa", "page", "gz"}};
+  return kAssets;
+}
+
+const RequestRules& rules() {
+  static const RequestRules kRules{[] {
+    ServerOptions options;
+    options.assets = assets();
+    options.pages = {{"/j", "/assets/live/index.html"}};
+    options.hosts = {"study.example.org"};
+    return options;
+  }()};
+  return kRules;
+}
+
+void check_reply(const ServerReply& reply) {
+  const auto head = head_of(reply);
+  const auto lines = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\n'));
+  const auto fixed = security_headers().size() + 3;  // status, date, empty line
+  const std::size_t length = reply.status == 304 ? 0 : 1;
+  fuzzing::require(lines == fixed + reply.headers.size() + length + (reply.closes ? 1 : 0), "no line of others", head);
+  fuzzing::require(!reason_phrase(reply.status).empty(), "a status with a name", head);
+}
+
+// What becomes of one request, in a line.
+std::string judged(const HttpMessage& request, bool has_body) {
+  Destination destination;
+  if (const auto refused = rules().judge(request, has_body, destination)) {
+    fuzzing::require(refused->status >= 400 && refused->status < 600, "a refusal has a status for errors");
+    check_reply(*refused);
+    return std::to_string(refused->status) + ";";
+  }
+  fuzzing::require(!destination.target.empty() && destination.target.front() == '/', "a target is a path");
+  if (destination.kind == Destination::Kind::kAsset) {
+    check_reply(asset_reply(*destination.asset, request));
+  } else if (destination.kind == Destination::Kind::kApplication) {
+    fuzzing::require(destination.target.compare(0, 5, "/api/") == 0, "the application is asked below /api");
+    if (const auto refused = rules().judge_body(request)) check_reply(*refused);
+  }
+  return destination.target + "=" + request.body() + ";";
+}
+
+std::string outcome_of(std::string_view stream, std::size_t piece) {
+  RequestReader reader{ServerLimits{}};
+  std::string outcome;
+  for (std::size_t at = 0; at < stream.size(); at += piece) {
+    reader.feed(stream.substr(at, piece));
+    while (reader.state() == RequestReader::State::kDone) {
+      const bool has_body = reader.has_body();
+      outcome += judged(reader.take(), has_body);
+    }
+    if (reader.state() == RequestReader::State::kFailed) {
+      const auto status = reader.failure().status;
+      fuzzing::require(status >= 400 && status < 600 && !reader.failure().text.empty(), "a failure says why");
+      return outcome + "failed";
+    }
+  }
+  return outcome + std::to_string(static_cast<int>(reader.state()));
+}
+
+}  // namespace
+
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"http_head"};
+  if (dice.one_in(4)) return mutate_bytes(input, dice);
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + mutate_lines(body, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  const auto [head, body] = behind_bytes(input, 1);
+  return std::string{head} + cross_lines(body, behind_bytes(other, 1).body, dice);
+}
+
+// The first byte says how long the pieces are.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzzing::Bytes bytes{data, size};
+  const auto piece = 1 + bytes.below(64);
+  const auto whole = outcome_of(bytes.rest(), std::max<std::size_t>(bytes.rest().size(), 1));
+  const auto failed = whole.size() >= 6 && whole.compare(whole.size() - 6, 6, "failed") == 0;
+  fuzzing::note({reinterpret_cast<const char*>(data), size},
+                failed ? fuzzing::Outcome::kRefused : fuzzing::Outcome::kRead);
+  const auto in_pieces = outcome_of(bytes.rest(), piece);
+  fuzzing::require(in_pieces == whole, "the same requests from pieces", in_pieces + " instead of " + whole);
+  return 0;
+}

@@ -1,0 +1,57 @@
+// Texts of WebSocket frames. The count of brackets agrees with a parser about how deep JSON nests; and simulated people
+// understand or ignore whatever a server sends them.
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "../fuzzing.hpp"
+#include "bot_mind.hpp"
+#include "json_depth.hpp"
+#include "world_book.hpp"
+
+using namespace kith;
+
+namespace {
+
+std::size_t depth_of(const nlohmann::json& value) {
+  if (!value.is_structured()) return 0;
+  std::size_t deepest = 0;
+  for (const auto& element : value) deepest = std::max(deepest, depth_of(element));
+  return deepest + 1;
+}
+
+}  // namespace
+
+std::string fuzzing::mutated(std::string_view input, Dice& dice) {
+  static const Vocabulary kVocabulary{"web_frame"};
+  if (dice.one_in(20)) return mutate_bytes(input, dice);
+  return mutate_json(input, kVocabulary, dice);
+}
+
+std::string fuzzing::crossed(std::string_view input, std::string_view other, Dice& dice) {
+  return cross_json(input, other, dice);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::size_t kDeepest = 32;
+  const std::string_view text{reinterpret_cast<const char*>(data), size};
+  const bool nests = json_nests_within(text, kDeepest);
+  const auto json = nests ? nlohmann::json::parse(text, nullptr, false) : nlohmann::json{};
+  fuzzing::note(text, nests && !json.is_discarded() ? fuzzing::Outcome::kRead : fuzzing::Outcome::kRefused);
+  if (!nests || json.is_discarded()) return 0;
+  const auto depth = depth_of(json);
+  fuzzing::require(depth <= kDeepest && json_nests_within(text, depth), "no deeper than counted");
+  fuzzing::require(depth == 0 || !json_nests_within(text, depth - 1), "as deep as counted");
+  if (const auto act = act_for(json)) {
+    fuzzing::require(!act->type.empty() && !act->key.empty() && act->pace >= 0.0, "an act is something to do");
+  }
+  if (const auto table = read_world_table(std::string{text})) {
+    const auto path = table->shortest_path(0);
+    int state = 0;
+    for (const int action : path.value_or(std::vector<int>{})) {
+      state = table->next.at(static_cast<std::size_t>(state)).at(static_cast<std::size_t>(action));
+    }
+    fuzzing::require(!path || table->is_end.at(static_cast<std::size_t>(state)), "a path leads to an end");
+  }
+  return 0;
+}

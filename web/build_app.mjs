@@ -1,0 +1,83 @@
+// Makes the folder of a page that `kith serve` serves: index.html, app.js, app.css and, if the page has
+// them, worker.js and texts/. The server's policy allows neither inline scripts nor inline styles, so both
+// are files of their own.
+//
+//   node build_app.mjs --page NAME --out DIR [--modules DIR]
+//
+// NAME is a folder of src with main.tsx, style.css and, if the page needs its own, index.html. The
+// server serves the two assets as /assets/NAME/app.js and /assets/NAME/app.css.
+import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { gzipSync } from 'node:zlib';
+import { collectNotices, noticesHtml } from './notices.mjs';
+
+const kMaxGzipped = 200_000; // bytes of script that a participant may have to wait for
+const kTarget = ['chrome100', 'firefox100', 'safari15.4'];
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values } = parseArgs({
+  options: { page: { type: 'string' }, out: { type: 'string' }, modules: { type: 'string', default: here } },
+});
+const source = join('src', values.page ?? '');
+if (!values.page || !values.out || !existsSync(join(here, source, 'main.tsx'))) {
+  console.error('usage: node build_app.mjs --page NAME --out DIR [--modules DIR]');
+  process.exit(2);
+}
+const modules = resolve(values.modules);
+const { build } = createRequire(join(modules, 'package.json'))('esbuild');
+
+async function bundle(entry, options) {
+  const result = await build({
+    entryPoints: [join(here, entry)],
+    absWorkingDir: modules,
+    nodePaths: [join(modules, 'node_modules')],
+    bundle: true,
+    minify: true,
+    write: false,
+    metafile: true,
+    charset: 'ascii',
+    legalComments: 'none', // index.html has whole licences instead
+    ...options,
+  });
+  return { text: result.outputFiles[0].text, metafile: result.metafile };
+}
+
+// The colours are defined in TypeScript; served pages need them as a style sheet.
+async function themeSheet() {
+  const { text } = await bundle('src/shared/theme.ts', { platform: 'node', format: 'esm' });
+  const theme = await import(`data:text/javascript;base64,${Buffer.from(text).toString('base64')}`);
+  return theme.themeSheet();
+}
+
+const script = await bundle(`${source}/main.tsx`, {
+  jsx: 'automatic',
+  jsxImportSource: 'preact',
+  platform: 'browser',
+  format: 'iife',
+  target: kTarget,
+});
+const style = await bundle(`${source}/style.css`, { target: kTarget });
+const own = join(here, source, 'index.html');
+const template = readFileSync(existsSync(own) ? own : join(here, 'src/shared/app.html'), 'utf8');
+const index = template
+  .replaceAll('__PAGE__', values.page)
+  .replace('__NOTICES__', () => noticesHtml(collectNotices(script.metafile, modules)));
+if (/ style=| on[a-z]+=|<style|<script>/.test(template)) throw new Error('index.html has inline style or script');
+
+const gzipped = gzipSync(script.text).length;
+if (gzipped > kMaxGzipped) throw new Error(`app.js has ${gzipped} bytes gzipped, more than ${kMaxGzipped}`);
+mkdirSync(values.out, { recursive: true });
+writeFileSync(join(values.out, 'index.html'), index);
+writeFileSync(join(values.out, 'app.js'), script.text);
+writeFileSync(join(values.out, 'app.css'), `${await themeSheet()}\n${style.text}`);
+const worker = join(source, 'worker.ts');
+if (existsSync(join(here, worker))) {
+  const { text } = await bundle(worker, { platform: 'browser', format: 'iife', target: kTarget });
+  writeFileSync(join(values.out, 'worker.js'), text);
+}
+const texts = join(here, source, 'texts');
+if (existsSync(texts)) cpSync(texts, join(values.out, 'texts'), { recursive: true });
+console.log(`${values.out}: app.js ${(script.text.length / 1e3).toFixed(0)} kB, ${(gzipped / 1e3).toFixed(0)} kB gzipped`);

@@ -1,0 +1,215 @@
+// The page around the tabs: header, state of the connection, dialogs.
+import type { JSX } from 'preact';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { announce } from '../shared/dom';
+import { themeToggle } from '../shared/theme';
+import { Api } from './api';
+import { ClockOffset, spanText, useNow } from './clock';
+import { Connection, type LinkState, socketAddress } from './connection';
+import type { Action } from './controls/actions';
+import { ActionDialog } from './controls/action_dialog';
+import { Data, problemsOf } from './data';
+import { Live } from './live/live';
+import { LogPage } from './log';
+import type { FacilitatorView } from './protocol';
+import { Rooms } from './rooms';
+import { remember, remembered } from './session';
+import { ApiContext } from './setup/link_box';
+import { Setup } from './setup/setup';
+import { Tips } from './tip';
+import { Dismissed, NoServer } from './welcome';
+
+const kTabs = [
+  { id: 'setup', label: 'Set-up' },
+  { id: 'rooms', label: 'Rooms' },
+  { id: 'live', label: 'Live' },
+  { id: 'data', label: 'Data' },
+  { id: 'log', label: 'Log' },
+] as const;
+type Tab = (typeof kTabs)[number]['id'];
+
+interface Received {
+  view: FacilitatorView;
+  offset: number; // of the server's clock to ours, ms
+}
+
+export function App({ token }: { token: string }): JSX.Element {
+  const [link, setLink] = useState<LinkState>({ state: 'connecting' });
+  const [received, setReceived] = useState<Received | null>(null);
+  const connection = useRef<Connection | null>(null);
+  const [api] = useState(() => new Api(token));
+  useEffect(() => {
+    const made = new Connection(socketAddress(window.location), token, {
+      link: setLink,
+      view: (view) => setReceived({ view, offset: view.server_ms - Date.now() }),
+      welcome: () => {
+        const room = remembered('room');
+        if (room) void made.send('room-select', { room, reason: '' }).catch(() => undefined);
+      },
+    });
+    connection.current = made;
+    return () => made.close();
+  }, [token]);
+  const send = (command: string, body: object): Promise<void> =>
+    connection.current?.send(command, body) ?? Promise.reject(new Error('not connected'));
+
+  if (link.state === 'refused') return <Dismissed reason={link.reason} />;
+  if (!received) return <NoServer link={link} onRetry={() => connection.current?.retryNow()} />;
+  return (
+    <ClockOffset.Provider value={received.offset}>
+      <ApiContext.Provider value={api}>
+        <Shell view={received.view} link={link} send={send} onRetry={() => connection.current?.retryNow()} />
+      </ApiContext.Provider>
+    </ClockOffset.Provider>
+  );
+}
+
+interface ShellProps {
+  view: FacilitatorView;
+  link: LinkState;
+  send: (command: string, body: object) => Promise<void>;
+  onRetry: () => void;
+}
+
+function firstTab(view: FacilitatorView): Tab {
+  const kept = kTabs.find(({ id }) => id === remembered('tab'));
+  if (kept) return kept.id;
+  if (view.rooms.length === 0) return view.role === 'facilitator' ? 'setup' : 'rooms';
+  return view.rooms.length === 1 ? 'live' : 'rooms';
+}
+
+function Shell({ view, link, send, onRetry }: ShellProps): JSX.Element {
+  const [tab, setTab] = useState<Tab>(() => firstTab(view));
+  const [selected, setSelected] = useState<string | null>(remembered('room'));
+  const [asked, setAsked] = useState<{ action: Action; room: string } | null>(null);
+  const isFacilitator = view.role === 'facilitator';
+  const mayAct = isFacilitator && link.state === 'live';
+  const go = (to: Tab): void => {
+    remember('tab', to);
+    setTab(to);
+  };
+  const select = (room: string): void => {
+    remember('room', room);
+    setSelected(room);
+    void send('room-select', { room, reason: '' }).catch(() => undefined);
+  };
+  useEffect(() => {
+    const only = view.rooms[0];
+    if (view.rooms.length === 1 && only && selected !== only.id) select(only.id);
+  }, [view.rooms]);
+  useEffect(() => {
+    document.title = `${kTabs.find(({ id }) => id === tab)?.label} - ${view.study.title}`;
+  }, [tab, view.study.title]);
+  return (
+    <>
+      <header class="top">
+        <h1>{view.study.title}</h1>
+        <nav aria-label="Parts of this page">
+          {kTabs.map(({ id, label }) => (
+            <button type="button" aria-current={tab === id ? 'page' : undefined} onClick={() => go(id)}>
+              {label}
+            </button>
+          ))}
+        </nav>
+        <span class="top-end">
+          {!isFacilitator && <span class="badge observer">Observer</span>}
+          <LinkMark link={link} />
+          <ThemeButton />
+        </span>
+      </header>
+      <Banners view={view} link={link} onRetry={onRetry} onData={() => go('data')} />
+      <main id="main" tabIndex={-1}>
+        {tab === 'setup' && <Setup view={view} mayAct={mayAct} send={send} />}
+        {tab === 'rooms' && (
+          <Rooms
+            view={view}
+            selected={selected}
+            onOpen={(room) => {
+              select(room);
+              go('live');
+            }}
+          />
+        )}
+        {tab === 'live' && (
+          <Live view={view} selected={selected} mayAct={mayAct} onSelect={select} onAct={(action, room) => setAsked({ action, room })} />
+        )}
+        {tab === 'data' && <Data view={view} />}
+        {tab === 'log' && <LogPage view={view} />}
+      </main>
+      {asked && (
+        <ActionDialog
+          action={asked.action}
+          send={(command, body) => send(command, { room: asked.room, ...body })}
+          onClose={(done) => {
+            setAsked(null);
+            if (done) announce(done);
+          }}
+        />
+      )}
+      <Tips />
+    </>
+  );
+}
+
+function LinkMark({ link }: { link: LinkState }): JSX.Element {
+  const isLive = link.state === 'live';
+  return (
+    <span class={isLive ? 'link-mark is-live' : 'link-mark is-lost'} role="status">
+      <svg width="10" height="10" viewBox="-5 -5 10 10" aria-hidden="true">
+        {isLive ? <circle r={4} /> : <path d="M-4 -4 4 4M4 -4-4 4" />}
+      </svg>
+      {isLive ? 'Connected' : 'Not connected'}
+    </span>
+  );
+}
+
+function ThemeButton(): JSX.Element {
+  const place = useRef<HTMLSpanElement>(null);
+  useEffect(() => place.current?.replaceChildren(themeToggle()), []);
+  return <span ref={place} />;
+}
+
+interface BannersProps {
+  view: FacilitatorView;
+  link: LinkState;
+  onRetry: () => void;
+  onData: () => void;
+}
+
+function Banners({ view, link, onRetry, onData }: BannersProps): JSX.Element {
+  const now = useNow();
+  const problems = problemsOf(view.integrity, now);
+  return (
+    <>
+      {link.state === 'reconnecting' && (
+        <div class="banner" role="alert">
+          <span>
+            {link.stopped
+              ? 'The server has stopped. This page reconnects when it is started again.'
+              : 'The connection to the server is lost. Trying to reconnect.'}{' '}
+            Until then you see the last known state.
+          </span>
+          <Elapsed since_ms={link.since_ms} />
+          <button type="button" onClick={onRetry}>
+            Try now
+          </button>
+        </div>
+      )}
+      {problems.length > 0 && (
+        <div class="banner" role="alert">
+          <span>{problems[0]}</span>
+          {problems.length > 1 && <span>{`and ${problems.length - 1} more`}</span>}
+          <button type="button" onClick={onData}>
+            Show
+          </button>
+        </div>
+      )}
+    </>
+  );
+}
+
+// By this computer's clock: the moment the line was lost was noted on it.
+function Elapsed({ since_ms }: { since_ms: number }): JSX.Element {
+  useNow();
+  return <span class="elapsed" aria-hidden="true">{spanText(Date.now() - since_ms)}</span>;
+}

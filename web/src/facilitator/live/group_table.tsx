@@ -1,0 +1,186 @@
+// Everybody in the room, one row each: who is there, what they are doing, and all their answers.
+import type { JSX } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import { secondsText, spanText, useNow } from '../clock';
+import type { Answer, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
+import { Explained } from '../tip';
+import { memberOfSeat } from './beliefs';
+import { estimateText, kPresence, personStage, seatTitle, typeLabel } from '../words';
+
+interface Column {
+  period: number;
+  test: number;
+  isFirst: boolean; // of its period
+}
+
+function columnsOf(answers: Answer[]): Column[] {
+  const seen = new Map<string, Column>();
+  for (const { period, test } of answers) seen.set(`${period}/${test}`, { period, test, isFirst: false });
+  const sorted = [...seen.values()].sort((a, b) => a.period - b.period || a.test - b.test);
+  return sorted.map((column, i) => ({ ...column, isFirst: sorted[i - 1]?.period !== column.period }));
+}
+
+export const answerText = ({ right, regret, ms, stopped_short }: Answer): string =>
+  `${right ? 'right' : 'wrong'}${stopped_short ? ', stopped before the end' : ''}, regret ${regret.toFixed(2)}, ${secondsText(ms)}`;
+
+interface GroupTableProps {
+  study: StudyInfo;
+  room: RoomRow;
+  detail: RoomDetail;
+  marked: number | null;
+  onMark: (member: number | null) => void;
+  onOpen: (seat: SeatRow) => void;
+}
+
+export function GroupTable({ study, room, detail, marked, onMark, onOpen }: GroupTableProps): JSX.Element {
+  const now = useNow();
+  const columns = columnsOf(detail.answers);
+  const byPlace = new Map(detail.answers.map((answer) => [`${answer.seat}/${answer.period}/${answer.test}`, answer]));
+  const hasStageTimes = room.seats.some(({ stage_since_ms }) => stage_since_ms !== undefined);
+  const hasLatency = room.seats.some(({ latency_ms }) => latency_ms !== undefined);
+  const hasEstimate = room.seats.some(({ estimate }) => estimate !== undefined);
+  const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
+  // The latest answers are at the right end, which has to be seen.
+  const box = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (box.current) box.current.scrollLeft = box.current.scrollWidth;
+  }, [columns.length]);
+  const periods = [...new Set(columns.map(({ period }) => period))];
+  return (
+    <div class="group" ref={box} role="region" aria-label="Group" tabIndex={0}>
+      <table>
+        <thead>
+          <tr>
+            <th scope="col">Seat</th>
+            <th scope="col">State</th>
+            <th scope="col" class="number">
+              {hasStageTimes ? 'Since' : 'Present'}
+            </th>
+            {hasLatency && (
+              <th scope="col" class="number">
+                <Explained term="latency">ms</Explained>
+              </th>
+            )}
+            {hasEstimate && (
+              <th scope="col" class="number">
+                <Explained term="estimate">Screening</Explained>
+              </th>
+            )}
+            {periods.map((period) => (
+              <th scope="colgroup" class="period" colSpan={columns.filter((column) => column.period === period).length}>
+                <span class="visually-hidden">Answers in period </span>
+                {period}
+              </th>
+            ))}
+            <th class="rest">{columns.length === 0 && 'No answers yet'}</th>
+          </tr>
+        </thead>
+        <tbody>
+          {room.seats.map((seat) => (
+            <tr
+              key={seat.seat}
+              class={marked === memberOfSeat(seat) ? 'marked' : undefined}
+              onPointerEnter={() => onMark(memberOfSeat(seat))}
+              onPointerLeave={() => onMark(null)}
+              onFocusIn={() => onMark(memberOfSeat(seat))}
+              onFocusOut={() => onMark(null)}
+            >
+              <th scope="row">
+                <button type="button" class="seat" onClick={() => onOpen(seat)} aria-haspopup="dialog">
+                  <PresenceMark seat={seat} /> {seatTitle(seat)}
+                </button>
+                {seat.type && (
+                  <span class="type" data-tip={seat.kind === 'simulated' ? `Simulated learner: ${typeLabel(study, seat.type)}` : `Type in the composition: ${typeLabel(study, seat.type)}`}>
+                    {seat.type}
+                  </span>
+                )}
+              </th>
+              <td class={`state ${seat.dropped ? 'left' : seat.presence}`} data-tip={whereabouts(seat, now)}>
+                {seat.presence === 'away' ? kPresence.away : stateText(seat)}
+              </td>
+              <td class="number">{timeText(seat, now)}</td>
+              {hasLatency && <td class="number">{seat.latency_ms === undefined ? '' : Math.round(seat.latency_ms)}</td>}
+              {hasEstimate && <td class="number">{shortEstimate(seat)}</td>}
+              {columns.map(({ period, test, isFirst }) => (
+                <Cell answer={byPlace.get(`${seat.seat}/${period}/${test}`)} where={`period ${period}, test ${test}`} longest={longest} isFirst={isFirst} />
+              ))}
+              <td class="rest" />
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+export function stateText(seat: SeatRow): string {
+  if (seat.kind === 'simulated') return 'simulated';
+  if (seat.dropped) return 'dropped out';
+  if (seat.presence === 'empty' || seat.presence === 'left') return kPresence[seat.presence];
+  return seat.presence === 'away' ? `away (${personStage(seat.stage)})` : personStage(seat.stage);
+}
+
+// "answering; connected for 3:12"
+export function whereabouts(seat: SeatRow, now: number): string {
+  if (seat.kind === 'simulated') return 'simulated learner';
+  if (seat.presence === 'empty' || seat.since_ms === 0) return stateText(seat);
+  const doing = seat.dropped ? 'dropped out' : personStage(seat.stage);
+  const presence = `${kPresence[seat.presence]} for ${spanText(now - seat.since_ms)}`;
+  return seat.presence === 'left' ? presence : `${doing}; ${presence}`;
+}
+
+// How long somebody has been at their stage, or else connected or away.
+function timeText(seat: SeatRow, now: number): string {
+  if (seat.kind === 'simulated') return '';
+  const since = seat.presence === 'here' ? (seat.stage_since_ms ?? seat.since_ms) : seat.since_ms;
+  return since === 0 || seat.presence === 'empty' ? '' : spanText(now - since);
+}
+
+const shortEstimate = ({ estimate }: SeatRow): string =>
+  estimateText(typeof estimate === 'object' ? estimate.value : estimate);
+
+// Shape and colour: a full circle is connected, a half one away, a ring empty, a cross left, a square a program.
+export function PresenceMark({ seat }: { seat: SeatRow }): JSX.Element {
+  const state = seat.kind === 'simulated' ? 'simulated' : seat.presence;
+  return (
+    <svg class={`presence ${state}`} width="11" height="11" viewBox="-6 -6 12 12" role="img" aria-label={seat.kind === 'simulated' ? 'simulated' : kPresence[seat.presence]}>
+      {state === 'simulated' && <rect x={-4} y={-4} width={8} height={8} />}
+      {state === 'here' && <circle r={4.5} />}
+      {state === 'away' && <circle class="ring" r={4} />}
+      {state === 'away' && <path d="M0 -4A4 4 0 0 1 0 4Z" />}
+      {state === 'empty' && <circle class="ring" r={4} />}
+      {state === 'left' && <path class="ring" d="M-4 -4 4 4M4 -4-4 4" />}
+    </svg>
+  );
+}
+
+interface CellProps {
+  answer: Answer | undefined;
+  where: string;
+  longest: number;
+  isFirst: boolean;
+}
+
+// A tick on green or a cross on orange; the line below is the time taken, relative to the longest in the room.
+function Cell({ answer, where, longest, isFirst }: CellProps): JSX.Element {
+  const first = isFirst ? ' first' : '';
+  if (!answer) {
+    return (
+      <td class={`answer-cell${first}`}>
+        <span class="visually-hidden">no answer</span>
+      </td>
+    );
+  }
+  const text = `${where}: ${answerText(answer)}`;
+  return (
+    <td class={`answer-cell ${answer.right ? 'right' : 'wrong'}${first}`} data-tip={text.charAt(0).toUpperCase() + text.slice(1)}>
+      <svg viewBox="0 0 16 18" width="16" height="18" role="img" aria-label={answerText(answer)}>
+        <rect class="ground" x={0.5} y={0.5} width={15} height={13} rx={2.5} />
+        {answer.right && <path class="mark" d="M4.2 7.2 7 10 11.8 4.2" />}
+        {!answer.right && <path class="mark" d="M5 4 11 10M11 4 5 10" />}
+        {answer.stopped_short && <path class="short" d="M13 2.5V11.5" />}
+        <path class="time" d={`M1 16.5h${(14 * Math.min(1, answer.ms / longest)).toFixed(1)}`} />
+      </svg>
+    </td>
+  );
+}

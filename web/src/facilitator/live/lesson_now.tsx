@@ -1,0 +1,165 @@
+// The lesson that is being taught: its boards, animated, why it was chosen, and what came next.
+import type { JSX } from 'preact';
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import { Player } from '../../lesson/player';
+import { actionsText, placedStepText } from '../../lesson/words';
+import { BoardView as BoardDrawing } from '../../shared/board/board';
+import { Patterns } from '../../shared/board/glyphs';
+import { Legend } from '../../shared/board/legend';
+import type { Board, MapDomain } from '../../shared/board/types';
+import { useCalm, usePlayback } from '../../shared/playback';
+import type { BoardView, Frame, LessonNow, RunnerUp, ShownBoard } from '../protocol';
+import { Explained } from '../tip';
+import { sentenceText, upperFirst } from '../words';
+
+const asBoard = (board: BoardView, frames: Frame[]): Board => ({
+  world: board.world,
+  start: board.start,
+  frames,
+  ...(board.map ? { map: board.map } : {}),
+});
+
+function useDrawing(board: BoardView): { domain: MapDomain; legend: Legend } {
+  const key = JSON.stringify(board.domain);
+  return useMemo(() => ({ domain: board.domain, legend: new Legend(board.domain) }), [key]);
+}
+
+interface Choice {
+  id: string;
+  label: string;
+  shown: ShownBoard;
+  isTest: boolean;
+}
+
+function choicesOf(lesson: LessonNow): Choice[] {
+  return [
+    ...lesson.demonstrations.map((shown, i) => ({ id: `d${i}`, label: `Demo ${i + 1}`, shown, isTest: false })),
+    ...lesson.tests.map((shown, i) => ({ id: `t${i}`, label: `Test ${i + 1}`, shown, isTest: true })),
+  ];
+}
+
+export function LessonPanel({ lesson, period }: { lesson: LessonNow | undefined; period: number }): JSX.Element {
+  const [picked, setPicked] = useState('d0');
+  useEffect(() => setPicked('d0'), [period]);
+  if (!lesson) {
+    return (
+      <section class="lesson-now" aria-labelledby="lesson-title">
+        <h3 id="lesson-title">Lesson</h3>
+        <p class="hint">No lesson is being shown.</p>
+      </section>
+    );
+  }
+  const choices = choicesOf(lesson);
+  const choice = choices.find(({ id }) => id === picked) ?? choices[0];
+  return (
+    <section class="lesson-now" aria-labelledby="lesson-title">
+      <div class="lesson-head">
+        <h3 id="lesson-title">Lesson, period {period}</h3>
+        <div class="picks" role="group" aria-label="Board">
+          {choices.map(({ id, label }) => (
+            <button type="button" class="small" aria-pressed={id === choice?.id} onClick={() => setPicked(id)}>
+              {label}
+            </button>
+          ))}
+        </div>
+      </div>
+      {choice && <Shown key={`${period}/${choice.id}`} choice={choice} />}
+      <div class="why-text">
+        <p>
+          <b>Why:</b> {upperFirst(lesson.why)}
+          {!lesson.why.includes(lesson.source) && <span class="source"> Source: {lesson.source}.</span>}
+        </p>
+      </div>
+      <RunnersUp lesson={lesson} />
+    </section>
+  );
+}
+
+function Shown({ choice }: { choice: Choice }): JSX.Element {
+  const { shown, isTest } = choice;
+  const { domain, legend } = useDrawing(shown.board);
+  const playback = usePlayback(shown.frames.length - 1);
+  const board = asBoard(shown.board, shown.frames);
+  const isTall = (domain.height ?? 0) > 1.2 * (domain.width ?? 1);
+  const calm = useCalm();
+  useEffect(() => {
+    if (!calm) playback.toggle();
+  }, []);
+  return (
+    <div class={isTall ? 'shown tall' : 'shown'}>
+      <Patterns surfaces={legend.surfaces} />
+      <div class="shown-board">
+        {board.map ? (
+          <BoardDrawing
+            domain={domain}
+            legend={legend}
+            board={board}
+            step={playback.step}
+            label={`${choice.label}: the robot's path: ${actionsText(shown.frames)}.`}
+            path
+          />
+        ) : (
+          <ol class="steps">
+            {shown.frames.slice(0, -1).map((frame) => (
+              <li>{placedStepText(frame)}</li>
+            ))}
+          </ol>
+        )}
+        {board.map && <Player frames={shown.frames} playback={playback} what={choice.label} />}
+      </div>
+      <div class="shown-facts">
+        {shown.gain !== undefined && !isTest && (
+          <p>
+            <Explained term="gain">Gain</Explained> <b>{shown.gain.toFixed(2)}</b>
+          </p>
+        )}
+        <p class="list-title">{isTest ? 'It tests that' : 'It shows that'}</p>
+        <ul class="sentences">
+          {shown.sentences.map((sentence) => (
+            <li>{sentenceText(sentence)}</li>
+          ))}
+        </ul>
+      </div>
+    </div>
+  );
+}
+
+function RunnersUp({ lesson }: { lesson: LessonNow }): JSX.Element | null {
+  if (lesson.runners_up.length === 0) return null;
+  const chosen = Math.max(...lesson.demonstrations.map(({ gain }) => gain ?? 0));
+  const most = Math.max(chosen, ...lesson.runners_up.map(({ gain }) => gain));
+  return (
+    <div class="runners">
+      <h4>
+        <Explained term="runners_up">Runners-up</Explained>
+      </h4>
+      <ol>
+        {lesson.runners_up.slice(0, 5).map((runner) => (
+          <Runner runner={runner} most={most} chosen={chosen} />
+        ))}
+      </ol>
+    </div>
+  );
+}
+
+function Runner({ runner, most, chosen }: { runner: RunnerUp; most: number; chosen: number }): JSX.Element {
+  const { domain, legend } = useDrawing(runner.board);
+  const board = asBoard(runner.board, [runner.board.start]);
+  const says = runner.sentences.map(sentenceText).join('; ');
+  return (
+    <li
+      tabIndex={0}
+      data-tip={`Gain ${runner.gain.toFixed(2)} (shown: ${chosen.toFixed(2)}). It would have shown that ${says || 'nothing new holds'}.`}
+    >
+      {board.map ? (
+        <BoardDrawing domain={domain} legend={legend} board={board} step={0} label={`World ${runner.board.world}, gain ${runner.gain.toFixed(2)}: ${says}`} />
+      ) : (
+        <span>{runner.board.start.state}</span>
+      )}
+      <span class="gain">
+        <meter min={0} max={most} value={runner.gain} aria-hidden="true" />
+        {runner.gain.toFixed(2)}
+      </span>
+    </li>
+  );
+}

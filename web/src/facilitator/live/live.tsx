@@ -1,0 +1,173 @@
+// One room as it happens: beliefs, people and answers on the left, the lesson and the progress on the right.
+import type { JSX } from 'preact';
+import { useState } from 'preact/hooks';
+import { spanText, useNow } from '../clock';
+import { type Action, roomActions } from '../controls/actions';
+import { SeatDialog } from '../controls/seat_dialog';
+import { LogTable } from '../log';
+import type { FacilitatorView, RoomRow } from '../protocol';
+import { Explained } from '../tip';
+import { attention, endText, kStages, roomTitle } from '../words';
+import { memberOfSeat, seatOf } from './beliefs';
+import { Curves } from './curves';
+import { GroupTable } from './group_table';
+import { LessonPanel } from './lesson_now';
+import { Progress } from './progress';
+import { Spheres } from './spheres';
+import { useWindowHeight } from './width';
+
+interface LiveProps {
+  view: FacilitatorView;
+  selected: string | null;
+  mayAct: boolean;
+  onSelect: (room: string) => void;
+  onAct: (action: Action, room: string) => void;
+}
+
+export function Live({ view, selected, mayAct, onSelect, onAct }: LiveProps): JSX.Element {
+  const room = view.rooms.find(({ id }) => id === selected);
+  if (view.rooms.length === 0) return <Nothing text="There are no rooms yet. Make some under Set-up." />;
+  if (!room) return <Nothing text="Choose a room under Rooms." />;
+  return (
+    <>
+      <RoomBar view={view} room={room} mayAct={mayAct} onSelect={onSelect} onAct={onAct} />
+      {view.room?.id === room.id ? (
+        <RoomView view={view} room={room} mayAct={mayAct} onAct={onAct} />
+      ) : (
+        <Nothing text="Loading the room..." />
+      )}
+    </>
+  );
+}
+
+function Nothing({ text }: { text: string }): JSX.Element {
+  return <p class="nothing">{text}</p>;
+}
+
+interface RoomBarProps extends Omit<LiveProps, 'selected'> {
+  room: RoomRow;
+}
+
+function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Element {
+  const now = useNow();
+  const worry = attention(room);
+  const { period } = room;
+  return (
+    <div class="room-bar">
+      <h2 class="visually-hidden">{roomTitle(room)}</h2>
+      <label class="visually-hidden" for="room-choice">
+        Room
+      </label>
+      <select id="room-choice" value={room.id} onChange={(event) => onSelect(event.currentTarget.value)}>
+        {view.rooms.map((one) => (
+          <option value={one.id}>{`${roomTitle(one)}: ${kStages[one.stage].toLowerCase()}`}</option>
+        ))}
+      </select>
+      <span class={`badge ${room.stage}`}>{kStages[room.stage]}</span>
+      <span class="fact">
+        <b>{room.strategy}</b> {room.composition}
+        {room.next_strategy && ` (${room.next_strategy} from the next component on)`}
+      </span>
+      {period > 0 && (
+        <span class="fact">
+          <Explained term="interactions">Period</Explained> <b>{period}</b>
+        </span>
+      )}
+      {room.started_ms !== undefined && room.stage !== 'ended' && (
+        <span class="fact">
+          Running for <b>{spanText(now - room.started_ms)}</b>
+        </span>
+      )}
+      {room.ended && <span class="fact">{endText(room.ended)}</span>}
+      {worry && worry !== 'Paused' && <span class="worry">{worry}</span>}
+      {mayAct && (
+        <span class="room-buttons" role="group" aria-label="Controls of the room">
+          {roomActions(room, view.study).map((action) => (
+            <button
+              type="button"
+              class={action.isDangerous ? 'danger' : action.command === 'start' || action.command === 'resume' ? 'primary' : undefined}
+              aria-haspopup="dialog"
+              onClick={() => onAct(action, room.id)}
+            >
+              {action.label}
+            </button>
+          ))}
+        </span>
+      )}
+    </div>
+  );
+}
+
+interface RoomViewProps {
+  view: FacilitatorView;
+  room: RoomRow;
+  mayAct: boolean;
+  onAct: (action: Action, room: string) => void;
+}
+
+// Pixels, as in live.css. What the table leaves of the window is for spheres and charts, so that everything is
+// visible without scrolling.
+const kTableRow = 22;
+const kAround = 196; // bars, heads and gaps
+const kSpheres = { share: 0.68, least: 150, most: 330 };
+const kChart = { least: 104, most: 190 };
+
+function heightsFor(window_px: number, seats: number): { spheres: number; chart: number } {
+  const rest = window_px - kAround - seats * kTableRow;
+  const chart = Math.max(kChart.least, Math.min(kChart.most, (1 - kSpheres.share) * rest));
+  return { chart, spheres: Math.max(kSpheres.least, Math.min(kSpheres.most, rest - chart)) };
+}
+
+function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
+  const [marked, setMarked] = useState<number | null>(null);
+  const [opened, setOpened] = useState<number | null>(null);
+  const heights = heightsFor(useWindowHeight(), room.seats.length);
+  const detail = view.room;
+  if (!detail) return <Nothing text="Loading the room..." />;
+  const seat = room.seats.find((one) => one.seat === opened);
+  const nameOf = (belief: string): string => seatOf(room.seats, belief)?.label ?? belief;
+  const memberOf = (number: string): number => {
+    const found = room.seats.find((one) => String(one.seat) === number);
+    return found ? memberOfSeat(found) : Number(number);
+  };
+  return (
+    <>
+      <div class="live">
+        <div class="live-main">
+          <Spheres detail={detail} height={heights.spheres} nameOf={nameOf} marked={marked} onMark={setMarked} />
+          <GroupTable
+            study={view.study}
+            room={room}
+            detail={detail}
+            marked={marked}
+            onMark={setMarked}
+            onOpen={({ seat: number }) => setOpened(number)}
+          />
+          {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} memberOfSeat={memberOf} />}
+        </div>
+        <div class="live-side">
+          <Progress room={room} detail={detail} />
+          <LessonPanel lesson={detail.lesson} period={detail.session.phase === 'teacher' ? room.period - 1 : room.period} />
+        </div>
+      </div>
+      <section class="room-log" aria-labelledby="room-log-title">
+        <h3 id="room-log-title">Log of this room</h3>
+        <LogTable log={view.log.filter((entry) => entry.room === room.id)} rooms={view.rooms} withRoom={false} />
+      </section>
+      {seat && (
+        <SeatDialog
+          study={view.study}
+          room={room}
+          seat={seat}
+          answers={detail.answers}
+          mayAct={mayAct}
+          onAct={(action) => {
+            setOpened(null);
+            onAct(action, room.id);
+          }}
+          onClose={() => setOpened(null)}
+        />
+      )}
+    </>
+  );
+}

@@ -1,0 +1,78 @@
+// Where the session is: components, forecast and timers.
+import type { JSX } from 'preact';
+import { minutesText, spanText, useNow } from '../clock';
+import type { RoomDetail, RoomRow, Timer } from '../protocol';
+import { Explained } from '../tip';
+import { upperFirst } from '../words';
+
+const kStatus = { open: 'not learned yet', learned: 'learned', skipped: 'skipped' };
+
+export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }): JSX.Element {
+  const now = useNow();
+  const { components, component } = detail.session;
+  const { forecast } = room;
+  return (
+    <section class="progress" aria-labelledby="progress-title">
+      <h3 id="progress-title">
+        <Explained term="component">Components</Explained>
+      </h3>
+      <ol class="components">
+        {components.map(({ name, status }, i) => {
+          const isNow = status === 'open' && (component === name || component === i + 1);
+          return (
+            <li class={`${status}${isNow ? ' now' : ''}`} aria-current={isNow ? 'step' : undefined}>
+              <svg width="12" height="12" viewBox="-6 -6 12 12" aria-hidden="true">
+                {status === 'learned' && <path d="M-4 .5-1 3.5 4.5 -3.5" />}
+                {status === 'skipped' && <path d="M-4 0H4" />}
+                {status === 'open' && <circle r={isNow ? 3.5 : 3} class={isNow ? 'full' : undefined} />}
+              </svg>
+              {name} <span class="visually-hidden">({isNow ? 'being taught' : kStatus[status]})</span>
+            </li>
+          );
+        })}
+      </ol>
+      <dl class="timers">
+        <div>
+          <dt>
+            <Explained term="forecast">Time left</Explained>
+          </dt>
+          <dd>{forecast ? `${minutesText(forecast.minutes_low, forecast.minutes_high)}, about ${periodsText(forecast.periods)}` : 'unknown'}</dd>
+        </div>
+        {detail.timers.filter(isShown).map((timer) => (
+          <div>
+            <dt>{timerName(timer, detail.session.phase)}</dt>
+            <dd class={isLate(timer, now) ? 'late' : undefined}>{timerText(timer, now)}</dd>
+          </div>
+        ))}
+      </dl>
+    </section>
+  );
+}
+
+const kPhases: Record<string, string> = {
+  lobby: 'Lobby',
+  teacher: 'Teacher chooses',
+  watch: 'Demonstrations',
+  predict: 'Tests',
+  feedback: 'Feedback',
+  questions: 'Questions',
+};
+const kTimers: Record<string, string> = { session: 'Session', pause: 'Paused', lobby: 'Lobby' };
+
+// How long the session has been running is in the bar above.
+const isShown = ({ name, until_ms }: Timer): boolean => name !== 'session' || until_ms !== undefined;
+
+const timerName = ({ name }: Timer, phase: string): string =>
+  name === 'phase' ? (kPhases[phase] ?? upperFirst(phase)) : (kTimers[name] ?? upperFirst(name));
+
+function periodsText(periods: number): string {
+  const n = Math.round(periods);
+  return `${n} ${n === 1 ? 'period' : 'periods'}`;
+}
+
+const isLate = ({ until_ms }: Timer, now: number): boolean => until_ms !== undefined && until_ms - now < 15_000;
+
+function timerText({ since_ms, until_ms }: Timer, now: number): string {
+  if (until_ms === undefined) return spanText(now - since_ms);
+  return until_ms > now ? `${spanText(until_ms - now)} left` : 'over';
+}

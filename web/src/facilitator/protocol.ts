@@ -1,0 +1,195 @@
+// What the server sends to facilitators and observers, and what it takes from facilitators.
+import type { Frame, MapDomain } from '../shared/board/types';
+
+export type { Frame };
+export type Role = 'facilitator' | 'observer';
+export type Presence = 'here' | 'away' | 'left' | 'empty';
+export type RoomStage = 'lobby' | 'running' | 'paused' | 'questions' | 'ended';
+
+export interface Named {
+  name: string;
+  description: string;
+}
+
+export interface StudyInfo {
+  id: string;
+  title: string;
+  domain: string;
+  strategies: Named[];
+  compositions?: string[];
+  types: { letter: string; label: string }[];
+  dropout: string;
+  grace_s: number;
+  time: Record<string, number>;
+  size?: number; // seats of a room unless said otherwise
+}
+
+// Share of screening tests that a person is expected to answer right: a number, or a number with its interval.
+export type Estimate = number | { value: number; low?: number; high?: number };
+
+export interface SeatRow {
+  seat: number;
+  member?: number; // of the session, from 1, if it is not the seat: who takes over gets a new seat
+  label: string;
+  name?: string;
+  kind: 'person' | 'simulated';
+  type?: string;
+  presence: Presence;
+  since_ms: number; // of the presence; 0: nobody has come yet
+  stage_since_ms?: number;
+  stage: string;
+  dropped?: boolean; // the group goes on without them
+  why?: string;
+  latency_ms?: number;
+  estimate?: Estimate;
+  link?: string;
+  code?: string;
+}
+
+export interface Forecast {
+  periods: number;
+  minutes_low: number;
+  minutes_high: number;
+}
+
+export interface RoomRow {
+  id: string;
+  code?: string; // observers get none
+  stage: RoomStage;
+  strategy: string;
+  seats: SeatRow[];
+  period: number;
+  component: number | string;
+  started_ms?: number;
+  ended?: string;
+  composition?: string;
+  next_strategy?: string;
+  forecast?: Forecast;
+}
+
+export interface BoardView {
+  domain: MapDomain;
+  world: number;
+  map?: string[];
+  start: Frame;
+}
+
+export type Sentence = string | { text: string };
+
+export interface ShownBoard {
+  board: BoardView;
+  frames: Frame[];
+  sentences: Sentence[];
+  gain?: number;
+}
+
+export interface RunnerUp {
+  board: BoardView;
+  gain: number;
+  sentences: Sentence[];
+}
+
+export interface LessonNow {
+  source: string;
+  why: string;
+  demonstrations: ShownBoard[];
+  tests: ShownBoard[];
+  runners_up: RunnerUp[];
+}
+
+export interface Answer {
+  seat: number;
+  period: number;
+  test: number;
+  right: boolean;
+  regret: number;
+  ms: number;
+  stopped_short: boolean;
+}
+
+export interface CurvePoint {
+  period: number;
+  p_bec: Record<string, number>;
+  right: Record<string, number>;
+}
+
+export interface ComponentState {
+  name: string;
+  status: 'open' | 'learned' | 'skipped';
+}
+
+export interface Timer {
+  name: string;
+  since_ms: number;
+  until_ms?: number;
+}
+
+export interface Truth {
+  weights: number[];
+  bec: number[][];
+  prior: number[][];
+  features?: string[];
+}
+
+export interface Belief {
+  name: string;
+  points: string;
+}
+
+export interface RoomDetail {
+  id: string;
+  session: { period: number; component: number | string | null; components: ComponentState[]; phase: string };
+  lesson?: LessonNow;
+  answers: Answer[];
+  curves: CurvePoint[];
+  beliefs: Belief[];
+  truth?: Truth;
+  timers: Timer[];
+}
+
+export interface LogEntry {
+  at_ms: number;
+  room?: string;
+  actor: string;
+  what: string;
+  reason?: string;
+}
+
+export interface Integrity {
+  events: number;
+  stored: number;
+  unsaved: number;
+  free_mb: number;
+  last_commit_ms: number;
+  problems: string[];
+}
+
+export interface FacilitatorView {
+  v: number;
+  role: Role;
+  server_ms: number;
+  study: StudyInfo;
+  links?: { facilitator: string; observer: string; join: string; code?: string }; // empty: not known any more
+  rooms: RoomRow[];
+  room?: RoomDetail;
+  log: LogEntry[];
+  integrity: Integrity;
+}
+
+export interface Commands {
+  start: object;
+  pause: object;
+  resume: object;
+  extend: { seconds: number };
+  message: { text: string; seat?: number };
+  readmit: { seat: number };
+  simulate: { seat: number; type: string };
+  strategy: { name: string };
+  end: object;
+  'room-make': { strategy?: string; seats: string[]; count: number };
+  'room-select': object;
+  'link-revoke': { token: string };
+}
+export type CommandName = keyof Commands;
+
+export const isObject = (value: unknown): value is Record<string, unknown> => typeof value === 'object' && value !== null;

@@ -1,0 +1,137 @@
+// All rooms, one row each: who is there, how far they are, and how long they will take.
+import type { JSX } from 'preact';
+import { useState } from 'preact/hooks';
+import { minutesText, spanText, useNow } from './clock';
+import { PresenceMark, whereabouts } from './live/group_table';
+import type { FacilitatorView, RoomRow, RoomStage, SeatRow } from './protocol';
+import { Explained } from './tip';
+import { attention, counted, endText, kStages, roomTitle, seatTitle } from './words';
+
+type Filter = 'all' | 'attention' | RoomStage;
+
+const kFilters: { filter: Filter; label: string }[] = [
+  { filter: 'all', label: 'All' },
+  { filter: 'attention', label: 'Need attention' },
+  ...(Object.entries(kStages) as [RoomStage, string][]).map(([filter, label]) => ({ filter, label })),
+];
+
+const passes = (room: RoomRow, filter: Filter): boolean =>
+  filter === 'all' || (filter === 'attention' ? attention(room) !== null : room.stage === filter);
+
+function matches(room: RoomRow, text: string): boolean {
+  const wanted = text.trim().toLowerCase();
+  const words = [room.id, room.code ?? '', room.strategy, ...room.seats.flatMap(({ label, name }) => [label, name ?? ''])];
+  return wanted === '' || words.some((word) => word.toLowerCase().includes(wanted));
+}
+
+interface RoomsProps {
+  view: FacilitatorView;
+  selected: string | null;
+  onOpen: (room: string) => void;
+}
+
+export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
+  const [filter, setFilter] = useState<Filter>('all');
+  const [text, setText] = useState('');
+  const now = useNow();
+  const shown = view.rooms.filter((room) => passes(room, filter) && matches(room, text));
+  const people = view.rooms.flatMap(({ seats }) => seats).filter(({ kind }) => kind === 'person');
+  const here = people.filter(({ presence }) => presence === 'here').length;
+  return (
+    <section class="page" aria-labelledby="rooms-title">
+      <h2 id="rooms-title">Rooms</h2>
+      <p class="hint">{`${counted(view.rooms.length, 'room')}; ${here} of ${counted(people.length, 'person').replace('persons', 'people')} connected.`}</p>
+      <div class="filters">
+        <div role="group" aria-label="Show rooms" class="chips">
+          {kFilters.map(({ filter: one, label }) => (
+            <button type="button" aria-pressed={filter === one} onClick={() => setFilter(one)}>
+              {label} <span class="count">{view.rooms.filter((room) => passes(room, one)).length}</span>
+            </button>
+          ))}
+        </div>
+        <label for="rooms-find">Find</label>
+        <input id="rooms-find" type="search" value={text} placeholder="code, strategy, name" onInput={(event) => setText(event.currentTarget.value)} />
+      </div>
+      {shown.length === 0 ? (
+        <p class="nothing">{view.rooms.length === 0 ? 'There are no rooms yet. Make some under Set-up.' : 'No room matches.'}</p>
+      ) : (
+        <div class="scroller" role="region" aria-label="Rooms" tabIndex={0}>
+          <table class="rooms">
+            <thead>
+              <tr>
+                <th scope="col">Room</th>
+                <th scope="col">Stage</th>
+                <th scope="col">Strategy</th>
+                <th scope="col">Seats</th>
+                <th scope="col" class="number">
+                  <Explained term="interactions">Period</Explained>
+                </th>
+                <th scope="col">
+                  <Explained term="component">Component</Explained>
+                </th>
+                <th scope="col" class="number">
+                  Running for
+                </th>
+                <th scope="col">
+                  <Explained term="forecast">Time left</Explained>
+                </th>
+                <th scope="col">Attention</th>
+              </tr>
+            </thead>
+            <tbody>
+              {shown.map((room) => (
+                <Row key={room.id} room={room} now={now} isSelected={room.id === selected} onOpen={onOpen} />
+              ))}
+            </tbody>
+          </table>
+        </div>
+      )}
+    </section>
+  );
+}
+
+interface RowProps {
+  room: RoomRow;
+  now: number;
+  isSelected: boolean;
+  onOpen: (room: string) => void;
+}
+
+function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
+  const { forecast } = room;
+  return (
+    <tr class={isSelected ? 'selected' : undefined}>
+      <th scope="row">
+        <button type="button" class="link" onClick={() => onOpen(room.id)}>
+          {roomTitle(room)}
+        </button>
+      </th>
+      <td>
+        <span class={`badge ${room.stage}`}>{kStages[room.stage]}</span>
+      </td>
+      <td>
+        {room.strategy}
+        {room.composition && <span class="hint"> {room.composition}</span>}
+      </td>
+      <td>
+        <ul class="seat-marks">
+          {room.seats.map((seat) => (
+            <li data-tip={tipOf(seat, now)}>
+              <PresenceMark seat={seat} />
+            </li>
+          ))}
+        </ul>
+      </td>
+      <td class="number">{room.period || ''}</td>
+      <td>{room.stage === 'lobby' ? '' : room.component}</td>
+      <td class="number">{room.started_ms === undefined || room.stage === 'ended' ? '' : spanText(now - room.started_ms)}</td>
+      <td>{forecast && room.stage !== 'ended' ? minutesText(forecast.minutes_low, forecast.minutes_high) : ''}</td>
+      <td class={room.stage === 'ended' ? 'ended-cell' : 'worry-cell'}>{room.stage === 'ended' ? endText(room.ended) : attention(room)}</td>
+    </tr>
+  );
+}
+
+function tipOf(seat: SeatRow, now: number): string {
+  const latency = seat.latency_ms === undefined ? '' : `, ${Math.round(seat.latency_ms)} ms`;
+  return `${seatTitle(seat)}: ${whereabouts(seat, now)}${latency}`;
+}

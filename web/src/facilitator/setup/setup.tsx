@@ -1,0 +1,124 @@
+// Before a session: the study, rooms to make, links to hand out, and a rehearsal.
+import type { JSX } from 'preact';
+import type { FacilitatorView, StudyInfo } from '../protocol';
+import { Explained } from '../tip';
+import { counted, policyText } from '../words';
+import { LinkBox } from './link_box';
+import { MakeRooms } from './make_rooms';
+import { RoomLinks } from './room_links';
+
+interface SetupProps {
+  view: FacilitatorView;
+  mayAct: boolean;
+  send: (command: string, body: object) => Promise<void>;
+}
+
+export function Setup({ view, mayAct, send }: SetupProps): JSX.Element {
+  const { study, links } = view;
+  return (
+    <div class="page setup">
+      <StudyFacts study={study} />
+      {mayAct && (
+        <section aria-labelledby="make-title">
+          <h2 id="make-title">Make rooms</h2>
+          <MakeRooms study={study} send={send} />
+        </section>
+      )}
+      {links && (
+        <section aria-labelledby="links-title">
+          <h2 id="links-title">Links</h2>
+          <p class="hint">
+            Everybody who opens the join link gets the next free seat. To decide who sits where, hand out the links of
+            single seats below. Whoever has the facilitator link can do everything on this page.
+          </p>
+          <div class="links">
+            <div>
+              {links.join && <LinkBox label="Join link" link={links.join} withCode />}
+              {links.code && (
+                <p>
+                  Code to type in on the start page: <b class="code">{links.code}</b>
+                </p>
+              )}
+            </div>
+            <div>
+              {links.observer && <LinkBox label="Observer link (no names, no controls)" link={links.observer} />}
+              {links.facilitator && <LinkBox label="Facilitator link (keep it to yourself)" link={links.facilitator} />}
+              {(!links.observer || !links.facilitator) && (
+                <p class="hint">Only hashes of links are stored. After a restart, kith serve prints new ones.</p>
+              )}
+            </div>
+          </div>
+          <RoomLinks rooms={view.rooms} />
+        </section>
+      )}
+      <Rehearsal study={study} />
+    </div>
+  );
+}
+
+function StudyFacts({ study }: { study: StudyInfo }): JSX.Element {
+  const limits = Object.entries(study.time).filter(([, value]) => value > 0);
+  return (
+    <section aria-labelledby="study-title">
+      <h2 id="study-title">{study.title}</h2>
+      <dl class="facts">
+        <dt>Study</dt>
+        <dd>{study.id}</dd>
+        <dt>Domain</dt>
+        <dd>{study.domain}</dd>
+        <dt>Strategies</dt>
+        <dd>
+          <ul class="plain">
+            {study.strategies.map(({ name, description }) => (
+              <li>
+                <b>{name}</b>
+                {description && `: ${description}`}
+              </li>
+            ))}
+          </ul>
+        </dd>
+        {study.compositions && study.compositions.length > 0 && <dt>Compositions</dt>}
+        {study.compositions && study.compositions.length > 0 && <dd>{study.compositions.join(', ')}</dd>}
+        <dt>Learner types</dt>
+        <dd>{study.types.map(({ letter, label }) => `${letter}: ${label}`).join(', ')}</dd>
+        <dt>If somebody is away</dt>
+        <dd>
+          {policyText(study.dropout)} (<Explained term="grace">grace period</Explained> {study.grace_s} s)
+        </dd>
+        <dt>Time limits</dt>
+        <dd>{limits.length === 0 ? 'none' : limits.map(([name, value]) => limitText(name, value)).join(', ')}</dd>
+      </dl>
+    </section>
+  );
+}
+
+const kLimits: Record<string, string> = {
+  watch_s: 'watching',
+  predict_s: 'answering',
+  feedback_s: 'feedback',
+  lobby_s: 'lobby',
+  leave_after_s: 'leaving the lobby with a code after',
+  max_minutes: 'whole session',
+};
+
+const limitText = (name: string, value: number): string =>
+  `${kLimits[name] ?? name} ${name === 'max_minutes' ? counted(value, 'minute') : `${value} s`}`;
+
+function Rehearsal({ study }: { study: StudyInfo }): JSX.Element {
+  return (
+    <section aria-labelledby="rehearsal-title">
+      <h2 id="rehearsal-title">Rehearsal</h2>
+      <p>
+        Before the first participants come, let simulated participants go through the whole study. They connect like
+        browsers do, so what is tried is the server, the network settings and your study file. Run in a terminal:
+      </p>
+      <pre tabIndex={0}>{`kith serve ${study.id}.toml --rehearse 3`}</pre>
+      <p>
+        It makes three groups of simulated participants and ends with a summary: periods, times, and whether anything was
+        lost. The results are kept in a folder of their own, apart from those of your participants. To watch a group of{' '}
+        <Explained term="simulated">simulated learners</Explained> on this page, make a room above whose seats are all
+        simulated.
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,93 @@
+// What is shown before there is anything to show, or when there is nothing any more.
+import type { JSX } from 'preact';
+import { useState } from 'preact/hooks';
+import type { LinkState } from './connection';
+import { forgetToken, tokenIn } from './session';
+
+export function NoServer({ link, onRetry }: { link: LinkState; onRetry: () => void }): JSX.Element {
+  const isRetrying = link.state === 'reconnecting';
+  return (
+    <main id="main" class="plain-page" tabIndex={-1}>
+      <h1>{isRetrying ? 'The server cannot be reached' : 'Connecting'}</h1>
+      <p role="status">
+        {isRetrying
+          ? 'This page keeps trying. Check that kith serve is running and that this computer is in the same network.'
+          : 'Connecting to the server.'}
+      </p>
+      {isRetrying && (
+        <button type="button" onClick={onRetry}>
+          Try now
+        </button>
+      )}
+    </main>
+  );
+}
+
+const kDismissals: Record<string, { title: string; text: string }> = {
+  'bad-token': {
+    title: 'This link is not valid',
+    text: 'It has expired, was revoked, or was not copied completely. kith serve prints the facilitator link when it starts.',
+  },
+  removed: { title: 'This link was revoked', text: 'Another facilitator revoked it. Ask for a new one.' },
+  'opened-elsewhere': {
+    title: 'Opened elsewhere',
+    text: 'This page was opened with the same link in another tab or on another computer. Only one of them is connected.',
+  },
+};
+
+export function Dismissed({ reason }: { reason: string }): JSX.Element {
+  const { title, text } = kDismissals[reason] ?? { title: 'Disconnected', text: `The server closed the connection (${reason}).` };
+  return (
+    <main id="main" class="plain-page" tabIndex={-1}>
+      <h1>{title}</h1>
+      <p>{text}</p>
+      {reason === 'opened-elsewhere' ? (
+        <button type="button" class="primary" onClick={() => window.location.reload()}>
+          Use it here
+        </button>
+      ) : (
+        <AskLink />
+      )}
+    </main>
+  );
+}
+
+export function NoToken(): JSX.Element {
+  return (
+    <main id="main" class="plain-page" tabIndex={-1}>
+      <h1>Facilitator page</h1>
+      <p>This page needs a facilitator or observer link. kith serve prints it when it starts.</p>
+      <AskLink />
+    </main>
+  );
+}
+
+function AskLink(): JSX.Element {
+  const [text, setText] = useState('');
+  const [problem, setProblem] = useState('');
+  const submit = (event: Event): void => {
+    event.preventDefault();
+    const token = tokenIn(text);
+    if (!token) {
+      setProblem('This is not a link of kith serve: it ends with #t= and a long word.');
+      return;
+    }
+    forgetToken();
+    window.location.hash = `t=${token}`;
+    window.location.reload();
+  };
+  return (
+    <form class="ask" onSubmit={submit}>
+      <label for="ask-link">Paste the link here</label>
+      <div class="link-row">
+        <input id="ask-link" type="text" autocomplete="off" value={text} onInput={(event) => setText(event.currentTarget.value)} />
+        <button type="submit" class="primary">
+          Open
+        </button>
+      </div>
+      <p class="problem" role="alert">
+        {problem}
+      </p>
+    </form>
+  );
+}

@@ -1,0 +1,152 @@
+// Names of what the page shows, and what its terms mean.
+import type { Estimate, Presence, RoomRow, RoomStage, SeatRow, Sentence, StudyInfo } from './protocol';
+
+export const kStages: Record<RoomStage, string> = {
+  lobby: 'Lobby',
+  running: 'Running',
+  paused: 'Paused',
+  questions: 'Questions',
+  ended: 'Ended',
+};
+
+export const kPresence: Record<Presence, string> = {
+  here: 'connected',
+  away: 'away',
+  left: 'left',
+  empty: 'nobody yet',
+};
+
+const kPersonStages: Record<string, string> = {
+  consent: 'reading the consent form',
+  check: 'checking the keyboard',
+  screening: 'screening tests',
+  lobby: 'waiting in the lobby',
+  watch: 'watching',
+  predict: 'answering',
+  wait: 'waiting for the others',
+  feedback: 'reading feedback',
+  questions: 'answering questions',
+  debrief: 'finished',
+  declined: 'declined to take part',
+  full: 'turned away, room full',
+  ended: 'ended early',
+  replaced: 'replaced',
+};
+
+export const personStage = (stage: string): string => kPersonStages[stage] ?? stage;
+
+// What the log says of events; others are shown as they are.
+const kLogged: Record<string, string> = {
+  'room-make': 'made rooms',
+  'link-revoke': 'revoked a link',
+  start: 'started the room',
+  started: 'the group started',
+  pause: 'paused the room',
+  paused: 'paused',
+  resume: 'resumed the room',
+  resumed: 'resumed',
+  extend: 'gave more time',
+  message: 'sent a message',
+  readmit: 're-admitted a person',
+  simulate: 'replaced a person by a simulated learner',
+  strategy: 'switched the strategy',
+  end: 'ended the room',
+  ended: 'the group ended',
+  join: 'joined',
+  joined: 'joined',
+  consented: 'gave consent',
+  declined: 'declined to take part',
+  checked: 'finished the keyboard check',
+  named: 'entered a name',
+  screened: 'answered a screening test',
+  lesson: 'chose a lesson',
+  watched: 'watched a demonstration',
+  answered: 'answered a test',
+  continued: 'went on after the feedback',
+  questions: 'answered the questions',
+  dropped: 'dropped out',
+  released: 'released from the lobby',
+  time: 'a time limit was reached',
+  present: 'connected',
+  away: 'away',
+  leave: 'left',
+  left: 'left',
+};
+
+export const loggedText = (what: string): string => kLogged[what] ?? what;
+
+const kEnds: Record<string, string> = {
+  complete: 'everything learned',
+  'max-periods': 'the largest number of periods was reached',
+  'time-limit': 'the time limit was reached',
+  'lobby-time': 'not enough people came in time',
+  facilitator: 'ended by the facilitator',
+};
+
+export const endText = (reason: string | undefined): string => (reason ? (kEnds[reason] ?? reason.replace(/-/g, ' ')) : '');
+
+const kPolicies: Record<string, string> = {
+  'pause-then-continue': 'Pause the group; continue without the person when the grace period is over',
+  'continue-now': 'Continue at once without the person',
+  'replace-from-pool': 'Fill the seat with a person who is waiting',
+  simulate: 'Fill the seat with a simulated learner',
+  'end-group': 'End the group; everybody gets a completion code',
+};
+
+export const policyText = (policy: string): string => kPolicies[policy] ?? policy;
+
+// Terms that the page explains on hover and focus.
+export const kTerms = {
+  p_bec:
+    'p(BEC): the share of a belief that lies in the BEC region, that is, the probability that the learner would reproduce the robot\u2019s whole policy.',
+  bec: 'BEC region (behaviour equivalence class): all reward weights with which the robot would behave exactly as it does.',
+  prior: 'Prior: the reward weights that were possible before the first demonstration.',
+  truth: 'True reward: the robot\u2019s own reward weights, as a direction.',
+  common: 'Common belief: what every active member is assumed to know.',
+  joint: 'Joint belief: what the active members know if they pool everything.',
+  belief: 'Belief: the reward weights that the teacher thinks a learner considers possible. Each dot is one of 300 particles.',
+  gain: 'Information gain: how much smaller the demonstration makes the region of reward weights that are still possible for the belief that is taught (ratio of areas before and after; larger is better).',
+  regret: 'Regret: by how much the answer\u2019s return is below that of the robot\u2019s own path. 0: as good as the robot\u2019s.',
+  component: 'Knowledge component: a part of the reward that is taught and tested by itself, for example one feature against the cost of a step.',
+  forecast: 'Forecast: each open component takes as many periods as those before did on average; the range is from the shortest to the longest period so far.',
+  latency: 'Latency: how long a message to the browser and back takes.',
+  estimate: 'Screening: the share of tests that this person is expected to answer right, from the tests before the lobby.',
+  grace: 'Grace period: how long a person may be away before the dropout policy applies.',
+  simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. Participants are told about it in the consent form.',
+  interactions: 'Period: one round of demonstrations, tests and feedback.',
+  runners_up: 'Runners-up: the demonstrations with the next largest gains. They were not shown.',
+  unsaved: 'Unsaved: events that have been accepted but not yet written to disk. They are not acknowledged to the browser before they are.',
+};
+export type Term = keyof typeof kTerms;
+
+export const typeLabel = (study: StudyInfo, letter: string | undefined): string => {
+  if (!letter) return '';
+  return study.types.find((type) => type.letter === letter)?.label ?? letter;
+};
+
+export const sentenceText = (sentence: Sentence): string => (typeof sentence === 'string' ? sentence : sentence.text);
+
+export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+export function estimateText(estimate: Estimate | undefined): string {
+  if (estimate === undefined) return '';
+  if (typeof estimate === 'number') return estimate.toFixed(2);
+  const { value, low, high } = estimate;
+  const range = low !== undefined && high !== undefined ? ` (${low.toFixed(2)} to ${high.toFixed(2)})` : '';
+  return `${value.toFixed(2)}${range}`;
+}
+
+export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
+
+// What of a room needs a person's attention, or nothing.
+export function attention(room: RoomRow): string | null {
+  if (room.stage === 'ended') return null;
+  const away = room.seats.filter(({ presence }) => presence === 'away');
+  if (away.length > 0) return `${away.map(({ label }) => label).join(', ')} away`;
+  if (room.stage === 'paused') return 'Paused';
+  return null;
+}
+
+export const seatTitle = (seat: SeatRow): string => (seat.name ? `${seat.label} (${seat.name})` : seat.label);
+
+export const roomTitle = (room: RoomRow): string => `Room ${room.code ?? room.id}`;

@@ -1,0 +1,128 @@
+// Driving the robot through a world: the path so far, what was pressed and when.
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Frame, Place } from '../shared/board/types';
+import type { KeyPress } from './protocol';
+import { keep, recall } from './storage';
+import type { World } from './world';
+
+const kDraftMs = 2000; // at most one draft per
+const kMostActions = 500; // the server accepts no more
+const kMostKeys = 800; // a message has at most 16 KiB
+
+export type Outcome = 'done' | 'blocked' | 'end' | 'full';
+
+interface Kept {
+  key: string;
+  actions: number[];
+  keys: KeyPress[];
+  ms: number;
+  told: number[]; // the last draft that was sent
+}
+
+interface Options {
+  world: World;
+  start: number;
+  draft: number[];
+  key: string; // names this task; what was done here survives a reload
+  onDraft?: (actions: number[]) => void;
+}
+
+export interface Drive {
+  actions: number[];
+  frames: Frame[];
+  state: number;
+  isAtEnd: boolean;
+  isFull: boolean;
+  act: (action: number) => Outcome;
+  goTo: (cell: Place) => Outcome | 'none';
+  undo: () => void;
+  reset: () => void;
+  keys: () => KeyPress[];
+  ms: () => number;
+}
+
+export function useDrive({ world, start, draft, key, onDraft }: Options): Drive {
+  const first = useRef<Kept | null>(null);
+  first.current ??= beginning(key, draft);
+  const kept = first.current;
+  const [actions, setActions] = useState(() => kept.actions.slice(0, world.walk(start, kept.actions).length - 1));
+  const clock = useRef({ begun: performance.now() - kept.ms });
+  const keys = useRef<KeyPress[]>(kept.keys);
+  const latest = useRef(actions); // several steps of a click come before the next rendering
+  const ms = (): number => Math.round(performance.now() - clock.current.begun);
+
+  const told = useDrafts(actions, kept.told, onDraft);
+
+  const change = (next: number[], pressed: KeyPress[0][]): void => {
+    latest.current = next;
+    for (const press of pressed) if (keys.current.length < kMostKeys) keys.current.push([press, ms()]);
+    keep('drive', { key, actions: next, keys: keys.current, ms: ms(), told: told.current } satisfies Kept);
+    setActions(next);
+  };
+  const states = world.walk(start, actions);
+  const now = (): number => world.walk(start, latest.current).at(-1) ?? start;
+
+  const take = (taken: number[]): Outcome => {
+    let state = now();
+    const done: number[] = [];
+    for (const action of taken) {
+      const next = world.after(state, action);
+      if (next === null || latest.current.length + done.length >= kMostActions) break;
+      done.push(action);
+      state = next;
+    }
+    if (done.length > 0) change([...latest.current, ...done], done);
+    if (done.length === taken.length) return 'done';
+    if (latest.current.length >= kMostActions) return 'full';
+    return world.isEnd(state) ? 'end' : 'blocked';
+  };
+
+  return {
+    actions,
+    frames: world.frames(states, actions),
+    state: states.at(-1) ?? start,
+    isAtEnd: world.isEnd(states.at(-1) ?? start),
+    isFull: actions.length >= kMostActions,
+    act: (action) => take([action]),
+    goTo: (cell) => {
+      const route = world.isEnd(now()) ? null : world.route(now(), cell);
+      return route === null ? 'none' : take(route);
+    },
+    undo: () => {
+      if (latest.current.length > 0) change(latest.current.slice(0, -1), ['undo']);
+    },
+    reset: () => {
+      if (latest.current.length > 0) change([], ['reset']);
+    },
+    keys: () => keys.current,
+    ms,
+  };
+}
+
+// What this tab remembers of the task. The server's draft counts if it comes from another tab or computer, where
+// somebody has driven on.
+function beginning(key: string, draft: number[]): Kept {
+  const kept = recall<Kept>('drive');
+  if (kept?.key !== key || !Array.isArray(kept.actions) || !Array.isArray(kept.keys)) {
+    return { key, actions: draft, keys: [], ms: 0, told: draft };
+  }
+  const isOwn = String(draft) === String(kept.told) || draft.every((action, i) => action === kept.actions[i]);
+  return isOwn ? { ...kept, told: draft } : { ...kept, actions: draft, told: draft };
+}
+
+// Tells the server about changes, but not about every one. Gives what it was told last.
+function useDrafts(actions: number[], known: number[], onDraft: Options['onDraft']): { current: number[] } {
+  const told = useRef(known);
+  const at = useRef(-Infinity);
+  useEffect(() => {
+    if (!onDraft || String(told.current) === String(actions)) return;
+    const tell = (): void => {
+      told.current = actions;
+      at.current = performance.now();
+      onDraft(actions);
+    };
+    const timer = setTimeout(tell, Math.max(0, at.current + kDraftMs - performance.now()));
+    return () => clearTimeout(timer);
+  }, [actions]);
+  return told;
+}

@@ -1,0 +1,209 @@
+// A robot that somebody drives: board, keys, clicks, pad, undo and reset. Used for predictions and for practice.
+import type { ComponentChildren, JSX } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import type { Legend } from '../../shared/board/legend';
+import type { Frame, Place } from '../../shared/board/types';
+import type { Drive, Outcome } from '../drive';
+import { isPressing, isElsewhere } from '../keys';
+import type { LiveBoard } from '../protocol';
+import { t } from '../texts';
+import { aroundText, stepText } from '../words';
+import type { World } from '../world';
+import { BoardInWords, LiveBoardView, Things } from './live_board';
+import { LogView, useLog, type Log } from './log';
+import { Pad } from './pad';
+import { StateCard, StepList } from './steps';
+import { Button } from './ui';
+
+const kRepeatMs = 140; // between steps while a key is held down
+
+interface Props {
+  board: LiveBoard;
+  legend: Legend;
+  world: World | null; // while it is being fetched, only the board is there
+  drive: Drive | null;
+  off: boolean;
+  children: ComponentChildren; // what stands below the pad
+  waiting: ComponentChildren; // what stands there until the world has come
+}
+
+export function Driver(props: Props): JSX.Element {
+  const { board, world, drive } = props;
+  if (!world || !drive) {
+    const legend = props.legend;
+    return (
+      <div class="board-screen">
+        <div class="board-column">
+          {board.map ? (
+            <LiveBoardView board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
+          ) : (
+            <StateCard frame={board.start} />
+          )}
+        </div>
+        <div class="side">{props.waiting}</div>
+      </div>
+    );
+  }
+  return <Driving {...props} world={world} drive={drive} />;
+}
+
+function Driving({ board, legend, world, drive, off, children }: Props & { world: World; drive: Drive }): JSX.Element {
+  const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
+  const tell = useTelling(board, legend, drive, log);
+  const area = useRef<HTMLDivElement>(null);
+  useKeys({ world, drive, off, tell, area });
+  const frame = drive.frames.at(-1) ?? board.start;
+  return (
+    <div class="board-screen">
+      <div class="board-column">
+        {board.map ? (
+          <div class="drive-area" role="application" aria-label={t('predict.board')} tabIndex={0} ref={area}>
+            <LiveBoardView
+              board={board}
+              legend={legend}
+              frames={drive.frames}
+              step={drive.actions.length}
+              trail="other"
+              onCell={(cell) => {
+                if (!off) tell(clicked(world, drive, cell));
+              }}
+            />
+          </div>
+        ) : (
+          <StateCard frame={frame} />
+        )}
+        <LogView log={log} />
+      </div>
+      <div class="side">
+        <Pad
+          actions={world.actions}
+          off={off}
+          canDo={(action) => world.after(drive.state, action) !== null}
+          onAction={(action) => tell(drive.act(action))}
+        />
+        <div class="buttons">
+          <Button
+            off={off || drive.actions.length === 0}
+            onClick={() => {
+              drive.undo();
+              log.say(t('predict.undone'));
+            }}
+          >
+            {t('predict.undo')}
+          </Button>
+          <Button
+            off={off || drive.actions.length === 0}
+            onClick={() => {
+              drive.reset();
+              log.say(t('predict.was_reset'));
+            }}
+          >
+            {t('predict.reset')}
+          </Button>
+        </div>
+        {children}
+        {board.map ? (
+          <>
+            <Things board={board} legend={legend} lines={['other']} />
+            <p class="muted hint for-keys">{t('predict.keys')}</p>
+            <p class="muted hint for-touch">{t('predict.touch')}</p>
+            <p class="visually-hidden">{aroundText(board, legend, frame)}</p>
+            <BoardInWords board={board} legend={legend} frame={frame} />
+          </>
+        ) : (
+          <StepList title={t('predict.path')} frames={drive.frames} />
+        )}
+      </div>
+    </div>
+  );
+}
+
+function lastStep(board: LiveBoard, legend: Legend, frames: Frame[]): string {
+  const [before, after] = frames.slice(-2);
+  if (!before || !after) return t('predict.start');
+  return stepText(board, legend, before, after);
+}
+
+type Told = Outcome | 'none';
+
+// Says what an action has done. The path is that of the next rendering.
+function useTelling(board: LiveBoard, legend: Legend, drive: Drive, log: Log): (outcome: Told) => void {
+  const length = useRef(drive.actions.length);
+  useEffect(() => {
+    if (drive.actions.length > length.current) {
+      log.say(lastStep(board, legend, drive.frames) + (drive.isAtEnd ? ` ${t('predict.end')}` : ''));
+    }
+    length.current = drive.actions.length;
+  }, [drive.actions]);
+  return (outcome) => {
+    if (outcome === 'blocked') log.say(t('predict.blocked'));
+    else if (outcome === 'none') log.say(t('predict.too_far'));
+    else if (outcome === 'end') log.say(t('predict.end'));
+    else if (outcome === 'full') log.say(t('predict.longest'));
+  };
+}
+
+// The one action without a direction that Space means here: to pick up or put down, or the only one there is.
+function spaceAction(world: World, drive: Drive): number | null {
+  const possible = world.actions.filter(({ index, shift }) => shift === null && world.after(drive.state, index) !== null);
+  const handling = possible.filter(({ name }) => name === 'pickup' || name === 'dropoff');
+  const [only, second] = handling.length > 0 ? handling : possible;
+  return only && !second ? only.index : null;
+}
+
+// A click on the robot's own cell picks up or puts down, any other one drives there.
+function clicked(world: World, drive: Drive, cell: Place): Told {
+  const robot = drive.frames.at(-1)?.robot;
+  if (robot?.[0] !== cell[0] || robot[1] !== cell[1]) return drive.goTo(cell);
+  const action = spaceAction(world, drive);
+  return action === null ? 'done' : drive.act(action);
+}
+
+interface KeyOptions {
+  world: World;
+  drive: Drive;
+  off: boolean;
+  tell: (outcome: Told) => void;
+  area: { current: HTMLElement | null };
+}
+
+const kArrows: Record<string, [number, number]> = {
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+};
+
+// Arrow keys work wherever the focus is, except in fields; Space and Backspace only where nothing else wants them.
+function useKeys(options: KeyOptions): void {
+  const current = useRef(options);
+  current.current = options;
+  useEffect(() => {
+    let last = -Infinity;
+    const pressed = (event: KeyboardEvent): void => {
+      if (isElsewhere(event) || event.altKey || event.metaKey) return;
+      const { world, drive, off, tell, area } = current.current;
+      const isUndo = event.key === 'Backspace' || (event.ctrlKey && event.key.toLowerCase() === 'z');
+      if (event.ctrlKey && !isUndo) return;
+      const shift = kArrows[event.key];
+      const isSpace = (event.key === ' ' || event.key === 'Enter') && !isPressing(event);
+      const isOnBoard = area.current?.contains(event.target as Node) || event.target === document.body;
+      const isHeading = event.target instanceof HTMLElement && event.target.matches('h1');
+      if (!shift && !isUndo && !(isSpace && (isOnBoard || isHeading))) return;
+      event.preventDefault(); // the page must not scroll
+      if (off || (event.repeat && performance.now() - last < kRepeatMs)) return;
+      last = performance.now();
+      if (isUndo) {
+        drive.undo();
+        return;
+      }
+      const action = shift
+        ? world.actions.find((one) => one.shift?.[0] === shift[0] && one.shift[1] === shift[1])?.index
+        : spaceAction(world, drive);
+      if (action !== undefined && action !== null) tell(drive.act(action));
+      else tell('blocked');
+    };
+    document.addEventListener('keydown', pressed);
+    return () => document.removeEventListener('keydown', pressed);
+  }, []);
+}

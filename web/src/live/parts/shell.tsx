@@ -1,0 +1,144 @@
+// What is around every screen: the title, whether everything is saved, how far the session is, messages and pauses.
+import type { ComponentChildren, JSX } from 'preact';
+import { useState } from 'preact/hooks';
+import { duration, serverNow, useTick } from '../clock';
+import type { Connection, Snapshot } from '../connection';
+import type { ParticipantView, Pause } from '../protocol';
+import { keep, recall } from '../storage';
+import { sentence, t } from '../texts';
+import { Button } from './ui';
+
+interface Props {
+  connection: Connection;
+  snapshot: Snapshot;
+  view: ParticipantView;
+  children: ComponentChildren;
+}
+
+export function Shell({ connection, snapshot, view, children }: Props): JSX.Element {
+  return (
+    <>
+      <header class="top">
+        <p class="study-title">{view.study.title}</p>
+        <Status snapshot={snapshot} />
+        {view.progress && <Progress {...view.progress} />}
+      </header>
+      <div class="messages">
+        <Lost connection={connection} snapshot={snapshot} />
+        <Refusal connection={connection} snapshot={snapshot} />
+        <Notices notices={view.notices} />
+        {view.pause && <Paused pause={view.pause} />}
+      </div>
+      <main id="main" tabIndex={-1} class={`stage-${view.stage}`} inert={view.pause !== undefined}>
+        {children}
+      </main>
+    </>
+  );
+}
+
+// A tick, an arrow or an exclamation mark, and always a word.
+function Status({ snapshot }: { snapshot: Snapshot }): JSX.Element {
+  const state = snapshot.phase !== 'open' ? 'reconnecting' : snapshot.pending.length > 0 ? 'saving' : 'saved';
+  const signs = { saved: '\u2713', saving: '\u2191', reconnecting: '!' };
+  return (
+    <p class={`status ${state}`} role="status">
+      <span aria-hidden="true">{signs[state]}</span> {t(`status.${state}`)}
+    </p>
+  );
+}
+
+function Progress({ part, round, done }: { part: number; round: number; done: number }): JSX.Element {
+  const percent = Math.round(100 * Math.max(0, Math.min(1, done)));
+  return (
+    <div class="progress">
+      <span>{t('progress.part', { part, round })}</span>
+      <progress max={100} value={percent} aria-label={t('progress.done')} />
+    </div>
+  );
+}
+
+const kPatience = 2000; // a short break needs no banner
+
+function Lost({ connection, snapshot }: { connection: Connection; snapshot: Snapshot }): JSX.Element | null {
+  useTick();
+  const [lostAt, setLostAt] = useState<number | null>(null);
+  const isLost = snapshot.phase === 'waiting' || snapshot.phase === 'connecting';
+  if (isLost && lostAt === null) setLostAt(snapshot.since);
+  if (!isLost && lostAt !== null) setLostAt(null);
+  if (!isLost || lostAt === null) return null;
+  const time = performance.now() - lostAt;
+  if (time < kPatience) return null;
+  const isStopping = snapshot.bye === 'server-stops';
+  return (
+    <div class="message warning">
+      <p>{isStopping ? t('bye.server-stops.text') : t('status.lost', { time: duration(time) })}</p>
+      <Button onClick={() => connection.reopen()}>{t('status.retry')}</Button>
+    </div>
+  );
+}
+
+function Refusal({ connection, snapshot }: { connection: Connection; snapshot: Snapshot }): JSX.Element {
+  const { refused } = snapshot;
+  return (
+    <div role="alert">
+      {refused && (
+        <div class="message warning">
+          <p>
+            <strong>{t('refused.title')}.</strong> {sentence(refused.text)}
+          </p>
+          <Button onClick={() => connection.dismissRefusal()}>{t('refused.dismiss')}</Button>
+        </div>
+      )}
+    </div>
+  );
+}
+
+function Notices({ notices }: { notices: ParticipantView['notices'] }): JSX.Element {
+  const [dismissed, setDismissed] = useState(() => recall<number>('dismissed') ?? 0);
+  const fresh = notices.filter(({ at_ms }) => at_ms > dismissed);
+  const dismiss = (): void => {
+    const latest = Math.max(...notices.map(({ at_ms }) => at_ms));
+    setDismissed(latest);
+    keep('dismissed', latest);
+  };
+  return (
+    <div role="status">
+      {fresh.length > 0 && (
+        <div class="message notice">
+          <div>
+            <p class="notice-title">{t('notice.title')}</p>
+            {fresh.map(({ text }) => (
+              <p>{text}</p>
+            ))}
+          </div>
+          <Button onClick={dismiss}>{t('notice.dismiss')}</Button>
+        </div>
+      )}
+    </div>
+  );
+}
+
+function Paused({ pause }: { pause: Pause }): JSX.Element {
+  useTick();
+  const { why, since_ms, until_ms, missing } = pause;
+  return (
+    <section class="pause" aria-labelledby="pause-title">
+      <div role="status">
+        <h2 id="pause-title">{t('pause.title')}</h2>
+        <p>{t(`pause.${why}`, { n: missing })}</p>
+      </div>
+      <p class="muted time">{t('common.since', { time: duration(serverNow() - since_ms) })}</p>
+      {until_ms !== undefined && <p>{t('pause.until', { time: duration(until_ms - serverNow()) })}</p>}
+      <p>{t('pause.next')}</p>
+    </section>
+  );
+}
+
+// The frame of pages without a session.
+export function Bare({ children }: { children: ComponentChildren }): JSX.Element {
+  return (
+    <main id="main" tabIndex={-1} class="bare">
+      {children}
+    </main>
+  );
+}

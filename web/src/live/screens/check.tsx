@@ -1,0 +1,96 @@
+// A board to try the keys and buttons on. Nothing here counts.
+import type { JSX } from 'preact';
+import { useState } from 'preact/hooks';
+import { useDrive } from '../drive';
+import { Driver } from '../parts/driver';
+import { useLegend } from '../parts/live_board';
+import { Button, Heading, Paragraphs } from '../parts/ui';
+import type { ScreenProps } from '../screen';
+import { keep, recall } from '../storage';
+import { isEnglish, sentence, t } from '../texts';
+import { plainWorld, useWorld, type World } from '../world';
+import { Name } from './name';
+
+const kEnough = 4; // steps after which somebody knows how to drive
+type Shown = NonNullable<ScreenProps['view']['check']>;
+
+// Before the first board: what it is all about.
+export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
+  const [isIntroduced, setIntroduced] = useState(() => recall<boolean>('introduced') === true);
+  const { story, goal } = props.view.study;
+  const isEmpty = story.length === 0 && !goal && !props.check.ask_name;
+  if (isIntroduced || isEmpty) return <Controls {...props} />;
+  return (
+    <div class="intro">
+      <Heading>{t('intro.title')}</Heading>
+      <Paragraphs texts={story} />
+      {goal && <p class="goal">{goal}</p>}
+      <p>{t('intro.how')}</p>
+      {props.check.ask_name && <Name view={props.view} connection={props.connection} />}
+      <Button
+        primary
+        onClick={() => {
+          keep('introduced', true);
+          setIntroduced(true);
+        }}
+      >
+        {t('common.continue')}
+      </Button>
+    </div>
+  );
+}
+
+function Controls(props: ScreenProps & { check: Shown }): JSX.Element {
+  const { check, token } = props;
+  const legend = useLegend(check.board.domain);
+  const { world: fetched, hasTrouble } = useWorld(check.world, token);
+  const [plain] = useState(() => (check.world === undefined ? plainWorld(check.board, legend) : null));
+  const world = fetched ?? plain?.world ?? null;
+  return (
+    <>
+      <Heading>{t('check.title')}</Heading>
+      <p class="lead">{check.task && isEnglish() ? sentence(check.task) : t('check.intro')}</p>
+      {world ? (
+        <Trying {...props} world={world} start={check.start ?? plain?.start ?? 0} legend={legend} />
+      ) : (
+        <Driver
+          board={check.board}
+          legend={legend}
+          world={null}
+          drive={null}
+          off
+          waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
+        >
+          {null}
+        </Driver>
+      )}
+    </>
+  );
+}
+
+interface TryingProps extends ScreenProps {
+  check: Shown;
+  world: World;
+  start: number;
+  legend: ReturnType<typeof useLegend>;
+}
+
+function Trying({ check, world, start, legend, connection }: TryingProps): JSX.Element {
+  const drive = useDrive({ world, start, draft: [], key: `check.${check.world ?? ''}.${start}` });
+  const [wasReady, setReady] = useState(false);
+  const isReady = wasReady || drive.isAtEnd || drive.actions.length >= kEnough;
+  if (isReady && !wasReady) setReady(true);
+  const off = connection.isPending('checked');
+  return (
+    <Driver board={check.board} legend={legend} world={world} drive={drive} off={off} waiting={null}>
+      <div class="submit">
+        <Button primary off={!isReady || off} describedBy="check-hint" onClick={() => connection.send('checked', {})}>
+          {t('check.done')}
+        </Button>
+        <p id="check-hint" class="muted" role="status">
+          {t(isReady ? 'check.ready' : 'check.hint')}
+        </p>
+      </div>
+    </Driver>
+  );
+}

@@ -1,0 +1,82 @@
+// The text that somebody agrees to. The choice stands below it, so that nobody passes by the text.
+import type { JSX } from 'preact';
+import { useState } from 'preact/hooks';
+import { Button, Heading, Paragraphs } from '../parts/ui';
+import type { ScreenProps } from '../screen';
+import { t } from '../texts';
+
+type Shown = NonNullable<ScreenProps['view']['consent']>;
+
+export function Consent({ consent, view, connection }: ScreenProps & { consent: Shown }): JSX.Element {
+  const [agrees, setAgrees] = useState(false);
+  const [isMissing, setMissing] = useState(false);
+  const [declines, setDeclines] = useState(false);
+  const off = connection.isPending('consent');
+  const { version, paragraphs } = consent;
+  const agree = (): void => {
+    setMissing(!agrees);
+    if (agrees) connection.send('consent', { accept: true, version });
+  };
+  return (
+    <>
+      <Heading>{t('consent.title')}</Heading>
+      <div class="consent-text">
+        <Paragraphs texts={paragraphs} />
+        <p class="muted">{t('consent.version', { version })}</p>
+        <Button onClick={() => saveText(view.study.title, [...paragraphs, t('consent.version', { version })])}>
+          {t('consent.copy')}
+        </Button>
+      </div>
+      <div class="choice">
+        <label class="tick">
+          <input
+            type="checkbox"
+            checked={agrees}
+            aria-describedby="consent-missing"
+            onChange={(event) => {
+              setAgrees(event.currentTarget.checked);
+              setMissing(false);
+            }}
+          />
+          <span>{t('consent.choice')}</span>
+        </label>
+        <p id="consent-missing" role="alert" class="error">
+          {isMissing && t('consent.unchecked')}
+        </p>
+        <div class="buttons">
+          <Button primary off={off} onClick={agree}>
+            {t('consent.agree')}
+          </Button>
+          <Button off={off || declines} onClick={() => setDeclines(true)}>
+            {t('consent.decline')}
+          </Button>
+        </div>
+        {declines && (
+          <div class="sure">
+            <p role="status">{t('consent.sure')}</p>
+            <div class="buttons">
+              <Button primary off={off} onClick={() => setDeclines(false)}>
+                {t('consent.sure_no')}
+              </Button>
+              <Button off={off} onClick={() => connection.send('consent', { accept: false, version })}>
+                {t('consent.sure_yes')}
+              </Button>
+            </div>
+          </div>
+        )}
+      </div>
+    </>
+  );
+}
+
+// The reader's own copy, as a text file.
+function saveText(title: string, paragraphs: string[]): void {
+  const address = URL.createObjectURL(new Blob([[title, ...paragraphs].join('\n\n'), '\n'], { type: 'text/plain;charset=utf-8' }));
+  const link = document.createElement('a');
+  link.href = address;
+  link.download = 'consent.txt';
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}

@@ -1,0 +1,104 @@
+// Where somebody shows what the robot will do.
+import type { JSX } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+import { useDrive, type Drive } from '../drive';
+import { Driver } from '../parts/driver';
+import { useLegend } from '../parts/live_board';
+import { Button, Heading, TimeLeft } from '../parts/ui';
+import type { Task } from '../protocol';
+import type { ScreenProps } from '../screen';
+import { t } from '../texts';
+import { useWorld, type World } from '../world';
+
+interface Props extends ScreenProps {
+  task: Task;
+  isScreening: boolean;
+}
+
+export function Predict(props: Props): JSX.Element {
+  const { task, token, isScreening, view } = props;
+  const { world, hasTrouble } = useWorld(task.world, token);
+  const legend = useLegend(task.board.domain);
+  const question = isScreening ? 'screening.question' : task.board.map ? 'predict.question' : 'predict.question_plain';
+  return (
+    <>
+      <p class="kicker">{t('predict.count', { index: task.index + 1, of: task.of })}</p>
+      <Heading>{t(isScreening ? 'screening.title' : 'predict.title')}</Heading>
+      <p class="lead">{t(question)}</p>
+      {world?.hasChance && <p>{t('predict.chance')}</p>}
+      <TimeLeft until={view.limit_ms} />
+      {world ? (
+        <Answering {...props} world={world} legend={legend} />
+      ) : (
+        <Driver
+          board={task.board}
+          legend={legend}
+          world={null}
+          drive={null}
+          off
+          waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
+        >
+          {null}
+        </Driver>
+      )}
+    </>
+  );
+}
+
+function Answering({ task, isScreening, view, connection, world, legend }: Props & { world: World; legend: ReturnType<typeof useLegend> }) {
+  const { part = 0, round = 0 } = view.progress ?? {};
+  const drive = useDrive({
+    world,
+    start: task.start,
+    draft: task.draft,
+    key: [view.stage, part, round, task.index, task.world, task.start].join('.'),
+    ...(isScreening ? {} : { onDraft: (actions: number[]) => connection.sendDraft({ test: task.index, actions }) }),
+  });
+  const type = isScreening ? 'screen' : 'answer';
+  const [isSubmitted, setSubmitted] = useState(false);
+  const { refused } = connection.snapshot();
+  useEffect(() => {
+    if (refused?.type === type) setSubmitted(false);
+  }, [refused]);
+  const off = isSubmitted || connection.isPending(type);
+  const submit = (): void => {
+    const { actions } = drive;
+    setSubmitted(true);
+    if (isScreening) connection.send('screen', { test: task.index, actions, ms: drive.ms() });
+    else connection.send('answer', { test: task.index, actions, keys: drive.keys(), ms: drive.ms() });
+  };
+  return (
+    <Driver board={task.board} legend={legend} world={world} drive={drive} off={off} waiting={null}>
+      <Submit drive={drive} off={off} onSubmit={submit} />
+    </Driver>
+  );
+}
+
+// A path that is not finished is submitted only if it is meant so. The button stays where it is, and with it the focus.
+function Submit({ drive, off, onSubmit }: { drive: Drive; off: boolean; onSubmit: () => void }): JSX.Element {
+  const [asks, setAsks] = useState(false);
+  useEffect(() => setAsks(false), [drive.actions]);
+  const isAsking = asks && !off;
+  return (
+    <div class="submit">
+      <Button primary={!isAsking} off={off || isAsking} onClick={() => (drive.isAtEnd ? onSubmit() : setAsks(true))}>
+        {t(off ? 'predict.submitting' : 'predict.submit')}
+      </Button>
+      <p role="status" class={isAsking ? 'asks' : 'muted'}>
+        {off
+          ? t('predict.submitted')
+          : isAsking
+            ? t(drive.actions.length === 0 ? 'predict.empty' : 'predict.unfinished')
+            : t('predict.steps', { n: drive.actions.length })}
+      </p>
+      {isAsking && (
+        <div class="buttons">
+          <Button primary onClick={() => setAsks(false)}>
+            {t('predict.keep')}
+          </Button>
+          <Button onClick={onSubmit}>{t('predict.anyway')}</Button>
+        </div>
+      )}
+    </div>
+  );
+}

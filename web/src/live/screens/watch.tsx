@@ -1,0 +1,85 @@
+// One demonstration: the robot moves when asked to, and its path is drawn only as far as it has gone.
+import type { JSX } from 'preact';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { BoardInWords, LiveBoardView, Things, useLegend } from '../parts/live_board';
+import { LogView, useLog } from '../parts/log';
+import { Player, usePacedPlayback } from '../parts/player';
+import { StateCard, StepList } from '../parts/steps';
+import { Button, Heading, TimeLeft } from '../parts/ui';
+import type { ScreenProps } from '../screen';
+import { keep, recall } from '../storage';
+import { t } from '../texts';
+import { stepText } from '../words';
+
+type Shown = NonNullable<ScreenProps['view']['watch']>;
+
+export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown }): JSX.Element {
+  const { board, frames } = watch;
+  const { part = 0, round = 0 } = view.progress ?? {};
+  const key = `${part}.${round}.${watch.index}`;
+  const legend = useLegend(board.domain);
+  const playback = usePacedPlayback(Math.max(0, frames.length - 1));
+  const { step, last } = playback;
+  const [wasSeen, setSeen] = useState(() => recall<string>('seen') === key);
+  const log = useLog(t('watch.start'));
+  const shown = useRef(0);
+  useEffect(() => {
+    if (step === shown.current) return;
+    shown.current = step;
+    const [before, after] = [frames[step - 1], frames[step]];
+    log.say(before && after ? stepText(board, legend, before, after) : t('watch.start'));
+  }, [step]);
+  useEffect(() => {
+    if (step < last || wasSeen) return;
+    setSeen(true);
+    keep('seen', key);
+  }, [step, last]);
+  const off = connection.isPending('watched');
+  return (
+    <>
+      <p class="kicker">{t('watch.count', { index: watch.index + 1, of: watch.of })}</p>
+      <Heading>{t('watch.title')}</Heading>
+      <p class="lead">{t('watch.question')}</p>
+      {view.study.goal && <p class="muted">{view.study.goal}</p>}
+      <TimeLeft until={view.limit_ms} />
+      <div class="board-screen">
+        <div class="board-column">
+          {board.map ? (
+            <LiveBoardView board={board} legend={legend} frames={frames} step={step} trail="own" />
+          ) : (
+            <StateCard frame={frames[step] ?? board.start} />
+          )}
+          <LogView log={log} />
+        </div>
+        <div class="side">
+          <Player playback={playback} primary={!wasSeen} />
+          <div class="submit">
+            <Button
+              primary={wasSeen}
+              off={!wasSeen || off}
+              describedBy="watch-hint"
+              onClick={() => connection.send('watched', { demo: watch.index })}
+            >
+              {t('common.next')}
+            </Button>
+            <p id="watch-hint" class="muted">
+              {t(wasSeen ? 'watch.done' : 'watch.finish')}
+            </p>
+          </div>
+          {board.map ? (
+            <>
+              <Things board={board} legend={legend} lines={['own']} />
+              <BoardInWords board={board} legend={legend} frame={frames[step] ?? board.start} />
+            </>
+          ) : (
+            <StepList title={t('feedback.robot')} frames={walked(frames, step)} />
+          )}
+        </div>
+      </div>
+    </>
+  );
+}
+
+// The steps that have been made: what comes next is not told.
+export const walked = (frames: Shown['frames'], step: number): Shown['frames'] =>
+  frames.slice(0, step + 1).map((frame, i) => (i < step ? frame : { ...frame, action: null }));

@@ -1,0 +1,36 @@
+// Who this tab is: a token from the link's fragment, kept in this tab only.
+import { forget, keep, recall } from './storage';
+
+const pattern = /^[A-Za-z0-9_-]{8,200}$/;
+
+function tokenOfLink(): string | null {
+  const token = new URLSearchParams(location.hash.slice(1)).get('t');
+  return token !== null && pattern.test(token) ? token : null;
+}
+
+// The code of a link that anybody may have: in the fragment, or in the query beside what a platform adds.
+export function codeOfLink(): string {
+  const inFragment = new URLSearchParams(location.hash.slice(1)).get('c');
+  return inFragment ?? new URLSearchParams(location.search).get('code') ?? '';
+}
+
+// The token of the link, else of this tab. The landing page alone asks before it goes back to a session.
+export function knownToken(): { token: string | null; isOfLink: boolean } {
+  const ofLink = tokenOfLink();
+  if (ofLink) {
+    keep('token', ofLink);
+    return { token: ofLink, isOfLink: true };
+  }
+  return { token: recall<string>('token'), isOfLink: false };
+}
+
+// The address then has the token too, so that a bookmark or the history leads back to the session.
+export function becomeParticipant(token: string): void {
+  keep('token', token);
+  history.replaceState(null, '', `/j#t=${encodeURIComponent(token)}`);
+}
+
+export function forgetParticipant(): void {
+  for (const key of ['token', 'outbox', 'drive', 'seen', 'feedback', 'questions', 'dismissed', 'introduced', 'name']) forget(key);
+  history.replaceState(null, '', '/');
+}

@@ -1,0 +1,161 @@
+// A map with what is on it, the paths, and the robot at one step.
+import type { JSX } from 'preact';
+import { centre, kUnit, lineOf } from './geometry';
+import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
+import type { Legend } from './legend';
+import type { Board, Frame, MapDomain, Place } from './types';
+
+export const kFew = 12; // columns of a map that is drawn in full size
+const kRobotLane = 0.08;
+const kOtherLane = 0.2;
+
+export interface BoardProps {
+  domain: MapDomain;
+  legend: Legend;
+  board: Board;
+  step: number;
+  label: string;
+  path?: boolean; // whether the path is drawn, as far as it has been walked
+  kind?: 'own' | 'other'; // how it is drawn, 'own' unless said otherwise
+  fill?: boolean; // as large as its place allows
+  walked?: number; // steps of the longer path that have been walked; the robot's step if absent
+  other?: Frame[]; // the path that somebody might expect
+  decisive?: { frame: number; cell?: Place } | null;
+}
+
+export function BoardView(props: BoardProps): JSX.Element {
+  const { domain, board, step, label, path, other, decisive } = props;
+  const walked = props.walked ?? step;
+  const columns = domain.width ?? 0;
+  const rows = domain.height ?? 0;
+  const isLarge = columns > kFew || rows > kFew;
+  const margin = 4;
+  const [width, height] = [2 * margin + columns * kUnit, 2 * margin + rows * kUnit];
+  const frame = board.frames[step] ?? board.start;
+  const size = props.fill ? {} : { style: { maxWidth: `${isLarge ? width : width * 1.45}px` } };
+  return (
+    <div class={`board${isLarge ? ' large' : ''}${props.fill ? ' fill' : ''}`} {...size}>
+      <svg viewBox={`${-margin} ${-margin} ${width} ${height}`} role="img" aria-label={label}>
+        <Ground {...props} />
+        {decisive?.cell && walked > decisive.frame && <Decisive cell={decisive.cell} />}
+        {other && walked > (decisive?.frame ?? 0) && (
+          <Way frames={other.slice(0, walked + 1)} first={decisive?.frame ?? 0} lane={kOtherLane} kind="other" />
+        )}
+        {path && step > 0 && <Way frames={board.frames.slice(0, step + 1)} first={0} lane={kRobotLane} kind={props.kind ?? 'own'} />}
+        <Things {...props} frame={frame} />
+        {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} />}
+        <Mover frame={frame} legend={props.legend} />
+      </svg>
+    </div>
+  );
+}
+
+// What covers cells: walls and terrain.
+function Ground({ domain, legend, board }: BoardProps): JSX.Element {
+  const [width, height] = [(domain.width ?? 0) * kUnit, (domain.height ?? 0) * kUnit];
+  const lines = [
+    ...Array.from({ length: (domain.width ?? 0) - 1 }, (_, i) => `M${(i + 1) * kUnit} 0v${height}`),
+    ...Array.from({ length: (domain.height ?? 0) - 1 }, (_, i) => `M0 ${(i + 1) * kUnit}h${width}`),
+  ];
+  return (
+    <g>
+      <rect class="floor" width={width} height={height} />
+      <Parts board={board} legend={legend} kinds={['terrain']} />
+      <path class="grid" d={lines.join('')} />
+      <Parts board={board} legend={legend} kinds={['wall']} />
+      <rect class="frame" width={width} height={height} />
+    </g>
+  );
+}
+
+function Parts({ board, legend, kinds }: { board: Board; legend: Legend; kinds: string[] }): JSX.Element {
+  const all = (board.map ?? []).flatMap((row, y) =>
+    [...row].flatMap((symbol, x) =>
+      legend
+        .parts(symbol)
+        .filter(({ kind }) => kinds.includes(kind))
+        .map((part) => (
+          <At at={centre([x + 1, y + 1])}>
+            <PartGlyph part={part} legend={legend} />
+          </At>
+        )),
+    ),
+  );
+  return <g>{all}</g>;
+}
+
+// What stands on cells, may vanish, or be carried away. What lies where the robot stands is beside its feet.
+function Things({ legend, board, frame }: BoardProps & { frame: Frame }): JSX.Element {
+  const isBelow = (cell: Place): boolean => cell[0] === frame.robot?.[0] && cell[1] === frame.robot?.[1];
+  return (
+    <g>
+      <Parts board={board} legend={legend} kinds={['goal', 'destination']} />
+      {(frame.stations ?? []).map((cell) => (
+        <At at={centre(cell)}>
+          <Station letter={legend.letter(legend.stationAt(board.map ?? [], cell))} />
+        </At>
+      ))}
+      {(frame.items ?? [])
+        .filter(({ carried }) => !carried)
+        .map(({ name, cell }) => (
+          <At at={centre(cell)}>
+            <g transform={isBelow(cell) ? 'translate(-13 13)' : undefined}>
+              <Thing letter={legend.letter(name)} small={isBelow(cell)} />
+            </g>
+          </At>
+        ))}
+    </g>
+  );
+}
+
+function Decisive({ cell }: { cell: Place }): JSX.Element {
+  const { x, y } = centre(cell);
+  const half = kUnit / 2 - 2;
+  return <rect class="decisive" x={x - half} y={y - half} width={2 * half} height={2 * half} rx={4} />;
+}
+
+function Way({ frames, first, lane, kind }: { frames: Frame[]; first: number; lane: number; kind: string }) {
+  const { points, arrows, stops } = lineOf(frames, first, lane);
+  const line = points.map(({ x, y }) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
+  return (
+    <g class={`way ${kind}`}>
+      {points.length > 1 && <polyline class="casing" points={line} />}
+      {points.length > 1 && <polyline class="line" points={line} />}
+      {arrows.map(({ x, y, angle }) => (
+        <path class="arrow" d="M5 0-4 -4.6V4.6Z" transform={`translate(${x.toFixed(1)} ${y.toFixed(1)}) rotate(${angle})`} />
+      ))}
+      {stops.map(({ x, y }) => (
+        <circle class="stop" cx={x} cy={y} r={17} />
+      ))}
+    </g>
+  );
+}
+
+const moved = (cell: Place): { transform: string } => {
+  const { x, y } = centre(cell);
+  return { transform: `translate(${x}px, ${y}px)` };
+};
+
+function Mover({ frame, legend }: { frame: Frame; legend: Legend }): JSX.Element | null {
+  if (!frame.robot) return null;
+  const carried = (frame.items ?? []).filter((item) => item.carried);
+  return (
+    <g class="mover" style={moved(frame.robot)}>
+      <Robot />
+      {carried.map(({ name }) => (
+        <g transform="translate(11 9)">
+          <Thing letter={legend.letter(name)} small />
+        </g>
+      ))}
+    </g>
+  );
+}
+
+function Ghost({ frame }: { frame: Frame | undefined }): JSX.Element | null {
+  if (!frame?.robot) return null;
+  return (
+    <g class="mover ghost" style={moved(frame.robot)}>
+      <Robot />
+    </g>
+  );
+}

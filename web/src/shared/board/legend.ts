@@ -1,0 +1,91 @@
+// What the symbols of maps mean, and how each kind of thing is drawn.
+import type { LegendEntry, MapDomain, Part, Place } from './types';
+
+// Tints that speak for themselves; all others are given out in this order.
+const kTints = ['brown', 'blue', 'green', 'purple', 'grey', 'orange', 'red', 'yellow'] as const;
+export type Tint = (typeof kTints)[number];
+const kNamed: Record<string, Tint> = {
+  rubble: 'brown',
+  mud: 'brown',
+  fence: 'brown',
+  path: 'yellow',
+  sand: 'yellow',
+  grass: 'green',
+  bush: 'green',
+  water: 'blue',
+  ice: 'blue',
+  smoke: 'grey',
+  fire: 'red',
+};
+export const kPatterns = ['dots', 'lines', 'cross', 'waves'] as const;
+
+export interface Surface {
+  name: string;
+  tint: Tint;
+  pattern: (typeof kPatterns)[number];
+}
+
+export class Legend {
+  private readonly entries = new Map<string, LegendEntry>();
+  readonly surfaces: Surface[] = [];
+  private readonly letters = new Map<string, string>();
+
+  constructor(domain: MapDomain) {
+    for (const entry of domain.legend ?? []) this.entries.set(entry.symbol, entry);
+    const parts = (domain.legend ?? []).flatMap((entry) => entry.parts ?? [entry]);
+    const used = new Set<Tint>();
+    const surfaceNames = [...new Set(parts.filter(({ kind }) => kind === 'terrain').map(({ name }) => name))];
+    for (const name of surfaceNames) {
+      const own = kTints.find((tint) => tint === name) ?? kNamed[name];
+      const tint = own && !used.has(own) ? own : (kTints.find((one) => !used.has(one)) ?? 'grey');
+      used.add(tint);
+      this.surfaces.push({ name, tint, pattern: kPatterns[this.surfaces.length % kPatterns.length] ?? 'dots' });
+    }
+    const things = parts.filter(({ kind }) => ['station', 'item', 'goal'].includes(kind)).map(({ name }) => name);
+    for (const name of new Set(things)) this.letters.set(name, this.freeLetter(name));
+  }
+
+  // The shortest beginning of a name that no other thing has.
+  private freeLetter(name: string): string {
+    const taken = new Set(this.letters.values());
+    for (let n = 1; n <= Math.min(2, name.length); ++n) {
+      const letter = name.slice(0, n).charAt(0).toUpperCase() + name.slice(1, n);
+      if (!taken.has(letter)) return letter;
+    }
+    return name.charAt(0).toUpperCase() + String(taken.size);
+  }
+
+  parts(symbol: string): Part[] {
+    const entry = this.entries.get(symbol);
+    return entry ? (entry.parts ?? [entry]) : [];
+  }
+
+  surface(name: string): Surface | undefined {
+    return this.surfaces.find((surface) => surface.name === name);
+  }
+
+  letter(name: string): string {
+    return this.letters.get(name) ?? name.charAt(0).toUpperCase();
+  }
+
+  // A goal without a name of its own needs no letter.
+  hasPlainName(name: string): boolean {
+    return name === 'goal';
+  }
+
+  stationAt(map: string[], [column, row]: Place): string {
+    const symbol = map[row - 1]?.charAt(column - 1) ?? '';
+    return this.parts(symbol).find(({ kind }) => kind === 'station')?.name ?? 'station';
+  }
+
+  // Everything that can be on a map, once, in the order of the file; things that lie on one cell each by itself.
+  things(): Part[] {
+    const seen = new Map<string, Part>();
+    for (const entry of this.entries.values()) {
+      for (const part of entry.parts ?? [entry]) {
+        if (part.kind !== 'start') seen.set(`${part.kind} ${part.name}`, part);
+      }
+    }
+    return [...seen.values()];
+  }
+}

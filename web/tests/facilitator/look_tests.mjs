@@ -1,0 +1,189 @@
+// What facilitators see: boards, spheres, tables, at every width, light and dark.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { openTab, openRoom } from './harness.mjs';
+
+export function lookTests({ withPage, violations, shoot }) {
+  for (const dark of [false, true]) {
+    const tone = dark ? 'dark' : 'light';
+    it(`has no serious axe violation on any tab or dialog, ${tone}`, async () => {
+      await withPage({ dark, calm: true }, async (page) => {
+        const check = async (name) => {
+          await shoot(page, `${name}-${tone}`);
+          assert.deepEqual(await violations(page), [], name);
+        };
+        for (const tab of ['Set-up', 'Rooms', 'Data', 'Log']) {
+          await openTab(page, tab);
+          if (tab === 'Set-up') await page.waitForSelector('.qr img');
+          await check(tab.toLowerCase());
+        }
+        for (const [title, name] of [['Room A1', '3'], ['Room A2', '12'], ['Room A3', '1'], ['Room A5', 'paused']]) {
+          await openRoom(page, title);
+          await check(`live-${name}`);
+        }
+        await page.click('.room-buttons button:text-is("Extend")');
+        await check('dialog');
+        await page.keyboard.press('Escape');
+        await page.click('button.seat >> nth=1');
+        await page.waitForSelector('dialog');
+        await check('seat');
+      });
+    });
+  }
+
+  it('shows a group of twelve on a screen of 1280 x 800 without scrolling', async () => {
+    await withPage({ calm: true }, async (page) => {
+      await openRoom(page, 'Room A2');
+      assert.equal(await page.locator('.globe').count(), 14);
+      assert.equal(await page.locator('.group tbody tr').count(), 12);
+      for (const part of ['.room-buttons', '.globes', '.group', '.curves', '.progress', '.lesson-now', '.runners']) {
+        const box = await page.locator(part).boundingBox();
+        assert.ok(box && box.y >= 0 && box.y + box.height <= 800, `${part} ends at ${box?.y + box?.height}`);
+        assert.ok(box.x >= 0 && box.x + box.width <= 1280, `${part} ends at ${box.x + box.width}`);
+      }
+      const sizes = await page.$$eval('.globe svg', (all) => all.map((svg) => svg.getBoundingClientRect().width));
+      assert.ok(Math.min(...sizes) >= 80, `spheres of ${Math.min(...sizes)} px`);
+    });
+  });
+
+  it('shows the latest answers of a long session, with the names beside them', async () => {
+    await withPage({ calm: true, periods: [30] }, async (page) => {
+      await openRoom(page, 'Room A1');
+      const group = await page.locator('.group').boundingBox();
+      const last = await page.locator('.group tbody tr >> nth=1 >> .answer-cell').last().boundingBox();
+      assert.ok(last.x + last.width <= group.x + group.width + 1, 'the latest answers are out of sight');
+      const name = await page.locator('button.seat >> nth=1').boundingBox();
+      assert.ok(name.x >= group.x && name.x < group.x + 40, 'the names are out of sight');
+      await shoot(page, 'long-light');
+    });
+  });
+
+  for (const width of [320, 640, 1024]) {
+    it(`fits into ${width} px without scrolling sideways`, async () => {
+      await withPage({ width, calm: true }, async (page) => {
+        for (const tab of ['Set-up', 'Rooms', 'Data', 'Log']) {
+          await openTab(page, tab);
+          const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+          assert.ok(wide <= 0, `${tab} is ${wide} px too wide`);
+        }
+        await openRoom(page, 'Room A2');
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+        await shoot(page, `live-${width}`);
+        assert.ok(wide <= 0, `Live is ${wide} px too wide`);
+      });
+    });
+  }
+
+  it('turns all spheres by keys, sliders and dragging', async () => {
+    await withPage({ calm: true }, async (page) => {
+      await openRoom(page, 'Room A1');
+      const shapes = () => page.$$eval('.globe .dots:not(.behind)', (all) => all.map((path) => path.getAttribute('d')));
+      const first = await shapes();
+      assert.equal(first.length, 5);
+      const changed = async (what) => {
+        const now = await shapes();
+        now.forEach((path, i) => assert.notEqual(path, first[i], `${what} did not turn sphere ${i}`));
+        await page.click('button:text-is("Reset view")');
+        assert.deepEqual(await shapes(), first);
+      };
+      await page.focus('.globes');
+      await page.keyboard.press('ArrowRight');
+      await changed('a key');
+      await page.focus('.turners input >> nth=1');
+      await page.keyboard.press('ArrowUp');
+      await changed('the slider');
+      const box = await page.locator('.globe svg').nth(2).boundingBox();
+      await page.mouse.move(box.x + 40, box.y + 60);
+      await page.mouse.down();
+      await page.mouse.move(box.x + 90, box.y + 80);
+      await page.mouse.up();
+      await changed('dragging');
+    });
+  });
+
+  it('draws particles where they are: behind the ball or in front', async () => {
+    await withPage({ calm: true }, async (page) => {
+      await openRoom(page, 'Room A1');
+      const counts = await page.$$eval('.globe', (all) =>
+        all.map((globe) => [...globe.querySelectorAll('.dots')].reduce((n, path) => n + (path.getAttribute('d').match(/M/g) ?? []).length, 0)),
+      );
+      assert.deepEqual(counts, [300, 300, 300, 300, 300]);
+      const outside = await page.$$eval('.globe .dots', (all) =>
+        all.flatMap((path) =>
+          [...path.getAttribute('d').matchAll(/M(-?[\d.]+) (-?[\d.]+)/g)].filter(([, x, y]) => Math.hypot(x, y) > 100.2),
+        ).length,
+      );
+      assert.equal(outside, 0);
+    });
+  });
+
+  it('explains terms and answers on hover and focus; Escape hides the explanation', async () => {
+    await withPage({ calm: true }, async (page) => {
+      await openRoom(page, 'Room A1');
+      await page.hover('.answer-cell.wrong >> nth=0');
+      assert.match(await page.textContent('#tip'), /Period \d+, test \d+: wrong.*regret \d\.\d\d, [\d.]+ s/);
+      await page.focus('.chart .term');
+      assert.match(await page.textContent('#tip'), /share of a belief/);
+      assert.equal(await page.getAttribute('.chart .term', 'aria-describedby'), 'tip');
+      await page.keyboard.press('Escape');
+      assert.equal(await page.isVisible('#tip'), false);
+    });
+  });
+
+  it('plays the demonstration that is shown, says why, and shows what came next', async () => {
+    await withPage({}, async (page) => {
+      await openRoom(page, 'Room A1');
+      await page.waitForFunction(() => document.querySelector('.shown .step')?.textContent.startsWith('Step'));
+      assert.match(await page.textContent('.why-text'), /joint belief still allows rubble/);
+      assert.equal(await page.locator('.runners .board').count(), 5);
+      await page.click('.picks button:text-is("Test 1")');
+      assert.match(await page.textContent('.shown-facts'), /It tests that/);
+    });
+    await withPage({ calm: true }, async (page) => {
+      await openRoom(page, 'Room A1');
+      assert.equal(await page.locator('.shown .play').count(), 0);
+      assert.match(await page.textContent('.shown .step'), /has not moved yet/);
+    });
+  });
+
+  it('draws bars where there are not three features, and lists steps where there is no map', async () => {
+    await withPage({ calm: true }, async (page, mock) => {
+      mock.change = (detail) => {
+        const states = ['home', 'hall', 'work'].map((state, i) => ({ state, action: i < 2 ? 'walk' : null }));
+        const board = { domain: { id: 'walk' }, world: 1, start: states[0] };
+        const shown = { board, frames: states, gain: 2, sentences: ['walking costs something'] };
+        return {
+          ...detail,
+          beliefs: [],
+          truth: { weights: [0.5, 0.5, 0.5, 0.5], bec: [], prior: [] },
+          lesson: { ...detail.lesson, demonstrations: [shown], tests: [shown], runners_up: [{ board, gain: 1, sentences: [] }] },
+        };
+      };
+      await openTab(page, 'Rooms');
+      await page.click('.rooms button:text-is("Room A1")');
+      await page.waitForSelector('.bars li');
+      assert.equal(await page.locator('.bars li').count(), 5);
+      assert.match(await page.textContent('.spheres'), /this domain has 4/);
+      assert.match(await page.textContent('.steps'), /In home.*walk/s);
+      assert.deepEqual(await violations(page), []);
+      await shoot(page, 'bars-light');
+    });
+  });
+
+  it('keeps what the reader is doing when a new view arrives', async () => {
+    await withPage({ calm: true }, async (page, mock) => {
+      await openRoom(page, 'Room A1');
+      await page.click('.shown button[aria-label="Next step"]');
+      await page.click('.shown button[aria-label="Next step"]');
+      await page.focus('.globes');
+      await page.keyboard.press('ArrowLeft');
+      const path = await page.getAttribute('.globe .bec-region', 'd');
+      mock.view.rooms[0].strategy = 'common';
+      mock.showAll();
+      await page.waitForFunction(() => document.querySelector('.room-bar').textContent.includes('common'));
+      assert.match(await page.textContent('.shown .step'), /^Step 2/);
+      assert.equal(await page.getAttribute('.globe .bec-region', 'd'), path);
+      assert.ok(await page.evaluate(() => document.activeElement?.classList.contains('globes')));
+    });
+  });
+}

@@ -1,0 +1,127 @@
+// The demonstration of `kith serve`, taken part in by three people from beginning to end.
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { describe, it } from 'node:test';
+import { startKith } from './group.mjs';
+import { openPerson } from './person.mjs';
+
+const kForbidden = /"(weights|prior|bec|beliefs|particles|features|gain|runners_up)"/;
+
+// Does whatever the screen asks for. `isRight` says whether a test is answered as the robot would.
+const kActs = {
+  consent: (person) => person.consent(),
+  check: (person) => person.check(),
+  watch: (person) => person.watch(),
+  predict: async (person, isRight) => {
+    const { index } = person.view.predict;
+    await person.page.waitForFunction((i) => document.querySelector('.kicker')?.textContent.startsWith(`Task ${i} `), index + 1);
+    await person.drive(isRight ? await person.best() : (await person.best()).slice(0, 2));
+    await person.button('Submit').click();
+    if (!isRight) await person.button('Submit anyway').click();
+    await until(() => person.view.stage !== 'predict' || person.view.predict.index !== index);
+  },
+  feedback: (person) => person.feedback(),
+  questions: async (person) => {
+    await person.page.getByRole('radio').first().check();
+    await person.button('Submit').click();
+  },
+};
+
+async function until(isSo) {
+  for (let i = 0; i < 2400; i += 1) {
+    if (isSo()) return;
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  throw new Error('it did not happen within two minutes');
+}
+
+// One screen of one person, or nothing while they wait.
+async function act(person, isRight) {
+  const { stage } = person.view;
+  if (!(stage in kActs)) return false;
+  await person.page.waitForSelector(`main.stage-${stage}`);
+  await kActs[stage](person, isRight);
+  await until(() => person.view.stage !== stage || stage === 'predict' || stage === 'watch');
+  return true;
+}
+
+// Until everybody has a completion code.
+async function finish(people) {
+  const isDone = () => people.every(({ view }) => ['debrief', 'ended'].includes(view?.stage));
+  let tests = 0;
+  const seen = new Set();
+  for (let turn = 0; !isDone() && turn < 400; turn += 1) {
+    for (const [i, person] of people.entries()) {
+      if (i === 0 && person.view?.stage === 'predict') tests += 1;
+      seen.add(person.view?.stage);
+      await act(person, !(i === 0 && tests < 2)); // the first person is wrong once
+    }
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  assert.ok(isDone(), `still at ${people.map(({ view }) => view?.stage)}`);
+  for (const stage of ['consent', 'check', 'watch', 'predict', 'feedback', 'questions']) assert.ok(seen.has(stage), stage);
+}
+
+// Three people who join the demonstration with its link.
+async function withDemonstration(setting, body) {
+  const folder = mkdtempSync(join(tmpdir(), 'kith-live-'));
+  const start = (port) => startKith(setting.kith, join(folder, 'session'), port);
+  const running = { server: await start(0), start };
+  const people = [];
+  try {
+    assert.equal(running.server.seats.length, 3);
+    for (let i = 0; i < 3; i += 1) {
+      const person = await openPerson(setting.browser, running.server.join, {});
+      people.push(person);
+      await person.open();
+      await person.button('Join').click();
+      await until(() => person.view !== null);
+    }
+    await body(people, running);
+    for (const person of people) assert.deepEqual(person.trouble, []);
+  } finally {
+    for (const person of people) await person.close();
+    await running.server.stop('SIGTERM');
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+export function kithTests(setting) {
+  describe('kith serve', () => {
+    it('teaches three people from consent to their codes, and tells them nothing too early', async () => {
+      await withDemonstration(setting, async (people) => {
+        await finish(people);
+        for (const person of people) {
+          await person.at('Thank you');
+          assert.match(await person.page.textContent('.code'), /^[A-Z]+-[A-Z0-9]+$/);
+          const sent = person.frames.filter(({ t, view }) => t === 'view' && !['feedback', 'debrief'].includes(view.stage));
+          for (const frame of sent) assert.doesNotMatch(JSON.stringify(frame), kForbidden);
+        }
+      });
+    });
+
+    it('is killed in mid-period, and nobody loses an answer or a path', async () => {
+      await withDemonstration(setting, async (people, running) => {
+        for (const person of people) person.expectLosses();
+        const areAt = (stage) => people.every(({ view }) => view.stage === stage);
+        for (let turn = 0; !areAt('predict') && turn < 40; turn += 1) {
+          for (const person of people) if (person.view.stage !== 'predict') await act(person, true);
+        }
+        const [first, second] = people;
+        const { index, of } = first.view.predict;
+        await second.drive((await second.best()).slice(0, 2));
+        await first.drive(await first.best());
+        await running.server.stop('SIGKILL');
+        await first.button('Submit').click(); // nobody is there to hear it
+        await first.counts('being saved');
+        running.server = await running.start(running.server.port);
+        await until(() => first.view.stage !== 'predict' || first.view.predict.index > index);
+        assert.equal(first.view.stage, of === 1 ? 'wait' : 'predict');
+        await second.page.reload();
+        await second.counts('2 steps');
+      });
+    });
+  });
+}

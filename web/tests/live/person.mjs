@@ -1,0 +1,179 @@
+// Somebody who takes part: a browser's page, watched, and what they do on it.
+import assert from 'node:assert/strict';
+import { bestPath, priced } from './delivery.mjs';
+
+// A page in a context of its own; requests to elsewhere, console messages and uncaught errors are collected.
+export async function openPerson(browser, address, look = {}) {
+  const { width = 1280, height = 900, dark = false, reducedMotion = false, scale = 1, offline = false, locale = 'en-US' } = look;
+  const context = await browser.newContext({
+    viewport: { width, height },
+    deviceScaleFactor: scale,
+    colorScheme: dark ? 'dark' : 'light',
+    reducedMotion: reducedMotion ? 'reduce' : 'no-preference',
+    acceptDownloads: true,
+    offline,
+    locale,
+  });
+  return new Person(context, await context.newPage(), address);
+}
+
+export class Person {
+  constructor(context, page, address) {
+    const { origin } = new URL(address);
+    Object.assign(this, { context, page, address, origin, trouble: [], view: null, frames: [], expects: [] });
+    page.on('request', (request) => {
+      const url = request.url();
+      if (new URL(url).origin !== origin && !/^(blob|data):/.test(url)) this.trouble.push(`request: ${url}`);
+    });
+    page.on('console', (message) => {
+      const text = message.text();
+      const isExpected = this.expects.some((pattern) => pattern.test(`${text} ${message.location().url}`));
+      if (['error', 'warning'].includes(message.type()) && !isExpected) this.trouble.push(`console: ${text}`);
+    });
+    page.on('pageerror', (error) => this.trouble.push(`uncaught: ${error.message}`));
+    page.on('websocket', (socket) => {
+      if (new URL(socket.url()).host !== new URL(origin).host) this.trouble.push(`socket: ${socket.url()}`);
+      socket.on('framereceived', ({ payload }) => {
+        const frame = JSON.parse(payload);
+        this.frames.push(frame);
+        if (frame.t === 'view') this.view = frame.view;
+      });
+    });
+    page.setDefaultTimeout(120_000); // the machine may be busy; nothing here is about time
+    // A study without texts of its own answers 404, which a browser reports.
+    this.expects.push(/api\/texts/);
+  }
+
+  async open() {
+    await this.page.goto(this.address);
+    await this.page.waitForSelector('h1');
+    return this;
+  }
+
+  async close() {
+    await this.context.close();
+  }
+
+  // Lost connections are reported by the browser, whatever the page does about them.
+  expectLosses() {
+    this.expects.push(/WebSocket|ERR_INTERNET_DISCONNECTED|ERR_EMPTY_RESPONSE|ERR_CONNECTION|Failed to load resource|net::/);
+  }
+
+  heading() {
+    return this.page.textContent('h1');
+  }
+
+  async at(heading) {
+    await this.page.waitForFunction((text) => document.querySelector('h1')?.textContent === text, heading);
+  }
+
+  async atStage(stage) {
+    await this.page.waitForSelector(`main.stage-${stage}`);
+  }
+
+  button(name) {
+    return this.page.getByRole('button', { name, exact: true });
+  }
+
+  async consent() {
+    await this.at('Before you start');
+    await this.page.getByRole('checkbox').check();
+    await this.button('Agree and continue').click();
+  }
+
+  async check() {
+    await this.at('What this is about');
+    await this.button('Continue').click();
+    await this.at('Try the controls');
+    await this.drive(await this.best());
+    await this.button('It works').click();
+  }
+
+  // The best path of what is to be driven now, by numbers of actions; [0 .. n) of the table.
+  async best() {
+    const task = this.view.predict ?? this.view.check;
+    const table = await this.table(task.world);
+    return bestPath(priced(task.board, table), task.start).actions.map((action) => table.actions[action].name);
+  }
+
+  async table(key) {
+    const { token } = await this.page.evaluate(() => ({ token: JSON.parse(sessionStorage.getItem('kith.token')) }));
+    const reply = await this.context.request.get(`${this.origin}/api/world/${key}`, { headers: { Authorization: `Bearer ${token}` } });
+    assert.equal(reply.status(), 200);
+    return reply.json();
+  }
+
+  // With the keyboard, wherever the focus is.
+  async drive(names) {
+    const keys = { up: 'ArrowUp', down: 'ArrowDown', left: 'ArrowLeft', right: 'ArrowRight', pickup: 'Space', dropoff: 'Space' };
+    await this.page.waitForSelector('.drive-area');
+    await this.page.focus('.drive-area');
+    for (const name of names) await this.page.keyboard.press(keys[name]);
+  }
+
+  // One demonstration, step by step; gives the lengths of the path that was drawn.
+  async watch() {
+    const lengths = [];
+    await this.at('Watch the robot');
+    const { index, of } = this.view.watch;
+    const kicker = `Example ${index + 1} of ${of}`;
+    await this.page.waitForFunction((text) => document.querySelector('.kicker')?.textContent === text, kicker);
+    for (let i = 1; i < this.view.watch.frames.length; i += 1) {
+      await this.button('Next step').click();
+      lengths.push(await this.drawn('own'));
+    }
+    await this.button('Next').click();
+    await this.page.waitForFunction(
+      (text) => document.querySelector('.kicker')?.textContent !== text,
+      kicker,
+    );
+    return lengths;
+  }
+
+  drawn(kind) {
+    return this.page.evaluate((name) => {
+      const line = document.querySelector(`.live-board .way.${name} .line`);
+      return line ? line.getAttribute('points').split(' ').length : 0;
+    }, kind);
+  }
+
+  // Until the last sentence about the board says so.
+  async said(text) {
+    await this.page.waitForFunction((part) => document.querySelector('[role=log] p:last-child')?.textContent.includes(part), text);
+  }
+
+  // Until the submit button has this below it.
+  async counts(text) {
+    await this.page.waitForFunction((part) => document.querySelector('.submit p')?.textContent.includes(part), text);
+  }
+
+  // All tasks of a period; `names` per task, or the best path.
+  async answer(names) {
+    await this.atStage('predict');
+    const { of } = this.view.predict;
+    for (let index = this.view.predict.index; index < of; index += 1) {
+      await this.page.waitForFunction((i) => document.querySelector('.kicker')?.textContent.startsWith(`Task ${i} `), index + 1);
+      await this.drive(names ?? (await this.best()));
+      await this.button('Submit').click();
+      const anyway = this.button('Submit anyway');
+      if (names && (await anyway.isVisible())) await anyway.click();
+    }
+  }
+
+  async feedback() {
+    await this.atStage('feedback');
+    for (;;) {
+      const isLast = await this.button('Continue').isVisible();
+      await this.button(isLast ? 'Continue' : 'Next').click();
+      if (isLast) return;
+    }
+  }
+
+  async violations(axe) {
+    await this.page.evaluate(axe); // from the debugger, so that the page's policy stays as it is
+    const { violations } = await this.page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+    return violations
+      .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+      .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
+  }
+}

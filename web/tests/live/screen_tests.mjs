@@ -1,0 +1,202 @@
+// Every screen, from views as a server sends them: narrow and wide, light and dark, for assistive technology, and
+// with hostile texts.
+import assert from 'node:assert/strict';
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { describe, it } from 'node:test';
+import { lesson } from './group.mjs';
+import { openPerson } from './person.mjs';
+import { hostileView, kHostile, makeViews } from './views.mjs';
+
+const kLooks = [
+  { name: 'light-1280', width: 1280, height: 900, dark: false, axe: true },
+  { name: 'dark-1280', width: 1280, height: 900, dark: true, axe: true },
+  { name: 'light-320', width: 320, height: 640, dark: false, axe: true },
+  { name: 'dark-320', width: 320, height: 640, dark: true, axe: false },
+  { name: 'zoom-200', width: 640, height: 450, dark: false, axe: false }, // 1280 x 900 at 200 %
+];
+
+// Buttons, links and fields that are smaller than a finger.
+const smallTargets = () =>
+  [...document.querySelectorAll('#page button, #page a, #page select, #page summary, #page textarea, #page input')]
+    .map((target) => (target.matches('[type=radio], [type=checkbox]') ? target.closest('label') : target))
+    .filter((target) => target.getClientRects().length > 0)
+    .map((target) => ({ target, box: target.getBoundingClientRect() }))
+    .filter(({ box }) => box.height < 43.5 || box.width < 43.5)
+    .map(({ target, box }) => `${target.outerHTML.slice(0, 80)}: ${Math.round(box.width)} x ${Math.round(box.height)}`);
+
+async function withViews(setting, body, look = {}) {
+  const { views, room } = makeViews(lesson);
+  const mock = await setting.mock({}, room);
+  mock.show(1, views.consent);
+  const person = await openPerson(setting.browser, mock.link(1), { reducedMotion: true, ...look });
+  try {
+    await person.open();
+    await body({ views, mock, person, page: person.page });
+    assert.deepEqual(person.trouble, [], 'requests, console messages or uncaught errors');
+  } finally {
+    await person.close();
+    await mock.close();
+  }
+}
+
+// A view that is new to the page, also if the screen before it was of the same kind.
+async function show({ mock, page }, view) {
+  await page.evaluate(() => {
+    for (const name of ['drive', 'seen', 'feedback', 'dismissed', 'introduced']) sessionStorage.removeItem(`kith.${name}`);
+  });
+  const { progress } = view;
+  show.count = (show.count ?? 0) + 1;
+  const marked = { ...view, study: { ...view.study, title: `${view.study.title} ${show.count}` } };
+  mock.show(1, progress ? { ...marked, progress: { ...progress, round: show.count } } : marked);
+  await page.waitForFunction((text) => document.querySelector('.study-title')?.textContent === text, marked.study.title);
+  await page.waitForTimeout(60);
+}
+
+// What is to be seen now: it fits, it can be touched, and it can be read by assistive technology.
+async function examine(setting, person, name, look) {
+  const { page } = person;
+  if (setting.screenshots) {
+    mkdirSync(setting.screenshots, { recursive: true });
+    await page.screenshot({ path: join(setting.screenshots, `live-${name}-${look.name}.png`), fullPage: true });
+  }
+  const { body, wide } = await page.evaluate(() => ({
+    body: document.documentElement.scrollWidth,
+    wide: document.documentElement.clientWidth,
+  }));
+  assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
+  assert.deepEqual(await page.evaluate(smallTargets), [], name);
+  if (look.axe) assert.deepEqual(await person.violations(setting.axe), [], name);
+}
+
+async function playToTheEnd(person) {
+  for (let i = 0; i < 40; i += 1) {
+    const next = person.button('Next step');
+    if ((await next.count()) === 0 || (await next.getAttribute('aria-disabled'))) return;
+    await next.click();
+  }
+}
+
+export function screenTests(setting) {
+  describe('every screen', () => {
+    for (const look of kLooks) {
+      it(`at ${look.name} fits, is large enough to touch and has no serious axe violation`, async () => {
+        await withViews(
+          setting,
+          async ({ views, mock, person, page }) => {
+            for (const [name, view] of Object.entries(views)) {
+              await show({ mock, page }, view);
+              if (name === 'check') {
+                await examine(setting, person, 'introduction', look);
+                await person.button('Continue').click();
+              }
+              if (view.predict || view.check) await page.waitForSelector('.pad-row');
+              if (/^feedback|^mapless-(w|f)/.test(name)) await playToTheEnd(person);
+              await examine(setting, person, name, look);
+            }
+          },
+          look,
+        );
+      });
+    }
+
+    for (const look of kLooks.filter(({ axe }) => axe)) {
+      it(`without a session, at ${look.name}`, async () => {
+        await withViews(
+          setting,
+          async ({ mock, person, page }) => {
+            const check = (name) => examine(setting, person, name, look);
+            mock.bye(1, 'opened-elsewhere');
+            await person.at('Open in another tab');
+            await check('elsewhere');
+            await page.goto('about:blank');
+            await page.goto(`${mock.address}/j#t=not-a-known-token`);
+            await person.at('This link does not work');
+            await check('bad-link');
+            await person.button('Enter a code').click();
+            await person.at('Join a session');
+            await person.button('Join').click();
+            await page.waitForFunction(() => document.querySelector('[role=alert]').textContent !== '');
+            await page.click('summary');
+            await check('landing');
+            mock.isSilent = true;
+            await page.goto(mock.link(1));
+            await person.at('Connecting');
+            await page.waitForSelector('text=has not answered');
+            await check('connecting');
+          },
+          look,
+        );
+      });
+    }
+
+    it('has one heading of the first level, no missing text and nothing but words', async () => {
+      await withViews(setting, async ({ views, mock, page }) => {
+        for (const [name, view] of Object.entries(views)) {
+          await show({ mock, page }, view);
+          const levels = await page.$$eval('h1, h2, h3', (all) => all.map((heading) => Number(heading.tagName[1])));
+          assert.equal(levels.filter((level) => level === 1).length, 1, name);
+          const text = await page.evaluate(() => document.querySelector('#page').innerText);
+          assert.ok(text.length > 60, name);
+          assert.doesNotMatch(text, /undefined|NaN|\[object|\{\w+\}/, name);
+          assert.doesNotMatch(text, /\b(wait|predict|watch|feedback|lobby|say|thing|legend|common|end|pause)\.[a-z]/, name);
+          assert.ok((await page.title()).startsWith(await page.textContent('h1')), name);
+        }
+      });
+    });
+
+    it('says boards in words, without coordinates', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        await show({ mock, page }, views['feedback-wrong']);
+        await playToTheEnd(person);
+        const said = await page.$$eval('[role=log] p', (all) => all.map(({ textContent }) => textContent));
+        assert.ok(said.includes('The robot picks up the parcel.'), said.join(' '));
+        assert.ok(said.length === views['feedback-wrong'].feedback.tests[0].robot.length);
+        await show({ mock, page }, views.predict);
+        await page.waitForSelector('.drive-area');
+        await page.keyboard.press('ArrowRight');
+        assert.match(await page.textContent('[role=log] p:last-child'), /^The robot moves right onto rubble\.$/);
+        const label = await page.getAttribute('.board svg', 'aria-label');
+        assert.match(label, /^Board with the robot, .*rubble/);
+        const cells = await page.$$eval('.in-words td', (all) => all.map(({ textContent }) => textContent));
+        assert.equal(cells.length, 12);
+        assert.ok(cells.includes('the robot and rubble') && cells.includes('a wall') && cells.includes('the parcel'));
+        const all = await page.evaluate(() => document.body.textContent);
+        assert.doesNotMatch(all, /column \d|row \d|\(\d+,\d+\)/);
+      });
+    });
+
+    it('shows hostile texts as texts', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        const tags = () =>
+          page.evaluate(() => document.querySelectorAll('#page script, #page img, #page iframe, #page b, #page [onload], #page [onerror]').length);
+        for (const text of kHostile) {
+          for (const name of ['consent', 'lobby', 'watch', 'notice', 'feedback-wrong', 'questions', 'debrief', 'ended', 'mapless-watch']) {
+            const { progress } = views[name];
+            mock.show(1, { ...hostileView(views[name], text), stage: views[name].stage, ...(progress ? { progress } : {}) });
+            await page.waitForSelector(`main.stage-${views[name].stage}`);
+            await page.waitForFunction((title) => document.querySelector('.study-title')?.textContent === title, text);
+            if (name === 'feedback-wrong') await playToTheEnd(person);
+            assert.equal(await tags(), 0, `${name}: ${text}`);
+            assert.equal(await page.locator('a[href^=javascript]').count(), 0);
+          }
+        }
+        assert.equal(await page.evaluate(() => window.hacked), undefined);
+      });
+    });
+
+    it('needs less than 200 kB of scripts, before compression', async () => {
+      await withViews(setting, async ({ page, mock }) => {
+        const sizes = [];
+        page.on('response', async (response) => {
+          if (/\.js$/.test(response.url())) sizes.push((await response.body()).length);
+        });
+        await page.goto('about:blank');
+        await page.goto(mock.link(1));
+        await page.waitForSelector('h1');
+        const sum = sizes.reduce((a, b) => a + b, 0);
+        assert.ok(sum > 10_000 && sum < 200_000, `${sizes} bytes before compression`);
+      });
+    });
+  });
+}

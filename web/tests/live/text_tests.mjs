@@ -1,0 +1,51 @@
+// The texts of the pages: every one that is used is there, and translations say the same things.
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { describe, it } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+const source = join(dirname(fileURLToPath(import.meta.url)), '../../src/live');
+const read = (name) => JSON.parse(readFileSync(join(source, 'texts', name), 'utf8'));
+const placeholders = (text) => [...text.matchAll(/\{(\w+)\}/g)].map(([, name]) => name).sort();
+const isNamed = (key) => key.startsWith('name.'); // what the domain names, which English needs no text for
+
+function sources(folder) {
+  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
+    if (entry.isDirectory()) return sources(join(folder, entry.name));
+    return /\.tsx?$/.test(entry.name) ? [readFileSync(join(folder, entry.name), 'utf8')] : [];
+  });
+}
+
+export function textTests() {
+  describe('texts', () => {
+    const english = read('en.json');
+    const code = sources(source).join('\n');
+
+    it('are there for every key that a screen uses', () => {
+      const has = (key) => key in english || `${key}.other` in english;
+      const used = [...code.matchAll(/'([a-z]+\.[a-z_.-]+)'/g)].map(([, key]) => key);
+      const families = new Set(Object.keys(english).map((key) => key.split('.')[0]));
+      const missing = used.filter((key) => families.has(key.split('.')[0]) && !has(key) && key !== 'consent.txt');
+      assert.deepEqual(missing, []);
+    });
+
+    it('are all used', () => {
+      const stems = [...code.matchAll(/`([a-z]+(?:\.[a-z]+)?\.)\$\{/g)].map(([, stem]) => stem);
+      const isUsed = (key) => {
+        const plain = key.replace(/\.(zero|one|two|few|many|other)$/, '');
+        return code.includes(`'${key}'`) || code.includes(`'${plain}'`) || stems.some((stem) => key.startsWith(stem));
+      };
+      assert.deepEqual(Object.keys(english).filter((key) => !isUsed(key)), []);
+    });
+
+    for (const name of readdirSync(join(source, 'texts')).filter((file) => file !== 'en.json')) {
+      it(`of ${name} have the keys and placeholders of English`, () => {
+        const own = read(name);
+        assert.deepEqual(Object.keys(own).filter((key) => !(key in english) && !isNamed(key)), []);
+        assert.deepEqual(Object.keys(english).filter((key) => !(key in own)), []);
+        for (const [key, text] of Object.entries(english)) assert.deepEqual(placeholders(own[key]), placeholders(text), key);
+      });
+    }
+  });
+}

@@ -1,0 +1,142 @@
+// Views of every screen, as a server would send them: for looks, accessibility and hostile texts.
+import { framesOf, judge, makeWorld } from './delivery.mjs';
+import { Room } from './room.mjs';
+
+export const kQuestions = [
+  { id: 'clear', kind: 'likert', text: 'How clear was the lesson?', low: 'not at all', high: 'very', required: true },
+  { id: 'pace', kind: 'likert', text: 'How was the pace?', options: ['too slow', 'right', 'too fast'], required: false },
+  { id: 'robots', kind: 'choice', text: 'Have you worked with robots before?', options: ['never', 'sometimes', 'often'], required: true },
+  { id: 'free', kind: 'text', text: 'What was hard to understand?', required: false },
+];
+
+// Texts that would run or break out if they were ever taken for markup.
+export const kHostile = [
+  '<img src=x onerror="window.hacked=1">',
+  '</p><script>window.hacked=1</script>',
+  '"><svg onload=window.hacked=1>',
+  "javascript:window.hacked=1//'",
+  '{{constructor.constructor("window.hacked=1")()}}',
+  '\u202e\u0000&lt;b&gt;<b>bold</b>',
+];
+
+const mapless = (n) => ({ domain: { id: 'dock' }, world: 3, start: { state: n === 0 ? 'far from the dock' : 'at the dock' } });
+
+const kMaplessWorld = {
+  key: 'mapless',
+  actions: [
+    { name: 'drive', label: 'drive on', dx: null, dy: null },
+    { name: 'wait', label: 'wait', dx: null, dy: null },
+    { name: 'dock', label: 'dock', dx: null, dy: null },
+  ],
+  frames: [{ state: 'far from the dock' }, { state: 'at the dock' }, { state: 'docked' }],
+  next: [
+    [1, 0, -1],
+    [-1, 1, 2],
+    [-1, -1, -1],
+  ],
+  end: [false, false, true],
+  chance: true,
+};
+
+function largeBoard(domain) {
+  const map = Array.from({ length: 12 }, (_, y) =>
+    Array.from({ length: 20 }, (_, x) => (x === 0 && y === 11 ? 'G' : (x * 7 + y * 5) % 11 === 0 ? '#' : (x + 2 * y) % 7 === 0 ? 'r' : '.')).join(''),
+  );
+  map[3] = `${map[3].slice(0, 15)}B${map[3].slice(16)}`;
+  const start = { robot: [10, 7], items: [{ name: 'parcel', cell: [18, 2], carried: false }], stations: [[16, 4]] };
+  const legendOnly = { id: domain.id, legend: domain.legend, width: 20, height: 12 };
+  return { domain: legendOnly, world: 1, map, start };
+}
+
+// {name: view}; `now` is the server's time.
+export function makeViews(lesson, now = Date.now()) {
+  const room = new Room(lesson, { size: 3, screening: 1, parts: 3, questions: kQuestions, askName: true, redirect: 'https://example.org/done' });
+  const at = (stage, rest = {}) => {
+    Object.assign(room.seats[0], { stage, index: 0, since: now - 65_000, draft: [], answers: [], ...rest });
+    return { ...structuredClone(room.view(1)), server_ms: now };
+  };
+  const { tests } = room.parts[0];
+  const [{ world, best }] = tests;
+  const names = world.table.actions.map(({ name }) => name);
+  const wrong = ['right', 'down', 'pickup', 'left', 'left', 'left', 'dropoff'];
+  const answerOf = (actions) => [{ actions, ...judge(world, 0, actions) }];
+  const wrongPath = shortestFinish(world);
+  const notices = [{ text: 'We continue in two minutes. Please stay on this page.', at_ms: now - 5000 }];
+  room.learned = false;
+  const views = {
+    consent: at('consent'),
+    check: at('check'),
+    screening: at('screening'),
+    lobby: at('lobby', { present: true }),
+    'lobby-leave': at('lobby'),
+    watch: at('watch'),
+    predict: at('predict'),
+    'predict-draft': at('predict', { draft: best.actions.slice(0, 4) }),
+    wait: at('wait', { waitsFor: 'answers' }),
+    'wait-teacher': at('wait', { waitsFor: 'teacher' }),
+    'feedback-wrong': at('feedback', { answers: answerOf(wrongPath) }),
+    'feedback-short': at('feedback', { answers: answerOf([names.indexOf(wrong[0])].filter((a) => world.table.next[0][a] >= 0)) }),
+    'feedback-right': at('feedback', { answers: answerOf(best.actions) }),
+    'feedback-none': at('feedback'),
+    questions: at('questions'),
+    debrief: at('debrief', { right: 3, tests: 4 }),
+    ended: { ...at('ended'), end: { reason: 'left', text: 'The session of your group ended early', code: 'MOCK-ENDED' } },
+    declined: at('declined'),
+    full: { ...at('full'), end: { reason: 'full', text: '', code: 'MOCK-FULL' } },
+    replaced: { ...at('replaced'), end: { reason: 'replaced', text: '', code: 'MOCK-AWAY' } },
+    notice: { ...at('predict'), notices },
+    pause: { ...at('predict'), pause: { why: 'someone-away', since_ms: now - 20_000, until_ms: now + 70_000, missing: 1 } },
+    'pause-organiser': { ...at('watch'), pause: { why: 'facilitator', since_ms: now - 20_000, missing: 0 } },
+    unknown: { ...at('watch'), stage: 'something-new' },
+  };
+  views.lobby.lobby.can_leave = false;
+  views['lobby-leave'].lobby.can_leave = true;
+  views['predict-limit'] = structuredClone(views.predict);
+  views['predict-limit'].limit_ms = now + 25_000;
+  views['lobby-reserve'] = { ...views.lobby, lobby: { ...views.lobby.lobby, reserve: true } };
+  const large = largeBoard(lesson.domain);
+  views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
+  room.worlds.set('large', makeWorld(large.domain, large, 'large'));
+  room.worlds.set('mapless', { table: kMaplessWorld });
+  const frame = (state, action) => ({ state, action });
+  const way = [frame('far from the dock', 'drive'), frame('at the dock', 'wait'), frame('at the dock', 'dock'), frame('docked', null)];
+  const plain = [frame('far from the dock', 'drive'), frame('at the dock', 'dock'), frame('docked', null)];
+  views['mapless-watch'] = { ...views.watch, watch: { index: 0, of: 1, board: mapless(0), frames: way } };
+  views['mapless-predict'] = { ...views.predict, predict: { ...views.predict.predict, board: mapless(0), world: 'mapless', draft: [0] } };
+  views['mapless-feedback'] = {
+    ...views['feedback-wrong'],
+    feedback: {
+      tests: [{ board: mapless(0), right: false, mine: plain, robot: way, differs_at: 1, why: ['waiting is safer'], cost: 'One step too few' }],
+      all_right: false,
+      learned: true,
+    },
+  };
+  return { views, room };
+}
+
+// A finished path that is not the best: the fewest steps, whatever they cost.
+function shortestFinish({ table }) {
+  const before = new Map([[0, null]]);
+  for (const [state] of before) {
+    if (table.end[state]) {
+      const actions = [];
+      for (let at = before.get(state); at; at = before.get(at.state)) actions.unshift(at.action);
+      return actions;
+    }
+    table.next[state].forEach((to, action) => to >= 0 && !before.has(to) && before.set(to, { state, action }));
+  }
+  throw new Error('no way to the end');
+}
+
+// A view with hostile texts wherever the server sends a text.
+export function hostileView(view, text) {
+  const taint = (value, key) => {
+    if (Array.isArray(value)) return value.map((one) => taint(one, key));
+    if (value && typeof value === 'object') return Object.fromEntries(Object.entries(value).map(([name, one]) => [name, taint(one, name)]));
+    const isText = typeof value === 'string' && !['stage', 'dir', 'lang', 'kind', 'symbol', 'map', 'world', 'why-kind', 'for', 'action', 'id', 'reason'].includes(key);
+    return isText ? (key === 'why' && ['someone-away', 'facilitator', 'teacher'].includes(value) ? value : text) : value;
+  };
+  return taint(view, '');
+}
+
+export const framesOfPath = (world, actions) => framesOf(world, judge(world, 0, actions).states, actions);
