@@ -31,7 +31,8 @@ constexpr const char* kErased = "(erased)";
 std::optional<std::set<std::string>> text_questions(const StoreIdentity& identity) {
   if (identity.inputs.empty()) return std::nullopt;
   std::set<std::string> questions;
-  for (const auto& question : restore_session_study(identity.inputs).study->group().questions) {
+  const auto restored = restore_session_study(identity.inputs);
+  for (const auto& question : restored.study->group().questions) {
     if (question.kind == GroupQuestion::Kind::kText) questions.insert(question.id);
   }
   return questions;
