@@ -114,6 +114,11 @@ void HostedRoom::wake() {
   advance();
 }
 
+void HostedRoom::abandon() {
+  asked_.clear();
+  saving_.reset();
+}
+
 // Does what can be done now, until something is being saved or nothing is left.
 void HostedRoom::advance() {
   if (!broken_.empty()) {

@@ -361,6 +361,10 @@ void LiveService::stop() {
   for (const auto& connection : all) connection->dismiss("server-stops", kGoingAway);
   state.teachers->stop();
   state.busy.wait_for_none();
+  for (const auto& [number, room] : state.rooms) {
+    state.strands->post(static_cast<std::size_t>(number), [room](TeachingCache&) { room->abandon(); });
+  }
+  state.busy.wait_for_none();
 }
 
 }  // namespace kith
