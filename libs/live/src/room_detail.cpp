@@ -4,6 +4,7 @@
 
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/files/base64.hpp"
 #include "kith/geometry/outline.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
@@ -13,21 +14,6 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kNumPoints = 300;
-
-std::string base64(const std::string& bytes) {
-  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
-    };
-    const unsigned block = (byte(0) << 16u) | (byte(1) << 8u) | byte(2);
-    for (unsigned k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kLetters[(block >> (18u - 6u * k)) & 63u];
-    }
-  }
-  return text;
-}
 
 // Points drawn evenly by weight, always the same ones: int16 little endian x, y, z.
 std::string points_text(const ParticleBelief& belief) {
