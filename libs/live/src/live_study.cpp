@@ -67,6 +67,29 @@ void require_small_worlds(const Domain& domain) {
 }
 
 // A start that no test would use, simple to look at, where there is room to move.
+bool has_tests(const Atlas& atlas) {
+  for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+    if (!atlas.tests_for(c).empty()) return true;
+  }
+  return false;
+}
+
+// The atlas without tests that people could not answer.
+std::shared_ptr<const Atlas> with_answerable_tests(std::shared_ptr<const Atlas> atlas) {
+  std::vector<bool> is_answerable(atlas->num_demos());
+  for (std::size_t i = 0; i < is_answerable.size(); ++i) {
+    is_answerable[i] = !atlas->is_candidate(DemoIndex{i}) || answerable_path(*atlas, DemoIndex{i});
+  }
+  if (std::find(is_answerable.begin(), is_answerable.end(), false) == is_answerable.end()) return atlas;
+  auto answerable = std::make_shared<const Atlas>(atlas->with_tests(is_answerable));
+  if (has_tests(*atlas) && !has_tests(*answerable)) {
+    throw Error{ErrorKind::kInfeasible, "people cannot be asked about domain '" + atlas->domain().id() +
+                                            "': from no start do the robot's likeliest steps lead to the end within " +
+                                            std::to_string(kMaxAnswerActions) + " steps"};
+  }
+  return answerable;
+}
+
 DemoIndex find_sandbox(const Atlas& atlas) {
   constexpr std::size_t kRoom = 4;
   std::optional<DemoIndex> best;
@@ -125,6 +148,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   auto& group = live->spec.group;
   require_small_worlds(atlas->domain());
   if (!group.consent_file.empty()) {
+  atlas = with_answerable_tests(std::move(atlas));
     group.consent_text = paragraphs_of(read_live_file(folder / group.consent_file, "consent_file"));
     if (group.consent_text.empty()) {
       throw Error{ErrorKind::kInvalidInput, "the consent text '" + group.consent_file + "' is empty"};

@@ -33,11 +33,12 @@ struct LiveStudy {
   [[nodiscard]] const GroupOptions& group() const noexcept { return spec.group; }
 };
 
-/// What rooms of this study share. Tests of the screening are drawn from the study's seed.
+/// What rooms of this study share. Tests of the screening are drawn from the study's seed. People are never asked about
+/// starts without an answerable_path(): the atlas of the result has no tests there.
 /// @param folder  where consent_file and language are looked for.
 /// @throws kith::Error (kInvalidInput) if the study varies keys, or consent_file or language cannot be understood;
-/// (kInfeasible) if a world has more than kMaxLiveStates states or the domain cannot be taught; (kIo) if a file cannot
-/// be read.
+/// (kInfeasible) if a world has more than kMaxLiveStates states or the domain cannot be taught or asked about; (kIo) if
+/// a file cannot be read.
 [[nodiscard]] std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
                                                                const std::filesystem::path& folder = {});
 
