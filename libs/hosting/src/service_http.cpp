@@ -20,8 +20,6 @@ using HttpReply = LiveService::HttpReply;
 
 constexpr std::chrono::seconds kLongestWait{5};  // for the disk
 constexpr std::size_t kLongestQrText = 1000;
-constexpr std::size_t kMostParameters = 20;
-constexpr std::size_t kLongestParameter = 200;
 
 HttpReply json_reply(int status, const Json& body) {
   return {.status = status, .body = body.dump() + "\n", .headers = {{"Cache-Control", "no-store"}}};
@@ -61,19 +59,6 @@ std::string parameter(std::string_view query, std::string_view name) {
     return value;
   }
   return {};
-}
-
-// The query parameters of a recruitment platform: texts, not too many, not too long.
-Json query_of(const Json& body) {
-  Json query = Json::object();
-  const auto found = body.find("query");
-  if (found == body.end() || !found->is_object()) return query;
-  for (const auto& [name, value] : found->items()) {
-    const bool is_short = name.size() <= kLongestParameter && value.is_string() &&
-                          value.get_ref<const std::string&>().size() <= kLongestParameter;
-    if (is_short && query.size() < kMostParameters) query[name] = value;
-  }
-  return query;
 }
 
 // Waits for an answer that another thread gives; nothing if it takes too long.
@@ -150,7 +135,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   if (!body.is_object()) return error_reply(400, "bad-body", "The request must be a JSON object.");
   const auto code = body.find("code");
   if (code == body.end() || !code->is_string()) return error_reply(400, "bad-body", "The request needs a code.");
-  const auto query = query_of(body);
+  const auto query = collected_query(*study, body.value("query", Json{}));
   std::vector<std::shared_ptr<HostedRoom>> open;
   bool is_study = false;
   bool is_known = false;  // that it is the code of a room

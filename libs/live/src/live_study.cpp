@@ -12,6 +12,7 @@
 #include "kith/live/world_json.hpp"
 #include "kith/random/distributions.hpp"
 #include "live_texts.hpp"
+#include "room_body.hpp"
 
 namespace kith {
 namespace {
@@ -214,9 +215,16 @@ Json live_study_json(const LiveStudy& study) {
 }
 
 Json language_json(const LiveStudy& study) {
-  Json strings = Json::object();
-  for (const auto& [key, text] : study.language.strings) strings[key] = text;
-  return {{"lang", study.language.code}, {"dir", study.language.direction}, {"strings", strings}};
+  return {{"lang", study.language.code}, {"dir", study.language.direction}, {"strings", study.language.strings}};
+}
+
+Json collected_query(const LiveStudy& study, const Json& query) {
+  constexpr std::size_t kMostBytes = 200;
+  Json collected = Json::object();
+  for (const auto& name : study.group().collect_query) {
+    if (auto value = text_in(query, name, kMostBytes)) collected[name] = *std::move(value);
+  }
+  return collected;
 }
 
 std::string completion_code(const LiveStudy& study, std::string_view salt, std::string_view room, std::size_t seat) {

@@ -233,22 +233,21 @@ class ServerDecider {
 
   [[nodiscard]] Decision join() const {
     if (state_.phase != RoomPhase::kLobby) return refused("started", "This group has already started.");
-    auto query = kept_query();
-    if (!query) return refused("bad-body", "the query parameters are not short texts");
+    auto query = collected_query(room_.study, command_.body.value("query", Json{}));
     const auto asked = integer_in(command_.body, "seat", 1, 1000);
     if (command_.body.contains("seat") && !command_.body["seat"].is_null() && !asked)
       return refused("bad-body", "'seat' is not a number of a seat");
-    if (asked) return join_seat(static_cast<std::size_t>(*asked) - 1, *std::move(query));
+    if (asked) return join_seat(static_cast<std::size_t>(*asked) - 1, std::move(query));
     for (std::size_t m = 0; m < state_.members.size(); ++m) {
       const auto& member = state_.members[m];
-      if (!member.seat) return joined(state_.seats.size(), m, *std::move(query));
-      if (state_.seats[*member.seat].status == SeatStatus::kEmpty) return joined(*member.seat, m, *std::move(query));
+      if (!member.seat) return joined(state_.seats.size(), m, std::move(query));
+      if (state_.seats[*member.seat].status == SeatStatus::kEmpty) return joined(*member.seat, m, std::move(query));
     }
     const auto waiting = std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
       return !seat.member && seat.status == SeatStatus::kActive;
     });
     if (static_cast<std::size_t>(waiting) < room_.study.group().dropout.reserves) {
-      return joined(state_.seats.size(), std::nullopt, *std::move(query));
+      return joined(state_.seats.size(), std::nullopt, std::move(query));
     }
     return refused("full", "All places in this group are taken.");
   }
@@ -264,21 +263,6 @@ class ServerDecider {
 
   [[nodiscard]] Decision joined(std::size_t seat, std::optional<std::size_t> member, Json query) const {
     return accepted("joined", {{"seat", seat + 1}, {"member", member ? Json(*member) : Json{}}, {"query", query}});
-  }
-
-  // Of the query parameters those that the study collects.
-  [[nodiscard]] std::optional<Json> kept_query() const {
-    Json kept = Json::object();
-    const auto query = command_.body.find("query");
-    if (query == command_.body.end() || query->is_null()) return kept;
-    if (!query->is_object()) return std::nullopt;
-    for (const auto& name : room_.study.group().collect_query) {
-      if (!query->contains(name)) continue;
-      auto value = text_in(*query, name, 200);
-      if (!value) return std::nullopt;
-      kept[name] = *std::move(value);
-    }
-    return kept;
   }
 
   [[nodiscard]] Decision presence() const {

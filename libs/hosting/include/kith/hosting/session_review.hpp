@@ -56,7 +56,8 @@ struct ReplayedRoom {
 
 /// Erases what identifies people: names, free text of questions, query parameters. Everything else stays, ids too, so
 /// the session replays as before. The erasure is an event of its own.
-/// @param room  one room; otherwise all. @return the number of events that were changed.
+/// @param room  one room; otherwise all, and also the query parameters of people who found no seat. @return the number
+/// of events that were changed.
 /// @throws kith::Error kBusy E1610 if the session is being served; kIo.
 std::size_t redact(const std::filesystem::path& folder, std::optional<std::string> room, std::int64_t now_us);
 

@@ -59,7 +59,11 @@ struct LiveCell {
 [[nodiscard]] Json language_json(const LiveStudy& study);
 
 /// The page of somebody for whom there was no seat: a ParticipantView in the stage `full`.
-/// @param code  a completion code, empty: none. @param query  the person's query parameters, for the redirect.
+/// Of the query parameters of a link, those that the study collects: texts without control characters, at most 200
+/// bytes. Others are dropped, so they are never stored. @param query  an object; anything else gives none.
+[[nodiscard]] Json collected_query(const LiveStudy& study, const Json& query);
+
+/// @param code  a completion code, empty: none. @param query  see collected_query(); for the redirect.
 [[nodiscard]] Json full_view(const LiveStudy& study, const std::string& code, const Json& query, std::int64_t now_us);
 
 /// A completion code: the study's prefix, a hyphen and 10 letters and digits from a hash of the arguments.
