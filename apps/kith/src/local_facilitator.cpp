@@ -44,7 +44,7 @@ struct LocalFacilitator::Ear final : LiveService::Socket {
 };
 
 LocalFacilitator::LocalFacilitator(LiveService& service, const std::string& token)
-    : service_{service}, ear_{std::make_shared<Ear>()}, connection_{service.open(ear_, "local")} {
+    : service_{service}, ear_{std::make_shared<Ear>()}, connection_{service.open(ear_)} {
   service_.receive(connection_, Json{{"t", "hello"}, {"v", 1}, {"token", token}, {"tab", "local"}}.dump());
 }
 

@@ -122,7 +122,6 @@ void LiveService::State::check_space(std::int64_t now) {
 void LiveService::State::tick() {
   const auto now = now_us();
   check_space(now);
-  check_connections(now);
   check_presence(now);
   std::vector<std::shared_ptr<HostedRoom>> due;
   std::vector<std::shared_ptr<HostedRoom>> changed;

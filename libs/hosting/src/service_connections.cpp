@@ -24,20 +24,6 @@ std::optional<Json> parse_frame(std::string_view text) {
   return json;
 }
 
-// A member that is a text; empty otherwise.
-std::string text_at(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
-}
-
-std::int64_t number_at(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  if (found == object.end() || !found->is_number_integer()) return 0;
-  return found->is_number_unsigned() && found->get<std::uint64_t>() > 1'000'000 ? 0 : found->get<std::int64_t>();
-}
-
-Json bye_frame(const char* reason) { return {{"t", "bye"}, {"reason", reason}}; }
-
 }  // namespace
 
 Json ack_frame(const std::string& id) { return {{"t", "ack"}, {"id", id}}; }
@@ -48,16 +34,18 @@ Json nak_frame(const std::string& id, const Refusal& refusal) {
 
 void Connection::dismiss(const char* reason, std::uint16_t code) {
   if (is_closed.exchange(true)) return;
-  send(bye_frame(reason));
+  send({{"t", "bye"}, {"reason", reason}});
   socket->close(code, reason);
 }
 
-LiveService::ConnectionId LiveService::open(std::shared_ptr<Socket> socket, std::string remote) {
+void Connection::hang_up(std::uint16_t code, const char* reason) {
+  if (!is_closed.exchange(true)) socket->close(code, reason);
+}
+
+LiveService::ConnectionId LiveService::open(std::shared_ptr<Socket> socket) {
   auto& state = *state_;
   auto connection = std::make_shared<Connection>();
   connection->socket = std::move(socket);
-  connection->remote = std::move(remote);
-  connection->opened_us = state.now_us();
   const std::lock_guard lock{state.mutex};
   connection->id = state.next_connection++;
   state.connections.emplace(connection->id, connection);
@@ -97,7 +85,7 @@ void LiveService::receive(ConnectionId id, std::string_view text) {
   const auto frame = parse_frame(text);
   const auto type = frame ? text_at(*frame, "t") : std::string{};
   if (!connection->is_known) {
-    if (type != "hello") return connection->dismiss("bad-token", kPolicy);
+    if (type != "hello") return connection->hang_up(kPolicy, "the first message must be a hello");
     return state.hello(connection, *frame);
   }
   if (!frame) return connection->send(nak_frame("", {"bad-frame", "The message is not a JSON object."}));
@@ -140,6 +128,7 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
 
 // Somebody opened the page of a seat: takes the seat if it was kept free for this link, and shows the page.
 void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
+  connection->socket->authenticated();
   const auto number = connection->identity.room;
   const auto seat = connection->identity.seat;
   post(number, [this, connection, number, seat](TeachingCache&) {
@@ -320,18 +309,6 @@ void LiveService::State::push_room(HostedRoom& hosted) {
     if (seat <= room->num_seats() && room->is_person(seat))
       push_view(*person, room->view({.role = Viewer::Role::kParticipant, .seat = seat}, now));
   }
-}
-
-void LiveService::State::check_connections(std::int64_t now) {
-  std::vector<std::shared_ptr<Connection>> silent;
-  {
-    const std::lock_guard lock{mutex};
-    for (const auto& [id, connection] : connections) {
-      if (!connection->is_known && now - connection->opened_us > options.hello_limit_ms * 1000)
-        silent.push_back(connection);
-    }
-  }
-  for (const auto& connection : silent) connection->dismiss("bad-token", kPolicy);
 }
 
 void LiveService::State::check_presence(std::int64_t now) {

@@ -31,8 +31,6 @@ namespace kith {
 struct Connection {
   LiveService::ConnectionId id = 0;
   std::shared_ptr<LiveService::Socket> socket;
-  std::string remote;
-  std::int64_t opened_us = 0;
 
   Identity identity;
   std::atomic<bool> is_known = false;
@@ -43,12 +41,14 @@ struct Connection {
   std::int64_t selected = 0;  // the room that a facilitator looks at; guarded by the mutex of the service
 
   void send(const Json& frame) const { socket->send(std::make_shared<const std::string>(frame.dump())); }
-  // Says why, and closes.
+  // Says why, in a frame for the page, and closes: the page gives up.
   void dismiss(const char* reason, std::uint16_t code);
 };
 
 // What connects a seat to whoever sits there.
 struct SeatContact {
+  // Closes: the page connects again.
+  void hang_up(std::uint16_t code, const char* reason);
   LiveService::ConnectionId connection = 0;  // 0: none
   std::int64_t last_seen_us = 0;
   bool is_away = false;  // and the room was told so
@@ -176,7 +176,6 @@ struct LiveService::State final : HostedRoom::Host {
   [[nodiscard]] HttpReply export_tables(const std::string& query);
 
   void tick();
-  void check_connections(std::int64_t now);
   void check_presence(std::int64_t now);
   void check_space(std::int64_t now);
 };
