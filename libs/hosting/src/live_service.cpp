@@ -88,12 +88,8 @@ void LiveService::State::on_applied(HostedRoom& room, std::span<const RoomEvent>
         auto& contact = contacts[{room.number(), seat}];
         if (contact.last_seen_us == 0) contact.last_seen_us = now_us();
       }
-      if (event.actor != "facilitator") continue;
-      write_log({.at_us = event.at_us,
-                 .room = room_id(room.number()),
-                 .actor = event.actor,
-                 .what = event.type,
-                 .reason = event.body.is_object() ? event.body.value("reason", std::string{}) : std::string{}});
+      if (!is_logged(event.actor, event.type)) continue;
+      write_log(log_entry(room.number(), event.at_us, event.actor, event.type, event.body));
     }
     changed_rooms.insert(room.number());
   }

@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "json_members.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 
 namespace kith {
 namespace {
-
-std::size_t count_member(const Json& body, const char* name) {
-  const auto found = body.find(name);
-  return found != body.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
-}
-
-std::string text_member(const Json& body, const char* name) {
-  const auto found = body.find(name);
-  return found != body.end() && found->is_string() ? found->get<std::string>() : std::string{};
-}
 
 class Collector {
  public:
@@ -26,26 +17,26 @@ class Collector {
   void take(const Room& room, const RoomEvent& event) {
     const auto& body = event.body;
     const auto by = seat_of_actor(event.actor);
-    const auto seat = by ? *by : count_member(body, "seat");
+    const auto seat = by ? *by : count_at(body, "seat");
     history_.room = room;
     if (event.type == "joined") {
-      auto& row = history_.seats[count_member(body, "seat")];
+      auto& row = history_.seats[count_at(body, "seat")];
       row.joined_us = event.at_us;
       if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
         row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
       if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
     } else if (event.type == "consented") {
-      history_.seats[seat].consent = text_member(body, "version");
+      history_.seats[seat].consent = text_at(body, "version");
     } else if (event.type == "named") {
-      history_.seats[seat].name = text_member(body, "name");
+      history_.seats[seat].name = text_at(body, "name");
     } else if (event.type == "started") {
       history_.started_us = event.at_us;
     } else if (event.type == "ended") {
-      history_.ended = text_member(body, "reason");
+      history_.ended = text_at(body, "reason");
     } else if (event.type == "away" || event.type == "present") {
       note_presence(history_.seats[seat], event.type == "away", event.at_us);
     } else if (event.type == "dropped" || event.type == "simulate" || event.type == "left") {
-      replace(seat, count_member(body, "by"), event.at_us);
+      replace(seat, count_at(body, "by"), event.at_us);
     } else if (event.type == "lesson") {
       note_lesson(room, event);
     } else if (event.type == "answered") {
@@ -67,6 +58,7 @@ class Collector {
   }
 
   void replace(std::size_t seat, std::size_t by, std::int64_t at_us) {
+    if (event.body.value("finished", false)) return;
     if (by == 0) return;
     auto& row = history_.seats[by];
     row.member = history_.seats[seat].member;
@@ -77,15 +69,23 @@ class Collector {
 
   void note_lesson(const Room& room, const RoomEvent& event) {
     const auto& session = room.session();
-    if (session.finished()) return;
-    history_.lessons.push_back(
-        {.lesson = session.lesson(), .chosen_us = event.at_us, .digest = text_member(event.body, "digest")});
+    const auto period = count_at(event.body, "period");
+    if (!history_.lessons.empty() && history_.lessons.back().lesson.period == period) {
+      // Somebody came or went before that lesson was taught, or all who had watched it are gone.
+      history_.lessons.pop_back();
+      std::erase_if(history_.answers, [&](const AnswerRow& answer) { return answer.period == period; });
+    }
+    // A room without people is done with the lesson at once.
+    const bool is_over = session.periods() >= period;
+    history_.lessons.push_back({.lesson = is_over ? session.history()[period - 1].lesson : session.lesson(),
+                                .chosen_us = event.at_us,
+                                .digest = text_at(event.body, "digest")});
   }
 
   void note_answer(std::size_t seat, const RoomEvent& event) {
     AnswerRow row;
     row.period = history_.lessons.empty() ? 0 : history_.lessons.back().lesson.period;
-    row.test = count_member(event.body, "test");
+    row.test = count_at(event.body, "test");
     row.seat = seat;
     row.member = history_.seats[seat].member.value_or(0);
     if (const auto actions = event.body.find("actions"); actions != event.body.end() && actions->is_array()) {

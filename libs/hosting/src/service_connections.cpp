@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "json_members.hpp"
 #include "service_state.hpp"
 
 namespace kith {
@@ -215,7 +216,7 @@ void LiveService::State::facilitate(const std::shared_ptr<Connection>& connectio
               [this, room, type, rest, reply](const CommandOutcome& outcome) {
                 reply(outcome.refusal);
                 if (outcome.refusal || type != "readmit") return;
-                const auto seat = number_at(rest, "seat");
+                const auto seat = static_cast<std::int64_t>(count_at(rest, "seat"));
                 const bool has_link = [&] {
                   const std::lock_guard lock{mutex};
                   return tokens->known(room->number(), seat).has_value();

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <utility>
 
+#include "json_members.hpp"
 #include "kith/core/error.hpp"
 #include "random_token.hpp"
 #include "service_state.hpp"
@@ -11,32 +12,11 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kCodeLength = 6;
-constexpr std::size_t kSaltBytes = 16;
 constexpr std::size_t kLogLength = 200;
 constexpr std::size_t kMostAtOnce = 200;
 
-std::string hexadecimal(const std::string& bytes) {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    text += {kDigits[byte >> 4], kDigits[byte & 15u]};
-  }
-  return text;
-}
-
-std::string text_in(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
-}
-
-LogEntry entry_of(const StoredEvent& event, const std::string& room) {
-  const auto body = Json::parse(event.json, nullptr, false);
-  return {.at_us = event.at_us,
-          .room = room,
-          .actor = event.actor,
-          .what = event.type,
-          .reason = body.is_object() ? text_in(body, "reason") : std::string{}};
+LogEntry entry_of(const StoredEvent& event) {
+  return log_entry(event.room, event.at_us, event.actor, event.type, Json::parse(event.json, nullptr, false));
 }
 
 // What a facilitator asks for when making rooms.
@@ -47,7 +27,7 @@ struct Wish {
 };
 
 std::optional<Wish> wish_of(const Json& body) {
-  Wish wish{.strategy = text_in(body, "strategy"), .seats = {}};
+  Wish wish{.strategy = text_at(body, "strategy"), .seats = {}};
   if (const auto seats = body.find("seats"); seats != body.end()) {
     if (!seats->is_array() || seats->size() > 30) return std::nullopt;
     for (const auto& seat : *seats) {
@@ -108,6 +88,24 @@ std::int64_t room_number(const std::string& id) {
   if (id.size() < 2 || id.front() != 'r') return 0;
   const auto* end = id.data() + id.size();
   const auto [rest, error] = std::from_chars(id.data() + 1, end, number);
+bool is_logged(std::string_view actor, std::string_view type) {
+  constexpr std::string_view kTypes[] = {"joined",      "declined",  "left",    "away", "present",
+                                         "dropped",     "released",  "started", "time", "ended",
+                                         "turned-away", "room-make", "redacted"};
+  return actor == "facilitator" || std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
+}
+
+LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor, const std::string& type,
+                   const Json& body) {
+  LogEntry entry{.at_us = at_us, .room = room == 0 ? std::string{} : room_id(room), .actor = actor, .what = type};
+  if (!body.is_object()) return entry;
+  entry.reason = text_at(body, "reason");
+  const auto seat = body.find("seat");
+  const bool is_about_seat = actor == "server" && seat != body.end() && seat->is_number_integer();
+  if (is_about_seat) entry.actor = seat_actor(seat->get<std::size_t>());
+  return entry;
+}
+
   return error == std::errc{} && rest == end && number > 0 ? number : 0;
 }
 
@@ -132,17 +130,20 @@ void LiveService::State::load_rooms() {
   std::map<std::int64_t, std::vector<StoredEvent>> events;
   const auto now = now_us();
   file.for_each_event([&](const StoredEvent& event) {
-    if (event.actor == "facilitator") write_log(entry_of(event, event.room == 0 ? std::string{} : room_id(event.room)));
+    if (is_logged(event.actor, event.type)) entries.push_back(entry_of(event));
     if (event.room == 0) next_service_seq = event.seq + 1;
     if (event.room != 0 && event.type == "joined") {
       const auto body = Json::parse(event.json);
       const auto seat = body.value("seat", std::int64_t{0});
+  std::vector<LogEntry> entries;
       joined.insert({event.room, seat});
       contacts[{event.room, seat}].last_seen_us = now;
     }
     events[event.room].push_back(event);
   });
-  std::stable_sort(log.begin(), log.end(), [](const LogEntry& a, const LogEntry& b) { return a.at_us < b.at_us; });
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const LogEntry& a, const LogEntry& b) { return a.at_us < b.at_us; });
+  for (auto& entry : entries) write_log(std::move(entry));
   for (auto& stored : file.rooms()) {
     auto setup = room_setup(Json::parse(stored.setup));
     const auto number = stored.number;
@@ -177,14 +178,14 @@ void LiveService::State::record_next() {
   auto& event = recording.batch.events.front();
   event.seq = next_service_seq;
   event.at_us = now_us();
-  const auto entry = entry_of(event, {});
+  const auto entry = entry_of(event);
   save(std::move(recording.batch), [this, entry, done = std::move(recording.done)](bool saved) {
     post(0, [this, entry, done, saved](TeachingCache&) {
       is_recording = false;
       if (saved) {
         ++next_service_seq;
         const std::lock_guard lock{mutex};
-        write_log(entry);
+        if (is_logged(entry.actor, entry.what)) write_log(entry);
       }
       done(saved);
       record_next();
@@ -221,7 +222,7 @@ void LiveService::State::make_rooms(const Json& body, const std::string& actor, 
     const auto number = next + static_cast<std::int64_t>(i);
     setup.id = room_id(number);
     setup.code = random_code(kCodeLength);
-    setup.salt = hexadecimal(random_bytes(kSaltBytes));
+    setup.salt = random_token();
     ++rooms_of[setup.strategy + "/" + setup.composition];
     std::size_t seats = 0;
     try {

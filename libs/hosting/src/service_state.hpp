@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -183,6 +184,12 @@ struct LiveService::State final : HostedRoom::Host {
 // Frames of the protocol.
 [[nodiscard]] Json ack_frame(const std::string& id);
 [[nodiscard]] Json nak_frame(const std::string& id, const Refusal& refusal);
+// Whether facilitators read of an event in their log: what they did, and who came and went.
+[[nodiscard]] bool is_logged(std::string_view actor, std::string_view type);
+// @param room  0: of the service.
+[[nodiscard]] LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor,
+                                 const std::string& type, const Json& body);
+
 
 // "r12" for room 12, and back; 0 for anything else.
 [[nodiscard]] std::string room_id(std::int64_t number);
