@@ -42,21 +42,28 @@ std::optional<Wish> wish_of(const Json& body) {
   return wish;
 }
 
-// The cell of the design that has the fewest rooms, among those that fit the wish.
+// The cell of the design that has the fewest rooms, among those that fit the wish; if none has that many seats, among
+// those of any size. Without a strategy if the study has none of this name.
 LiveCell next_cell(const LiveStudy& study, const Wish& wish, const std::map<std::string, std::size_t>& rooms_of) {
-  LiveCell best;
-  std::size_t fewest = 0;
-  for (const auto& cell : live_cells(study)) {
-    if (!wish.strategy.empty() && cell.strategy != wish.strategy) continue;
-    if (!wish.seats.empty() && cell.composition.size() != wish.seats.size()) continue;
-    const auto found = rooms_of.find(cell.strategy + "/" + cell.composition);
-    const auto count = found == rooms_of.end() ? 0 : found->second;
-    if (best.strategy.empty() || count < fewest) {
-      best = cell;
-      fewest = count;
+  for (const bool is_any_size : {false, true}) {
+    LiveCell best;
+    std::size_t fewest = 0;
+    for (const auto& cell : live_cells(study)) {
+      if (!wish.strategy.empty() && cell.strategy != wish.strategy) continue;
+      if (!wish.seats.empty()) {
+        if (!is_any_size && cell.composition.size() != wish.seats.size()) continue;
+        if (wish.seats.size() > 1 && strategy_of(study.spec, cell.strategy).is_baseline()) continue;
+      }
+      const auto found = rooms_of.find(cell.strategy + "/" + cell.composition);
+      const auto count = found == rooms_of.end() ? 0 : found->second;
+      if (best.strategy.empty() || count < fewest) {
+        best = cell;
+        fewest = count;
+      }
     }
+    if (!best.strategy.empty()) return best;
   }
-  return best;
+  return {};
 }
 
 // The setup of one room; the people and stand-ins that the wish names are put into the composition of the cell.
