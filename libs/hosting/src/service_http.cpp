@@ -104,6 +104,7 @@ LiveService::HttpReply LiveService::State::handle(const HttpRequest& request) {
   }
   if (route == "GET /api/health") return json_reply(200, {{"status", "ok"}, {"server", options.program}});
   if (route == "POST /api/join") return join(request);
+  if (route == "GET /api/texts") return json_reply(200, language_json(*study));
   if (route == "GET /api/world") return world(key);
   if (route == "GET /api/integrity") return json_reply(200, integrity());
   if (route == "GET /api/export") return export_tables(query);
