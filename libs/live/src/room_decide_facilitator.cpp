@@ -100,8 +100,7 @@ class FacilitatorDecider {
     const auto number = seat_number();
     if (!number || !state_.seats[*number].is_person) return no_seat();
     const auto& seat = state_.seats[*number];
-    if (seat.status == SeatStatus::kActive) return nothing_to_do();
-    if (seat.status == SeatStatus::kEmpty) return not_now("Nobody has joined with this link yet.");
+    if (seat.status == SeatStatus::kActive || seat.status == SeatStatus::kEmpty) return nothing_to_do();
     if (!seat.member || seat.readiness != Readiness::kReady || !is_running(state_)) {
       return not_now("This person has no place in the running session.");
     }
