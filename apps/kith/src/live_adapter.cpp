@@ -25,6 +25,10 @@ LiveAdapter::ConnectionId LiveAdapter::open(std::shared_ptr<Socket> socket, std:
 
 void LiveAdapter::receive(ConnectionId connection, std::string_view frame) { service_.receive(connection, frame); }
 
+void LiveAdapter::measured(ConnectionId connection, std::chrono::microseconds round_trip) {
+  service_.measured(connection, round_trip);
+}
+
 void LiveAdapter::closed(ConnectionId connection) { service_.closed(connection); }
 
 LiveAdapter::HttpReply LiveAdapter::http(const HttpRequest& request) {

@@ -79,6 +79,12 @@ void LiveService::closed(ConnectionId id) {
   if (contact != state.contacts.end() && contact->second.connection == id) contact->second.connection = 0;
 }
 
+void LiveService::measured(ConnectionId id, std::chrono::microseconds round_trip) {
+  const std::lock_guard lock{state_->mutex};
+  const auto found = state_->connections.find(id);
+  if (found != state_->connections.end()) found->second->round_trip = round_trip;
+}
+
 void LiveService::receive(ConnectionId id, std::string_view text) {
   auto& state = *state_;
   const auto connection = state.connection_of(id);

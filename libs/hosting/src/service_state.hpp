@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -39,7 +40,9 @@ struct Connection {
 
   std::string last_view;
 
-  std::int64_t selected = 0;  // the room that a facilitator looks at; guarded by the mutex of the service
+  // Guarded by the mutex of the service.
+  std::int64_t selected = 0;  // the room that a facilitator looks at
+  std::optional<std::chrono::microseconds> round_trip;
 
   void send(const Json& frame) const { socket->send(std::make_shared<const std::string>(frame.dump())); }
   // Says why, in a frame for the page, and closes: the page gives up.

@@ -190,7 +190,13 @@ std::vector<LiveCell> live_cells(const LiveStudy& study) {
 }
 
 Json live_study_json(const LiveStudy& study) {
-  Json strategies = Json::array(), types = Json::array();
+  Json strategies = Json::array(), types = Json::array(), compositions = Json::array();
+  std::size_t size = 0;
+  for (const auto& cell : live_cells(study)) {
+    const bool is_new = std::find(compositions.begin(), compositions.end(), cell.composition) == compositions.end();
+    if (is_new) compositions.push_back(cell.composition);
+    size = std::max(size, cell.composition.size());
+  }
   for (const auto& strategy : study.spec.strategies) {
     strategies.push_back({{"name", strategy.name}, {"description", std::string{strategy.kind.description}}});
   }
@@ -203,6 +209,8 @@ Json live_study_json(const LiveStudy& study) {
           {"domain", study.atlas->domain().id()},
           {"strategies", strategies},
           {"types", types},
+          {"compositions", compositions},
+          {"size", size},
           {"dropout", std::string{name_of(group.dropout.policy)}},
           {"grace_s", group.dropout.grace_s},
           {"time",

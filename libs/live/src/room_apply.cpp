@@ -69,7 +69,10 @@ class RoomChange {
     person.type = setup_.composition[member];
     state_.members[member].seat = seat;
   }
-  void consented() { who().readiness = Readiness::kCheck; }
+  void consented() {
+    who().readiness = Readiness::kCheck;
+    who().since_us = event_.at_us;
+  }
   void declined() { step_.dismiss(actor(), "declined", "declined", false); }
   void checked() {
     who().readiness = study_.screening.empty() ? Readiness::kReady : Readiness::kScreening;

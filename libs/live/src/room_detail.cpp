@@ -84,7 +84,7 @@ class RoomDetailPage {
   }
 
   [[nodiscard]] std::string why(const Lesson& lesson) const {
-    if (lesson.repeats) return "No demonstration would add anything, so the lesson before is shown again.";
+    if (lesson.repeats) return "No demonstration would add anything, so the previous lesson is shown again.";
     std::string text;
     if (lesson.source.is_member()) {
       text = "Chosen for what the teacher believes about " + member_label(lesson.source.member) + ".";
@@ -177,14 +177,16 @@ class RoomDetailPage {
   }
 
   [[nodiscard]] Json truth() const {
-    Json weights = Json::array();
-    for (const double weight : domain_.weights().unit) weights.push_back(weight);
-    if (domain_.num_features() != 3) return {{"weights", weights}, {"bec", Json::array()}, {"prior", Json::array()}};
+    Json truth{{"weights", Json::array()},
+               {"features", domain_.feature_names()},
+               {"bec", Json::array()},
+               {"prior", Json::array()}};
+    for (const double weight : domain_.weights().unit) truth["weights"].push_back(weight);
+    if (domain_.num_features() != 3) return truth;
     Cone bec = atlas_.prior_cone();
-    const bool has_room = bec.clip(atlas_.policy_bec_half_spaces());
-    return {{"weights", weights},
-            {"bec", has_room ? outline_json(bec) : Json::array()},
-            {"prior", outline_json(atlas_.prior_cone())}};
+    if (bec.clip(atlas_.policy_bec_half_spaces())) truth["bec"] = outline_json(bec);
+    truth["prior"] = outline_json(atlas_.prior_cone());
+    return truth;
   }
 
   [[nodiscard]] Json timers() const {
@@ -217,6 +219,6 @@ class RoomDetailPage {
 
 }  // namespace
 
-Json detail_json(const RoomParts& room, std::int64_t) { return RoomDetailPage{room}.json(); }
+Json detail_json(const RoomParts& room) { return RoomDetailPage{room}.json(); }
 
 }  // namespace kith

@@ -161,6 +161,23 @@ TEST(LiveStudy, ListsTheCellsThatRoomsAreMadeFor) {
   EXPECT_NE(std::find(one.begin(), one.end(), LiveCell{"baseline", "N"}), one.end());
 }
 
+TEST(LiveStudy, TellsFacilitatorsWhichRoomsTheDesignHas) {
+  const auto json = live_study_json(*live_study("[group]\nsize = 2\n"));
+  EXPECT_EQ(json["compositions"], Json::array({"NNP", "NN"}));
+  EXPECT_EQ(json["size"], 3);
+}
+
+// What links of recruitment platforms carry is stored only if the study asks for it.
+TEST(LiveStudy, CollectsTheQueryParametersThatItNames) {
+  const auto study = live_study("[group]\ncollect_query = [\"PID\", \"SESSION\"]\n");
+  const auto collected = [&](const Json& query) { return collected_query(*study, query); };
+  EXPECT_EQ(collected({{"PID", "a"}, {"email", "b"}, {"SESSION", "c"}}), (Json{{"PID", "a"}, {"SESSION", "c"}}));
+  EXPECT_EQ(collected({{"PID", std::string(201, 'x')}, {"SESSION", "line\x01"}}), Json::object());
+  EXPECT_EQ(collected({{"PID", 7}}), Json::object());
+  EXPECT_EQ(collected(Json::array({"PID"})), Json::object());
+  EXPECT_EQ(collected(nullptr), Json::object());
+}
+
 TEST(LiveStudy, GivesCodesThatCannotBeGuessed) {
   const auto study = live_study();
   const auto code = completion_code(*study, "salt", "r1", 1);

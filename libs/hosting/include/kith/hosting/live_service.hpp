@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -95,9 +96,11 @@ class LiveService {
   /// A new connection. It is told nothing until its first frame is a valid hello.
   [[nodiscard]] ConnectionId open(std::shared_ptr<Socket> socket);
   /// One text frame of a connection. Never throws for what is in it.
-  void receive(ConnectionId connection, std::string_view frame);
+  void receive(ConnectionId id, std::string_view text);
+  /// How long a message to the connection and back takes, for facilitators.
+  void measured(ConnectionId id, std::chrono::microseconds round_trip);
   /// The connection is closed.
-  void closed(ConnectionId connection);
+  void closed(ConnectionId id);
 
   // --- requests -------------------------------------------------------------
   /// Everything below /api. Never throws for what is in the request.

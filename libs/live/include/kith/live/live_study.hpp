@@ -51,8 +51,9 @@ struct LiveCell {
 };
 [[nodiscard]] std::vector<LiveCell> live_cells(const LiveStudy& study);
 
-/// {id, title, domain, strategies: [{name, description}], types: [{letter, label}], dropout, grace_s, time}: what the
-/// facilitator's page says about the study.
+/// {id, title, domain, strategies: [{name, description}], types: [{letter, label}], compositions, size, dropout,
+/// grace_s, time}: what the facilitator's page says about the study. `compositions` are those of live_cells(), `size`
+/// is the number of seats of the largest.
 [[nodiscard]] Json live_study_json(const LiveStudy& study);
 
 /// {lang, dir, strings}: texts of pages that differ from the built-in English ones.

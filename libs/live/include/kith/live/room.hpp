@@ -106,7 +106,7 @@ class Room {
   /// RoomDetail}, without links, and for observers without names and codes.
   [[nodiscard]] Json view(const Viewer& viewer, std::int64_t now_us) const;
   /// The facilitator's row of this room: {id, code, stage, strategy, seats, period, component, ...}.
-  [[nodiscard]] Json row(const Viewer& viewer, std::int64_t now_us) const;
+  [[nodiscard]] Json row(const Viewer& viewer) const;
 
   /// Of the whole state, to compare a replay with what was.
   [[nodiscard]] std::string digest() const;
