@@ -67,7 +67,6 @@ void require_small_worlds(const Domain& domain) {
   }
 }
 
-// A start that no test would use, simple to look at, where there is room to move.
 bool has_tests(const Atlas& atlas) {
   for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
     if (!atlas.tests_for(c).empty()) return true;
@@ -91,6 +90,7 @@ std::shared_ptr<const Atlas> with_answerable_tests(std::shared_ptr<const Atlas> 
   return answerable;
 }
 
+// A start that no test would use, simple to look at, where there is room to move.
 DemoIndex find_sandbox(const Atlas& atlas) {
   constexpr std::size_t kRoom = 4;
   std::optional<DemoIndex> best;
@@ -148,8 +148,8 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   live->spec = study.variants.front();
   auto& group = live->spec.group;
   require_small_worlds(atlas->domain());
-  if (!group.consent_file.empty()) {
   atlas = with_answerable_tests(std::move(atlas));
+  if (!group.consent_file.empty()) {
     group.consent_text = paragraphs_of(read_live_file(folder / group.consent_file, "consent_file"));
     if (group.consent_text.empty()) {
       throw Error{ErrorKind::kInvalidInput, "the consent text '" + group.consent_file + "' is empty"};

@@ -81,7 +81,7 @@ class SeatDecider {
     const auto judged = judged_path(atlas, room_.study.screening[number], *actions);
     if (!judged.is_legal) return illegal();
     return accepted("screened", {{"test", number},
-                                 {"actions", actions_json(*actions)},
+                                 {"actions", *actions},
                                  {"right", is_as_good(atlas, room_.study.screening[number], judged.counts)},
                                  {"ms", *ms}});
   }
@@ -112,7 +112,7 @@ class SeatDecider {
     if (*actions == seat_.draft) return nothing_to_do();
     if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
       return illegal();
-    return accepted("draft", {{"test", number}, {"actions", actions_json(*actions)}});
+    return accepted("draft", {{"test", number}, {"actions", *actions}});
   }
 
   [[nodiscard]] Decision answer() const {
@@ -132,7 +132,7 @@ class SeatDecider {
     if (number != current_test(seat_)) return not_now();
     if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
       return illegal();
-    return accepted("answered", {{"test", number}, {"actions", actions_json(*actions)}, {"keys", *keys}, {"ms", *ms}});
+    return accepted("answered", {{"test", number}, {"actions", *actions}, {"keys", *keys}, {"ms", *ms}});
   }
 
   [[nodiscard]] Decision go_on() const {
