@@ -58,7 +58,6 @@ class Collector {
   }
 
   void replace(std::size_t seat, std::size_t by, std::int64_t at_us) {
-    if (event.body.value("finished", false)) return;
     if (by == 0) return;
     auto& row = history_.seats[by];
     row.member = history_.seats[seat].member;
@@ -68,6 +67,7 @@ class Collector {
   }
 
   void note_lesson(const Room& room, const RoomEvent& event) {
+    if (event.body.value("finished", false)) return;
     const auto& session = room.session();
     const auto period = count_at(event.body, "period");
     if (!history_.lessons.empty() && history_.lessons.back().lesson.period == period) {

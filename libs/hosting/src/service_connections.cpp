@@ -128,6 +128,7 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
     if (identity.role != Role::kNobody) connection->is_known = true;
   }
   if (!connection->is_known) return connection->dismiss("bad-token", kPolicy);
+  connection->socket->authenticated();
   if (former) former->dismiss("opened-elsewhere", kElsewhere);
   connection->send({{"t", "welcome"}, {"role", name_of(connection->identity.role)}, {"server", options.program}});
   if (connection->identity.role == Role::kParticipant) attend(connection);
@@ -135,7 +136,6 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
 
 // Somebody opened the page of a seat: takes the seat if it was kept free for this link, and shows the page.
 void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
-  connection->socket->authenticated();
   const auto number = connection->identity.room;
   const auto seat = connection->identity.seat;
   post(number, [this, connection, number, seat](TeachingCache&) {
@@ -184,7 +184,7 @@ void LiveService::State::message(const std::shared_ptr<Connection>& connection, 
   if (id.empty() || id.size() > kLongestId)
     return connection->send(nak_frame("", {"bad-id", "A message needs an id of at most 64 characters."}));
   const auto& identity = connection->identity;
-  if (type == "hello") return connection->send(nak_frame(id, {"not-now", "This connection has said hello already."}));
+  if (type == "hello") return connection->send(nak_frame(id, {"not-now", "This connection has already said hello."}));
   if (!is_allowed(type, identity.role))
     return connection->send(nak_frame(id, {"not-allowed", "This link does not allow '" + type + "'."}));
   const auto found = frame.find("body");

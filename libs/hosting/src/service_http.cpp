@@ -74,7 +74,7 @@ LiveService::HttpReply LiveService::http(const HttpRequest& request) {
   try {
     return state_->handle(request);
   } catch (const std::exception&) {
-    return error_reply(500, "internal", "The server met an unexpected error.");
+    return error_reply(500, "internal", "An unexpected error occurred on the server.");
   }
 }
 
@@ -95,7 +95,7 @@ LiveService::HttpReply LiveService::State::handle(const HttpRequest& request) {
   Identity identity;
   {
     const std::lock_guard lock{mutex};
-    if (is_stopping) return error_reply(503, "stopping", "The server stops.");
+    if (is_stopping) return error_reply(503, "stopping", "The server is stopping.");
     if (!request.bearer.empty()) identity = tokens->identify(request.bearer, now_us());
   }
   if (!is_allowed(route, identity.role)) {
@@ -204,7 +204,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     if (!seat) return error_reply(503, "not-saved", "The server could not save this; try again.");
     if (*seat > 0) return give_link(room, *seat);
   }
-  if (is_study && options.makes_rooms) {
+  if (is_study) {
     auto promise = std::make_shared<std::promise<RoomsMade>>();
     auto answer = promise->get_future();
     post(0, [this, promise](TeachingCache&) {

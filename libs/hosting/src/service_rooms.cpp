@@ -88,13 +88,6 @@ RoomSetup setup_of(const LiveStudy& study, const Wish& wish, const std::map<std:
 
 }  // namespace
 
-std::string room_id(std::int64_t number) { return "r" + std::to_string(number); }
-
-std::int64_t room_number(const std::string& id) {
-  std::int64_t number = 0;
-  if (id.size() < 2 || id.front() != 'r') return 0;
-  const auto* end = id.data() + id.size();
-  const auto [rest, error] = std::from_chars(id.data() + 1, end, number);
 bool is_logged(std::string_view actor, std::string_view type) {
   constexpr std::string_view kTypes[] = {"joined",      "declined",  "left",    "away", "present",
                                          "dropped",     "released",  "started", "time", "ended",
@@ -113,6 +106,13 @@ LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& act
   return entry;
 }
 
+std::string room_id(std::int64_t number) { return "r" + std::to_string(number); }
+
+std::int64_t room_number(const std::string& id) {
+  std::int64_t number = 0;
+  if (id.size() < 2 || id.front() != 'r') return 0;
+  const auto* end = id.data() + id.size();
+  const auto [rest, error] = std::from_chars(id.data() + 1, end, number);
   return error == std::errc{} && rest == end && number > 0 ? number : 0;
 }
 
@@ -135,6 +135,7 @@ void LiveService::State::load_rooms() {
   auto& file = store->file();
   tokens.emplace(file.tokens());
   std::map<std::int64_t, std::vector<StoredEvent>> events;
+  std::vector<LogEntry> entries;
   const auto now = now_us();
   file.for_each_event([&](const StoredEvent& event) {
     if (is_logged(event.actor, event.type)) entries.push_back(entry_of(event));
@@ -142,7 +143,6 @@ void LiveService::State::load_rooms() {
     if (event.room != 0 && event.type == "joined") {
       const auto body = Json::parse(event.json);
       const auto seat = body.value("seat", std::int64_t{0});
-  std::vector<LogEntry> entries;
       joined.insert({event.room, seat});
       contacts[{event.room, seat}].last_seen_us = now;
     }
@@ -212,8 +212,8 @@ void LiveService::State::make_rooms(const Json& body, const std::string& actor, 
   {
     const std::lock_guard lock{mutex};
     if (rooms.size() + wish->count > options.max_rooms)
-      return refuse("full", "This server takes no more than " + std::to_string(options.max_rooms) + " rooms.");
-    if (free_space < kNoSpace) return refuse("no-space", "The disk is almost full: no new rooms are made.");
+      return refuse("full", "This server is limited to " + std::to_string(options.max_rooms) + " rooms.");
+    if (free_space < kNoSpace) return refuse("no-space", "The disk is almost full: no new rooms can be made.");
     for (const auto& [number, room] : rooms) {
       ++rooms_of[room->setup().strategy + "/" + room->setup().composition];
       next = number + 1;

@@ -12,8 +12,8 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <thread>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -47,12 +47,12 @@ struct Connection {
   void send(const Json& frame) const { socket->send(std::make_shared<const std::string>(frame.dump())); }
   // Says why, in a frame for the page, and closes: the page gives up.
   void dismiss(const char* reason, std::uint16_t code);
+  // Closes: the page connects again.
+  void hang_up(std::uint16_t code, const char* reason);
 };
 
 // What connects a seat to whoever sits there.
 struct SeatContact {
-  // Closes: the page connects again.
-  void hang_up(std::uint16_t code, const char* reason);
   LiveService::ConnectionId connection = 0;  // 0: none
   std::int64_t last_seen_us = 0;
   bool is_away = false;  // and the room was told so
@@ -163,12 +163,12 @@ struct LiveService::State final : HostedRoom::Host {
   void revoke_link(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);
   void attend(const std::shared_ptr<Connection>& connection);
   void push_view(Connection& connection, Json view) const;
-  void push_room(HostedRoom& room);
-  void tell_presence(std::int64_t room, std::int64_t seat, const char* type);
+  void push_room(HostedRoom& hosted);
+  void tell_presence(std::int64_t number, std::int64_t seat, const char* type);
   [[nodiscard]] std::shared_ptr<Connection> connection_of(ConnectionId id) const;
 
   // service_views.cpp
-  void take_picture(HostedRoom& room);
+  void take_picture(HostedRoom& hosted);
   void show_facilitators();
   [[nodiscard]] Json facilitator_view(const Connection& connection) const;
   [[nodiscard]] Json integrity() const;
@@ -184,15 +184,15 @@ struct LiveService::State final : HostedRoom::Host {
   void check_space(std::int64_t now);
 };
 
-// Frames of the protocol.
-[[nodiscard]] Json ack_frame(const std::string& id);
-[[nodiscard]] Json nak_frame(const std::string& id, const Refusal& refusal);
 // Whether facilitators read of an event in their log: what they did, and who came and went.
 [[nodiscard]] bool is_logged(std::string_view actor, std::string_view type);
 // @param room  0: of the service.
 [[nodiscard]] LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor,
                                  const std::string& type, const Json& body);
 
+// Frames of the protocol.
+[[nodiscard]] Json ack_frame(const std::string& id);
+[[nodiscard]] Json nak_frame(const std::string& id, const Refusal& refusal);
 
 // "r12" for room 12, and back; 0 for anything else.
 [[nodiscard]] std::string room_id(std::int64_t number);

@@ -18,7 +18,7 @@ class LiveStudy;
 
 /// How live groups are kept and served.
 struct LiveServiceOptions {
-  /// What the study can be made from again, and its digest: see SessionStudy. Rooms of another digest are refused.
+  /// From which the study can be restored, and its digest: see SessionStudy. Rooms of another digest are refused.
   std::map<std::string, std::string> inputs{};
   std::string digest{};
   std::filesystem::path folder{};                   ///< Where the store is; made if it does not exist.
@@ -27,7 +27,6 @@ struct LiveServiceOptions {
   std::size_t cache_bytes = std::size_t{24} << 20;  ///< What each of them remembers, see TeachingCache.
   std::size_t joins_per_minute = 10;                ///< POST /api/join per address; 0: no limit.
   std::size_t max_rooms = 2000;                     ///< No room is made beyond this number.
-  bool makes_rooms = true;                          ///< Who joins the study finds a room, made for them if need be.
   std::int64_t token_hours = 24 * 14;               ///< How long links are valid, in hours.
   /// Microseconds since 1970; empty: the system's clock. Called from several threads.
   std::function<std::int64_t()> now_us{};

@@ -29,13 +29,13 @@ struct RoomSummary {
   std::string ended{};  ///< Why, if it ended before its time.
 };
 
-/// The rooms of a session, in order, from their events alone: nothing is taught again.
+/// The rooms of a session, in order, from their events alone: no lesson is chosen again.
 [[nodiscard]] std::vector<RoomSummary> list_rooms(EventFile& file);
 
 /// The room with this id ("r3") or code. @throws kith::Error (kInvalidInput, E1618) if there is none.
 [[nodiscard]] StoredRoom find_room(EventFile& file, const std::string& name);
 
-/// What became of replaying a room.
+/// The result of replaying a room.
 struct ReplayedRoom {
   std::int64_t number = 0;
   std::string id;

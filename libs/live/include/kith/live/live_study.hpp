@@ -59,11 +59,11 @@ struct LiveCell {
 /// {lang, dir, strings}: texts of pages that differ from the built-in English ones.
 [[nodiscard]] Json language_json(const LiveStudy& study);
 
-/// The page of somebody for whom there was no seat: a ParticipantView in the stage `full`.
 /// Of the query parameters of a link, those that the study collects: texts without control characters, at most 200
 /// bytes. Others are dropped, so they are never stored. @param query  an object; anything else gives none.
 [[nodiscard]] Json collected_query(const LiveStudy& study, const Json& query);
 
+/// The page of somebody for whom there was no seat: a ParticipantView in the stage `full`.
 /// @param code  a completion code, empty: none. @param query  see collected_query(); for the redirect.
 [[nodiscard]] Json full_view(const LiveStudy& study, const std::string& code, const Json& query, std::int64_t now_us);
 
