@@ -267,7 +267,7 @@ int run_serve(const ServeOptions& options, Console& console) {
       {
         LocalFacilitator facilitator{service, tokens.facilitator};
         // A room of its own for every start: the links of earlier ones are known to those who have them only.
-        if (options.demo) facilitator.make_rooms(facilitator.num_rooms() + 1, persons(kDemoPeople));
+        if (options.demo) facilitator.make_rooms(service.num_rooms() + 1, persons(kDemoPeople));
         facilitator.make_rooms(options.rooms);
         links = links_of(base, tokens, facilitator);
         if (options.demo) links.seats = links_of_seats(facilitator);

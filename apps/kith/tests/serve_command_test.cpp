@@ -152,6 +152,17 @@ TEST(ServeCommand, ServesADemonstrationUntilItIsStopped) {
   EXPECT_EQ(again.stop(SIGTERM), 0) << again.log();
 }
 
+TEST(ServeCommand, MakesOnlyTheRoomsThatAreMissing) {
+  if (!has_pages()) GTEST_SKIP() << "built without pages";
+  const Scratch scratch;
+  for (const std::size_t rooms : {2U, 3U, 3U}) {
+    Serving serving{{"quick", "--rooms", std::to_string(rooms), "--port", "0", "-o", scratch / "live"}};
+    ASSERT_TRUE(serving.links().has_value()) << serving.log();
+    EXPECT_EQ(serving.stop(SIGINT), 0) << serving.log();
+    EXPECT_THAT(EventFile::read(scratch / "live").rooms(), SizeIs(rooms));
+  }
+}
+
 TEST(ServeCommand, RefusesAFolderOrAPortInUse) {
   if (!has_pages()) GTEST_SKIP() << "built without pages";
   const Scratch scratch;

@@ -160,6 +160,11 @@ LiveService::~LiveService() { stop(); }
 
 void LiveService::set_base_url(std::string url) {
   const std::lock_guard lock{state_->mutex};
+std::size_t LiveService::num_rooms() const {
+  const std::lock_guard lock{state_->mutex};
+  return state_->rooms.size();
+}
+
   state_->base_url = std::move(url);
   state_->has_news = true;
 }
