@@ -88,6 +88,8 @@ void LiveService::State::on_applied(HostedRoom& room, std::span<const RoomEvent>
         auto& contact = contacts[{room.number(), seat}];
         if (contact.last_seen_us == 0) contact.last_seen_us = now_us();
       }
+      if (event.type == "consented" || event.type == "declined")
+        queries.erase({room.number(), static_cast<std::int64_t>(seat_of_actor(event.actor).value_or(0))});
       if (!is_logged(event.actor, event.type)) continue;
       write_log(log_entry(room.number(), event.at_us, event.actor, event.type, event.body));
     }
@@ -158,13 +160,13 @@ LiveService::LiveService(std::shared_ptr<const LiveStudy> study, LiveServiceOpti
 
 LiveService::~LiveService() { stop(); }
 
-void LiveService::set_base_url(std::string url) {
-  const std::lock_guard lock{state_->mutex};
 std::size_t LiveService::num_rooms() const {
   const std::lock_guard lock{state_->mutex};
   return state_->rooms.size();
 }
 
+void LiveService::set_base_url(std::string url) {
+  const std::lock_guard lock{state_->mutex};
   state_->base_url = std::move(url);
   state_->has_news = true;
 }

@@ -24,9 +24,10 @@ class Collector {
       row.joined_us = event.at_us;
       if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
         row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
-      if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
     } else if (event.type == "consented") {
-      history_.seats[seat].consent = text_at(body, "version");
+      auto& row = history_.seats[seat];
+      row.consent = text_at(body, "version");
+      if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
     } else if (event.type == "named") {
       history_.seats[seat].name = text_at(body, "name");
     } else if (event.type == "started") {

@@ -188,9 +188,14 @@ void LiveService::State::message(const std::shared_ptr<Connection>& connection, 
   if (!is_allowed(type, identity.role))
     return connection->send(nak_frame(id, {"not-allowed", "This link does not allow '" + type + "'."}));
   const auto found = frame.find("body");
-  const Json body = found == frame.end() ? Json::object() : *found;
+  Json body = found == frame.end() ? Json::object() : *found;
   if (!body.is_object()) return connection->send(nak_frame(id, {"bad-body", "The body must be an object."}));
   if (identity.role != Role::kParticipant) return facilitate(connection, type, id, body);
+  if (type == "consent") {
+    const std::lock_guard lock{mutex};
+    const auto query = queries.find({identity.room, identity.seat});
+    body["query"] = query == queries.end() ? Json::object() : query->second;
+  }
   post(identity.room, [this, connection, type, id, body](TeachingCache&) {
     const auto seat = static_cast<std::size_t>(connection->identity.seat);
     room_of(connection->identity.room)

@@ -164,9 +164,9 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   const auto take_seat = [&](const std::shared_ptr<HostedRoom>& room) {
     auto promise = std::make_shared<std::promise<std::int64_t>>();  // the seat, 0: none is free
     auto seat = promise->get_future();
-    post(room->number(), [room, query, promise](TeachingCache&) {
+    post(room->number(), [room, promise](TeachingCache&) {
       if (room->room() != nullptr && !room->room()->has_free_seat()) return promise->set_value(0);
-      room->ask({.actor = "server", .type = "join", .body = {{"query", query}}, .id = {}},
+      room->ask({.actor = "server", .type = "join", .body = Json::object(), .id = {}},
                 [promise](const CommandOutcome& outcome) {
                   std::int64_t taken = 0;
                   for (const auto& event : outcome.events) {
@@ -183,6 +183,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     {
       const std::lock_guard lock{mutex};
       former = tokens->of_seat(room->number(), seat);
+      if (!query.empty()) queries[{room->number(), seat}] = query;
     }
     auto promise = std::make_shared<std::promise<std::string>>();
     auto token = promise->get_future();

@@ -101,6 +101,8 @@ struct LiveService::State final : HostedRoom::Host {
   std::deque<LogEntry> log;
   std::map<std::int64_t, std::string> troubles;           // by room
   std::map<std::string, std::deque<std::int64_t>> joins;  // by address, when
+  // By room and seat: query parameters of people who have not consented yet. They are stored with the consent.
+  std::map<std::pair<std::int64_t, std::int64_t>, Json> queries;
   std::map<std::string, std::shared_ptr<const std::string>> worlds;
   std::string facilitator_token, observer_token;
   std::size_t num_facilitators = 0;

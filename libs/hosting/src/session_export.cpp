@@ -353,7 +353,7 @@ class Exporter {
     auto body = room_event_of(event).body;
     if (!options_.with_names && body.is_object()) {
       if (event.type == "named") body.erase("name");
-      if (event.type == "joined") body.erase("query");
+      if (event.type == "consented") body.erase("query");
     }
     if (!options_.with_text && body.is_object()) {
       for (const auto* name : {"text", "reason"}) {

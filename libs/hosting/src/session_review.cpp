@@ -47,7 +47,7 @@ bool erase_person(const std::string& type, Json& body, const std::optional<std::
   };
   if (!body.is_object()) return false;
   if (type == "named") return blank("name", kErased);
-  if (type == "joined" || type == "turned-away") return blank("query", Json::object());
+  if (type == "consented" || type == "turned-away") return blank("query", Json::object());
   if (type == "message") return blank("text", kErased);
   if (type != "questions") return false;
   const auto answers = body.find("answers");

@@ -94,6 +94,14 @@ void pass_with_beats(Stage& stage, std::vector<std::unique_ptr<Page>>& people, i
   }
 }
 
+// Whether the text is in any file of the session. @pre the server has stopped.
+bool is_stored(const Stage& stage, const std::string& text) {
+  const std::filesystem::directory_iterator files{stage.folder()};
+  return std::any_of(begin(files), end(files), [&](const std::filesystem::directory_entry& file) {
+    return read_file(file.path()).find(text) != std::string::npos;
+  });
+}
+
 EventFile stored(const Stage& stage) { return EventFile::read(stage.folder()); }
 
 std::map<std::string, std::string> exported(const Stage& stage, const SessionExportOptions& options = {}) {
@@ -430,16 +438,27 @@ TEST(LiveService, KeepsOfWhoFindsNoSeatOnlyWhatTheStudyCollects) {
   const auto reply = stage.post("/api/join", {{"code", stage.join_code()}, {"query", query}});
   ASSERT_TRUE(Json::parse(reply.body).contains("full")) << reply.body;
   stage.stop();
-  const auto contains = [&](const char* text) {
-    const auto& folder = std::filesystem::directory_iterator{stage.folder()};
-    return std::any_of(begin(folder), end(folder), [&](const std::filesystem::directory_entry& entry) {
-      return read_file(entry.path()).find(text) != std::string::npos;
-    });
-  };
-  EXPECT_TRUE(contains("pid-late"));
-  EXPECT_FALSE(contains("late@example.org"));
+  EXPECT_TRUE(is_stored(stage, "pid-late"));
+  EXPECT_FALSE(is_stored(stage, "late@example.org"));
   EXPECT_GT(redact(stage.folder(), std::nullopt, stage.clock().now_us()), 0u);
-  EXPECT_FALSE(contains("pid-late"));
+  EXPECT_FALSE(is_stored(stage, "pid-late"));
+}
+
+TEST(LiveService, KeepsNothingAboutWhoDeclines) {
+  Group group{kQuestions};
+  auto& [scratch, stage, solver, people] = group;
+  people[0]->ask(stage.service(), "consent", {{"accept", false}, {"version", "1"}});
+  people[1]->ask(stage.service(), "consent",
+                 {{"accept", true}, {"version", "1"}, {"query", {{"PROLIFIC_PID", "forged"}}}});
+  stage.service().settle();
+  for (auto& person : people) person->read();
+  EXPECT_EQ(people[0]->stage(), "declined");
+  EXPECT_EQ(people[1]->stage(), "check");
+  stage.stop();
+  EXPECT_FALSE(is_stored(stage, "pid-a"));
+  EXPECT_TRUE(is_stored(stage, "pid-b"));
+  EXPECT_FALSE(is_stored(stage, "pid-c")) << "has not consented yet";
+  EXPECT_FALSE(is_stored(stage, "forged"));
 }
 
 // A person whose link has a damaged parameter takes part without it.

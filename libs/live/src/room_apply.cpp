@@ -61,7 +61,6 @@ class RoomChange {
     person.status = SeatStatus::kActive;
     person.is_here = true;
     person.presence_us = person.joined_us = person.since_us = event_.at_us;
-    person.query = event_.body.at("query");
     person.member.reset();
     if (place.is_null()) return;
     const auto member = place.get<std::size_t>();
@@ -71,6 +70,7 @@ class RoomChange {
   }
   void consented() {
     who().readiness = Readiness::kCheck;
+    who().query = event_.body.at("query");
     who().since_us = event_.at_us;
   }
   void declined() { step_.dismiss(actor(), "declined", "declined", false); }
