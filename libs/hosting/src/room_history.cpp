@@ -32,6 +32,7 @@ class Collector {
       history_.seats[seat].name = text_at(body, "name");
     } else if (event.type == "started") {
       history_.started_us = event.at_us;
+      note_stand_ins(room, event.at_us);
     } else if (event.type == "ended") {
       history_.ended = text_at(body, "reason");
     } else if (event.type == "away" || event.type == "present") {
@@ -58,6 +59,19 @@ class Collector {
     }
   }
 
+  // Those who fill the places of people who did not come.
+  void note_stand_ins(const Room& room, std::int64_t at_us) {
+    const auto shown = room.row({.role = Viewer::Role::kObserver, .seat = 0});
+    for (const auto& seat : shown.at("seats")) {
+      const auto number = count_at(seat, "seat");
+      if (text_at(seat, "kind") != "simulated" || history_.seats.count(number) != 0) continue;
+      auto& row = history_.seats[number];
+      row.member = seat.contains("member") ? count_at(seat, "member") : number;
+      row.simulated = true;
+      row.joined_us = at_us;
+    }
+  }
+
   void replace(std::size_t seat, std::size_t by, std::int64_t at_us) {
     if (by == 0) return;
     auto& row = history_.seats[by];
@@ -71,11 +85,9 @@ class Collector {
     if (event.body.value("finished", false)) return;
     const auto& session = room.session();
     const auto period = count_at(event.body, "period");
-    if (!history_.lessons.empty() && history_.lessons.back().lesson.period == period) {
-      // Somebody came or went before that lesson was taught, or all who had watched it are gone.
-      history_.lessons.pop_back();
-      std::erase_if(history_.answers, [&](const AnswerRow& answer) { return answer.period == period; });
-    }
+    // Somebody came or went before that lesson was taught, or all who had watched it are gone.
+    if (!history_.lessons.empty() && history_.lessons.back().lesson.period == period)
+      history_.lessons.back().is_replaced = true;
     // A room without people is done with the lesson at once.
     const bool is_over = session.periods() >= period;
     history_.lessons.push_back({.lesson = is_over ? session.history()[period - 1].lesson : session.lesson(),
@@ -84,8 +96,10 @@ class Collector {
   }
 
   void note_answer(std::size_t seat, const RoomEvent& event) {
+    if (history_.lessons.empty()) return;  // not in a history that replays
     AnswerRow row;
-    row.period = history_.lessons.empty() ? 0 : history_.lessons.back().lesson.period;
+    row.lesson = history_.lessons.size() - 1;
+    row.period = history_.lessons.back().lesson.period;
     row.test = count_at(event.body, "test");
     row.seat = seat;
     row.member = history_.seats[seat].member.value_or(0);
@@ -105,6 +119,13 @@ class Collector {
 };
 
 }  // namespace
+
+const LessonRow* RoomHistory::lesson_of(std::size_t period) const {
+  for (const auto& row : lessons) {
+    if (row.lesson.period == period && !row.is_replaced) return &row;
+  }
+  return nullptr;
+}
 
 std::size_t RoomHistory::seat_of(std::size_t member) const {
   std::size_t last = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "faulty_disk.hpp"
 #include "kith/hosting/session_export.hpp"
@@ -213,6 +214,27 @@ TEST(LiveService, ExportsAndRebuildsARoomOfStandIns) {
   facilitator = stage.facilitator();
   EXPECT_EQ(row(), before);
   EXPECT_EQ(facilitator->view().at("integrity")["problems"], Json::array());
+}
+
+// One person of three is ready when the time in the lobby is over.
+TEST(LiveService, ExportsStandInsForPeopleWhoDidNotCome) {
+  Group group{"dropout = { policy = \"simulate\" }\ntime = { lobby_s = 60 }\n"};
+  auto& [scratch, stage, solver, people] = group;
+  for (const char* type : {"consent", "checked"}) {
+    people[0]->ask(stage.service(), type, {{"accept", true}, {"version", "1"}});
+    stage.service().settle();
+  }
+  pass_with_beats(stage, people, 62);
+  people.resize(1);
+  ASSERT_TRUE(play(stage, people, solver));
+  EXPECT_EQ(people[0]->stage(), "debrief");
+  const auto tables = exported(stage);
+  std::istringstream participants{tables.at("participants.csv")};
+  std::vector<std::string> rows;
+  for (std::string row; std::getline(participants, row);) rows.push_back(row);
+  ASSERT_EQ(rows.size(), 1u + 3u + 2u) << tables.at("participants.csv");
+  EXPECT_EQ(rows[4].rfind("r1,4,2,", 0), 0u) << rows[4];  // the fourth seat is the second member's
+  EXPECT_EQ(rows[5].rfind("r1,5,3,", 0), 0u) << rows[5];
 }
 
 // While people read the feedback the next lesson is chosen; if one of them leaves, it is chosen again.
