@@ -97,7 +97,8 @@ bool is_logged(std::string_view actor, std::string_view type) {
 
 LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor, const std::string& type,
                    const Json& body) {
-  LogEntry entry{.at_us = at_us, .room = room == 0 ? std::string{} : room_id(room), .actor = actor, .what = type};
+  LogEntry entry{
+      .at_us = at_us, .room = room == 0 ? std::string{} : room_id(room), .actor = actor, .what = type, .reason = {}};
   if (!body.is_object()) return entry;
   entry.reason = text_at(body, "reason");
   const auto seat = body.find("seat");

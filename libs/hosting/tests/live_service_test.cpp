@@ -251,7 +251,7 @@ TEST(LiveService, ExportsTheLessonThatWasTaught) {
   auto file = stored(stage);
   file.for_each_event([&](const StoredEvent& event) {
     const auto body = Json::parse(event.json);
-    if (event.type == "lesson" && !body.at("finished")) ++chosen[body.at("period").get<std::size_t>()];
+    if (event.type == "lesson" && !body.at("finished").get<bool>()) ++chosen[body.at("period").get<std::size_t>()];
   });
   ASSERT_EQ(chosen[2], 2u);
   const auto tables = exported(stage);
@@ -372,7 +372,7 @@ TEST(LiveService, LogsWhoCameAndWhoWentAway) {
   const auto comings = [&] {
     std::vector<std::pair<std::string, std::string>> found;
     for (const auto& entry : facilitator->view().at("log")) {
-      if (entry.value("room", "") == "r1") found.emplace_back(entry["actor"], entry["what"]);
+      if (entry.value("room", "") == "r1") found.emplace_back(entry.value("actor", ""), entry.value("what", ""));
     }
     return found;
   };
