@@ -1,6 +1,6 @@
 // The page around the tabs: header, state of the connection, dialogs.
 import type { JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { announce } from '../shared/dom';
 import { themeToggle } from '../shared/theme';
 import { Api } from './api';
@@ -165,7 +165,7 @@ function LinkMark({ link }: { link: LinkState }): JSX.Element {
 
 function ThemeButton(): JSX.Element {
   const place = useRef<HTMLSpanElement>(null);
-  useEffect(() => place.current?.replaceChildren(themeToggle()), []);
+  useLayoutEffect(() => place.current?.replaceChildren(themeToggle()), []);
   return <span ref={place} />;
 }
 

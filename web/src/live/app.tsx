@@ -1,6 +1,6 @@
 // The page is a function of the last view of the server and of what somebody is doing on it now.
 import { Component, type ComponentChildren, type JSX } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import { duration, useTick } from './clock';
 import { Connection, type Snapshot } from './connection';
 import { Bare, Shell } from './parts/shell';
@@ -35,7 +35,7 @@ export function App(): JSX.Element {
     setToken(null);
   };
   // Another link opened in this tab is another person.
-  useEffect(() => {
+  useLayoutEffect(() => {
     const changed = (): void => location.reload();
     window.addEventListener('hashchange', changed);
     return () => window.removeEventListener('hashchange', changed);
@@ -64,7 +64,7 @@ function useConnection(token: string): { connection: Connection; snapshot: Snaps
       }),
   );
   const [snapshot, setSnapshot] = useState(connection.snapshot());
-  useEffect(() => connection.subscribe(() => setSnapshot(connection.snapshot())), [connection]);
+  useLayoutEffect(() => connection.subscribe(() => setSnapshot(connection.snapshot())), [connection]);
   return { connection, snapshot };
 }
 
@@ -98,7 +98,7 @@ function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX
 // The language of the study, if this page did not know it before.
 function useLanguage(lang: string | undefined): void {
   const [, setCount] = useState(0);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (lang !== undefined && lang !== currentLanguage()) void loadTexts(lang).then(() => setCount((count) => count + 1));
   }, [lang]);
 }

@@ -1,6 +1,6 @@
 // Everybody in the room, one row each: who is there, what they are doing, and all their answers.
 import type { JSX } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { secondsText, spanText, useNow } from '../clock';
 import type { Answer, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
@@ -42,7 +42,7 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
   // The latest answers are at the right end, which has to be seen.
   const box = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (box.current) box.current.scrollLeft = box.current.scrollWidth;
   }, [columns.length]);
   const periods = [...new Set(columns.map(({ period }) => period))];

@@ -124,6 +124,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
   const heights = heightsFor(useWindowHeight(), room.seats.length);
   const detail = view.room;
   if (!detail) return <Nothing text="Loading the room..." />;
+  const period = detail.session.phase === 'teacher' ? room.period - 1 : room.period; // of the lesson
   const seat = room.seats.find((one) => one.seat === opened);
   const nameOf = (belief: string): string => seatOf(room.seats, belief)?.label ?? belief;
   const memberOf = (number: string): number => {
@@ -147,7 +148,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
         </div>
         <div class="live-side">
           <Progress room={room} detail={detail} />
-          <LessonPanel lesson={detail.lesson} period={detail.session.phase === 'teacher' ? room.period - 1 : room.period} />
+          <LessonPanel key={period} lesson={detail.lesson} period={period} />
         </div>
       </div>
       <section class="room-log" aria-labelledby="room-log-title">
