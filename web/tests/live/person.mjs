@@ -2,9 +2,12 @@
 import assert from 'node:assert/strict';
 import { bestPath, priced } from './delivery.mjs';
 
-// A page in a context of its own; requests to elsewhere, console messages and uncaught errors are collected.
+const kPatience = 120_000; // milliseconds: the machine may be busy; nothing here is about time
+
+// A page in a context of its own; requests to elsewhere, console messages and uncaught errors are collected. With
+// `stopped`, time passes on the page only when `pass` says so.
 export async function openPerson(browser, address, look = {}) {
-  const { width = 1280, height = 900, dark = false, reducedMotion = false, scale = 1, offline = false, locale = 'en-US' } = look;
+  const { width = 1280, height = 900, dark = false, reducedMotion = false, scale = 1, offline = false, stopped = false, locale = 'en-US' } = look;
   const context = await browser.newContext({
     viewport: { width, height },
     deviceScaleFactor: scale,
@@ -14,6 +17,10 @@ export async function openPerson(browser, address, look = {}) {
     offline,
     locale,
   });
+  if (stopped) {
+    await context.clock.install({ time: 0 });
+    await context.clock.pauseAt(1000);
+  }
   return new Person(context, await context.newPage(), address);
 }
 
@@ -39,7 +46,7 @@ export class Person {
         if (frame.t === 'view') this.view = frame.view;
       });
     });
-    page.setDefaultTimeout(120_000); // the machine may be busy; nothing here is about time
+    page.setDefaultTimeout(kPatience);
     // A study without texts of its own answers 404, which a browser reports.
     this.expects.push(/api\/texts/);
   }
@@ -52,6 +59,10 @@ export class Person {
 
   async close() {
     await this.context.close();
+  }
+
+  pass(ms) {
+    return this.page.clock.runFor(ms);
   }
 
   // Lost connections are reported by the browser, whatever the page does about them.
@@ -135,6 +146,20 @@ export class Person {
       const line = document.querySelector(`.live-board .way.${name} .line`);
       return line ? line.getAttribute('points').split(' ').length : 0;
     }, kind);
+  }
+
+  // The word at the top of the page: Saved, Saving or Reconnecting.
+  async hasStatus(word) {
+    await this.page.waitForFunction((text) => document.querySelector('.status')?.textContent.includes(text), word);
+  }
+
+  // Until something on the server is so.
+  async until(isSo) {
+    const end = Date.now() + kPatience;
+    while (!isSo()) {
+      assert.ok(Date.now() < end, `waited in vain until ${isSo}`);
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
   }
 
   // Until the last sentence about the board says so.
