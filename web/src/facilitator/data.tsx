@@ -1,7 +1,8 @@
 // Whether the data are safe, how to get them out, and what is stored.
 import type { JSX } from 'preact';
 import { useContext, useState } from 'preact/hooks';
-import { clockText, spanText, useNow } from './clock';
+import { duration } from '../shared/duration';
+import { clockText, useNow } from './clock';
 import { isObject, type FacilitatorView, type Integrity } from './protocol';
 import { ApiContext } from './setup/link_box';
 import { Explained } from './tip';
@@ -18,7 +19,7 @@ export function problemsOf({ unsaved, last_commit_ms, free_mb, problems }: Integ
     found.push(`Only ${Math.round(free_mb)} MB of disk space are left. Below ${kLowSpace.refuse} MB no new session can begin.`);
   }
   if (unsaved > 0 && now - last_commit_ms > 5000) {
-    found.push(`${unsaved} events have been waiting to be written for ${spanText(now - last_commit_ms)}. Check the disk.`);
+    found.push(`${unsaved} events have been waiting to be written for ${duration(now - last_commit_ms)}. Check the disk.`);
   }
   return found;
 }

@@ -1,11 +1,11 @@
 // What is shown before there is anything to show, or when there is nothing any more.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import type { LinkState } from './connection';
+import type { LineState } from '../shared/line';
 import { forgetToken, tokenIn } from './session';
 
-export function NoServer({ link, onRetry }: { link: LinkState; onRetry: () => void }): JSX.Element {
-  const isRetrying = link.state === 'reconnecting';
+export function NoServer({ line, onRetry }: { line: LineState; onRetry: () => void }): JSX.Element {
+  const isRetrying = line.phase === 'lost';
   return (
     <main id="main" class="plain-page" tabIndex={-1}>
       <h1>{isRetrying ? 'The server cannot be reached' : 'Connecting'}</h1>
@@ -35,8 +35,8 @@ const kDismissals: Record<string, { title: string; text: string }> = {
   },
 };
 
-export function Dismissed({ reason }: { reason: string }): JSX.Element {
-  const { title, text } = kDismissals[reason] ?? { title: 'Disconnected', text: `The server closed the connection (${reason}).` };
+export function Dismissed({ reason }: { reason: LineState['bye'] }): JSX.Element {
+  const { title, text } = kDismissals[reason ?? ''] ?? { title: 'Disconnected', text: `The server closed the connection (${reason}).` };
   return (
     <main id="main" class="plain-page" tabIndex={-1}>
       <h1>{title}</h1>

@@ -1,7 +1,9 @@
 // The page is a function of the last view of the server and of what somebody is doing on it now.
 import { Component, type ComponentChildren, type JSX } from 'preact';
 import { useLayoutEffect, useState } from 'preact/hooks';
-import { duration, useTick } from './clock';
+import { duration } from '../shared/duration';
+import type { LineState } from '../shared/line';
+import { useTick } from './clock';
 import { Connection, type Snapshot } from './connection';
 import { Bare, Shell } from './parts/shell';
 import { Button, Heading } from './parts/ui';
@@ -70,12 +72,12 @@ function useConnection(token: string): { connection: Connection; snapshot: Snaps
 
 function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX.Element {
   const { connection, snapshot } = useConnection(token);
-  const { view, bye, phase } = snapshot;
+  const { view, line } = snapshot;
   useLanguage(view?.lang);
-  if (phase === 'closed') {
+  if (line.phase === 'closed') {
     return (
       <Bare>
-        <Closed reason={bye ?? 'removed'} connection={connection} onLeave={onLeave} />
+        <Closed reason={line.bye ?? 'removed'} connection={connection} onLeave={onLeave} />
       </Bare>
     );
   }
@@ -167,7 +169,7 @@ function Connecting({ snapshot }: { snapshot: Snapshot }): JSX.Element {
 }
 
 interface ClosedProps {
-  reason: NonNullable<Snapshot['bye']>;
+  reason: NonNullable<LineState['bye']>;
   connection: Connection;
   onLeave: () => void;
 }

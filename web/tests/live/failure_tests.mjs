@@ -168,7 +168,7 @@ export function failureTests(setting) {
       });
     });
 
-    it('tries again after connections that break, and notices one that is silent', async () => {
+    it('tries again after connections that break, and sends again what is not acknowledged', async () => {
       await withGroup(setting, { look: kStopped }, async ({ mock, person }) => {
         person.expectLosses();
         await person.at('Before you start');
@@ -178,14 +178,17 @@ export function failureTests(setting) {
           await person.pass(500);
           await person.hasStatus('Saved');
         }
-        await person.pass(5000);
-        await person.until(() => mock.numBeats === 1);
-        mock.beats = false;
-        await person.pass(16_000);
+        mock.holdsAcks = true;
+        await person.consent();
+        await person.until(() => mock.received.length === 1);
+        await person.pass(21_000);
         await person.hasStatus('Reconnecting');
         await person.pass(500);
+        await person.until(() => mock.received.length === 2);
+        assert.equal(mock.received[0].id, mock.received[1].id);
+        mock.releaseAcks();
         await person.hasStatus('Saved');
-        assert.equal(mock.numHellos, 5);
+        await person.at('What this is about');
       });
     });
 

@@ -42,8 +42,6 @@ export class Mock {
     this.received = []; // {seat, t, id, body}, also what was sent again
     this.isDown = false;
     this.holdsAcks = false;
-    this.beats = true; // whether they are answered
-    this.numBeats = 0;
     this.numHellos = 0;
     const { WebSocketServer } = requireFrom(modules)('ws');
     this.ws = new WebSocketServer({ noServer: true, maxPayload: 16384 });
@@ -162,10 +160,8 @@ export class Mock {
       const frame = JSON.parse(String(data));
       if (frame.t === 'hello') token = this.hello(socket, frame);
       else if (token === null) this.violations.push(`'${frame.t}' before hello`);
-      else if (frame.t === 'beat') {
-        this.numBeats += 1;
-        if (this.beats) socket.send(JSON.stringify({ t: 'beat' }));
-      } else this.receive(socket, token, frame);
+      else if (frame.t === 'beat') socket.send(JSON.stringify({ t: 'beat' }));
+      else this.receive(socket, token, frame);
     });
     socket.on('close', () => {
       if (token === null || this.sockets.get(token) !== socket) return;

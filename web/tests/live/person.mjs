@@ -194,9 +194,14 @@ export class Person {
     }
   }
 
-  async violations(axe) {
+  // Of all rules, or of some.
+  async violations(axe, rules) {
+    if (rules?.length === 0) return [];
     await this.page.evaluate(axe); // from the debugger, so that the page's policy stays as it is
-    const { violations } = await this.page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+    const { violations } = await this.page.evaluate(
+      (runOnly) => window.axe.run(document, { resultTypes: ['violations'], ...(runOnly ? { runOnly } : {}) }),
+      rules,
+    );
     return violations
       .filter(({ impact }) => impact === 'serious' || impact === 'critical')
       .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);

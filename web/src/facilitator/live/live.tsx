@@ -1,7 +1,8 @@
 // One room as it happens: beliefs, people and answers on the left, the lesson and the progress on the right.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import { spanText, useNow } from '../clock';
+import { duration } from '../../shared/duration';
+import { useNow } from '../clock';
 import { type Action, roomActions } from '../controls/actions';
 import { SeatDialog } from '../controls/seat_dialog';
 import { LogTable } from '../log';
@@ -75,7 +76,7 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
       )}
       {room.started_ms !== undefined && room.stage !== 'ended' && (
         <span class="fact">
-          Running for <b>{spanText(now - room.started_ms)}</b>
+          Running for <b>{duration(now - room.started_ms)}</b>
         </span>
       )}
       {room.ended && <span class="fact">{endText(room.ended)}</span>}

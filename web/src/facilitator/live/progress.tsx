@@ -1,6 +1,7 @@
 // Where the session is: components, forecast and timers.
 import type { JSX } from 'preact';
-import { minutesText, spanText, useNow } from '../clock';
+import { duration } from '../../shared/duration';
+import { minutesText, useNow } from '../clock';
 import type { RoomDetail, RoomRow, Timer } from '../protocol';
 import { Explained } from '../tip';
 import { upperFirst } from '../words';
@@ -73,6 +74,6 @@ function periodsText(periods: number): string {
 const isLate = ({ until_ms }: Timer, now: number): boolean => until_ms !== undefined && until_ms - now < 15_000;
 
 function timerText({ since_ms, until_ms }: Timer, now: number): string {
-  if (until_ms === undefined) return spanText(now - since_ms);
-  return until_ms > now ? `${spanText(until_ms - now)} left` : 'over';
+  if (until_ms === undefined) return duration(now - since_ms);
+  return until_ms > now ? `${duration(until_ms - now)} left` : 'over';
 }

@@ -1,7 +1,8 @@
 // Small pieces that all screens are made of.
 import type { ComponentChildren, JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-import { duration, serverNow, useTick } from '../clock';
+import { duration } from '../../shared/duration';
+import { serverNow, useTick } from '../clock';
 import { t } from '../texts';
 import { setHeading } from './title';
 
