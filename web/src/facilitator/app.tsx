@@ -186,9 +186,9 @@ function Banners({ view, line, onRetry, onData }: BannersProps): JSX.Element {
         <div class="banner" role="alert">
           <span>
             {line.bye === 'server-stops'
-              ? 'The server has stopped. This page reconnects when it is started again.'
-              : 'The connection to the server is lost. Trying to reconnect.'}{' '}
-            Until then you see the last known state.
+              ? 'The server has stopped. This page reconnects when the server restarts.'
+              : 'The connection to the server was lost. Trying to reconnect.'}{' '}
+            Until then, this page shows the last known state.
           </span>
           <Elapsed since={line.since} />
           <button type="button" onClick={onRetry}>

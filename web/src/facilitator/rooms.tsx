@@ -54,7 +54,7 @@ export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
         <input id="rooms-find" type="search" value={text} placeholder="code, strategy, name" onInput={(event) => setText(event.currentTarget.value)} />
       </div>
       {shown.length === 0 ? (
-        <p class="nothing">{view.rooms.length === 0 ? 'There are no rooms yet. Make some under Set-up.' : 'No room matches.'}</p>
+        <p class="nothing">{view.rooms.length === 0 ? 'There are no rooms yet. Create one under Set-up.' : 'No room matches.'}</p>
       ) : (
         <div class="scroller" role="region" aria-label="Rooms" tabIndex={0}>
           <table class="rooms">

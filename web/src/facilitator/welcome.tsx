@@ -11,7 +11,7 @@ export function NoServer({ line, onRetry }: { line: LineState; onRetry: () => vo
       <h1>{isRetrying ? 'The server cannot be reached' : 'Connecting'}</h1>
       <p role="status">
         {isRetrying
-          ? 'This page keeps trying. Check that kith serve is running and that this computer is in the same network.'
+          ? 'This page keeps trying. Check that kith serve is running and that this computer is on the same network.'
           : 'Connecting to the server.'}
       </p>
       {isRetrying && (
@@ -26,7 +26,7 @@ export function NoServer({ line, onRetry }: { line: LineState; onRetry: () => vo
 const kDismissals: Record<string, { title: string; text: string }> = {
   'bad-token': {
     title: 'This link is not valid',
-    text: 'It has expired, was revoked, or was not copied completely. kith serve prints the facilitator link when it starts.',
+    text: 'It has expired, was revoked, or was copied incompletely. kith serve prints the facilitator link when it starts.',
   },
   removed: { title: 'This link was revoked', text: 'Another facilitator revoked it. Ask for a new one.' },
   'opened-elsewhere': {
@@ -69,7 +69,7 @@ function AskLink(): JSX.Element {
     event.preventDefault();
     const token = tokenIn(text);
     if (!token) {
-      setProblem('This is not a link of kith serve: it ends with #t= and a long word.');
+      setProblem('This is not a link printed by kith serve. Such a link contains #t= followed by a long token.');
       return;
     }
     forgetToken();

@@ -37,7 +37,7 @@ export function failureTests(setting) {
         await reload();
         await person.drive(await person.best());
         await reload();
-        await person.button('It works').click();
+        await person.button('Continue').click();
         await person.at('A few tasks to begin with');
         await person.drive(['up']);
         await reload();
@@ -62,7 +62,7 @@ export function failureTests(setting) {
         await person.at('Correct');
         await reload();
         await person.feedback();
-        await person.at('Some questions');
+        await person.at('A few questions');
         await reload();
         await page.getByRole('radio', { name: '6', exact: true }).check();
         await page.getByRole('radio', { name: 'never' }).check();

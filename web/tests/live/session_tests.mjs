@@ -19,7 +19,7 @@ export function sessionTests(setting) {
         const wrong = ['right', 'down', 'right', 'pickup', 'left', 'left', 'left', 'dropoff'];
         await people[0].answer(wrong);
         await people[0].at('Waiting for the others');
-        assert.match(await people[0].page.textContent('main'), /2 people are still working.*Then you see what the robot/s);
+        assert.match(await people[0].page.textContent('main'), /2 people are still working.*Next, you will see what the robot/s);
         await people[1].answer();
         await people[2].answer();
         await people[0].at('Not quite');
@@ -40,8 +40,8 @@ export function sessionTests(setting) {
           for (const person of people) await person.feedback();
         }
         for (const person of people) await fillIn(person);
-        assert.match(await people[0].page.textContent('main'), /3 of 4 tasks correctly, in 3 rounds.*MOCK-1X7Q/s);
-        assert.match(await people[1].page.textContent('main'), /4 of 4 tasks correctly/);
+        assert.match(await people[0].page.textContent('main'), /in 3 of 4 tasks, over 3 rounds.*MOCK-1X7Q/s);
+        assert.match(await people[1].page.textContent('main'), /in 4 of 4 tasks/);
         await people[1].button('Copy the code').click();
         await people[1].page.waitForFunction(() => document.querySelector('.copied').textContent.includes('Copied'));
         assert.equal(await people[0].page.getAttribute('a.button', 'href'), 'https://example.org/done');
@@ -88,7 +88,7 @@ export function sessionTests(setting) {
     });
 
     it('works by keyboard alone', async () => {
-      await withGroup(setting, { parts: 1, questions: kQuestions, look: { stopped: true } }, async ({ person, page }) => {
+      await withGroup(setting, { parts: 1, questions: kQuestions, askName: true, look: { stopped: true } }, async ({ room, person, page }) => {
         const press = async (key, times = 1) => {
           for (let i = 0; i < times; i += 1) await page.keyboard.press(key);
         };
@@ -110,8 +110,12 @@ export function sessionTests(setting) {
         await tabTo('checkbox');
         await press('Space');
         await pressButton('Agree and continue');
+        await person.at('What this is about');
+        await tabTo('text');
+        await page.keyboard.type('Ada');
         await pressButton('Continue');
         await person.at('Try the controls');
+        await person.until(() => room.seats[0].name === 'Ada');
         await press('ArrowUp', 2);
         await press('Backspace');
         await press('ArrowUp');
@@ -121,7 +125,7 @@ export function sessionTests(setting) {
         await press('ArrowLeft');
         await press(' ');
         await person.said('puts down the parcel');
-        await pressButton('It works');
+        await pressButton('Continue');
         for (const index of [1, 2]) {
           await page.waitForFunction((i) => document.querySelector('.kicker')?.textContent.startsWith(`Example ${i}`), index);
           await press('ArrowRight', person.view.watch.frames.length - 1);
@@ -136,7 +140,7 @@ export function sessionTests(setting) {
         await pressButton('Submit');
         await person.at('Correct');
         await pressButton('Continue');
-        await person.at('Some questions');
+        await person.at('A few questions');
         await tabTo('radio');
         await press('ArrowRight');
         await tabTo('radio');
@@ -185,7 +189,7 @@ export function sessionTests(setting) {
         await person.said('cannot do that here');
         await person.button('Submit').click();
         await person.counts('has not finished');
-        await person.button('Keep driving').click();
+        await person.button('Keep going').click();
         await person.counts('1 step');
         await person.button('Submit').click();
         await person.button('Submit anyway').click();
@@ -268,7 +272,7 @@ export function sessionTests(setting) {
 }
 
 async function fillIn(person) {
-  await person.at('Some questions');
+  await person.at('A few questions');
   const { page } = person;
   await person.button('Submit').click();
   await page.waitForFunction(() => document.activeElement.type === 'radio');
@@ -277,7 +281,7 @@ async function fillIn(person) {
   await page.getByRole('radio', { name: 'sometimes' }).check();
   await page.getByRole('textbox').fill('nothing');
   await page.reload();
-  await person.at('Some questions');
+  await person.at('A few questions');
   assert.equal(await page.getByRole('textbox').inputValue(), 'nothing');
   await person.button('Submit').click();
   await person.at('Thank you');

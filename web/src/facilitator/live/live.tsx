@@ -27,7 +27,7 @@ interface LiveProps {
 
 export function Live({ view, selected, mayAct, onSelect, onAct }: LiveProps): JSX.Element {
   const room = view.rooms.find(({ id }) => id === selected);
-  if (view.rooms.length === 0) return <Nothing text="There are no rooms yet. Make some under Set-up." />;
+  if (view.rooms.length === 0) return <Nothing text="There are no rooms yet. Create one under Set-up." />;
   if (!room) return <Nothing text="Choose a room under Rooms." />;
   return (
     <>

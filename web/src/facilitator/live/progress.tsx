@@ -19,7 +19,7 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
       </h3>
       <ol class="components">
         {components.map(({ name, status }, i) => {
-          const isNow = status === 'open' && (component === name || component === i + 1);
+          const isNow = room.stage !== 'ended' && status === 'open' && (component === name || component === i + 1);
           return (
             <li class={`${status}${isNow ? ' now' : ''}`} aria-current={isNow ? 'step' : undefined}>
               <svg width="12" height="12" viewBox="-6 -6 12 12" aria-hidden="true">
@@ -33,12 +33,14 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
         })}
       </ol>
       <dl class="timers">
-        <div>
-          <dt>
-            <Explained term="forecast">Time left</Explained>
-          </dt>
-          <dd>{forecast ? `${minutesText(forecast.minutes_low, forecast.minutes_high)}, about ${periodsText(forecast.periods)}` : 'unknown'}</dd>
-        </div>
+        {room.stage !== 'ended' && (
+          <div>
+            <dt>
+              <Explained term="forecast">Time left</Explained>
+            </dt>
+            <dd>{forecast ? `${minutesText(forecast.minutes_low, forecast.minutes_high)}, about ${periodsText(forecast.periods)}` : 'unknown'}</dd>
+          </div>
+        )}
         {detail.timers.filter(isShown).map((timer) => (
           <div>
             <dt>{timerName(timer, detail.session.phase)}</dt>

@@ -36,7 +36,7 @@ export function Questions({ items, connection }: ScreenProps & { items: Question
   };
   return (
     <>
-      <Heading>{t('questions.title')}</Heading>
+      <Heading>{t('questions.title', { n: items.length })}</Heading>
       <p class="lead">{t('questions.intro')}</p>
       <form
         ref={form}
