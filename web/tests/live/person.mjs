@@ -122,23 +122,21 @@ export class Person {
     for (const name of names) await this.page.keyboard.press(keys[name]);
   }
 
-  // One demonstration, step by step; gives the lengths of the path that was drawn.
-  async watch() {
-    const lengths = [];
+  // One example by keyboard, step by step; `look` is called after every step.
+  async watch(look) {
     await this.at('Watch the robot');
     const { index, of } = this.view.watch;
     const kicker = `Example ${index + 1} of ${of}`;
     await this.page.waitForFunction((text) => document.querySelector('.kicker')?.textContent === text, kicker);
     for (let i = 1; i < this.view.watch.frames.length; i += 1) {
-      await this.button('Next step').click();
-      lengths.push(await this.drawn('own'));
+      await this.page.keyboard.press('ArrowRight');
+      await look?.();
     }
     await this.button('Next').click();
     await this.page.waitForFunction(
       (text) => document.querySelector('.kicker')?.textContent !== text,
       kicker,
     );
-    return lengths;
   }
 
   drawn(kind) {

@@ -12,7 +12,8 @@ export function sessionTests(setting) {
       await withGroup(setting, options, async ({ room, people }) => {
         await begin(people);
         for (const person of people) {
-          const lengths = await person.watch();
+          const lengths = [];
+          await person.watch(async () => lengths.push(await person.drawn('own')));
           assert.ok(lengths.every((n, i) => i === 0 || n >= lengths[i - 1]) && lengths[0] < lengths.at(-1), `drawn: ${lengths}`);
           await person.watch();
         }
@@ -65,6 +66,9 @@ export function sessionTests(setting) {
         await look();
         assert.equal(await person.drawn('own'), 0);
         assert.equal(await person.button('Next').getAttribute('aria-disabled'), 'true');
+        await person.button('Next step').click();
+        await person.button('Previous step').click();
+        assert.equal(await person.drawn('own'), 0);
         await person.watch();
         await person.watch();
         await person.atStage('predict');

@@ -2,11 +2,12 @@
 // by the arrow keys or with the sliders.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
+import type { Vector } from '../../shared/sphere';
 import type { Belief, RoomDetail, Truth } from '../protocol';
 import { Explained } from '../tip';
 import { upperFirst } from '../words';
 import { asVector, dotsPath, firstTurn, kGraticule, linePath, placer, refined, regionPath, turned, unpack } from './globe';
-import type { Placed, Turn, Vector } from './globe';
+import type { Placed, Turn } from './globe';
 import { beliefKind, memberOf, shortName } from './beliefs';
 import { useWidth } from './width';
 
