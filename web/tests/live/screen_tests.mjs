@@ -189,13 +189,14 @@ export function screenTests(setting) {
 
     it('needs less than 200 kB of scripts, before compression', async () => {
       await withViews(setting, async ({ page, mock }) => {
-        const sizes = [];
-        page.on('response', async (response) => {
-          if (/\.js$/.test(response.url())) sizes.push((await response.body()).length);
+        const bodies = [];
+        page.on('response', (response) => {
+          if (/\.js$/.test(response.url())) bodies.push(response.body());
         });
         await page.goto('about:blank');
         await page.goto(mock.link(1));
         await page.waitForSelector('h1');
+        const sizes = (await Promise.all(bodies)).map(({ length }) => length);
         const sum = sizes.reduce((a, b) => a + b, 0);
         assert.ok(sum > 10_000 && sum < 200_000, `${sizes} bytes before compression`);
       });

@@ -256,7 +256,7 @@ export function sessionTests(setting) {
         await person.button('Go back').click();
         await person.button('Do not take part').click();
         await person.button('End the session for me').click();
-        await person.at('You do not take part');
+        await person.at('You are not taking part');
         assert.equal(room.seats[0].stage, 'declined');
       });
     });
