@@ -61,6 +61,7 @@ export class Person {
     await this.context.close();
   }
 
+  // On the page's clock.
   pass(ms) {
     return this.page.clock.runFor(ms);
   }

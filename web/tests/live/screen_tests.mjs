@@ -121,13 +121,14 @@ export function screenTests(setting) {
             await page.click('summary');
             await check('landing');
             mock.isSilent = true;
+            await page.clock.install();
             await page.goto(mock.link(1));
             await person.at('Connecting');
             await person.pass(6000);
             await page.waitForSelector('text=has not answered');
             await check('connecting');
           },
-          { ...look, stopped: true },
+          look,
         );
       });
     }
