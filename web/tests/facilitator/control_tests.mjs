@@ -108,7 +108,7 @@ export function controlTests({ withPage, shoot }) {
       await page.fill('#make-size', '4');
       await page.fill('#make-count', '2');
       await page.selectOption('.seat-choices select >> nth=3', 'P');
-      assert.match(await page.textContent('fieldset'), /3 of 4 are people/);
+      assert.match(await page.textContent('fieldset'), /3 of 4 seats are for people/);
       await page.click('.make button[type=submit]');
       await until('the rooms', () => mock.view.rooms.length === 2);
       const [made] = received(mock, 'room-make');
