@@ -48,7 +48,7 @@ class Laboratory {
 
  private:
   const Atlas& atlas_;
-  const StudyMaker& make_study_;
+  StudyMaker make_study_;
   const TargetSet& set_;
   const CalibrationOptions& options_;
   std::size_t cells_ = 0;
