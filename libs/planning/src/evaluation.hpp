@@ -23,9 +23,6 @@ struct Evaluation {
 // shape [targets, targets].
 [[nodiscard]] Eigen::MatrixXd covariance_of(std::span<const Target> targets, const Evaluation& evaluation);
 
-// Standard error of a statistic from its values without each replicate.
-[[nodiscard]] double jackknife_error(std::span<const double> without);
-
 // How far figures are off, in published standard errors.
 [[nodiscard]] std::vector<double> misses_of(std::span<const Target> targets, std::span<const double> figures);
 
