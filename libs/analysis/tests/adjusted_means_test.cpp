@@ -11,9 +11,11 @@ namespace kith {
 namespace {
 
 using testing::cell_at;
+using ::testing::Contains;
 using testing::failure_of;
 using ::testing::HasSubstr;
 using testing::kGroups;
+using ::testing::Not;
 using testing::quick;
 using testing::table_named;
 
@@ -62,6 +64,18 @@ TEST(AnalyzeTable, TestsPlannedContrastsAndSimpleEffects) {
   const auto& simple = table_named(found, "Pairs of g (at each level of h)");
   ASSERT_EQ(simple.rows.size(), 2u);
   EXPECT_EQ(std::get<std::string>(simple.rows[1][0]), "q");
+}
+
+// Without an interaction the differences are the same at every level: a table of them looks like more than it is.
+TEST(AnalyzeTable, HasNoSimpleEffectsWithoutAnInteraction) {
+  auto options = quick();
+  options.by = {"h"};
+  options.contrasts = {parse_contrast("b - a")};
+  const auto found = analyze_table(Dataset::parse(confounded(), "t.csv"), {"y ~ g + h"}, options).findings.front();
+  for (const auto& table : found.tables) EXPECT_THAT(table.caption, Not(HasSubstr("at each level")));
+  EXPECT_THAT(found.warnings,
+              Contains("the model has no interaction of g and h, so differences between levels of g are "
+                       "the same at every level of h; use g*h to estimate them"));
 }
 
 TEST(AnalyzeTable, RefusesContrastsOfOtherLevels) {
