@@ -11,9 +11,17 @@ namespace kith {
 namespace {
 
 using testing::cell_at;
+<<<<<<< HEAD
 using testing::failure_of;
 using ::testing::HasSubstr;
 using testing::kGroups;
+=======
+using ::testing::Contains;
+using testing::failure_of;
+using ::testing::HasSubstr;
+using testing::kGroups;
+using ::testing::Not;
+>>>>>>> wt-stat2-unbuilt
 using testing::quick;
 using testing::table_named;
 
@@ -64,6 +72,21 @@ TEST(AnalyzeTable, TestsPlannedContrastsAndSimpleEffects) {
   EXPECT_EQ(std::get<std::string>(simple.rows[1][0]), "q");
 }
 
+<<<<<<< HEAD
+=======
+// Without an interaction the differences are the same at every level: a table of them looks like more than it is.
+TEST(AnalyzeTable, HasNoSimpleEffectsWithoutAnInteraction) {
+  auto options = quick();
+  options.by = {"h"};
+  options.contrasts = {parse_contrast("b - a")};
+  const auto found = analyze_table(Dataset::parse(confounded(), "t.csv"), {"y ~ g + h"}, options).findings.front();
+  for (const auto& table : found.tables) EXPECT_THAT(table.caption, Not(HasSubstr("at each level")));
+  EXPECT_THAT(found.warnings,
+              Contains("the model has no interaction of g and h, so differences between levels of g are "
+                       "the same at every level of h; use g*h to estimate them"));
+}
+
+>>>>>>> wt-stat2-unbuilt
 TEST(AnalyzeTable, RefusesContrastsOfOtherLevels) {
   auto options = quick();
   options.contrasts = {parse_contrast("a - d")};

@@ -11,6 +11,7 @@ namespace {
 using testing::cell_at;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::number;
 using testing::quick;
 using testing::table_named;
@@ -32,13 +33,13 @@ TEST(AnalyzeTable, FitsRandomInterceptsWhereAnIdentifierRepeats) {
   const auto analysis = analyze_table(data, {"y ~ g"}, quick());
   const auto found = analysis.findings.front();
   EXPECT_EQ(found.model, "y ~ g + (1|team)");
-  EXPECT_THAT(analysis.notes, Contains(HasSubstr("rows of t.csv belong together, so the model has random intercepts, "
-                                                 "(1|team); write them into the formula to choose others, or say "
+  EXPECT_THAT(analysis.notes, Contains(HasSubstr("identifiers repeat in t.csv, so the model has random intercepts, "
+                                                 "(1|team); to choose others, write them into the formula, or use "
                                                  "--independent")));
   const auto& tests = table_named(found, "Tests of the fixed effects (type II, Satterthwaite)");
   const auto independent = analyze_table(data, {.formula = "y ~ g", .independent = true}, quick()).findings.front();
-  EXPECT_THAT(independent.warnings, Contains(HasSubstr("rows belong together ((1|team)), but are analysed as "
-                                                       "independent, as was asked for")));
+  EXPECT_THAT(independent.warnings, Contains(HasSubstr("identifiers repeat ((1|team)), but rows are analysed as "
+                                                       "independent, as requested")));
   // Balanced, so the mixed model's test is that of the team means: F(1, 10).
   std::string means = "team,g,y\n";
   for (int team = 0; team < 12; ++team) {
@@ -59,13 +60,54 @@ TEST(AnalyzeTable, TakesRandomInterceptsFromTheFormula) {
   EXPECT_NO_THROW((void)table_named(found, "Variances"));
 }
 
+// Eight people, two rows each, who are less alike than chance makes them: g differs between people.
+std::string unlike_rows() {
+  std::string text = "person,g,y\n";
+  for (int i = 0; i < 16; ++i)
+    text +=
+        "p" + std::to_string(i / 2) + (i / 2 % 2 == 0 ? ",a," : ",b,") + std::to_string(i % 2 * 4 + i * 5 % 3) + "\n";
+  return text;
+}
+
+// A variance of 0 is an estimate from few people: it does not show that rows are independent.
+TEST(AnalyzeTable, DoesNotTakeAVarianceOfZeroForAFact) {
+  const auto found = analyze_table(Dataset::parse(unlike_rows(), "t.csv"), {"y ~ g"}, quick()).findings.front();
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("the variance of person is estimated as 0, so the tests treat rows as "
+                                                 "independent; the data allow an intraclass correlation of up to 0.")));
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("only 8 different values of person")));
+  EXPECT_THAT(found.sentence, HasSubstr("rows with the same person is 0.00 [0.00, 0."));
+}
+
+TEST(AnalyzeTable, SaysThatFactorsTellGroupsApart) {
+  std::string text = "person,age,y\n";
+  for (int i = 0; i < 24; ++i)
+    text += "p" + std::to_string(i / 3) + "," + std::to_string(20 + i / 3) + "," + std::to_string(i * 7 % 11) + "\n";
+  const auto found = analyze_table(Dataset::parse(text, "t.csv"), {"y ~ age"}, quick()).findings.front();
+  EXPECT_THAT(found.sentence, HasSubstr("the factors of the model already tell every person apart"));
+}
+
+TEST(AnalyzeTable, WarnsOfEmptyCombinationsInMixedModels) {
+  std::string text = "person,g,h,y\n";
+  for (int i = 0; i < 36; ++i) {
+    const bool is_a = i / 3 % 2 == 0;
+    text += "p" + std::to_string(i / 3) + (is_a ? ",a," : ",b,") + (is_a && i / 3 % 4 == 0 ? "x," : "y,") +
+            std::to_string(i * 7 % 11) + "\n";
+  }
+  const auto data = Dataset::parse(text, "t.csv");
+  const auto warnings_of = [&](const char* formula) {
+    return analyze_table(data, {formula}, quick()).findings.front().warnings;
+  };
+  EXPECT_THAT(warnings_of("y ~ g*h"), Contains(HasSubstr("1 combination of levels has no rows")));
+  EXPECT_THAT(warnings_of("y ~ g + h"), Not(Contains(HasSubstr("combination of levels"))));
+}
+
 TEST(AnalyzeTable, AnalysesRatingsByTheirOrder) {
   const auto data = Dataset::parse(members(), "t.csv");
   const auto found =
       analyze_table(data, {.formula = "trust_rating ~ g", .independent = true}, quick()).findings.front();
   EXPECT_THAT(found.sentence, HasSubstr("Proportional odds model of trust_rating"));
   EXPECT_NO_THROW((void)table_named(found, "Likelihood-ratio tests (proportional odds model"));
-  EXPECT_EQ(table_named(found, "How often every rating").rows.size(), 2u);
+  EXPECT_EQ(table_named(found, "How often each rating").rows.size(), 2u);
   const auto asked = analyze_table(
       data, {.formula = "member ~ g", .response_kind = ColumnKind::kOrdinal, .independent = true}, quick());
   EXPECT_THAT(asked.findings.front().sentence, HasSubstr("Proportional odds model"));
