@@ -56,6 +56,15 @@ LiveLanguage parse_language(const std::string& text, const std::string& name) {
   return language;
 }
 
+void require_teachable(const std::vector<StrategyChoice>& strategies) {
+  for (const auto& strategy : strategies) {
+    if (!strategy.kind.needs_truth) continue;
+    throw Error{ErrorKind::kInvalidInput, "the strategy '" + strategy.name +
+                                              "' reads what simulated people believe, so it cannot teach real ones: "
+                                              "remove it from [design]"};
+  }
+}
+
 void require_small_worlds(const Domain& domain) {
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     const auto states = domain.mdp(m).num_states() + domain.mdp(m).num_terminals();
@@ -146,6 +155,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   }
   auto live = std::make_shared<LiveStudy>();
   live->spec = study.variants.front();
+  require_teachable(live->spec.strategies);
   auto& group = live->spec.group;
   require_small_worlds(atlas->domain());
   atlas = with_answerable_tests(std::move(atlas));

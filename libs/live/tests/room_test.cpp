@@ -36,8 +36,10 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   EXPECT_FALSE(play.room().has_free_seat());
   EXPECT_EQ(page(play, 1)["consent"]["version"], "1");
   const Json query{{"PID", "p 1"}, {"x", "y"}};
-  ASSERT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "1"}, {"query", query}}), "");
-  EXPECT_EQ(play.events().back().body["query"], (Json{{"PID", "p 1"}}));
+  for (const std::size_t i : {1u, 2u}) {
+    ASSERT_EQ(play.seat(i, "consent", {{"accept", true}, {"version", "1"}, {"query", query}}), "");
+    EXPECT_EQ(play.events().back().body["query"], (Json{{"PID", "p 1"}}));
+  }
   EXPECT_EQ(play.room().stage_of(1), "check");
   EXPECT_TRUE(page(play, 1)["check"]["board"].contains("map"));
   ASSERT_EQ(play.seat(1, "name", {{"name", "Ada"}}), "");

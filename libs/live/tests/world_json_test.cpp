@@ -131,6 +131,21 @@ TEST(LiveStudy, ChoosesASandboxThatTestsNothing) {
   EXPECT_EQ(live_study("[group]\nscreening = { tests = 4 }\n")->screening, study->screening);
 }
 
+TEST(LiveStudy, RefusesStrategiesThatReadWhatSimulatedPeopleBelieve) {
+  auto reading = parse_study(testing::kLiveStudy, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
+  ASSERT_TRUE(reading.study);
+  reading.study->variants.front().strategies[1].kind.needs_truth = true;
+  try {
+    (void)make_live_study(*reading.study, testing::atlas_of("item-delivery"));
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+    EXPECT_EQ(std::string{error.what()},
+              "the strategy 'joint' reads what simulated people believe, so it cannot teach real ones: "
+              "remove it from [design]");
+  }
+}
+
 // On the ice the likeliest steps lead round in a circle from some starts.
 TEST(LiveStudy, NeverAsksWhereTheLikeliestStepsDoNotEnd) {
   const auto all = testing::atlas_of("domains/icy_crossing.toml");

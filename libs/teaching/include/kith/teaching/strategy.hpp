@@ -80,6 +80,7 @@ struct StrategyKind {
   TeamBeliefNeeds (*needs)(const ParameterValues& parameters);
   std::unique_ptr<Strategy> (*make)(const ParameterValues& parameters);
   std::span<const Parameter> parameters{};  ///< Keys of its table in a study file.
+  bool needs_truth = false;  ///< Whether it reads TeachingView::truth, so that it can teach simulated people only.
 };
 
 /// The built-in kinds, in the order of the documentation. Functions that look a strategy up take a list of kinds, so
