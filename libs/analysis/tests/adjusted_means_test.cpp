@@ -11,17 +11,11 @@ namespace kith {
 namespace {
 
 using testing::cell_at;
-<<<<<<< HEAD
-using testing::failure_of;
-using ::testing::HasSubstr;
-using testing::kGroups;
-=======
 using ::testing::Contains;
 using testing::failure_of;
 using ::testing::HasSubstr;
 using testing::kGroups;
 using ::testing::Not;
->>>>>>> wt-stat2-unbuilt
 using testing::quick;
 using testing::table_named;
 
@@ -72,8 +66,6 @@ TEST(AnalyzeTable, TestsPlannedContrastsAndSimpleEffects) {
   EXPECT_EQ(std::get<std::string>(simple.rows[1][0]), "q");
 }
 
-<<<<<<< HEAD
-=======
 // Without an interaction the differences are the same at every level: a table of them looks like more than it is.
 TEST(AnalyzeTable, HasNoSimpleEffectsWithoutAnInteraction) {
   auto options = quick();
@@ -86,7 +78,6 @@ TEST(AnalyzeTable, HasNoSimpleEffectsWithoutAnInteraction) {
                        "the same at every level of h; use g*h to estimate them"));
 }
 
->>>>>>> wt-stat2-unbuilt
 TEST(AnalyzeTable, RefusesContrastsOfOtherLevels) {
   auto options = quick();
   options.contrasts = {parse_contrast("a - d")};

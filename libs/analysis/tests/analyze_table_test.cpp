@@ -7,10 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "findings.hpp"
-<<<<<<< HEAD
-=======
 #include "model.hpp"
->>>>>>> wt-stat2-unbuilt
 
 namespace kith {
 namespace {
@@ -80,8 +77,6 @@ TEST(FieldNames, KeepFactorsNamedLikeStatisticsApart) {
   ADD_FAILURE() << "there is no table of means";
 }
 
-<<<<<<< HEAD
-=======
 // F(1, 10) = 7.105: partial eta squared is 0.42, its lower limit 0.037.
 TEST(AnalyzeTable, NamesAllSizesThatAnEffectMayHave) {
   const auto* const text = "g,y\na,1\na,2\na,3\na,2\na,1\na,3\nb,3\nb,4\nb,4\nb,3\nb,2\nb,5\n";
@@ -98,7 +93,6 @@ TEST(TypeDisagreement, IsReportedIfOneTypeIsSignificant) {
   EXPECT_EQ(type_disagreement("g", low, Estimable<TestResult>::impossible("empty cells"), 0.05), "");
 }
 
->>>>>>> wt-stat2-unbuilt
 TEST(AnalyzeTable, SaysWhatItDoesNotFind) {
   const auto analysis =
       analyze_table(Dataset::parse("g,y\na,1\na,2\na,3\nb,3\nb,1\nb,2\n", "t.csv"), {"y ~ g", {}}, quick());
@@ -120,11 +114,7 @@ TEST(AnalyzeTable, TakesModelsWithoutFactorsAndWithFive) {
 TEST(AnalyzeTable, LeavesOutIncompleteRowsAndSaysSo) {
   const auto analysis =
       analyze_table(Dataset::parse(std::string{kGroups} + "a,\n,4\n", "t.csv"), {"y ~ g", {}}, quick());
-<<<<<<< HEAD
-  EXPECT_THAT(analysis.notes, Contains(HasSubstr("2 of 11 rows were left out because they lack a value (")));
-=======
   EXPECT_THAT(analysis.notes, Contains(HasSubstr("2 of 11 rows left out because of missing values (g: 1, y: 1)")));
->>>>>>> wt-stat2-unbuilt
   EXPECT_DOUBLE_EQ(number(finding(analysis, "y"), 0, "g", "F"), 27.0);
 }
 

@@ -26,14 +26,7 @@ TEST(AnalysisErrors, AreAllDocumentedWithAnExample) {
 }
 
 TEST(AnalysisErrors, AreAllTested) {
-<<<<<<< HEAD
-  std::string tests;
-  for (const auto& file : fs::directory_iterator{fs::path{KITH_SOURCE_DIR} / "libs" / "analysis" / "tests"}) {
-    if (file.path().extension() == ".cpp") tests += testing::text_of(file.path());
-  }
-=======
   const auto tests = testing::tests_of("analysis");
->>>>>>> wt-stat2-unbuilt
   ASSERT_FALSE(tests.empty());
   for (const auto& id : testing::error_ids_in("analysis")) EXPECT_THAT(tests, ::testing::HasSubstr('"' + id + '"'));
 }
