@@ -22,7 +22,7 @@ std::size_t depth_of(std::string_view text) {
     if (opens) deepest = std::max(deepest, static_cast<std::size_t>(depth) + 1);
     return true;
   };
-  (void)nlohmann::json::parse(text, note, false);
+  [[maybe_unused]] const auto parsed = nlohmann::json::parse(text, note, false);
   return deepest;
 }
 
