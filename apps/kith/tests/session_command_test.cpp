@@ -45,7 +45,7 @@ class SessionCommand : public ::testing::Test {
                             .at_us = 1'700'000'003'000'000,
                             .actor = "seat:1",
                             .type = "consented",
-                            .json = R"({"version":"1"})",
+                            .json = R"({"version":"1","query":{}})",
                             .message = "m1"});
     file.write({&batch, 1});
   }
