@@ -136,6 +136,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
   const isPerson = seat.kind === 'person';
   const isOver = room.stage === 'ended';
   const token = /#t=([A-Za-z0-9_-]+)/.exec(seat.link ?? '')?.[1];
+  const isOut = seat.dropped === true || seat.presence === 'left' || seat.stage === 'replaced' || seat.stage === 'ended';
   const all: (Action & { when: boolean })[] = [
     {
       when: isPerson && !isOver && seat.presence !== 'empty',
@@ -149,7 +150,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
       done: 'The message has been sent.',
     },
     {
-      when: isPerson && !isOver && (seat.dropped === true || seat.presence === 'left' || seat.stage === 'replaced' || seat.stage === 'ended'),
+      when: isPerson && !isOver && isOut,
       command: 'readmit',
       label: 'Re-admit',
       title: `Let ${who} back in`,
@@ -158,6 +159,17 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
       reasons: ['The person is back', kReasons.technical],
       body: () => ({ seat: seat.seat }),
       done: `${who} can come back.`,
+    },
+    {
+      when: isPerson && !isOver && !isOut && token === undefined,
+      command: 'readmit',
+      label: 'New link',
+      title: `Make a new link for ${who}`,
+      explains: 'Links are not stored, so those made before a restart of the server are not shown here. They still work; this makes another one.',
+      fields: [],
+      reasons: ['The link was lost'],
+      body: () => ({ seat: seat.seat }),
+      done: `${who} has a new link.`,
     },
     {
       when: isPerson && !isOver,
