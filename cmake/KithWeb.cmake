@@ -79,12 +79,11 @@ function(kith_add_web_apps)
       set(name ${first}${rest})
       add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --app ${build}/${page}
         --modules ${build} --chromium ${KITH_CHROMIUM})
-      # Three of the journeys of people fail now and then (text typed early is lost): nightly until that is mended.
-      set_tests_properties(web.${name} PROPERTIES RESOURCE_LOCK browser TIMEOUT 1800 LABELS slow)
+      set_tests_properties(web.${name} PROPERTIES RESOURCE_LOCK browser TIMEOUT 1200 LABELS web)
       if(page STREQUAL live)  # people on the pages that the program serves
         add_test(NAME web.LiveOfKith COMMAND ${KITH_NODE} ${source}/tests/live_test.mjs --kith $<TARGET_FILE:kith>
           --modules ${build} --chromium ${KITH_CHROMIUM})
-        set_tests_properties(web.LiveOfKith PROPERTIES RESOURCE_LOCK browser TIMEOUT 1800 LABELS slow)
+        set_tests_properties(web.LiveOfKith PROPERTIES RESOURCE_LOCK browser TIMEOUT 1200 LABELS web)
       endif()
     endif()
   endforeach()

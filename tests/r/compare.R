@@ -4,6 +4,7 @@ arguments <- commandArgs(trailingOnly = TRUE)
 known <- read.csv(file.path(arguments[1], "tables.csv"))
 tolerance <- 1e-4
 compared <- 0
+largest <- 0
 failures <- character()
 for (file in list.files(arguments[2], pattern = "[.]csv$", full.names = TRUE)) {
   theirs <- read.csv(file, check.names = FALSE)
@@ -27,15 +28,17 @@ for (file in list.files(arguments[2], pattern = "[.]csv$", full.names = TRUE)) {
     a <- ours[[column]][matched]
     b <- theirs[[column]]
     known_by_both <- !is.na(a) & !is.na(b)
-    wrong <- known_by_both & abs(a - b) > tolerance * pmax(abs(b), 1e-3)
+    difference <- abs(a - b) / pmax(abs(b), 1e-3)
+    wrong <- known_by_both & difference > tolerance
     compared <- compared + sum(known_by_both)
+    largest <- max(largest, difference[known_by_both])
     if (any(wrong)) {
       failures <- c(failures, sprintf("%s, %s: %s is %.8g in kith and %.8g in R", caption, key(theirs)[wrong][1],
                                       column, a[wrong][1], b[wrong][1]))
     }
   }
 }
-cat(compared, "numbers compared\n")
+cat(compared, "numbers compared, largest relative difference", format(largest, digits = 2), "\n")
 if (compared < 5) failures <- c(failures, "hardly anything was compared")
 if (length(failures) > 0) {
   cat(failures, sep = "\n")

@@ -41,6 +41,7 @@ compare() {
     failed=1
     return
   fi
+  printf '%s: ' "$name"
   if ! Rscript --vanilla "$here/compare.R" "$name/kith" "$name/r/r-results"; then
     echo "$name: R and kith differ"
     failed=1

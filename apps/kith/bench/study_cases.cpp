@@ -1,12 +1,10 @@
 // Whole studies, planning included.
-#include <stdlib.h>
-
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "cases.hpp"
 #include "kith/core/error.hpp"
+#include "kith/files/temporary_folder.hpp"
 #include "kith/runs/study_run.hpp"
 #include "kith/study/tables.hpp"
 
@@ -56,29 +54,9 @@ Prepared all_threads(Workbench& bench, const std::string& study) {
   return prepared;
 }
 
-// A folder among temporary files, removed with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "kith-bench-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Error{ErrorKind::kIo, "cannot make a temporary folder like " + name};
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 Prepared with_folder(Workbench& bench) {
   const auto reading = shared("paper");
-  const auto folder = std::make_shared<const TemporaryFolder>();
+  const auto folder = std::make_shared<const TemporaryFolder>("kith-bench");
   Prepared prepared;
   prepared.work = [=, threads = bench.threads()](std::size_t rounds) {
     for (; rounds > 0; --rounds) {

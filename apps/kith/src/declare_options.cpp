@@ -43,6 +43,26 @@ void add_common(CLI::App& command, CommonOptions& common) {
   }
 }
 
+CLI::Option& add_study_name(CLI::App& command, std::string& study) {
+  return *command.add_option("study", study, "Built-in study or file; '-' is standard input")->type_name("STUDY");
+}
+
+CLI::Option& add_domain_name(CLI::App& command, std::string& domain) {
+  return *command.add_option("domain", domain, "Built-in domain or file")->type_name("DOMAIN");
+}
+
+CLI::Option& add_set(CLI::App& command, std::vector<std::string>& set) {
+  return *command.add_option("--set", set, "Set a key of the study (may be repeated)")
+              ->allow_extra_args(false)
+              ->type_name("KEY=VALUE");
+}
+
+void add_threads(CLI::App& command, std::size_t& threads) {
+  takes_integer(
+      *command.add_option("-j,--threads", threads, "Worker threads (default: one per core); never changes a result"), 1,
+      1024);
+}
+
 void add_progress(CLI::App& command, ProgressMode& mode) {
   add_mode<ProgressMode>(command, "--progress", mode, "How to show progress, on stderr", "HOW",
                          {{"auto", ProgressMode::kAuto},

@@ -3,6 +3,7 @@
 // What the declarations of options are made of. Only they include this and CLI11, which takes long to compile.
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -38,6 +39,13 @@ void add_mode(CLI::App& command, const std::string& name, Mode& mode, const std:
 /// last.
 void add_common(CLI::App& command, CommonOptions& common);
 
+/// The study or the domain that a command is about.
+CLI::Option& add_study_name(CLI::App& command, std::string& study);
+CLI::Option& add_domain_name(CLI::App& command, std::string& domain);
+/// --set.
+CLI::Option& add_set(CLI::App& command, std::vector<std::string>& set);
+/// -j.
+void add_threads(CLI::App& command, std::size_t& threads);
 /// --progress.
 void add_progress(CLI::App& command, ProgressMode& mode);
 /// --shard.

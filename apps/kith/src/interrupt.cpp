@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <ctime>
 #include <string_view>
@@ -9,11 +10,19 @@
 namespace kith::cli {
 namespace {
 
-// Time for an orderly end: people and schedulers expect an answer within a second.
-constexpr long kPatienceNanoseconds = 800'000'000;
-constexpr std::string_view kFarewell =
-    "kith: warning: interrupted in the middle of a long step; saved results are kept\n";
+struct Ending {
+  timespec patience;  // time for an orderly end
+  std::string_view farewell;
+  bool is_failure;
+};
+// People and schedulers expect an answer within a second.
+constexpr Ending kInterrupted{
+    {0, 800'000'000}, "kith: warning: interrupted in the middle of a long step; saved results are kept\n", true};
+constexpr Ending kStopped{
+    {3, 0}, "kith: stopped while a lesson was being chosen; every acknowledged answer is saved\n", false};
 
+std::atomic<const Ending*> ending = &kInterrupted;
+static_assert(decltype(ending)::is_always_lock_free);  // handlers read it
 volatile std::sig_atomic_t received = 0;
 timer_t patience = {};
 volatile std::sig_atomic_t has_timer = 0;
@@ -24,13 +33,14 @@ extern "C" void on_signal(int number) {
   received = number;
   if (has_timer == 0) return;
   itimerspec once = {};
-  once.it_value.tv_nsec = kPatienceNanoseconds;
+  once.it_value = ending.load()->patience;
   timer_settime(patience, 0, &once, nullptr);
 }
 
 extern "C" void on_end_of_patience(int) {
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, kFarewell.data(), kFarewell.size());
-  _exit(128 + received);
+  const auto* how = ending.load();
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, how->farewell.data(), how->farewell.size());
+  _exit(how->is_failure ? 128 + received : 0);
 }
 
 // Without a timer, of which a user can have only so many, the program still stops, only later.
@@ -69,6 +79,8 @@ void watch_signals() {
   sigaction(SIGTERM, &action, nullptr);
   if (!is_ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);
 }
+
+void expect_to_be_stopped() noexcept { ending = &kStopped; }
 
 int stop_signal() noexcept { return received; }
 

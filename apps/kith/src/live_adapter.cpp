@@ -5,17 +5,13 @@
 namespace kith::cli {
 namespace {
 
-// The service says "welcome" to whoever has shown a valid token, before anything else.
 class Forward final : public LiveService::Socket {
  public:
   explicit Forward(std::shared_ptr<LiveApplication::Socket> socket) : socket_{std::move(socket)} {}
 
-  void send(std::shared_ptr<const std::string> frame) override {
-    constexpr std::string_view kWelcome = R"({"t":"welcome")";
-    if (frame->compare(0, kWelcome.size(), kWelcome) == 0) socket_->authenticated();
-    socket_->send(std::move(frame));
-  }
+  void send(std::shared_ptr<const std::string> frame) override { socket_->send(std::move(frame)); }
   void close(std::uint16_t code, std::string reason) override { socket_->close(code, std::move(reason)); }
+  void authenticated() override { socket_->authenticated(); }
 
  private:
   std::shared_ptr<LiveApplication::Socket> socket_;
@@ -23,11 +19,15 @@ class Forward final : public LiveService::Socket {
 
 }  // namespace
 
-LiveAdapter::ConnectionId LiveAdapter::open(std::shared_ptr<Socket> socket, std::string remote) {
-  return service_.open(std::make_shared<Forward>(std::move(socket)), std::move(remote));
+LiveAdapter::ConnectionId LiveAdapter::open(std::shared_ptr<Socket> socket, std::string /*remote*/) {
+  return service_.open(std::make_shared<Forward>(std::move(socket)));
 }
 
 void LiveAdapter::receive(ConnectionId connection, std::string_view frame) { service_.receive(connection, frame); }
+
+void LiveAdapter::measured(ConnectionId connection, std::chrono::microseconds round_trip) {
+  service_.measured(connection, round_trip);
+}
 
 void LiveAdapter::closed(ConnectionId connection) { service_.closed(connection); }
 

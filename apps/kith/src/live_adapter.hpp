@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ class LiveAdapter final : public LiveApplication {
 
   ConnectionId open(std::shared_ptr<Socket> socket, std::string remote) override;
   void receive(ConnectionId connection, std::string_view frame) override;
+  void measured(ConnectionId connection, std::chrono::microseconds round_trip) override;
   void closed(ConnectionId connection) override;
   HttpReply http(const HttpRequest& request) override;
 

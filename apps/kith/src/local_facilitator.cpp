@@ -6,7 +6,6 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
 #include "kith/core/error.hpp"
@@ -15,10 +14,7 @@ namespace kith::cli {
 namespace {
 
 constexpr std::chrono::seconds kPatience{20};
-constexpr std::chrono::milliseconds kSettling{300};
 constexpr std::size_t kRoomsAtOnce = 100;
-
-std::size_t rooms_in(const Json& view) { return view.contains("rooms") ? view["rooms"].size() : 0; }
 
 }  // namespace
 
@@ -44,7 +40,7 @@ struct LocalFacilitator::Ear final : LiveService::Socket {
 };
 
 LocalFacilitator::LocalFacilitator(LiveService& service, const std::string& token)
-    : service_{service}, ear_{std::make_shared<Ear>()}, connection_{service.open(ear_, "local")} {
+    : service_{service}, ear_{std::make_shared<Ear>()}, connection_{service.open(ear_)} {
   service_.receive(connection_, Json{{"t", "hello"}, {"v", 1}, {"token", token}, {"tab", "local"}}.dump());
 }
 
@@ -73,22 +69,11 @@ void LocalFacilitator::ask(const std::string& type, Json body) {
   if (!refusal.empty()) throw Error{ErrorKind::kInfeasible, refusal};
 }
 
-// Those of an earlier start appear one after the other.
-std::size_t LocalFacilitator::num_rooms() {
-  for (auto count = rooms_in(view());;) {
-    std::this_thread::sleep_for(kSettling);
-    const auto now = rooms_in(view());
-    if (now == count) return count;
-    count = now;
-  }
-}
-
 void LocalFacilitator::make_rooms(std::size_t count, const std::vector<std::string>& seats) {
-  for (auto there = num_rooms(); there < count;) {
+  for (auto there = service_.num_rooms(); there < count; there = service_.num_rooms()) {
     Json body{{"count", std::min(kRoomsAtOnce, count - there)}};
     if (!seats.empty()) body["seats"] = seats;
     ask("room-make", std::move(body));
-    there = rooms_in(view([there](const Json& now) { return rooms_in(now) > there; }));
   }
 }
 

@@ -25,8 +25,6 @@ class LocalFacilitator {
   /// Sends a message and waits until it is acknowledged. @throws kith::Error (kInfeasible) with the reason if it is
   /// refused; kIo.
   void ask(const std::string& type, Json body);
-  /// How many rooms there are.
-  [[nodiscard]] std::size_t num_rooms();
   /// Makes rooms until there are `count`. @param seats  "person" or a letter for each; none: as the study says.
   void make_rooms(std::size_t count, const std::vector<std::string>& seats = {});
 

@@ -22,7 +22,7 @@ void add_validate(CLI::App& app, Options& options) {
 
 void add_inspect(CLI::App& app, Options& options) {
   auto& command = *app.add_subcommand("inspect", "Show a domain: map, reward, policy, and what can be taught");
-  command.add_option("domain", options.inspect.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  add_domain_name(command, options.inspect.domain).required();
   takes_word(*command.add_option("--show", options.inspect.show, "What to show, separated by commas")
                   ->delimiter(',')
                   ->allow_extra_args(false),
@@ -49,7 +49,7 @@ void add_curriculum(CLI::App& app, Options& options) {
   auto& curriculum = options.curriculum;
   auto& command =
       *app.add_subcommand("curriculum", "Show what would be taught: demonstrations with reasons, and tests");
-  command.add_option("domain", curriculum.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  add_domain_name(command, curriculum.domain).required();
   command.add_option("-o,--out", curriculum.out, "Write one HTML page for a browser; '-' is standard output")
       ->type_name("FILE");
   takes_integer(*command.add_option("--seed", curriculum.seed, "Seed of all random streams")->capture_default_str(), 0);
@@ -58,7 +58,7 @@ void add_curriculum(CLI::App& app, Options& options) {
 
 void add_ask(CLI::App& app, Options& options) {
   auto& command = *app.add_subcommand("ask", "Answer a question about the robot with demonstrations");
-  command.add_option("domain", options.ask.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  add_domain_name(command, options.ask.domain).required();
   command.add_option("question", options.ask.question, "Begins with when, where, why, what or how much")
       ->required()
       ->type_name("QUESTION");
@@ -68,7 +68,7 @@ void add_ask(CLI::App& app, Options& options) {
 void add_find(CLI::App& app, Options& options) {
   auto& find = options.find;
   auto& command = *app.add_subcommand("find", "Find or make a world that teaches or tests exactly one constraint");
-  command.add_option("domain", find.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  add_domain_name(command, find.domain).required();
   command
       .add_option("constraint", find.constraint,
                   "A normal, such as '(-1,0,2)', or its sentence; without one, all that can be isolated are listed")
@@ -84,7 +84,7 @@ void add_teach(CLI::App& app, Options& options) {
   std::vector<std::string> names;
   for (const auto& kind : strategy_kinds()) names.emplace_back(kind.name);
   auto& command = *app.add_subcommand("teach", "Teach one simulated team and print a transcript");
-  auto* domain = command.add_option("domain", teach.domain, "Built-in domain or file")->type_name("DOMAIN");
+  auto* domain = &add_domain_name(command, teach.domain);
   auto* group =
       command.add_option("--group", teach.group, "The members' learner types, one letter each")->type_name("LETTERS");
   auto* strategy =
@@ -96,9 +96,7 @@ void add_teach(CLI::App& app, Options& options) {
   auto* study = command.add_option("--study", teach.study, "Built-in study or file with the learner types")
                     ->capture_default_str()
                     ->type_name("STUDY");
-  auto* set = command.add_option("--set", teach.set, "Set a key of the study (may be repeated)")
-                  ->allow_extra_args(false)
-                  ->type_name("KEY=VALUE");
+  auto* set = &add_set(command, teach.set);
   auto* from = command.add_option("--from", teach.from, "Replay a team of this run folder")->type_name("DIR");
   auto* team = command.add_option("--team", teach.team, "Number of the team, as in teams.csv")->type_name("N");
   from->needs(team);
@@ -110,7 +108,7 @@ void add_teach(CLI::App& app, Options& options) {
 void add_export(CLI::App& app, Options& options) {
   auto& model = options.export_model;
   auto& command = *app.add_subcommand("export", "Write an MDP of a domain in the format of another program");
-  command.add_option("domain", model.domain, "Built-in domain or file")->required()->type_name("DOMAIN");
+  add_domain_name(command, model.domain).required();
   takes_word(*command.add_option("--to", model.format, "The format")->required(), "FORMAT", model_format_names());
   takes_integer(*command.add_option("--mdp", model.mdp, "Number of the MDP (default: the only one)"), 0);
   command
@@ -124,12 +122,9 @@ void add_export(CLI::App& app, Options& options) {
 void add_serve(CLI::App& app, Options& options) {
   auto& serve = options.serve;
   auto& command = *app.add_subcommand("serve", "Teach groups of real people in their browsers");
-  command.add_option("study", serve.study, "Built-in study or file; '-' is standard input")->type_name("STUDY");
-  command.add_option("-o,--out", serve.out, "Folder for the answers; continued if there is a session in it")
-      ->type_name("DIR");
-  command.add_option("--set", serve.set, "Set a key of the study (may be repeated)")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_study_name(command, serve.study);
+  command.add_option("-o,--out", serve.out, "Folder for the answers; a session in it is resumed")->type_name("DIR");
+  add_set(command, serve.set);
   takes_integer(*command.add_option("--port", serve.port,
                                     "Port to listen at; 0: any that is free (default: 8642, and 0 for a rehearsal)"),
                 0, 65535);

@@ -21,6 +21,7 @@
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/core/parallel_loop.hpp"
+#include "kith/files/temporary_folder.hpp"
 #include "kith/hosting/live_service.hpp"
 #include "kith/hosting/session_study.hpp"
 #include "kith/present/json.hpp"
@@ -72,29 +73,6 @@ class NoticeBoard {
   std::mutex mutex_;
   std::map<std::string, std::chrono::steady_clock::time_point> shown_;
   std::vector<std::string> waiting_;
-};
-
-// The folder of the session; one of its own where none was named.
-class SessionFolder {
- public:
-  explicit SessionFolder(const ServeOptions& options) : path_{options.out}, removes_{false} {
-    if (!path_.empty()) return;
-    auto name = (fs::temp_directory_path() / "kith-session-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Error{ErrorKind::kIo, "cannot make a temporary folder " + name};
-    path_ = name;
-    removes_ = options.rehearse > 0;
-  }
-  ~SessionFolder() {
-    std::error_code ignored;
-    if (removes_) fs::remove_all(path_, ignored);
-  }
-  SessionFolder(const SessionFolder&) = delete;
-  SessionFolder& operator=(const SessionFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-  bool removes_;
 };
 
 void check_options(const ServeOptions& options) {
@@ -268,11 +246,14 @@ int run_serve(const ServeOptions& options, Console& console) {
   const auto session = make_session_study(reading, folder_of(options));
   notice.reset();
 
-  const SessionFolder folder{options};
+  std::optional<TemporaryFolder> temporary;
+  if (options.out.empty()) temporary.emplace("kith-session");
+  const auto folder = temporary ? temporary->path() : fs::path{options.out};
   NoticeBoard board;
   RehearsalResult rehearsed;
   {
-    LiveService service{session.study, service_options(options, session, folder.path())};
+    if (options.rehearse == 0) expect_to_be_stopped();
+    LiveService service{session.study, service_options(options, session, folder)};
     LiveAdapter adapter{service};
     Server server{server_options(options, address, board), adapter};
     const auto base = base_url(address, server.port());
@@ -286,14 +267,15 @@ int run_serve(const ServeOptions& options, Console& console) {
       {
         LocalFacilitator facilitator{service, tokens.facilitator};
         // A room of its own for every start: the links of earlier ones are known to those who have them only.
-        if (options.demo) facilitator.make_rooms(facilitator.num_rooms() + 1, persons(kDemoPeople));
+        if (options.demo) facilitator.make_rooms(service.num_rooms() + 1, persons(kDemoPeople));
         facilitator.make_rooms(options.rooms);
         links = links_of(base, tokens, facilitator);
         if (options.demo) links.seats = links_of_seats(facilitator);
       }
-      print_links(links, folder.path(), server.port(), console);
+      print_links(links, folder, server.port(), console);
       console.info("the facilitator's link gives control over the session: keep it to yourself");
-      console.info("Ctrl-C stops the server; the same command continues the session");
+      console.info(temporary ? "Ctrl-C stops the server and deletes the data; to keep them, name a folder with -o"
+                             : "Ctrl-C stops the server; rerun the command to resume the session");
       if (options.demo && !options.no_browser) {
         auto all = links.seats;
         all.insert(all.begin(), links.facilitator);
@@ -305,8 +287,8 @@ int run_serve(const ServeOptions& options, Console& console) {
     service.stop();
     board.show(console);
   }
-  if (options.rehearse > 0) return report_rehearsal(rehearsed, look_up(rehearsed.answers, folder.path()), console);
-  console.info("stopped; everything is saved in " + folder.path().string());
+  if (options.rehearse > 0) return report_rehearsal(rehearsed, look_up(rehearsed.answers, folder), console);
+  console.info(temporary ? "stopped" : "stopped; everything is saved in " + options.out);
   return 0;
 }
 

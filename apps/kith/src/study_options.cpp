@@ -8,17 +8,11 @@ namespace {
 void add_study(CLI::App& app, Options& options) {
   auto& study = options.study;
   auto& command = *app.add_subcommand("study", "Simulate all teams of a study and write its tables");
-  command.add_option("study", study.study, "Built-in study or file; '-' is standard input")
-      ->required()
-      ->type_name("STUDY");
+  add_study_name(command, study.study).required();
   command.add_option("-o,--out", study.out, "Run folder to create or to update")->type_name("DIR");
-  takes_integer(*command.add_option("-j,--threads", study.threads,
-                                    "Worker threads (default: one per core); never changes a result"),
-                1, 1024);
+  add_threads(command, study.threads);
   takes_integer(*command.add_option("--seed", study.seed, "The same as --set seed=N"), 0);
-  command.add_option("--set", study.set, "Set a key of the study (may be repeated)")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_set(command, study.set);
   command.add_flag("--dry-run", study.dry_run, "Print what would be run and about how long it takes; write nothing");
   command.add_flag("--yes", study.yes, "Replace the results of a different study in the run folder");
   add_mode<ResumeMode>(command, "--resume", study.resume, "Whether to resume an earlier run", "WHEN",
@@ -27,11 +21,7 @@ void add_study(CLI::App& app, Options& options) {
   auto* keep_going =
       command.add_flag("--keep-going", study.keep_going, "Continue after a team fails; exit 6 at the end");
   command.add_flag("--fail-fast")->description("Stop at the first team that fails (the default)")->excludes(keep_going);
-  add_mode<ProgressMode>(command, "--progress", study.progress, "How to show progress, on stderr", "HOW",
-                         {{"auto", ProgressMode::kAuto},
-                          {"bar", ProgressMode::kBar},
-                          {"json", ProgressMode::kJson},
-                          {"none", ProgressMode::kNone}});
+  add_progress(command, study.progress);
   add_common(command, options.common);
 }
 
@@ -121,17 +111,13 @@ void add_analyze(CLI::App& app, Options& options) {
 void add_calibrate(CLI::App& app, Options& options) {
   auto& calibrate = options.calibrate;
   auto& command = *app.add_subcommand("calibrate", "Fit a study's free parameters to published figures");
-  command.add_option("study", calibrate.study, "Built-in study or file; '-' is standard input")
-      ->required()
-      ->type_name("STUDY");
+  add_study_name(command, calibrate.study).required();
   command
       .add_option("--targets", calibrate.targets,
                   "File with the published figures, their tolerances and the free parameters")
       ->type_name("FILE");
   command.add_option("-o,--out", calibrate.out, "Write the calibrated study to this file")->type_name("FILE");
-  takes_integer(*command.add_option("-j,--threads", calibrate.threads,
-                                    "Worker threads (default: one per core); never changes a result"),
-                1, 1024);
+  add_threads(command, calibrate.threads);
   takes_integer(*command.add_option("--seed", calibrate.seed, "Random seed of the search (default: 1)"), 0);
   takes_integer(*command.add_option("--teams", calibrate.teams,
                                     "Teams per cell for each setting of the last design (default: 40)"),
@@ -140,9 +126,7 @@ void add_calibrate(CLI::App& app, Options& options) {
                                     "Teams per cell to confirm the best settings (default: five times --teams)"),
                 2, 1'000'000);
   command.add_flag("--quick", calibrate.quick, "Coarse search in about a tenth of the time");
-  command.add_option("--set", calibrate.set, "Set a key of the study (may be repeated)")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_set(command, calibrate.set);
   command.add_flag("--yes", calibrate.yes, "Replace the file of -o if there is one");
   add_progress(command, calibrate.progress);
   add_common(command, options.common);
@@ -177,25 +161,17 @@ void add_fit(CLI::App& app, Options& options) {
                      ->capture_default_str(),
                 1, 1000);
   takes_integer(*command.add_option("--seed", fit.seed, "Seed of all random streams")->capture_default_str(), 0);
-  takes_integer(*command.add_option("-j,--threads", fit.threads,
-                                    "Worker threads (default: one per core); never changes a result"),
-                1, 1024);
+  add_threads(command, fit.threads);
   command.add_option("-o,--out", fit.out, "Write the result to this file, as JSON")->type_name("FILE");
   command.add_flag("--yes", fit.yes, "Replace the file of -o if there is one");
-  add_mode<ProgressMode>(command, "--progress", fit.progress, "How to show progress, on stderr", "HOW",
-                         {{"auto", ProgressMode::kAuto},
-                          {"bar", ProgressMode::kBar},
-                          {"json", ProgressMode::kJson},
-                          {"none", ProgressMode::kNone}});
+  add_progress(command, fit.progress);
   add_common(command, options.common);
 }
 
 void add_power(CLI::App& app, Options& options) {
   auto& power = options.power;
   auto& command = *app.add_subcommand("power", "Estimate how many teams a study needs to show an effect");
-  command.add_option("study", power.study, "Built-in study or file; '-' is standard input")
-      ->required()
-      ->type_name("STUDY");
+  add_study_name(command, power.study).required();
   auto* effects = command
                       .add_option("--effect", power.effects,
                                   "Effect, such as 'periods: strategy eta2 = 0.02' (may be repeated; default: all)")
@@ -231,13 +207,9 @@ void add_power(CLI::App& app, Options& options) {
       ->type_name("FILE");
   takes_integer(*command.add_option("--studies", power.studies, "Repetitions for --findings")->capture_default_str(), 2,
                 100'000);
-  takes_integer(*command.add_option("-j,--threads", power.threads,
-                                    "Worker threads (default: one per core); never changes a result"),
-                1, 1024);
+  add_threads(command, power.threads);
   takes_integer(*command.add_option("--seed", power.seed, "Random seed (default: that of the study)"), 0);
-  command.add_option("--set", power.set, "Set a key of the study (may be repeated)")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_set(command, power.set);
   add_progress(command, power.progress);
   add_common(command, options.common);
 }

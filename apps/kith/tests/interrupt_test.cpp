@@ -8,6 +8,7 @@
 
 #include "large_map.hpp"
 #include "run_kith.hpp"
+#include "slow_study.hpp"
 
 namespace kith::testing {
 namespace {
@@ -60,15 +61,9 @@ class Child {
   pid_t process_;
 };
 
-// Choosing the first lesson takes minutes, and nothing is asked about signals meanwhile.
+// Nothing is asked about signals while the first lesson is chosen.
 std::vector<std::string> long_lesson(const Scratch& scratch) {
-  std::ofstream{scratch / "map.toml"} << large_map(60);
-  std::ofstream{scratch / "study.toml"} << "schema = \"kith.study/1\"\nid = \"slow\"\ndomain = \"map.toml\"\nseed = 1\n"
-                                           "replicates = 2\n[design]\nstrategies = [\"common\"]\n"
-                                           "compositions = [\"NN\"]\n[learner.N]\nability = { mean = 0.7, sd = 0.03 }\n"
-                                           "confirm_gain = { value = 0.03 }\ncorrect_gain = { value = 0.05 }\n"
-                                           "[teacher]\nparticles = 100000\ncounterfactuals = 100000\n";
-  return {"study", scratch / "study.toml", "-o", scratch / "run", "-j", "2"};
+  return {"study", slow_study(scratch, "NN"), "-o", scratch / "run", "-j", "2"};
 }
 
 constexpr double kHang = 30.0;  // seconds; what answers does so within one, on a machine that is not too busy

@@ -15,6 +15,7 @@
 #include "kith/hosting/event_file.hpp"
 #include "kith/server/rehearsal.hpp"
 #include "run_kith.hpp"
+#include "slow_study.hpp"
 
 namespace kith::testing {
 namespace {
@@ -151,6 +152,17 @@ TEST(ServeCommand, ServesADemonstrationUntilItIsStopped) {
   EXPECT_EQ(again.stop(SIGTERM), 0) << again.log();
 }
 
+TEST(ServeCommand, MakesOnlyTheRoomsThatAreMissing) {
+  if (!has_pages()) GTEST_SKIP() << "built without pages";
+  const Scratch scratch;
+  for (const std::size_t rooms : {2U, 3U, 3U}) {
+    Serving serving{{"quick", "--rooms", std::to_string(rooms), "--port", "0", "-o", scratch / "live"}};
+    ASSERT_TRUE(serving.links().has_value()) << serving.log();
+    EXPECT_EQ(serving.stop(SIGINT), 0) << serving.log();
+    EXPECT_THAT(EventFile::read(scratch / "live").rooms(), SizeIs(rooms));
+  }
+}
+
 TEST(ServeCommand, RefusesAFolderOrAPortInUse) {
   if (!has_pages()) GTEST_SKIP() << "built without pages";
   const Scratch scratch;
@@ -202,6 +214,33 @@ TEST(ServeCommand, LosesNothingWhenItIsKilled) {
   });
   EXPECT_FALSE(result.answers.empty());
   for (const auto& id : result.answers) EXPECT_EQ(stored[id], 1) << id;
+}
+
+// Nobody waits minutes for a lesson that will not be taught; what was acknowledged is on the disk.
+TEST(ServeCommand, StopsWhileALessonIsBeingChosen) {
+  if (!has_pages()) GTEST_SKIP() << "built without pages";
+  const Scratch scratch;
+  Serving serving{{slow_study(scratch, "N"), "--port", "0", "-o", scratch / "live"}};
+  const auto links = serving.links();
+  ASSERT_TRUE(links.has_value()) << serving.log();
+  const auto has_started = [&] {
+    bool started = false;
+    auto file = EventFile::read(scratch / "live");
+    file.for_each_event([&](const StoredEvent& event) { started = started || event.type == "started"; });
+    return started;
+  };
+  const std::string facilitator = links->at("facilitator");
+  RehearsalOptions options{.port = links->at("port").get<std::uint16_t>(),
+                           .facilitator = facilitator.substr(facilitator.find("#t=") + 3),
+                           .groups = 1,
+                           .duration = std::chrono::seconds{60},
+                           .answer_every = std::chrono::milliseconds{100}};
+  options.on_tick = [&](std::chrono::milliseconds) { return !has_started(); };
+  static_cast<void>(rehearse(options));
+  ASSERT_TRUE(has_started()) << serving.log();
+  usleep(500'000);
+  EXPECT_EQ(serving.stop(SIGINT), 0);
+  EXPECT_THAT(serving.log(), HasSubstr("stopped while a lesson was being chosen; every acknowledged answer is saved"));
 }
 
 TEST(ServeCommand, RehearsesWithSimulatedPeople) {

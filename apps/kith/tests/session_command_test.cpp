@@ -39,13 +39,13 @@ class SessionCommand : public ::testing::Test {
                             .at_us = 1'700'000'002'000'000,
                             .actor = "server",
                             .type = "joined",
-                            .json = R"({"seat":1,"member":0,"query":{}})"});
+                            .json = R"({"seat":1,"member":0})"});
     batch.events.push_back({.room = 1,
                             .seq = 2,
                             .at_us = 1'700'000'003'000'000,
                             .actor = "seat:1",
                             .type = "consented",
-                            .json = R"({"version":"1"})",
+                            .json = R"({"version":"1","query":{}})",
                             .message = "m1"});
     file.write({&batch, 1});
   }

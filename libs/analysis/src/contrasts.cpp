@@ -152,7 +152,7 @@ SmallestEffect parse_smallest_effect(std::string_view text) {
   if (!size || *size <= 0.0) {
     throw Error{
         ErrorKind::kUsage,
-        fmt::format("'{}' is no smallest effect; write a number above 0 in units of the response, such as 0.5, or "
+        fmt::format("'{}' is not a smallest effect; write a number above 0 in units of the response, such as 0.5, or "
                     "in standard deviations, such as d=0.3",
                     text)};
   }

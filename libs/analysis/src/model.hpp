@@ -26,6 +26,7 @@ struct ModelData {
   std::vector<Factor> groups{};                   // of random intercepts; empty: the values are independent
   bool is_ordinal = false;                        // ratings: only their order counts
   bool is_count = false;                          // whole numbers >= 0, analysed by count regressions as well
+  bool is_binary = false;                         // 0 or 1
 };
 
 // Analyses of variance of one model with their intervals and distribution-free counterparts.
@@ -43,9 +44,16 @@ struct ModelResult {
 
 // Every term in words: what was found about it.
 [[nodiscard]] std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha);
-// One of them. `means` is where estimated marginal means come from; may be missing.
+// One of them, with the sizes that the interval of partial eta squared spans. `means` is where estimated marginal means
+// come from; may be missing.
 [[nodiscard]] std::string term_sentence(const ModelData& data, std::size_t term, const Estimable<TestResult>& test,
-                                        const Estimable<double>& eta_squared, const FixedEffects* means, double alpha);
+                                        const Estimable<Interval>& eta_squared, const FixedEffects* means,
+                                        double alpha);
+// Warns that a term is significant by one type of sums of squares only; empty if it is not.
+[[nodiscard]] std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,
+                                            const Estimable<TestResult>& type_three, double alpha);
+// Warns of combinations of levels without observations.
+[[nodiscard]] std::string empty_cells_text(std::size_t empty_cells, const std::string& observations);
 // What is doubtful about the model, and what could not be estimated.
 [[nodiscard]] std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha);
 
@@ -68,7 +76,7 @@ void add_count_results(const ModelData& data, const AnalysisOptions& options, Fi
 void add_mixed_results(const ModelData& data, const MixedModel& model, const AnalysisOptions& options, Finding& finding,
                        const std::string& about = "");
 
-// A proportional odds model of ratings: tests, odds ratios of pairs, how often every rating was given.
+// A proportional odds model of ratings: tests, odds ratios of pairs, how often each rating was given.
 [[nodiscard]] Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& options);
 
 // All of the above.

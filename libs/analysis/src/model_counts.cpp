@@ -161,7 +161,8 @@ void add_count_results(const ModelData& data, const AnalysisOptions& options, Fi
   const auto cut_off = static_cast<std::size_t>(std::count(data.observed.begin(), data.observed.end(), false));
   if (is_mixed) {
     finding.warnings.push_back(
-        "the counts are analysed by a linear mixed model, as count regressions here have no random intercepts");
+        "counts are analysed by a linear mixed model, because kith's count regressions have no random intercepts; the "
+        "script for R (--r) names one that has");
   } else {
     add_rates(data, options, finding);
   }

@@ -117,7 +117,8 @@ class EquivalenceTests {
     if (rows_.empty()) return;
     const auto level = fmt::format("{:.3g} %", 100.0 * (1.0 - 2.0 * options_.alpha));
     const auto margin = formatted(margin_, Kind::kNumber);
-    tables.push_back({fmt::format("Equivalence within {} ({}; two one-sided tests, {} intervals)", margin, what, level),
+    tables.push_back({fmt::format("Equivalence within {} ({}; two one-sided tests{}, {} intervals)", margin, what,
+                                  rows_.size() > 1 ? ", uncorrected" : "", level),
                       {{"comparison", Kind::kText},
                        {"difference"},
                        {"lower limit"},
@@ -231,7 +232,15 @@ class Writer {
       const auto by = factor_named(model_, name);
       if (!by || model_.design.factors[*by].levels.size() > kMostSimpleEffects) continue;
       for (std::size_t f = 0; f < model_.design.factors.size(); ++f) {
-        if (f != *by) add_pairs_of(f, by);
+        if (f == *by) continue;
+        if (interact(model_.design.terms, f, *by)) {
+          add_pairs_of(f, by);
+        } else {
+          finding_.warnings.push_back(
+              fmt::format("the model has no interaction of {0} and {1}, so differences between levels of {0} are the "
+                          "same at every level of {1}; use {0}*{1} to estimate them",
+                          model_.design.factors[f].name, name));
+        }
       }
     }
   }
@@ -246,7 +255,7 @@ class Writer {
       add_planned_of(f, std::nullopt, contrasts);
       for (const auto& name : options_.by) {
         const auto by = factor_named(model_, name);
-        if (by && *by != f) add_planned_of(f, by, contrasts);
+        if (by && *by != f && interact(model_.design.terms, f, *by)) add_planned_of(f, by, contrasts);
       }
     }
   }
@@ -398,6 +407,13 @@ void add_marginal_results(const FixedEffects& model, const AnalysisOptions& opti
   writer.add_pairs();
   writer.add_simple_effects();
   writer.add_planned();
+}
+
+bool interact(const std::vector<std::vector<std::size_t>>& terms, std::size_t a, std::size_t b) {
+  const auto has = [](const std::vector<std::size_t>& term, std::size_t factor) {
+    return std::find(term.begin(), term.end(), factor) != term.end();
+  };
+  return std::any_of(terms.begin(), terms.end(), [&](const auto& term) { return has(term, a) && has(term, b); });
 }
 
 bool is_testable(const std::vector<Factor>& factors, const PlannedContrast& contrast) {

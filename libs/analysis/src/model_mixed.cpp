@@ -12,7 +12,7 @@ namespace {
 
 using Kind = ResultKind;
 
-constexpr std::size_t kFewGroups = 10;  // below it variances between groups are hardly known
+constexpr std::size_t kFewGroups = 10;  // below it variances between groups are very uncertain
 
 std::string degrees(double df) { return std::isinf(df) ? "inf" : fmt::format("{:.1f}", df); }
 
@@ -70,9 +70,12 @@ std::string likeness_sentence(const MixedModel& model, const ModelData& data) {
     const auto effect = design_effect(data.groups[k], one.intraclass_correlation);
     text += fmt::format(" The intraclass correlation of {} with the same {} is {:.2f}", data.observations, one.name,
                         one.intraclass_correlation);
+    if (one.intraclass_interval)
+      text += fmt::format(" [{:.2f}, {:.2f}]", one.intraclass_interval->low, one.intraclass_interval->high);
     if (effect && effect->design_effect > 1.0) {
-      text += fmt::format(" (design effect {:.2f}: for the overall mean {} {} are worth {:.0f} independent ones)",
-                          effect->design_effect, data.values.size(), data.observations, effect->effective_observations);
+      text += fmt::format(
+          " (design effect {:.2f}: for the overall mean, {} {} carry as much information as {:.0f} independent ones)",
+          effect->design_effect, data.values.size(), data.observations, effect->effective_observations);
     }
     text += ".";
   }
@@ -80,19 +83,28 @@ std::string likeness_sentence(const MixedModel& model, const ModelData& data) {
 }
 
 void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding& finding) {
+  const auto is_interaction = [](const auto& term) { return term.size() > 1; };
+  const auto empty = std::count(model.fixed.design.counts.begin(), model.fixed.design.counts.end(), std::size_t{0});
+  if (empty > 0 && std::any_of(data.terms.begin(), data.terms.end(), is_interaction))
+    finding.warnings.push_back(empty_cells_text(static_cast<std::size_t>(empty), data.observations));
   for (const auto& one : model.components) {
     if (one.variance == 0.0) {
       finding.warnings.push_back(fmt::format(
-          "the variance of {0} is estimated as 0: rows with the same {0} are no more alike than other rows", one.name));
+          "the variance of {} is estimated as 0, so the tests treat {} as independent{}", one.name, data.observations,
+          one.intraclass_interval
+              ? fmt::format("; the data allow an intraclass correlation of up to {:.2f}", one.intraclass_interval->high)
+              : ""));
     }
     if (one.groups < kFewGroups) {
       finding.warnings.push_back(fmt::format(
-          "there are only {} different values of {}, so how much they vary is hardly known", one.groups, one.name));
+          "there are only {} different values of {}, so the variance and the intraclass correlation are very uncertain",
+          one.groups, one.name));
     }
   }
   if (data.is_ordinal) {
     finding.warnings.push_back(
-        "ratings are analysed as numbers with equal steps, as ordinal models here have no random intercepts");
+        "ratings are analysed as numbers with equal steps, because kith's ordinal models have no random intercepts; "
+        "the script for R (--r) names one that has");
   }
 }
 
@@ -113,7 +125,11 @@ void add_mixed_results(const ModelData& data, const MixedModel& model, const Ana
       return other[t].test && tests[t].test && std::abs(other[t].test->p - tests[t].test->p) > 1e-6;
     };
     bool any = false;
-    for (std::size_t t = 0; t < tests.size(); ++t) any = any || differs(t);
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      any = any || differs(t);
+      auto text = type_disagreement(tests[t].name, tests[t].test, other[t].test, options.alpha);
+      if (!text.empty()) finding.warnings.push_back(std::move(text));
+    }
     if (any)
       tables.push_back(tests_table("Tests of the fixed effects (type III, Satterthwaite)", other, options.alpha));
   }
@@ -142,10 +158,7 @@ Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& option
   }
   const auto tests = term_tests(model->fixed, SumsOfSquares::kTypeII);
   for (std::size_t t = 0; t < data.terms.size(); ++t) {
-    const auto eta_squared = eta_squared_of(tests[t].test, options.alpha);
-    finding.sentence += " " + term_sentence(data, t, tests[t].test,
-                                            eta_squared ? Estimable<double>{eta_squared->estimate}
-                                                        : Estimable<double>::impossible(eta_squared.reason()),
+    finding.sentence += " " + term_sentence(data, t, tests[t].test, eta_squared_of(tests[t].test, options.alpha),
                                             &model->fixed, options.alpha);
   }
   finding.sentence += likeness_sentence(*model, data);

@@ -24,13 +24,14 @@ Factor ratings_of(const ModelData& data) {
   return ratings;
 }
 
-// How often every rating was given, by cell.
+// How often each rating was given, by cell.
 std::optional<ResultTable> shares_table(const ModelData& data, const Factor& ratings) {
   constexpr std::size_t kMostCells = 30;
   Factor cells = data.factors.front();
   for (std::size_t f = 1; f < data.factors.size(); ++f) cells = interaction(cells, data.factors[f]);
   if (cells.levels.size() > kMostCells) return std::nullopt;
-  ResultTable table{"How often every rating was given", {{"levels", Kind::kText}, {"n", Kind::kCount}}, {}};
+  ResultTable table{
+      "How often each rating was given", {{cells.name, Kind::kText, cells.name}, {"n", Kind::kCount}}, {}};
   for (const auto& level : ratings.levels) table.columns.push_back({level, Kind::kCount, "rating_" + level});
   std::vector<std::vector<std::size_t>> counts(cells.levels.size(), std::vector<std::size_t>(ratings.levels.size()));
   for (std::size_t i = 0; i < cells.codes.size(); ++i) ++counts[cells.codes[i]][ratings.codes[i]];
@@ -47,7 +48,8 @@ std::optional<ResultTable> shares_table(const ModelData& data, const Factor& rat
 }  // namespace
 
 Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& options) {
-  Finding finding{.id = data.response, .title = formula_text(data), .model = formula_text(data) + " (ordinal)"};
+  Finding finding{.id = data.response, .model = formula_text(data) + " (ordinal)"};
+  finding.title = finding.model;
   finding.question = "Does " + data.response + " depend on the factors of the model?";
   finding.sentence =
       fmt::format("Proportional odds model of {} ({} {}).", data.response, data.values.size(), data.observations);
@@ -61,7 +63,7 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
                       {}};
     for (std::size_t t = 0; t < model->term_tests.size(); ++t) {
       const auto& term = model->term_tests[t];
-      finding.sentence += " " + term_sentence(data, t, term.test, Estimable<double>::impossible("of a linear model"),
+      finding.sentence += " " + term_sentence(data, t, term.test, Estimable<Interval>::impossible("of a linear model"),
                                               nullptr, options.alpha);
       tests.rows.push_back({text_cell(term.name), count_cell(term.df), cell_of(term.test, &TestResult::statistic),
                             cell_of(term.test, &TestResult::p)});

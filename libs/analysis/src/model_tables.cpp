@@ -87,10 +87,9 @@ ResultTable robust_table(const ModelData& data, const ModelResult& result) {
   return table;
 }
 
-ResultTable type_three_table(const ModelData& data) {
+ResultTable type_three_table(const AnovaTable& type_three) {
   ResultTable table{"Analysis of variance (type III)", kTestColumns, {}};
-  for (const auto& term : anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeIII).terms)
-    table.rows.push_back(test_cells(term));
+  for (const auto& term : type_three.terms) table.rows.push_back(test_cells(term));
   return table;
 }
 
@@ -149,7 +148,15 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
   if (data.factors.empty()) return;
   tables.push_back(anova_table(result));
   tables.push_back(robust_table(data, result));
-  if (!result.table.balanced && data.factors.size() > 1) tables.push_back(type_three_table(data));
+  if (!result.table.balanced && data.factors.size() > 1) {
+    const auto other = anova(data.values, data.factors, data.terms, SumsOfSquares::kTypeIII);
+    tables.push_back(type_three_table(other));
+    for (std::size_t t = 0; t < other.terms.size(); ++t) {
+      auto text =
+          type_disagreement(other.terms[t].name, result.table.terms[t].test, other.terms[t].test, options.alpha);
+      if (!text.empty()) finding.warnings.push_back(std::move(text));
+    }
+  }
   if (data.factors.size() == 1) tables.push_back(welch_table(data));
   name_methods(data, result, options, finding);
   if (auto means = raw_means_table(data, 1.0 - options.alpha, true)) tables.push_back(std::move(*means));

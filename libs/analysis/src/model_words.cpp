@@ -39,6 +39,13 @@ std::string size_text(double eta_squared) {
   return eta_squared < 0.14 ? "medium" : "large";
 }
 
+// "large", or "small to large" if the data do not tell.
+std::string size_text(const Estimable<Interval>& eta_squared) {
+  if (!eta_squared) return {};
+  const auto least = size_text(eta_squared->low), most = size_text(eta_squared->high);
+  return least == most ? least : least + " to " + most;
+}
+
 // "strategy and composition"
 std::string joined_names(const ModelData& data, std::size_t t) {
   std::vector<std::string> names;
@@ -68,9 +75,7 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
     largest = std::max(largest, *standard_deviation(group));
   }
   if (result.table.empty_cells > 0) {
-    warnings.push_back(fmt::format("{} of levels {} no {}, so type II and type III tests have different hypotheses",
-                                   number_and_noun(result.table.empty_cells, "combination"),
-                                   result.table.empty_cells == 1 ? "has" : "have", data.observations));
+    warnings.push_back(empty_cells_text(result.table.empty_cells, data.observations));
   } else if (least != most) {
     warnings.push_back(fmt::format("the design is unbalanced (cells have {} to {} {}){}", least, most,
                                    data.observations,
@@ -125,14 +130,14 @@ std::string test_text(const TestResult& test) {
 }
 
 std::string term_sentence(const ModelData& data, std::size_t t, const Estimable<TestResult>& test,
-                          const Estimable<double>& eta_squared, const FixedEffects* means, double alpha) {
+                          const Estimable<Interval>& eta_squared, const FixedEffects* means, double alpha) {
   const auto& term = data.terms[t];
   if (!test)
     return fmt::format("The {} of {} cannot be tested: {}.", term.size() > 1 ? "interaction" : "effect",
                        joined_names(data, t), test.reason());
   const auto p = p_text(test->p);
   const bool found = test->p < alpha;
-  const auto size = eta_squared ? size_text(*eta_squared) : std::string{};
+  const auto size = size_text(eta_squared);
   if (term.size() > 1) {
     if (!found) return fmt::format("No interaction of {} was found ({}).", joined_names(data, t), p);
     return fmt::format("{} interact ({}{}).", at_start(joined_names(data, t)), size.empty() ? "" : size + " effect, ",
@@ -148,12 +153,25 @@ std::string term_sentence(const ModelData& data, std::size_t t, const Estimable<
                                    : ": estimated marginal means range " + range);
 }
 
+std::string empty_cells_text(std::size_t empty_cells, const std::string& observations) {
+  return fmt::format("{} of levels {} no {}, so type II and type III tests have different hypotheses",
+                     number_and_noun(empty_cells, "combination"), empty_cells == 1 ? "has" : "have", observations);
+}
+
+std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,
+                              const Estimable<TestResult>& type_three, double alpha) {
+  if (!type_two || !type_three || (type_two->p < alpha) == (type_three->p < alpha)) return {};
+  return fmt::format(
+      "{}: tests of type II and type III disagree ({} and {}); marginal means and pairs correspond to type III", term,
+      p_text(type_two->p), p_text(type_three->p));
+}
+
 std::string sentence_of(const ModelData& data, const ModelResult& result, double alpha) {
   std::string text =
       fmt::format("Analysis of variance of {} ({} {}).", data.response, data.values.size(), data.observations);
   for (std::size_t t = 0; t < data.terms.size(); ++t) {
     const auto& term = result.table.terms[t];
-    text += " " + term_sentence(data, t, term.test, term.partial_eta_squared,
+    text += " " + term_sentence(data, t, term.test, result.eta_squared[t],
                                 result.linear ? &result.linear->effects : nullptr, alpha);
   }
   return text;

@@ -83,13 +83,13 @@ void check_counts(const Dataset& data, const std::string& column, const std::vec
   }
 }
 
-// "minutes 4, team 1": how many values the columns lack.
+// "minutes: 4, team: 1": how many values the columns lack.
 std::string missing_text(const Dataset& data, const std::vector<std::string>& columns) {
   std::string text;
   for (const auto& column : columns) {
     const auto& cells = data.cells(column);
     const auto missing = std::count(cells.begin(), cells.end(), std::nullopt);
-    if (missing > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", column, missing);
+    if (missing > 0) text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", column, missing);
   }
   return text;
 }
@@ -121,7 +121,7 @@ std::optional<std::string> note_on_whole_numbers(const std::string& response, co
   }
   if (distinct.size() < 3) return std::nullopt;
   const bool may_be_ratings = distinct.size() <= kMostRatings && *distinct.rbegin() <= kMostRatings;
-  return fmt::format("{} holds whole numbers, which are analysed as measurements; say --count if they are counts{}",
+  return fmt::format("{} holds whole numbers, which are analysed as measurements; use --count if they are counts{}",
                      response, may_be_ratings ? ", --ordinal if they are ratings" : "");
 }
 
@@ -156,17 +156,17 @@ void find_groups(const Dataset& data, const Formula& formula, const ModelQuestio
   } else if (groups.intercepts.empty()) {
     return;
   } else if (question.independent) {
-    prepared.warnings.push_back(
-        fmt::format("rows belong together ({}), but are analysed as independent, as was asked for: if rows of a group "
-                    "are alike, p-values are too small",
-                    intercepts_text(groups.intercepts)));
+    prepared.warnings.push_back(fmt::format(
+        "identifiers repeat ({}), but rows are analysed as independent, as requested: if rows of a group are "
+        "alike, p-values are too small",
+        intercepts_text(groups.intercepts)));
     return;
   } else {
     prepared.intercepts = groups.intercepts;
-    notes.push_back(
-        fmt::format("rows of {} belong together, so the model has random intercepts, {}; write them into "
-                    "the formula to choose others, or say --independent",
-                    data.file(), intercepts_text(groups.intercepts)));
+    notes.push_back(fmt::format(
+        "identifiers repeat in {}, so the model has random intercepts, {}; to choose others, write them into "
+        "the formula, or use --independent",
+        data.file(), intercepts_text(groups.intercepts)));
   }
   for (const auto& columns : prepared.intercepts) prepared.model.groups.push_back(row_factor(prepared.rows, columns));
 }
@@ -204,7 +204,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   check_comparisons(model.factors, options);
   if (question.observed) model.observed = observed_of(complete, *question.observed);
   if (const auto dropped = data.num_rows() - complete.num_rows(); dropped > 0)
-    prepared.notes.push_back(fmt::format("{} of {} rows were left out because they lack a value ({})", dropped,
+    prepared.notes.push_back(fmt::format("{} of {} rows left out because of missing values ({})", dropped,
                                          data.num_rows(), missing_text(data, columns)));
   for (const auto& factor : model.factors) {
     if (auto note = note_on_numbers_as_levels(factor)) prepared.notes.push_back(std::move(*note));
@@ -216,11 +216,12 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   model.is_count = kind == ColumnKind::kCount;
   model.is_ordinal = kind == ColumnKind::kOrdinal;
   if (model.is_count) check_counts(complete, formula.response, model.values);
-  if (is_binary(model.values)) {
+  model.is_binary = is_binary(model.values);
+  if (model.is_binary) {
     prepared.notes.push_back(
-        fmt::format("{} is true or false (1 or 0), and its means are proportions; where these are near 0 or 1, a "
-                    "logistic regression "
-                    "is more accurate, for example in R (--r)",
+        fmt::format("{} is true or false (1 or 0), so its means are proportions, but a linear model is fitted: its "
+                    "limits can be below 0 or above 1; if proportions are near 0 or 1, use a logistic regression, as "
+                    "the script for R (--r) suggests",
                     formula.response));
   }
   if (kind == ColumnKind::kUnspecified) {

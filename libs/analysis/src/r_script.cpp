@@ -7,6 +7,7 @@
 
 #include "kith/table/codebook.hpp"
 #include "kith/table/csv_writer.hpp"
+#include "model_means.hpp"
 #include "prepared_model.hpp"
 
 namespace kith {
@@ -173,7 +174,7 @@ class Script {
       intercepts += " + (1 | " + name + ")";
     }
     line();
-    line("# Rows of a group belong together: random intercepts.");
+    line("# Rows of a group are not independent: random intercepts.");
     line(fmt::format("model <- lmer({} ~ {}{}, data = data,", response(), right_side(model_), intercepts));
     // Small variances need more digits than the default gives.
     line("              control = lmerControl(optimizer = \"bobyqa\", optCtrl = list(rhoend = 1e-9)))");
@@ -200,9 +201,12 @@ class Script {
       line("residual_sd <- sqrt(sum(variances$vcov))  # of a single row");
     }
     for (const auto& factor : model_.factors) means_of(factor);
-    for (const auto& by : options_.by) {
-      for (const auto& factor : model_.factors) {
-        if (factor.name != by) simple_effects_of(factor, by);
+    for (const auto& name : options_.by) {
+      for (std::size_t by = 0; by < model_.factors.size(); ++by) {
+        if (model_.factors[by].name != name) continue;
+        for (std::size_t f = 0; f < model_.factors.size(); ++f) {
+          if (f != by && interact(model_.terms, f, by)) simple_effects_of(model_.factors[f], name);
+        }
       }
     }
   }
@@ -340,6 +344,12 @@ class Script {
       if (model_.is_count)
         line(fmt::format("# glmer({} ~ {} + (1 | {}), family = poisson, data = data)", response(), right_side(model_),
                          name));
+      if (model_.is_binary)
+        line(fmt::format("# glmer({} ~ {} + (1 | {}), family = binomial, data = data)", response(), right_side(model_),
+                         name));
+      if (model_.is_ordinal)
+        line(fmt::format("# library(ordinal); clmm(factor({}, ordered = TRUE) ~ {} + (1 | {}), data = data)",
+                         response(), right_side(model_), name));
       if (!model_.factors.empty())
         line(fmt::format("# lmer({} ~ {} + ({} | {}), data = data)  # random slopes", response(), right_side(model_),
                          symbol(model_.factors.front().name), name));
@@ -353,6 +363,8 @@ class Script {
         return;
       }
       line("# plot(model)  # residuals");
+      if (model_.is_binary)
+        line(fmt::format("# glm({} ~ {}, family = binomial, data = data)", response(), right_side(model_)));
       line(fmt::format("# library(BayesFactor); anovaBF({} ~ {}, data = data)", response(), right_side(model_)));
     }
   }

@@ -13,7 +13,7 @@
 namespace kith {
 namespace {
 
-// With fewer groups their variance cannot be estimated to speak of.
+// With fewer groups, the variance between them cannot be estimated usefully.
 constexpr std::size_t kFewestGroups = 5;
 
 constexpr std::array<std::string_view, 9> kIdentifierWords{"team",    "person",  "member",  "group", "participant",
@@ -155,10 +155,10 @@ RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& u
     }
     if (!one.is_stated && one.factor.levels.size() < kFewestGroups) {
       if (one.factor.levels.size() > 1)
-        groups.notes.push_back(fmt::format(
-            "column '{}' is named like an identifier, but has only {} values, so it is taken for no group of rows; "
-            "put it into the model if it matters",
-            one.column, one.factor.levels.size()));
+        groups.notes.push_back(
+            fmt::format("column '{}' is named like an identifier but has only {} values, so rows with the same value "
+                        "are analysed as independent; add it to the model if it matters",
+                        one.column, one.factor.levels.size()));
       continue;
     }
     add({one.column});

@@ -102,5 +102,20 @@ TEST(RProject, FitsTheSameRandomIntercepts) {
   EXPECT_THAT(project.data, ::testing::StartsWith("y,g,team\n0,a,0\n"));
 }
 
+// kith has no random intercepts for them; the note about it says that the script names a model.
+TEST(RProject, NamesModelsOfRepeatedRatingsAndTruths) {
+  std::string text = "team,g,ease,right\n";
+  for (int i = 0; i < 24; ++i)
+    text += std::to_string(i / 3) + (i / 3 % 2 == 0 ? ",a," : ",b,") + std::to_string(1 + i * 7 % 5) +
+            (i * 5 % 7 < 4 ? ",true\n" : ",false\n");
+  const auto data = Dataset::parse(text, "t.csv");
+  EXPECT_THAT(r_project(data, {.formula = "ease ~ g", .response_kind = ColumnKind::kOrdinal}, few_draws()).script,
+              HasSubstr("clmm(factor(ease, ordered = TRUE) ~ g + (1 | team), data = data)"));
+  EXPECT_THAT(r_project(data, {"right ~ g"}, few_draws()).script,
+              HasSubstr("glmer(right ~ g + (1 | team), family = binomial, data = data)"));
+  EXPECT_THAT(r_project(data, {.formula = "right ~ g", .independent = true}, few_draws()).script,
+              HasSubstr("glm(right ~ g, family = binomial, data = data)"));
+}
+
 }  // namespace
 }  // namespace kith

@@ -85,7 +85,7 @@ TEST(RowGroups, AreNotMadeOfAFewValuesUnlessSomebodySaysSo) {
   const auto guessed = find_row_groups(rows, {"y"});
   EXPECT_THAT(guessed.intercepts, IsEmpty());
   EXPECT_THAT(guessed.notes,
-              ElementsAre(HasSubstr("column 'group' is named like an identifier, but has only 2 values")));
+              ElementsAre(HasSubstr("column 'group' is named like an identifier but has only 2 values")));
   rows.set_kind("group", ColumnKind::kIdentifier);
   EXPECT_EQ(find_row_groups(rows, {"y"}).intercepts, (Intercepts{{"group"}}));
 }

@@ -61,6 +61,15 @@ std::optional<IntegerVector> Atlas::answer(DemoIndex demo, PolicyCellIndex cell)
   return feature_counts(demo) - hulls_[hull(demo).value()].losses[choice];
 }
 
+Atlas Atlas::with_tests(const std::vector<bool>& is_usable) const {
+  if (is_usable.size() != num_demos()) throw std::invalid_argument{"Atlas::with_tests: one flag per demonstration"};
+  auto atlas = *this;
+  for (auto& tests : atlas.tests_for_) {
+    std::erase_if(tests, [&](DemoIndex demo) { return !is_usable[demo.value()]; });
+  }
+  return atlas;
+}
+
 void Atlas::add_conveyed(HullIndex h, std::span<const PolicyCellIndex> cells, std::span<std::uint64_t> row) const {
   const auto& constraint_of = hull_constraints_[h.value()];
   for (const auto cell : cells) {

@@ -112,6 +112,26 @@ TEST(Atlas, ThePolicysBecImpliesEveryOneStepAndCounterfactualConstraint) {
   }
 }
 
+TEST(Atlas, CanDoWithoutSomeTests) {
+  const auto& atlas = item_delivery();
+  std::vector<bool> is_usable(atlas.num_demos());
+  for (std::size_t i = 0; i < is_usable.size(); ++i) is_usable[i] = i % 2 == 0;
+  const auto fewer = atlas.with_tests(is_usable);
+  std::size_t left_out = 0;
+  for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+    std::vector<DemoIndex> expected;
+    for (const auto demo : atlas.tests_for(c)) {
+      if (demo.value() % 2 == 0) expected.push_back(demo);
+    }
+    left_out += atlas.tests_for(c).size() - expected.size();
+    const auto tests = fewer.tests_for(c);
+    EXPECT_EQ(std::vector<DemoIndex>(tests.begin(), tests.end()), expected);
+  }
+  EXPECT_GT(left_out, 0u);
+  is_usable.pop_back();
+  EXPECT_THROW((void)atlas.with_tests(is_usable), std::invalid_argument);
+}
+
 TEST(Atlas, IndexAndIdAreInverse) {
   const auto& atlas = item_delivery();
   for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) ASSERT_EQ(atlas.index(atlas.id(demo)), demo);

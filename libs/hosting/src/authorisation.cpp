@@ -39,6 +39,7 @@ constexpr std::array kPermissions{
     // Requests.
     Permission{"GET /api/health", kYes, kYes, kYes, kYes},
     Permission{"POST /api/join", kYes, kYes, kYes, kYes},
+    Permission{"GET /api/texts", kYes, kYes, kYes, kYes},
     Permission{"GET /api/world", kNo, kYes, kYes, kYes},
     Permission{"GET /api/export", kNo, kNo, kNo, kYes},
     Permission{"GET /api/qr", kNo, kNo, kNo, kYes},

@@ -253,38 +253,21 @@ void EventFile::verify() {
 }
 
 void EventFile::write(std::span<const StoreBatch> batches) {
-  auto& database = state_->database;
-  database.execute("BEGIN IMMEDIATE");
-  try {
+  in_transaction(state_->database, [&] {
     for (const auto& batch : batches) state_->insert(batch);
-    database.execute("COMMIT");
-  } catch (...) {
-    try {
-      database.execute("ROLLBACK");
-    } catch (const SqliteError&) {  // it has been rolled back
-    }
-    throw;
-  }
+  });
 }
 
 void EventFile::rewrite(std::span<const StoredEvent> events) {
   auto& database = state_->database;
-  database.execute("BEGIN IMMEDIATE");
-  try {
+  in_transaction(database, [&] {
     auto update = database.prepare("UPDATE event SET json = ?, checksum = ? WHERE room = ? AND seq = ?");
     for (const auto& event : events) {
       const auto checksum = seal(event, state_->key);
       update.bind_text(1, event.json).bind_blob(2, checksum).bind(3, event.room);
       update.bind(4, static_cast<std::int64_t>(event.seq)).run();
     }
-    database.execute("COMMIT");
-  } catch (...) {
-    try {
-      database.execute("ROLLBACK");
-    } catch (const SqliteError&) {  // it has been rolled back
-    }
-    throw;
-  }
+  });
   database.execute("VACUUM");
   database.empty_log();
 }

@@ -10,7 +10,16 @@ namespace {
 
 constexpr std::size_t kSealBytes = 16;
 
-std::string sealed(const ByteWriter& row, std::string_view key) {
+void put(ByteWriter& row, bool value) { row.flag(value); }
+void put(ByteWriter& row, std::int64_t value) { row.integer(value); }
+void put(ByteWriter& row, std::uint64_t value) { row.count(value); }
+void put(ByteWriter& row, const std::string& value) { row.text(value); }
+
+template <typename... Values>
+std::string sealed(std::string_view key, char kind, const Values&... values) {
+  ByteWriter row;
+  row.letter(kind);
+  (put(row, values), ...);
   Sha256 hash;
   hash.update(key);
   hash.update(row.bytes());
@@ -30,38 +39,16 @@ std::string store_key(std::string_view id, std::string_view study) {
 }
 
 std::string seal(const StoredEvent& event, std::string_view key) {
-  ByteWriter row;
-  row.letter('e');
-  row.integer(event.room);
-  row.count(event.seq);
-  row.integer(event.at_us);
-  row.text(event.actor);
-  row.text(event.type);
-  row.text(event.json);
-  row.flag(event.message.has_value());
-  row.text(event.message.value_or(""));
-  return sealed(row, key);
+  return sealed(key, 'e', event.room, event.seq, event.at_us, event.actor, event.type, event.json,
+                event.message.has_value(), event.message.value_or(""));
 }
 
 std::string seal(const StoredRoom& room, std::string_view key) {
-  ByteWriter row;
-  row.letter('r');
-  row.integer(room.number);
-  row.text(room.setup);
-  row.integer(room.created_us);
-  return sealed(row, key);
+  return sealed(key, 'r', room.number, room.setup, room.created_us);
 }
 
 std::string seal(const StoredToken& token, std::string_view key) {
-  ByteWriter row;
-  row.letter('t');
-  row.text(token.hash);
-  row.text(token.role);
-  row.integer(token.room);
-  row.integer(token.seat);
-  row.integer(token.expires_us);
-  row.flag(token.revoked);
-  return sealed(row, key);
+  return sealed(key, 't', token.hash, token.role, token.room, token.seat, token.expires_us, token.revoked);
 }
 
 }  // namespace kith

@@ -6,6 +6,7 @@
 
 #include "kith/core/error.hpp"
 #include "kith/files/sha256.hpp"
+#include "kith/hosting/session_review.hpp"
 
 namespace kith {
 namespace {
@@ -20,14 +21,6 @@ StoredEvent to_stored(std::int64_t room, const RoomEvent& event) {
           .type = event.type,
           .json = event.body.dump(),
           .message = {}};
-}
-
-RoomEvent from_stored(const StoredEvent& event) {
-  return {.seq = event.seq,
-          .at_us = event.at_us,
-          .actor = event.actor,
-          .type = event.type,
-          .body = Json::parse(event.json)};
 }
 
 // Whether other lessons may be likely after such an event.
@@ -71,7 +64,7 @@ void HostedRoom::rebuild(std::vector<StoredEvent> events) {
                 try {
                   Room rebuilt{self->study_, self->setup_, cache};
                   for (const auto& event : events) {
-                    rebuilt.apply(from_stored(event), cache);
+                    rebuilt.apply(room_event_of(event), cache);
                     if (event.message) messages.push_back(mark_of(event.actor, *event.message));
                     last = event.at_us;
                   }
@@ -112,6 +105,11 @@ void HostedRoom::wake() {
     return;
   }
   advance();
+}
+
+void HostedRoom::abandon() {
+  asked_.clear();
+  saving_.reset();
 }
 
 // Does what can be done now, until something is being saved or nothing is left.

@@ -71,6 +71,8 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   void ask(RoomCommand command, Done done);
   // Something may be due by the clock, or could not be saved and is to be tried again.
   void wake();
+  // The service has stopped: drops commands that wait, unanswered. Their answers may hold this room.
+  void abandon();
 
  private:
   struct Asked {

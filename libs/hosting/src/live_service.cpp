@@ -88,12 +88,10 @@ void LiveService::State::on_applied(HostedRoom& room, std::span<const RoomEvent>
         auto& contact = contacts[{room.number(), seat}];
         if (contact.last_seen_us == 0) contact.last_seen_us = now_us();
       }
-      if (event.actor != "facilitator") continue;
-      write_log({.at_us = event.at_us,
-                 .room = room_id(room.number()),
-                 .actor = event.actor,
-                 .what = event.type,
-                 .reason = event.body.is_object() ? event.body.value("reason", std::string{}) : std::string{}});
+      if (event.type == "consented" || event.type == "declined")
+        queries.erase({room.number(), static_cast<std::int64_t>(seat_of_actor(event.actor).value_or(0))});
+      if (!is_logged(event.actor, event.type)) continue;
+      write_log(log_entry(room.number(), event.at_us, event.actor, event.type, event.body));
     }
     changed_rooms.insert(room.number());
   }
@@ -122,7 +120,6 @@ void LiveService::State::check_space(std::int64_t now) {
 void LiveService::State::tick() {
   const auto now = now_us();
   check_space(now);
-  check_connections(now);
   check_presence(now);
   std::vector<std::shared_ptr<HostedRoom>> due;
   std::vector<std::shared_ptr<HostedRoom>> changed;
@@ -162,6 +159,11 @@ LiveService::LiveService(std::shared_ptr<const LiveStudy> study, LiveServiceOpti
 }
 
 LiveService::~LiveService() { stop(); }
+
+std::size_t LiveService::num_rooms() const {
+  const std::lock_guard lock{state_->mutex};
+  return state_->rooms.size();
+}
 
 void LiveService::set_base_url(std::string url) {
   const std::lock_guard lock{state_->mutex};

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "kith/core/error.hpp"
+#include "kith/files/base64.hpp"
 
 namespace kith {
 
@@ -24,22 +25,8 @@ std::string random_bytes(std::size_t count) {
 }
 
 std::string random_token() {
-  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
   constexpr std::size_t kBytes = 16;
-  std::string token;
-  unsigned value = 0;
-  unsigned bits = 0;
-  for (const char c : random_bytes(kBytes)) {
-    value = value << 8 | static_cast<unsigned char>(c);
-    bits += 8;
-    while (bits >= 6) {
-      bits -= 6;
-      token += kAlphabet[value >> bits & 63u];
-    }
-    value &= (1u << bits) - 1;
-  }
-  token += kAlphabet[value << (6 - bits) & 63u];
-  return token;
+  return base64url(random_bytes(kBytes));
 }
 
 std::string random_code(std::size_t length) {

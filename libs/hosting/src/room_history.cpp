@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "json_members.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 
 namespace kith {
 namespace {
-
-std::size_t count_member(const Json& body, const char* name) {
-  const auto found = body.find(name);
-  return found != body.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
-}
-
-std::string text_member(const Json& body, const char* name) {
-  const auto found = body.find(name);
-  return found != body.end() && found->is_string() ? found->get<std::string>() : std::string{};
-}
 
 class Collector {
  public:
@@ -26,26 +17,28 @@ class Collector {
   void take(const Room& room, const RoomEvent& event) {
     const auto& body = event.body;
     const auto by = seat_of_actor(event.actor);
-    const auto seat = by ? *by : count_member(body, "seat");
+    const auto seat = by ? *by : count_at(body, "seat");
     history_.room = room;
     if (event.type == "joined") {
-      auto& row = history_.seats[count_member(body, "seat")];
+      auto& row = history_.seats[count_at(body, "seat")];
       row.joined_us = event.at_us;
       if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
         row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
-      if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
     } else if (event.type == "consented") {
-      history_.seats[seat].consent = text_member(body, "version");
+      auto& row = history_.seats[seat];
+      row.consent = text_at(body, "version");
+      if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
     } else if (event.type == "named") {
-      history_.seats[seat].name = text_member(body, "name");
+      history_.seats[seat].name = text_at(body, "name");
     } else if (event.type == "started") {
       history_.started_us = event.at_us;
+      note_stand_ins(room, event.at_us);
     } else if (event.type == "ended") {
-      history_.ended = text_member(body, "reason");
+      history_.ended = text_at(body, "reason");
     } else if (event.type == "away" || event.type == "present") {
       note_presence(history_.seats[seat], event.type == "away", event.at_us);
     } else if (event.type == "dropped" || event.type == "simulate" || event.type == "left") {
-      replace(seat, count_member(body, "by"), event.at_us);
+      replace(seat, count_at(body, "by"), event.at_us);
     } else if (event.type == "lesson") {
       note_lesson(room, event);
     } else if (event.type == "answered") {
@@ -66,6 +59,19 @@ class Collector {
     }
   }
 
+  // Those who fill the places of people who did not come.
+  void note_stand_ins(const Room& room, std::int64_t at_us) {
+    const auto shown = room.row({.role = Viewer::Role::kObserver, .seat = 0});
+    for (const auto& seat : shown.at("seats")) {
+      const auto number = count_at(seat, "seat");
+      if (text_at(seat, "kind") != "simulated" || history_.seats.count(number) != 0) continue;
+      auto& row = history_.seats[number];
+      row.member = seat.contains("member") ? count_at(seat, "member") : number;
+      row.simulated = true;
+      row.joined_us = at_us;
+    }
+  }
+
   void replace(std::size_t seat, std::size_t by, std::int64_t at_us) {
     if (by == 0) return;
     auto& row = history_.seats[by];
@@ -76,16 +82,25 @@ class Collector {
   }
 
   void note_lesson(const Room& room, const RoomEvent& event) {
+    if (event.body.value("finished", false)) return;
     const auto& session = room.session();
-    if (session.finished()) return;
-    history_.lessons.push_back(
-        {.lesson = session.lesson(), .chosen_us = event.at_us, .digest = text_member(event.body, "digest")});
+    const auto period = count_at(event.body, "period");
+    // Somebody came or went before that lesson was taught, or all who had watched it are gone.
+    if (!history_.lessons.empty() && history_.lessons.back().lesson.period == period)
+      history_.lessons.back().is_replaced = true;
+    // A room without people is done with the lesson at once.
+    const bool is_over = session.periods() >= period;
+    history_.lessons.push_back({.lesson = is_over ? session.history()[period - 1].lesson : session.lesson(),
+                                .chosen_us = event.at_us,
+                                .digest = text_at(event.body, "digest")});
   }
 
   void note_answer(std::size_t seat, const RoomEvent& event) {
+    if (history_.lessons.empty()) return;  // not in a history that replays
     AnswerRow row;
-    row.period = history_.lessons.empty() ? 0 : history_.lessons.back().lesson.period;
-    row.test = count_member(event.body, "test");
+    row.lesson = history_.lessons.size() - 1;
+    row.period = history_.lessons.back().lesson.period;
+    row.test = count_at(event.body, "test");
     row.seat = seat;
     row.member = history_.seats[seat].member.value_or(0);
     if (const auto actions = event.body.find("actions"); actions != event.body.end() && actions->is_array()) {
@@ -104,6 +119,13 @@ class Collector {
 };
 
 }  // namespace
+
+const LessonRow* RoomHistory::lesson_of(std::size_t period) const {
+  for (const auto& row : lessons) {
+    if (row.lesson.period == period && !row.is_replaced) return &row;
+  }
+  return nullptr;
+}
 
 std::size_t RoomHistory::seat_of(std::size_t member) const {
   std::size_t last = 0;

@@ -13,6 +13,7 @@
 namespace kith {
 
 struct AnswerRow {
+  std::size_t lesson = 0;  // index into RoomHistory::lessons
   std::size_t period = 0;
   std::size_t test = 0;  // from 0
   std::size_t seat = 0;
@@ -40,6 +41,7 @@ struct LessonRow {
   Lesson lesson;
   std::int64_t chosen_us = 0;
   std::string digest;
+  bool is_replaced = false;  // another one was chosen for the same period
 };
 
 struct RoomHistory {
@@ -53,6 +55,8 @@ struct RoomHistory {
   std::int64_t started_us = 0;
   std::string ended;
 
+  // The lesson that was taught in a period; null if there is none.
+  [[nodiscard]] const LessonRow* lesson_of(std::size_t period) const;
   // The seat that a member's place belongs to last; 0: none.
   [[nodiscard]] std::size_t seat_of(std::size_t member) const;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "json_members.hpp"
 #include "service_state.hpp"
 
 namespace kith {
@@ -24,20 +25,6 @@ std::optional<Json> parse_frame(std::string_view text) {
   return json;
 }
 
-// A member that is a text; empty otherwise.
-std::string text_at(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
-}
-
-std::int64_t number_at(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  if (found == object.end() || !found->is_number_integer()) return 0;
-  return found->is_number_unsigned() && found->get<std::uint64_t>() > 1'000'000 ? 0 : found->get<std::int64_t>();
-}
-
-Json bye_frame(const char* reason) { return {{"t", "bye"}, {"reason", reason}}; }
-
 }  // namespace
 
 Json ack_frame(const std::string& id) { return {{"t", "ack"}, {"id", id}}; }
@@ -48,16 +35,18 @@ Json nak_frame(const std::string& id, const Refusal& refusal) {
 
 void Connection::dismiss(const char* reason, std::uint16_t code) {
   if (is_closed.exchange(true)) return;
-  send(bye_frame(reason));
+  send({{"t", "bye"}, {"reason", reason}});
   socket->close(code, reason);
 }
 
-LiveService::ConnectionId LiveService::open(std::shared_ptr<Socket> socket, std::string remote) {
+void Connection::hang_up(std::uint16_t code, const char* reason) {
+  if (!is_closed.exchange(true)) socket->close(code, reason);
+}
+
+LiveService::ConnectionId LiveService::open(std::shared_ptr<Socket> socket) {
   auto& state = *state_;
   auto connection = std::make_shared<Connection>();
   connection->socket = std::move(socket);
-  connection->remote = std::move(remote);
-  connection->opened_us = state.now_us();
   const std::lock_guard lock{state.mutex};
   connection->id = state.next_connection++;
   state.connections.emplace(connection->id, connection);
@@ -90,6 +79,12 @@ void LiveService::closed(ConnectionId id) {
   if (contact != state.contacts.end() && contact->second.connection == id) contact->second.connection = 0;
 }
 
+void LiveService::measured(ConnectionId id, std::chrono::microseconds round_trip) {
+  const std::lock_guard lock{state_->mutex};
+  const auto found = state_->connections.find(id);
+  if (found != state_->connections.end()) found->second->round_trip = round_trip;
+}
+
 void LiveService::receive(ConnectionId id, std::string_view text) {
   auto& state = *state_;
   const auto connection = state.connection_of(id);
@@ -97,7 +92,7 @@ void LiveService::receive(ConnectionId id, std::string_view text) {
   const auto frame = parse_frame(text);
   const auto type = frame ? text_at(*frame, "t") : std::string{};
   if (!connection->is_known) {
-    if (type != "hello") return connection->dismiss("bad-token", kPolicy);
+    if (type != "hello") return connection->hang_up(kPolicy, "the first message must be a hello");
     return state.hello(connection, *frame);
   }
   if (!frame) return connection->send(nak_frame("", {"bad-frame", "The message is not a JSON object."}));
@@ -133,6 +128,7 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
     if (identity.role != Role::kNobody) connection->is_known = true;
   }
   if (!connection->is_known) return connection->dismiss("bad-token", kPolicy);
+  connection->socket->authenticated();
   if (former) former->dismiss("opened-elsewhere", kElsewhere);
   connection->send({{"t", "welcome"}, {"role", name_of(connection->identity.role)}, {"server", options.program}});
   if (connection->identity.role == Role::kParticipant) attend(connection);
@@ -188,13 +184,18 @@ void LiveService::State::message(const std::shared_ptr<Connection>& connection, 
   if (id.empty() || id.size() > kLongestId)
     return connection->send(nak_frame("", {"bad-id", "A message needs an id of at most 64 characters."}));
   const auto& identity = connection->identity;
-  if (type == "hello") return connection->send(nak_frame(id, {"not-now", "This connection has said hello already."}));
+  if (type == "hello") return connection->send(nak_frame(id, {"not-now", "This connection has already said hello."}));
   if (!is_allowed(type, identity.role))
     return connection->send(nak_frame(id, {"not-allowed", "This link does not allow '" + type + "'."}));
   const auto found = frame.find("body");
-  const Json body = found == frame.end() ? Json::object() : *found;
+  Json body = found == frame.end() ? Json::object() : *found;
   if (!body.is_object()) return connection->send(nak_frame(id, {"bad-body", "The body must be an object."}));
   if (identity.role != Role::kParticipant) return facilitate(connection, type, id, body);
+  if (type == "consent") {
+    const std::lock_guard lock{mutex};
+    const auto query = queries.find({identity.room, identity.seat});
+    body["query"] = query == queries.end() ? Json::object() : query->second;
+  }
   post(identity.room, [this, connection, type, id, body](TeachingCache&) {
     const auto seat = static_cast<std::size_t>(connection->identity.seat);
     room_of(connection->identity.room)
@@ -226,7 +227,7 @@ void LiveService::State::facilitate(const std::shared_ptr<Connection>& connectio
               [this, room, type, rest, reply](const CommandOutcome& outcome) {
                 reply(outcome.refusal);
                 if (outcome.refusal || type != "readmit") return;
-                const auto seat = number_at(rest, "seat");
+                const auto seat = static_cast<std::int64_t>(count_at(rest, "seat"));
                 const bool has_link = [&] {
                   const std::lock_guard lock{mutex};
                   return tokens->known(room->number(), seat).has_value();
@@ -322,18 +323,6 @@ void LiveService::State::push_room(HostedRoom& hosted) {
   }
 }
 
-void LiveService::State::check_connections(std::int64_t now) {
-  std::vector<std::shared_ptr<Connection>> silent;
-  {
-    const std::lock_guard lock{mutex};
-    for (const auto& [id, connection] : connections) {
-      if (!connection->is_known && now - connection->opened_us > options.hello_limit_ms * 1000)
-        silent.push_back(connection);
-    }
-  }
-  for (const auto& connection : silent) connection->dismiss("bad-token", kPolicy);
-}
-
 void LiveService::State::check_presence(std::int64_t now) {
   constexpr std::int64_t kAwayAfter = 10 * kSecond;
   std::vector<std::pair<std::int64_t, std::int64_t>> gone;
@@ -360,6 +349,10 @@ void LiveService::stop() {
   if (state.ticker.joinable()) state.ticker.join();
   for (const auto& connection : all) connection->dismiss("server-stops", kGoingAway);
   state.teachers->stop();
+  state.busy.wait_for_none();
+  for (const auto& [number, room] : state.rooms) {
+    state.strands->post(static_cast<std::size_t>(number), [room](TeachingCache&) { room->abandon(); });
+  }
   state.busy.wait_for_none();
 }
 

@@ -20,8 +20,6 @@ using HttpReply = LiveService::HttpReply;
 
 constexpr std::chrono::seconds kLongestWait{5};  // for the disk
 constexpr std::size_t kLongestQrText = 1000;
-constexpr std::size_t kMostParameters = 20;
-constexpr std::size_t kLongestParameter = 200;
 
 HttpReply json_reply(int status, const Json& body) {
   return {.status = status, .body = body.dump() + "\n", .headers = {{"Cache-Control", "no-store"}}};
@@ -63,19 +61,6 @@ std::string parameter(std::string_view query, std::string_view name) {
   return {};
 }
 
-// The query parameters of a recruitment platform: texts, not too many, not too long.
-Json query_of(const Json& body) {
-  Json query = Json::object();
-  const auto found = body.find("query");
-  if (found == body.end() || !found->is_object()) return query;
-  for (const auto& [name, value] : found->items()) {
-    const bool is_short = name.size() <= kLongestParameter && value.is_string() &&
-                          value.get_ref<const std::string&>().size() <= kLongestParameter;
-    if (is_short && query.size() < kMostParameters) query[name] = value;
-  }
-  return query;
-}
-
 // Waits for an answer that another thread gives; nothing if it takes too long.
 template <typename T>
 std::optional<T> wait_for(std::future<T> answer) {
@@ -89,7 +74,7 @@ LiveService::HttpReply LiveService::http(const HttpRequest& request) {
   try {
     return state_->handle(request);
   } catch (const std::exception&) {
-    return error_reply(500, "internal", "The server met an unexpected error.");
+    return error_reply(500, "internal", "An unexpected error occurred on the server.");
   }
 }
 
@@ -110,7 +95,7 @@ LiveService::HttpReply LiveService::State::handle(const HttpRequest& request) {
   Identity identity;
   {
     const std::lock_guard lock{mutex};
-    if (is_stopping) return error_reply(503, "stopping", "The server stops.");
+    if (is_stopping) return error_reply(503, "stopping", "The server is stopping.");
     if (!request.bearer.empty()) identity = tokens->identify(request.bearer, now_us());
   }
   if (!is_allowed(route, identity.role)) {
@@ -119,6 +104,7 @@ LiveService::HttpReply LiveService::State::handle(const HttpRequest& request) {
   }
   if (route == "GET /api/health") return json_reply(200, {{"status", "ok"}, {"server", options.program}});
   if (route == "POST /api/join") return join(request);
+  if (route == "GET /api/texts") return json_reply(200, language_json(*study));
   if (route == "GET /api/world") return world(key);
   if (route == "GET /api/integrity") return json_reply(200, integrity());
   if (route == "GET /api/export") return export_tables(query);
@@ -150,7 +136,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   if (!body.is_object()) return error_reply(400, "bad-body", "The request must be a JSON object.");
   const auto code = body.find("code");
   if (code == body.end() || !code->is_string()) return error_reply(400, "bad-body", "The request needs a code.");
-  const auto query = query_of(body);
+  const auto query = collected_query(*study, body.value("query", Json{}));
   std::vector<std::shared_ptr<HostedRoom>> open;
   bool is_study = false;
   bool is_known = false;  // that it is the code of a room
@@ -178,9 +164,9 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   const auto take_seat = [&](const std::shared_ptr<HostedRoom>& room) {
     auto promise = std::make_shared<std::promise<std::int64_t>>();  // the seat, 0: none is free
     auto seat = promise->get_future();
-    post(room->number(), [room, query, promise](TeachingCache&) {
+    post(room->number(), [room, promise](TeachingCache&) {
       if (room->room() != nullptr && !room->room()->has_free_seat()) return promise->set_value(0);
-      room->ask({.actor = "server", .type = "join", .body = {{"query", query}}, .id = {}},
+      room->ask({.actor = "server", .type = "join", .body = Json::object(), .id = {}},
                 [promise](const CommandOutcome& outcome) {
                   std::int64_t taken = 0;
                   for (const auto& event : outcome.events) {
@@ -197,6 +183,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     {
       const std::lock_guard lock{mutex};
       former = tokens->of_seat(room->number(), seat);
+      if (!query.empty()) queries[{room->number(), seat}] = query;
     }
     auto promise = std::make_shared<std::promise<std::string>>();
     auto token = promise->get_future();
@@ -218,7 +205,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     if (!seat) return error_reply(503, "not-saved", "The server could not save this; try again.");
     if (*seat > 0) return give_link(room, *seat);
   }
-  if (is_study && options.makes_rooms) {
+  if (is_study) {
     auto promise = std::make_shared<std::promise<RoomsMade>>();
     auto answer = promise->get_future();
     post(0, [this, promise](TeachingCache&) {

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <utility>
 
+#include "json_members.hpp"
 #include "kith/core/error.hpp"
 #include "random_token.hpp"
 #include "service_state.hpp"
@@ -11,32 +12,11 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kCodeLength = 6;
-constexpr std::size_t kSaltBytes = 16;
 constexpr std::size_t kLogLength = 200;
 constexpr std::size_t kMostAtOnce = 200;
 
-std::string hexadecimal(const std::string& bytes) {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    text += {kDigits[byte >> 4], kDigits[byte & 15u]};
-  }
-  return text;
-}
-
-std::string text_in(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
-}
-
-LogEntry entry_of(const StoredEvent& event, const std::string& room) {
-  const auto body = Json::parse(event.json, nullptr, false);
-  return {.at_us = event.at_us,
-          .room = room,
-          .actor = event.actor,
-          .what = event.type,
-          .reason = body.is_object() ? text_in(body, "reason") : std::string{}};
+LogEntry entry_of(const StoredEvent& event) {
+  return log_entry(event.room, event.at_us, event.actor, event.type, Json::parse(event.json, nullptr, false));
 }
 
 // What a facilitator asks for when making rooms.
@@ -47,7 +27,7 @@ struct Wish {
 };
 
 std::optional<Wish> wish_of(const Json& body) {
-  Wish wish{.strategy = text_in(body, "strategy"), .seats = {}};
+  Wish wish{.strategy = text_at(body, "strategy"), .seats = {}};
   if (const auto seats = body.find("seats"); seats != body.end()) {
     if (!seats->is_array() || seats->size() > 30) return std::nullopt;
     for (const auto& seat : *seats) {
@@ -62,21 +42,28 @@ std::optional<Wish> wish_of(const Json& body) {
   return wish;
 }
 
-// The cell of the design that has the fewest rooms, among those that fit the wish.
+// The cell of the design that has the fewest rooms, among those that fit the wish; if none has that many seats, among
+// those of any size. Without a strategy if the study has none of this name.
 LiveCell next_cell(const LiveStudy& study, const Wish& wish, const std::map<std::string, std::size_t>& rooms_of) {
-  LiveCell best;
-  std::size_t fewest = 0;
-  for (const auto& cell : live_cells(study)) {
-    if (!wish.strategy.empty() && cell.strategy != wish.strategy) continue;
-    if (!wish.seats.empty() && cell.composition.size() != wish.seats.size()) continue;
-    const auto found = rooms_of.find(cell.strategy + "/" + cell.composition);
-    const auto count = found == rooms_of.end() ? 0 : found->second;
-    if (best.strategy.empty() || count < fewest) {
-      best = cell;
-      fewest = count;
+  for (const bool is_any_size : {false, true}) {
+    LiveCell best;
+    std::size_t fewest = 0;
+    for (const auto& cell : live_cells(study)) {
+      if (!wish.strategy.empty() && cell.strategy != wish.strategy) continue;
+      if (!wish.seats.empty()) {
+        if (!is_any_size && cell.composition.size() != wish.seats.size()) continue;
+        if (wish.seats.size() > 1 && strategy_of(study.spec, cell.strategy).is_baseline()) continue;
+      }
+      const auto found = rooms_of.find(cell.strategy + "/" + cell.composition);
+      const auto count = found == rooms_of.end() ? 0 : found->second;
+      if (best.strategy.empty() || count < fewest) {
+        best = cell;
+        fewest = count;
+      }
     }
+    if (!best.strategy.empty()) return best;
   }
-  return best;
+  return {};
 }
 
 // The setup of one room; the people and stand-ins that the wish names are put into the composition of the cell.
@@ -100,6 +87,25 @@ RoomSetup setup_of(const LiveStudy& study, const Wish& wish, const std::map<std:
 }
 
 }  // namespace
+
+bool is_logged(std::string_view actor, std::string_view type) {
+  constexpr std::string_view kTypes[] = {"joined",      "declined",  "left",    "away", "present",
+                                         "dropped",     "released",  "started", "time", "ended",
+                                         "turned-away", "room-make", "redacted"};
+  return actor == "facilitator" || std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
+}
+
+LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor, const std::string& type,
+                   const Json& body) {
+  LogEntry entry{
+      .at_us = at_us, .room = room == 0 ? std::string{} : room_id(room), .actor = actor, .what = type, .reason = {}};
+  if (!body.is_object()) return entry;
+  entry.reason = text_at(body, "reason");
+  const auto seat = body.find("seat");
+  const bool is_about_seat = actor == "server" && seat != body.end() && seat->is_number_integer();
+  if (is_about_seat) entry.actor = seat_actor(seat->get<std::size_t>());
+  return entry;
+}
 
 std::string room_id(std::int64_t number) { return "r" + std::to_string(number); }
 
@@ -130,9 +136,10 @@ void LiveService::State::load_rooms() {
   auto& file = store->file();
   tokens.emplace(file.tokens());
   std::map<std::int64_t, std::vector<StoredEvent>> events;
+  std::vector<LogEntry> entries;
   const auto now = now_us();
   file.for_each_event([&](const StoredEvent& event) {
-    if (event.actor == "facilitator") write_log(entry_of(event, event.room == 0 ? std::string{} : room_id(event.room)));
+    if (is_logged(event.actor, event.type)) entries.push_back(entry_of(event));
     if (event.room == 0) next_service_seq = event.seq + 1;
     if (event.room != 0 && event.type == "joined") {
       const auto body = Json::parse(event.json);
@@ -142,7 +149,9 @@ void LiveService::State::load_rooms() {
     }
     events[event.room].push_back(event);
   });
-  std::stable_sort(log.begin(), log.end(), [](const LogEntry& a, const LogEntry& b) { return a.at_us < b.at_us; });
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const LogEntry& a, const LogEntry& b) { return a.at_us < b.at_us; });
+  for (auto& entry : entries) write_log(std::move(entry));
   for (auto& stored : file.rooms()) {
     auto setup = room_setup(Json::parse(stored.setup));
     const auto number = stored.number;
@@ -177,14 +186,14 @@ void LiveService::State::record_next() {
   auto& event = recording.batch.events.front();
   event.seq = next_service_seq;
   event.at_us = now_us();
-  const auto entry = entry_of(event, {});
+  const auto entry = entry_of(event);
   save(std::move(recording.batch), [this, entry, done = std::move(recording.done)](bool saved) {
     post(0, [this, entry, done, saved](TeachingCache&) {
       is_recording = false;
       if (saved) {
         ++next_service_seq;
         const std::lock_guard lock{mutex};
-        write_log(entry);
+        if (is_logged(entry.actor, entry.what)) write_log(entry);
       }
       done(saved);
       record_next();
@@ -204,8 +213,8 @@ void LiveService::State::make_rooms(const Json& body, const std::string& actor, 
   {
     const std::lock_guard lock{mutex};
     if (rooms.size() + wish->count > options.max_rooms)
-      return refuse("full", "This server takes no more than " + std::to_string(options.max_rooms) + " rooms.");
-    if (free_space < kNoSpace) return refuse("no-space", "The disk is almost full: no new rooms are made.");
+      return refuse("full", "This server is limited to " + std::to_string(options.max_rooms) + " rooms.");
+    if (free_space < kNoSpace) return refuse("no-space", "The disk is almost full: no new rooms can be made.");
     for (const auto& [number, room] : rooms) {
       ++rooms_of[room->setup().strategy + "/" + room->setup().composition];
       next = number + 1;
@@ -221,7 +230,7 @@ void LiveService::State::make_rooms(const Json& body, const std::string& actor, 
     const auto number = next + static_cast<std::int64_t>(i);
     setup.id = room_id(number);
     setup.code = random_code(kCodeLength);
-    setup.salt = hexadecimal(random_bytes(kSaltBytes));
+    setup.salt = random_token();
     ++rooms_of[setup.strategy + "/" + setup.composition];
     std::size_t seats = 0;
     try {

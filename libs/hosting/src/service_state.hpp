@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -31,8 +33,6 @@ namespace kith {
 struct Connection {
   LiveService::ConnectionId id = 0;
   std::shared_ptr<LiveService::Socket> socket;
-  std::string remote;
-  std::int64_t opened_us = 0;
 
   Identity identity;
   std::atomic<bool> is_known = false;
@@ -40,11 +40,15 @@ struct Connection {
 
   std::string last_view;
 
-  std::int64_t selected = 0;  // the room that a facilitator looks at; guarded by the mutex of the service
+  // Guarded by the mutex of the service.
+  std::int64_t selected = 0;  // the room that a facilitator looks at
+  std::optional<std::chrono::microseconds> round_trip;
 
   void send(const Json& frame) const { socket->send(std::make_shared<const std::string>(frame.dump())); }
-  // Says why, and closes.
+  // Says why, in a frame for the page, and closes: the page gives up.
   void dismiss(const char* reason, std::uint16_t code);
+  // Closes: the page connects again.
+  void hang_up(std::uint16_t code, const char* reason);
 };
 
 // What connects a seat to whoever sits there.
@@ -97,6 +101,8 @@ struct LiveService::State final : HostedRoom::Host {
   std::deque<LogEntry> log;
   std::map<std::int64_t, std::string> troubles;           // by room
   std::map<std::string, std::deque<std::int64_t>> joins;  // by address, when
+  // By room and seat: query parameters of people who have not consented yet. They are stored with the consent.
+  std::map<std::pair<std::int64_t, std::int64_t>, Json> queries;
   std::map<std::string, std::shared_ptr<const std::string>> worlds;
   std::string facilitator_token, observer_token;
   std::size_t num_facilitators = 0;
@@ -159,12 +165,12 @@ struct LiveService::State final : HostedRoom::Host {
   void revoke_link(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);
   void attend(const std::shared_ptr<Connection>& connection);
   void push_view(Connection& connection, Json view) const;
-  void push_room(HostedRoom& room);
-  void tell_presence(std::int64_t room, std::int64_t seat, const char* type);
+  void push_room(HostedRoom& hosted);
+  void tell_presence(std::int64_t number, std::int64_t seat, const char* type);
   [[nodiscard]] std::shared_ptr<Connection> connection_of(ConnectionId id) const;
 
   // service_views.cpp
-  void take_picture(HostedRoom& room);
+  void take_picture(HostedRoom& hosted);
   void show_facilitators();
   [[nodiscard]] Json facilitator_view(const Connection& connection) const;
   [[nodiscard]] Json integrity() const;
@@ -176,10 +182,15 @@ struct LiveService::State final : HostedRoom::Host {
   [[nodiscard]] HttpReply export_tables(const std::string& query);
 
   void tick();
-  void check_connections(std::int64_t now);
   void check_presence(std::int64_t now);
   void check_space(std::int64_t now);
 };
+
+// Whether facilitators read of an event in their log: what they did, and who came and went.
+[[nodiscard]] bool is_logged(std::string_view actor, std::string_view type);
+// @param room  0: of the service.
+[[nodiscard]] LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor,
+                                 const std::string& type, const Json& body);
 
 // Frames of the protocol.
 [[nodiscard]] Json ack_frame(const std::string& id);

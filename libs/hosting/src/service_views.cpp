@@ -24,7 +24,7 @@ void LiveService::State::take_picture(HostedRoom& hosted) {
   RoomPicture picture;
   const auto take = [&](Viewer::Role role, auto& row, auto& detail) {
     const Viewer viewer{.role = role, .seat = 0};
-    row = std::make_shared<const Json>(room->row(viewer, now));
+    row = std::make_shared<const Json>(room->row(viewer));
     if (!is_selected) return;
     auto view = room->view(viewer, now);
     detail = std::make_shared<const Json>(std::move(view["room"]));
@@ -69,11 +69,14 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
   for (const auto& [number, picture] : pictures) {
     auto row = or_null(is_facilitator ? picture.row : picture.observer_row);
     if (row.is_null()) continue;
-    if (is_facilitator && row.contains("seats")) {
-      for (auto& seat : row["seats"]) {
-        const auto token = tokens->known(number, seat.value("seat", std::int64_t{0}));
-        if (token) seat["link"] = base_url + "/j#t=" + *token;
-      }
+    for (auto& seat : row["seats"]) {
+      const std::pair place{number, seat["seat"].get<std::int64_t>()};
+      const auto contact = contacts.find(place);
+      const auto person = contact == contacts.end() ? connections.end() : connections.find(contact->second.connection);
+      if (person != connections.end() && person->second->round_trip)
+        seat["latency_ms"] = static_cast<double>(person->second->round_trip->count()) / 1000.0;
+      const auto token = is_facilitator ? tokens->known(place.first, place.second) : std::nullopt;
+      if (token) seat["link"] = base_url + "/j#t=" + *token;
     }
     view["rooms"].push_back(std::move(row));
   }

@@ -85,7 +85,9 @@ class Exporter {
     history_ = &history;
     write_session();
     for (const auto& [seat, row] : history.seats) write_participant(seat, row);
-    for (const auto& lesson : history.lessons) write_period(lesson);
+    for (const auto& lesson : history.lessons) {
+      if (!lesson.is_replaced) write_period(lesson);
+    }
     write_tests();
     write_questions();
     write_trials();
@@ -98,6 +100,9 @@ class Exporter {
   [[nodiscard]] const std::string& id() const { return history_->replayed.id; }
   [[nodiscard]] const RoomSetup& setup() const { return history_->room->setup(); }
   [[nodiscard]] const Session& session() const { return history_->room->session(); }
+
+  // Whether another lesson was taught in place of the one that the answer belongs to.
+  [[nodiscard]] bool is_void(const AnswerRow& answer) const { return history_->lessons[answer.lesson].is_replaced; }
 
   // The verdict on an answer, if the period was finished and the member took part.
   [[nodiscard]] const Verdict* verdict(std::size_t period, std::size_t member, std::size_t test) const {
@@ -161,7 +166,8 @@ class Exporter {
   void write_participant(std::size_t seat, const SeatRow& person) {
     std::size_t tests = 0, right = 0;
     for (const auto& answer : history_->answers) {
-      const auto* judged = answer.seat == seat ? verdict(answer.period, answer.member, answer.test) : nullptr;
+      const bool is_own = answer.seat == seat && !is_void(answer);
+      const auto* judged = is_own ? verdict(answer.period, answer.member, answer.test) : nullptr;
       if (judged == nullptr) continue;
       ++tests;
       right += judged->correct ? 1u : 0u;
@@ -229,10 +235,10 @@ class Exporter {
       if (!person.simulated || !person.member) continue;
       for (std::size_t period = 1; period <= session().history().size(); ++period) {
         const auto& verdicts = session().history()[period - 1].feedback.verdicts[*person.member - 1];
-        const bool by_person = std::any_of(rows.begin(), rows.end(), [&](const TestRow& row) {
-          return row.answer != nullptr && row.period == period && row.member == *person.member;
-        });
-        for (std::size_t test = 0; !by_person && test < verdicts.size(); ++test)
+        const auto* lesson = history_->lesson_of(period);
+        const bool was_there = lesson != nullptr && person.joined_us <= lesson->chosen_us;
+        if (!was_there || seat_in(period, *person.member) != 0) continue;
+        for (std::size_t test = 0; test < verdicts.size(); ++test)
           rows.push_back({.period = period, .test = test, .seat = seat, .member = *person.member, .answer = nullptr});
       }
     }
@@ -242,26 +248,27 @@ class Exporter {
 
   void write_tests() {
     for (const auto& test : test_rows()) {
-      if (test.period == 0 || test.period > history_->lessons.size()) continue;
-      const auto& lesson = history_->lessons[test.period - 1].lesson;
-      if (test.test >= lesson.tests.size()) continue;
+      const auto* answer = test.answer;
+      const auto* lesson_row =
+          answer != nullptr ? &history_->lessons[answer->lesson] : history_->lesson_of(test.period);
+      if (lesson_row == nullptr || test.test >= lesson_row->lesson.tests.size()) continue;
+      const auto& lesson = lesson_row->lesson;
       const auto place = atlas_.id(lesson.tests[test.test].demo);
-      const auto* judged = verdict(test.period, test.member, test.test);
+      const auto* judged = lesson_row->is_replaced ? nullptr : verdict(test.period, test.member, test.test);
       auto& row = tables_[kTestsFile];
       row.text(id()).integer(test.period).integer(lesson.component + 1).integer(test.test + 1).integer(test.seat);
       row.integer(test.member).text(type_of(test.member).value_or("")).text(setup().strategy);
       row.integer(place.mdp.value()).integer(place.start.value());
-      if (test.answer != nullptr) {
-        row.text(path_of(*test.answer)).integer(test.answer->actions.size());
+      if (answer != nullptr) {
+        row.text(path_of(*answer)).integer(answer->actions.size());
       } else {
         row.missing().integer(std::size_t{0});
       }
       row.boolean(judged != nullptr ? std::optional{judged->correct} : std::nullopt);
       row.real(judged != nullptr && judged->answered ? std::optional{judged->regret} : std::nullopt);
-      const auto* answer = test.answer;
       row.real(answer != nullptr && answer->ms ? std::optional{static_cast<double>(*answer->ms) / 1000.0}
                                                : std::nullopt);
-      row.integer(ms_of(answer != nullptr ? answer->at_us : history_->lessons[test.period - 1].chosen_us));
+      row.integer(ms_of(answer != nullptr ? answer->at_us : lesson_row->chosen_us));
       row.end_row();
       if (answer != nullptr) write_keys(*answer);
     }
@@ -333,7 +340,7 @@ class Exporter {
   // The person who answered for a member in a period; 0: nobody, or a stand-in.
   [[nodiscard]] std::size_t seat_in(std::size_t period, std::size_t member) const {
     for (const auto& answer : history_->answers) {
-      if (answer.period == period && answer.member == member) return answer.seat;
+      if (answer.period == period && answer.member == member && !is_void(answer)) return answer.seat;
     }
     return 0;
   }
@@ -353,7 +360,7 @@ class Exporter {
     auto body = room_event_of(event).body;
     if (!options_.with_names && body.is_object()) {
       if (event.type == "named") body.erase("name");
-      if (event.type == "joined") body.erase("query");
+      if (event.type == "consented") body.erase("query");
     }
     if (!options_.with_text && body.is_object()) {
       for (const auto* name : {"text", "reason"}) {

@@ -31,7 +31,8 @@ constexpr const char* kErased = "(erased)";
 std::optional<std::set<std::string>> text_questions(const StoreIdentity& identity) {
   if (identity.inputs.empty()) return std::nullopt;
   std::set<std::string> questions;
-  for (const auto& question : restore_session_study(identity.inputs).study->group().questions) {
+  const auto restored = restore_session_study(identity.inputs);
+  for (const auto& question : restored.study->group().questions) {
     if (question.kind == GroupQuestion::Kind::kText) questions.insert(question.id);
   }
   return questions;
@@ -47,7 +48,7 @@ bool erase_person(const std::string& type, Json& body, const std::optional<std::
   };
   if (!body.is_object()) return false;
   if (type == "named") return blank("name", kErased);
-  if (type == "joined") return blank("query", Json::object());
+  if (type == "consented" || type == "turned-away") return blank("query", Json::object());
   if (type == "message") return blank("text", kErased);
   if (type != "questions") return false;
   const auto answers = body.find("answers");
@@ -149,7 +150,7 @@ std::size_t redact(const fs::path& folder, std::optional<std::string> room, std:
   std::uint64_t service_seq = 0;
   file.for_each_event([&](const StoredEvent& event) {
     if (event.room == 0) service_seq = event.seq;
-    if (event.room == 0 || (number && event.room != *number)) return;
+    if (number && event.room != *number) return;
     auto body = room_event_of(event).body;
     if (!erase_person(event.type, body, questions)) return;
     changed.push_back(event);

@@ -1,9 +1,6 @@
 #include "kith/hosting/session_study.hpp"
 
-#include <stdlib.h>
-
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "kith/core/error.hpp"
@@ -11,6 +8,7 @@
 #include "kith/files/bytes.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
+#include "kith/files/temporary_folder.hpp"
 
 namespace kith {
 namespace {
@@ -51,26 +49,6 @@ Study with_own_files(Study study, const fs::path& folder, std::map<std::string, 
   return study;
 }
 
-// A folder of its own, removed with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    auto name = (fs::temp_directory_path() / "kith-session-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Error{ErrorKind::kIo, "cannot make a folder " + name};
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
-
- private:
-  fs::path path_;
-};
-
 [[noreturn]] void refuse_inputs(const std::string& why) {
   refuse_run(ErrorKind::kMismatch, "E1617", kStudyFile,
              "the study that is kept with the session cannot be used: " + why,
@@ -102,7 +80,7 @@ SessionStudy make_session_study(const StudyReading& reading, const fs::path& fol
 
 SessionStudy restore_session_study(const std::map<std::string, std::string>& inputs) {
   if (inputs.find(kStudyFile) == inputs.end()) refuse_inputs("there is no study.toml");
-  const TemporaryFolder folder;
+  const TemporaryFolder folder{"kith-session"};
   for (const auto& [name, text] : inputs) {
     if (!is_plain(name)) refuse_inputs("the name of '" + name + "' leads out of its folder");
     fs::create_directories((folder.path() / name).parent_path());

@@ -71,21 +71,14 @@ void migrate(Database& database, int version, std::span<const Migration> steps) 
   const auto backup = database.path().string() + ".v" + std::to_string(found) + ".bak";
   std::filesystem::remove(backup);
   database.execute("VACUUM INTO " + quoted(backup));
-  database.execute("BEGIN IMMEDIATE");
-  try {
+  in_transaction(database, [&] {
     for (int from = found; from < version; ++from) {
       for (const auto& step : steps) {
         if (step.from == from) database.execute(step.sql);
       }
     }
-    database.execute("PRAGMA user_version = " + std::to_string(version) + "; COMMIT");
-  } catch (const SqliteError&) {
-    try {
-      database.execute("ROLLBACK");
-    } catch (const SqliteError&) {  // it has been rolled back
-    }
-    throw;
-  }
+    database.execute("PRAGMA user_version = " + std::to_string(version));
+  });
 }
 
 bool is_sound(Database& database) {

@@ -29,11 +29,11 @@ constexpr Expected kMessages[] = {
     {"readmit", "---f"},   {"simulate", "---f"},    {"strategy", "---f"},    {"end", "---f"},
     {"room-make", "---f"}, {"room-select", "--of"}, {"link-revoke", "---f"}, {"join", "----"},
     {"away", "----"},      {"present", "----"},     {"lesson", "----"},      {"", "----"}};
-constexpr Expected kRoutes[] = {{"GET /api/health", "npof"},    {"POST /api/join", "npof"},
-                                {"GET /api/world", "-pof"},     {"GET /api/export", "---f"},
-                                {"GET /api/qr", "---f"},        {"GET /api/integrity", "---f"},
-                                {"POST /api/export", "----"},   {"GET /api/join", "----"},
-                                {"DELETE /api/health", "----"}, {"GET /api/../api/export", "----"}};
+constexpr Expected kRoutes[] = {
+    {"GET /api/health", "npof"},    {"POST /api/join", "npof"},        {"GET /api/texts", "npof"},
+    {"GET /api/world", "-pof"},     {"GET /api/export", "---f"},       {"GET /api/qr", "---f"},
+    {"GET /api/integrity", "---f"}, {"POST /api/export", "----"},      {"GET /api/join", "----"},
+    {"DELETE /api/health", "----"}, {"GET /api/../api/export", "----"}};
 constexpr std::array kRoles{Role::kNobody, Role::kParticipant, Role::kObserver, Role::kFacilitator};
 
 TEST(Authorisation, IsTheTableAndNothingElse) {
@@ -107,7 +107,7 @@ class AuthorisationMatrix : public ::testing::Test {
 
   void check_messages(const Link& link) {
     const auto socket = std::make_shared<FakeSocket>();
-    const auto connection = stage_.service().open(socket, "test");
+    const auto connection = stage_.service().open(socket);
     stage_.service().receive(connection, Json{{"t", "hello"}, {"v", 1}, {"token", link.token}}.dump());
     if (link.role == Role::kNobody) {
       EXPECT_EQ(socket->close_code(), 1008) << link.story;

@@ -61,10 +61,12 @@ class FakeSocket final : public LiveService::Socket {
     const std::lock_guard lock{mutex_};
     frames_.push_back(*frame);
   }
-  void close(std::uint16_t code, std::string) override {
+  void close(std::uint16_t code, std::string reason) override {
     const std::lock_guard lock{mutex_};
     close_code_ = code;
+    close_reason_ = std::move(reason);
   }
+  void authenticated() override { is_authenticated_ = true; }
   /// What came since the last call.
   [[nodiscard]] std::vector<Json> take() {
     const std::lock_guard lock{mutex_};
@@ -76,11 +78,18 @@ class FakeSocket final : public LiveService::Socket {
     const std::lock_guard lock{mutex_};
     return close_code_;
   }
+  [[nodiscard]] std::string close_reason() const {
+    const std::lock_guard lock{mutex_};
+    return close_reason_;
+  }
+  [[nodiscard]] bool is_authenticated() const { return is_authenticated_; }
 
  private:
   mutable std::mutex mutex_;
+  std::atomic<bool> is_authenticated_ = false;
   std::vector<std::string> frames_;
   std::optional<std::uint16_t> close_code_;
+  std::string close_reason_;
 };
 
 /// Knows paths through the worlds of a study: the robot's, and the shortest.
@@ -150,7 +159,7 @@ class Page {
 
   void connect(LiveService& service) {
     socket_ = std::make_shared<FakeSocket>();
-    connection_ = service.open(socket_, "test");
+    connection_ = service.open(socket_);
     service.receive(connection_, Json{{"t", "hello"}, {"v", 1}, {"token", token_}, {"tab", name_}}.dump());
     for (const auto& message : unsaved_) send(service, message);
   }

@@ -12,6 +12,7 @@
 #include "kith/live/world_json.hpp"
 #include "kith/random/distributions.hpp"
 #include "live_texts.hpp"
+#include "room_body.hpp"
 
 namespace kith {
 namespace {
@@ -55,6 +56,15 @@ LiveLanguage parse_language(const std::string& text, const std::string& name) {
   return language;
 }
 
+void require_teachable(const std::vector<StrategyChoice>& strategies) {
+  for (const auto& strategy : strategies) {
+    if (!strategy.kind.needs_truth) continue;
+    throw Error{ErrorKind::kInvalidInput, "the strategy '" + strategy.name +
+                                              "' reads what simulated people believe, so it cannot teach real ones: "
+                                              "remove it from [design]"};
+  }
+}
+
 void require_small_worlds(const Domain& domain) {
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     const auto states = domain.mdp(m).num_states() + domain.mdp(m).num_terminals();
@@ -64,6 +74,29 @@ void require_small_worlds(const Domain& domain) {
                     std::to_string(states) + " states; people can be taught about worlds of at most " +
                     std::to_string(kMaxLiveStates) + " states, because each browser gets the table of all moves"};
   }
+}
+
+bool has_tests(const Atlas& atlas) {
+  for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+    if (!atlas.tests_for(c).empty()) return true;
+  }
+  return false;
+}
+
+// The atlas without tests that people could not answer.
+std::shared_ptr<const Atlas> with_answerable_tests(std::shared_ptr<const Atlas> atlas) {
+  std::vector<bool> is_answerable(atlas->num_demos());
+  for (std::size_t i = 0; i < is_answerable.size(); ++i) {
+    is_answerable[i] = !atlas->is_candidate(DemoIndex{i}) || answerable_path(*atlas, DemoIndex{i});
+  }
+  if (std::find(is_answerable.begin(), is_answerable.end(), false) == is_answerable.end()) return atlas;
+  auto answerable = std::make_shared<const Atlas>(atlas->with_tests(is_answerable));
+  if (has_tests(*atlas) && !has_tests(*answerable)) {
+    throw Error{ErrorKind::kInfeasible, "people cannot be asked about domain '" + atlas->domain().id() +
+                                            "': from no start do the robot's likeliest steps lead to the end within " +
+                                            std::to_string(kMaxAnswerActions) + " steps"};
+  }
+  return answerable;
 }
 
 // A start that no test would use, simple to look at, where there is room to move.
@@ -122,8 +155,10 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   }
   auto live = std::make_shared<LiveStudy>();
   live->spec = study.variants.front();
+  require_teachable(live->spec.strategies);
   auto& group = live->spec.group;
   require_small_worlds(atlas->domain());
+  atlas = with_answerable_tests(std::move(atlas));
   if (!group.consent_file.empty()) {
     group.consent_text = paragraphs_of(read_live_file(folder / group.consent_file, "consent_file"));
     if (group.consent_text.empty()) {
@@ -165,7 +200,13 @@ std::vector<LiveCell> live_cells(const LiveStudy& study) {
 }
 
 Json live_study_json(const LiveStudy& study) {
-  Json strategies = Json::array(), types = Json::array();
+  Json strategies = Json::array(), types = Json::array(), compositions = Json::array();
+  std::size_t size = 0;
+  for (const auto& cell : live_cells(study)) {
+    const bool is_new = std::find(compositions.begin(), compositions.end(), cell.composition) == compositions.end();
+    if (is_new) compositions.push_back(cell.composition);
+    size = std::max(size, cell.composition.size());
+  }
   for (const auto& strategy : study.spec.strategies) {
     strategies.push_back({{"name", strategy.name}, {"description", std::string{strategy.kind.description}}});
   }
@@ -178,6 +219,8 @@ Json live_study_json(const LiveStudy& study) {
           {"domain", study.atlas->domain().id()},
           {"strategies", strategies},
           {"types", types},
+          {"compositions", compositions},
+          {"size", size},
           {"dropout", std::string{name_of(group.dropout.policy)}},
           {"grace_s", group.dropout.grace_s},
           {"time",
@@ -190,9 +233,16 @@ Json live_study_json(const LiveStudy& study) {
 }
 
 Json language_json(const LiveStudy& study) {
-  Json strings = Json::object();
-  for (const auto& [key, text] : study.language.strings) strings[key] = text;
-  return {{"lang", study.language.code}, {"dir", study.language.direction}, {"strings", strings}};
+  return {{"lang", study.language.code}, {"dir", study.language.direction}, {"strings", study.language.strings}};
+}
+
+Json collected_query(const LiveStudy& study, const Json& query) {
+  constexpr std::size_t kMostBytes = 200;
+  Json collected = Json::object();
+  for (const auto& name : study.group().collect_query) {
+    if (auto value = text_in(query, name, kMostBytes)) collected[name] = *std::move(value);
+  }
+  return collected;
 }
 
 std::string completion_code(const LiveStudy& study, std::string_view salt, std::string_view room, std::size_t seat) {

@@ -7,8 +7,7 @@ void fill_in_texts(GroupOptions& group) {
     group.story = {
         "A robot works in a small world. It has likes and dislikes of its own, and it always does what is best for it.",
         "You watch the robot at work. Then you show what you think it would do in a new place, and see whether you "
-        "were "
-        "right."};
+        "were right."};
   }
   if (group.goal.empty()) group.goal = "Find out how the robot decides what to do.";
   if (group.consent_text.empty() && group.consent_file.empty()) {

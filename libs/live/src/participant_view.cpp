@@ -108,9 +108,8 @@ class ParticipantPage {
 
   void add_stage(Json& view, const std::string& stage) const {
     if (stage == "consent") {
-      Json paragraphs = Json::array();
-      for (const auto& paragraph : room_.study.group().consent_text) paragraphs.push_back(paragraph);
-      view["consent"] = {{"version", room_.study.group().consent_version}, {"paragraphs", paragraphs}};
+      view["consent"] = {{"version", room_.study.group().consent_version},
+                         {"paragraphs", room_.study.group().consent_text}};
     } else if (stage == "check") {
       view["check"] = {{"board", live_board(room_.study, room_.study.sandbox)},
                        {"world", world_key(room_.study, room_.study.atlas->id(room_.study.sandbox).mdp)},
@@ -152,14 +151,12 @@ class ParticipantPage {
 
   [[nodiscard]] Json task(DemoIndex demo, std::size_t index, std::size_t of,
                           const std::vector<std::size_t>& draft) const {
-    Json actions = Json::array();
-    for (const auto action : draft) actions.push_back(action);
     return {{"index", index},
             {"of", of},
             {"board", live_board(room_.study, demo)},
             {"world", world_key(room_.study, room_.study.atlas->id(demo).mdp)},
             {"start", start_number(demo)},
-            {"draft", actions}};
+            {"draft", draft}};
   }
 
   [[nodiscard]] Json watch() const {

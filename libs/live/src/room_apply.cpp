@@ -61,7 +61,6 @@ class RoomChange {
     person.status = SeatStatus::kActive;
     person.is_here = true;
     person.presence_us = person.joined_us = person.since_us = event_.at_us;
-    person.query = event_.body.at("query");
     person.member.reset();
     if (place.is_null()) return;
     const auto member = place.get<std::size_t>();
@@ -69,7 +68,11 @@ class RoomChange {
     person.type = setup_.composition[member];
     state_.members[member].seat = seat;
   }
-  void consented() { who().readiness = Readiness::kCheck; }
+  void consented() {
+    who().readiness = Readiness::kCheck;
+    who().query = event_.body.at("query");
+    who().since_us = event_.at_us;
+  }
   void declined() { step_.dismiss(actor(), "declined", "declined", false); }
   void checked() {
     who().readiness = study_.screening.empty() ? Readiness::kReady : Readiness::kScreening;

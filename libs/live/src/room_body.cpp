@@ -74,10 +74,4 @@ std::optional<Json> keys_in(const Json& body) {
   return *list;
 }
 
-Json actions_json(const std::vector<std::size_t>& actions) {
-  Json list = Json::array();
-  for (const auto action : actions) list.push_back(action);
-  return list;
-}
-
 }  // namespace kith

@@ -28,6 +28,5 @@ namespace kith {
 [[nodiscard]] std::optional<std::vector<std::size_t>> actions_in(const Json& body);
 /// `keys`: what was pressed and when, [[action | "undo" | "reset", ms], ...]; a missing list is empty.
 [[nodiscard]] std::optional<Json> keys_in(const Json& body);
-[[nodiscard]] Json actions_json(const std::vector<std::size_t>& actions);
 
 }  // namespace kith

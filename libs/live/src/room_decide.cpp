@@ -52,7 +52,8 @@ class SeatDecider {
     if (*version != room_.study.group().consent_version) {
       return refused("other-version", "The text has changed. Please reload the page and read it again.");
     }
-    return accepted("consented", {{"version", *version}});
+    auto query = collected_query(room_.study, command_.body.value("query", Json{}));
+    return accepted("consented", {{"version", *version}, {"query", std::move(query)}});
   }
 
   [[nodiscard]] Decision checked() const {
@@ -81,7 +82,7 @@ class SeatDecider {
     const auto judged = judged_path(atlas, room_.study.screening[number], *actions);
     if (!judged.is_legal) return illegal();
     return accepted("screened", {{"test", number},
-                                 {"actions", actions_json(*actions)},
+                                 {"actions", *actions},
                                  {"right", is_as_good(atlas, room_.study.screening[number], judged.counts)},
                                  {"ms", *ms}});
   }
@@ -112,7 +113,7 @@ class SeatDecider {
     if (*actions == seat_.draft) return nothing_to_do();
     if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
       return illegal();
-    return accepted("draft", {{"test", number}, {"actions", actions_json(*actions)}});
+    return accepted("draft", {{"test", number}, {"actions", *actions}});
   }
 
   [[nodiscard]] Decision answer() const {
@@ -132,7 +133,7 @@ class SeatDecider {
     if (number != current_test(seat_)) return not_now();
     if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
       return illegal();
-    return accepted("answered", {{"test", number}, {"actions", actions_json(*actions)}, {"keys", *keys}, {"ms", *ms}});
+    return accepted("answered", {{"test", number}, {"actions", *actions}, {"keys", *keys}, {"ms", *ms}});
   }
 
   [[nodiscard]] Decision go_on() const {
@@ -233,52 +234,35 @@ class ServerDecider {
 
   [[nodiscard]] Decision join() const {
     if (state_.phase != RoomPhase::kLobby) return refused("started", "This group has already started.");
-    auto query = kept_query();
-    if (!query) return refused("bad-body", "the query parameters are not short texts");
     const auto asked = integer_in(command_.body, "seat", 1, 1000);
     if (command_.body.contains("seat") && !command_.body["seat"].is_null() && !asked)
       return refused("bad-body", "'seat' is not a number of a seat");
-    if (asked) return join_seat(static_cast<std::size_t>(*asked) - 1, *std::move(query));
+    if (asked) return join_seat(static_cast<std::size_t>(*asked) - 1);
     for (std::size_t m = 0; m < state_.members.size(); ++m) {
       const auto& member = state_.members[m];
-      if (!member.seat) return joined(state_.seats.size(), m, *std::move(query));
-      if (state_.seats[*member.seat].status == SeatStatus::kEmpty) return joined(*member.seat, m, *std::move(query));
+      if (!member.seat) return joined(state_.seats.size(), m);
+      if (state_.seats[*member.seat].status == SeatStatus::kEmpty) return joined(*member.seat, m);
     }
     const auto waiting = std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
       return !seat.member && seat.status == SeatStatus::kActive;
     });
     if (static_cast<std::size_t>(waiting) < room_.study.group().dropout.reserves) {
-      return joined(state_.seats.size(), std::nullopt, *std::move(query));
+      return joined(state_.seats.size(), std::nullopt);
     }
     return refused("full", "All places in this group are taken.");
   }
 
-  [[nodiscard]] Decision join_seat(std::size_t seat, Json query) const {
+  [[nodiscard]] Decision join_seat(std::size_t seat) const {
     if (seat >= state_.seats.size() || !state_.seats[seat].is_person) {
       return refused("no-seat", "There is no such place in this group.");
     }
     if (state_.seats[seat].status == SeatStatus::kActive) return nothing_to_do();
     if (state_.seats[seat].status != SeatStatus::kEmpty) return refused("gone", "Your part in this session is over.");
-    return joined(seat, state_.seats[seat].member, std::move(query));
+    return joined(seat, state_.seats[seat].member);
   }
 
-  [[nodiscard]] Decision joined(std::size_t seat, std::optional<std::size_t> member, Json query) const {
-    return accepted("joined", {{"seat", seat + 1}, {"member", member ? Json(*member) : Json{}}, {"query", query}});
-  }
-
-  // Of the query parameters those that the study collects.
-  [[nodiscard]] std::optional<Json> kept_query() const {
-    Json kept = Json::object();
-    const auto query = command_.body.find("query");
-    if (query == command_.body.end() || query->is_null()) return kept;
-    if (!query->is_object()) return std::nullopt;
-    for (const auto& name : room_.study.group().collect_query) {
-      if (!query->contains(name)) continue;
-      auto value = text_in(*query, name, 200);
-      if (!value) return std::nullopt;
-      kept[name] = *std::move(value);
-    }
-    return kept;
+  [[nodiscard]] Decision joined(std::size_t seat, std::optional<std::size_t> member) const {
+    return accepted("joined", {{"seat", seat + 1}, {"member", member ? Json(*member) : Json{}}});
   }
 
   [[nodiscard]] Decision presence() const {

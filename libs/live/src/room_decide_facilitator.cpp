@@ -28,7 +28,7 @@ class FacilitatorDecider {
                                                          {"end", &FacilitatorDecider::end}};
     const auto rule = kRules.find(command_.type);
     if (rule == kRules.end()) return refused("unknown-type", "There is no command '" + command_.type + "'.");
-    if (!command_.body.is_object()) return refused("bad-body", "The body of a command is an object.");
+    if (!command_.body.is_object()) return refused("bad-body", "The body of a command must be an object.");
     const auto reason = text_in(command_.body, "reason", kMostReasonBytes);
     if (!reason) return refused("no-reason", "State a reason; it is kept with the data.");
     reason_ = *reason;
@@ -64,7 +64,7 @@ class FacilitatorDecider {
   }
 
   [[nodiscard]] Decision pause() const {
-    if (!is_running(state_) && state_.phase != RoomPhase::kQuestions) return not_now("This session does not run.");
+    if (!is_running(state_) && state_.phase != RoomPhase::kQuestions) return not_now("This session is not running.");
     return state_.paused_us ? nothing_to_do() : accepted("pause", Json::object());
   }
   [[nodiscard]] Decision resume() const {
@@ -73,7 +73,7 @@ class FacilitatorDecider {
 
   [[nodiscard]] Decision extend() const {
     const auto seconds = integer_in(command_.body, "seconds", 1, 86'400);
-    if (!seconds) return refused("bad-body", "'seconds' is a number from 1 to 86400.");
+    if (!seconds) return refused("bad-body", "'seconds' must be a number from 1 to 86400.");
     if (!state_.deadline_us && !state_.session_deadline_us) return not_now("No time limit applies at the moment.");
     return accepted("extend", {{"seconds", *seconds}});
   }
@@ -100,8 +100,7 @@ class FacilitatorDecider {
     const auto number = seat_number();
     if (!number || !state_.seats[*number].is_person) return no_seat();
     const auto& seat = state_.seats[*number];
-    if (seat.status == SeatStatus::kActive) return nothing_to_do();
-    if (seat.status == SeatStatus::kEmpty) return not_now("Nobody has joined with this link yet.");
+    if (seat.status == SeatStatus::kActive || seat.status == SeatStatus::kEmpty) return nothing_to_do();
     if (!seat.member || seat.readiness != Readiness::kReady || !is_running(state_)) {
       return not_now("This person has no place in the running session.");
     }

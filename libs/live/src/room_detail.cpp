@@ -4,6 +4,7 @@
 
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/files/base64.hpp"
 #include "kith/geometry/outline.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
@@ -13,21 +14,6 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kNumPoints = 300;
-
-std::string base64(const std::string& bytes) {
-  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
-    };
-    const unsigned block = (byte(0) << 16u) | (byte(1) << 8u) | byte(2);
-    for (unsigned k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kLetters[(block >> (18u - 6u * k)) & 63u];
-    }
-  }
-  return text;
-}
 
 // Points drawn evenly by weight, always the same ones: int16 little endian x, y, z.
 std::string points_text(const ParticleBelief& belief) {
@@ -98,7 +84,7 @@ class RoomDetailPage {
   }
 
   [[nodiscard]] std::string why(const Lesson& lesson) const {
-    if (lesson.repeats) return "No demonstration would add anything, so the lesson before is shown again.";
+    if (lesson.repeats) return "No demonstration would add anything, so the previous lesson is shown again.";
     std::string text;
     if (lesson.source.is_member()) {
       text = "Chosen for what the teacher believes about " + member_label(lesson.source.member) + ".";
@@ -191,14 +177,16 @@ class RoomDetailPage {
   }
 
   [[nodiscard]] Json truth() const {
-    Json weights = Json::array();
-    for (const double weight : domain_.weights().unit) weights.push_back(weight);
-    if (domain_.num_features() != 3) return {{"weights", weights}, {"bec", Json::array()}, {"prior", Json::array()}};
+    Json truth{{"weights", Json::array()},
+               {"features", domain_.feature_names()},
+               {"bec", Json::array()},
+               {"prior", Json::array()}};
+    for (const double weight : domain_.weights().unit) truth["weights"].push_back(weight);
+    if (domain_.num_features() != 3) return truth;
     Cone bec = atlas_.prior_cone();
-    const bool has_room = bec.clip(atlas_.policy_bec_half_spaces());
-    return {{"weights", weights},
-            {"bec", has_room ? outline_json(bec) : Json::array()},
-            {"prior", outline_json(atlas_.prior_cone())}};
+    if (bec.clip(atlas_.policy_bec_half_spaces())) truth["bec"] = outline_json(bec);
+    truth["prior"] = outline_json(atlas_.prior_cone());
+    return truth;
   }
 
   [[nodiscard]] Json timers() const {
@@ -231,6 +219,6 @@ class RoomDetailPage {
 
 }  // namespace
 
-Json detail_json(const RoomParts& room, std::int64_t) { return RoomDetailPage{room}.json(); }
+Json detail_json(const RoomParts& room) { return RoomDetailPage{room}.json(); }
 
 }  // namespace kith

@@ -68,7 +68,9 @@ class RoomRowPage {
     row["presence"] = presence;
     row["dropped"] = seat.status == SeatStatus::kDropped;
     row["since_ms"] = in_ms(seat.presence_us);
+    if (seat.member && *seat.member != i) row["member"] = *seat.member + 1;
     row["stage"] = seat.is_person ? stage_of_seat(room_, seat) : std::string{"simulated"};
+    if (seat.is_person && seat.since_us > 0) row["stage_since_ms"] = in_ms(stage_since_us(seat));
     if (!seat.why.empty()) row["why"] = seat.why;
     if (seat.tests > 0) {
       row["right"] = seat.right;
@@ -85,6 +87,12 @@ class RoomRowPage {
       row["code"] = completion_code(room_.study, room_.setup.salt, room_.setup.id, i + 1);
     }
     return row;
+  }
+
+  // Since when the person has been on their page: what they finished last, or what the whole group began after it.
+  [[nodiscard]] std::int64_t stage_since_us(const LiveSeat& seat) const {
+    const bool moves_with_group = seat.status != SeatStatus::kGone && state_.phase != RoomPhase::kLobby && seat.member;
+    return moves_with_group ? std::max(seat.since_us, state_.phase_us) : seat.since_us;
   }
 
   // Periods: as many per open component as the components before took on average. Minutes: the shortest and the
@@ -114,13 +122,11 @@ class RoomRowPage {
 
 }  // namespace
 
-Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer, std::int64_t) {
+Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer) {
   return RoomRowPage{room, stage, viewer}.json();
 }
 
-Json Room::row(const Viewer& viewer, std::int64_t now_us) const {
-  return row_json({*study_, *setup_, *state_}, stage(), viewer, now_us);
-}
+Json Room::row(const Viewer& viewer) const { return row_json({*study_, *setup_, *state_}, stage(), viewer); }
 
 Json Room::view(const Viewer& viewer, std::int64_t now_us) const {
   const RoomParts parts{*study_, *setup_, *state_};
@@ -130,7 +136,7 @@ Json Room::view(const Viewer& viewer, std::int64_t now_us) const {
     }
     return participant_view(parts, viewer.seat - 1, now_us);
   }
-  return {{"row", row_json(parts, stage(), viewer, now_us)}, {"room", detail_json(parts, now_us)}};
+  return {{"row", row_json(parts, stage(), viewer)}, {"room", detail_json(parts)}};
 }
 
 }  // namespace kith

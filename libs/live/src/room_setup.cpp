@@ -6,13 +6,11 @@
 namespace kith {
 
 Json to_json(const RoomSetup& setup) {
-  Json simulated = Json::array();
-  for (const bool is_simulated : setup.simulated) simulated.push_back(is_simulated);
   return {{"id", setup.id},
           {"code", setup.code},
           {"strategy", setup.strategy},
           {"composition", setup.composition},
-          {"simulated", simulated},
+          {"simulated", setup.simulated},
           {"replicate", setup.replicate},
           {"salt", setup.salt}};
 }
@@ -24,7 +22,7 @@ RoomSetup room_setup(const Json& json) {
     setup.code = json.at("code").get<std::string>();
     setup.strategy = json.at("strategy").get<std::string>();
     setup.composition = json.at("composition").get<std::string>();
-    for (const auto& is_simulated : json.at("simulated")) setup.simulated.push_back(is_simulated.get<bool>());
+    setup.simulated = json.at("simulated").get<std::vector<bool>>();
     setup.replicate = json.at("replicate").get<std::size_t>();
     setup.salt = json.at("salt").get<std::string>();
     return setup;

@@ -32,8 +32,8 @@ namespace kith {
 [[nodiscard]] std::string cost_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& mine);
 
 /// RoomRow.
-[[nodiscard]] Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer, std::int64_t now_us);
+[[nodiscard]] Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer);
 /// RoomDetail.
-[[nodiscard]] Json detail_json(const RoomParts& room, std::int64_t now_us);
+[[nodiscard]] Json detail_json(const RoomParts& room);
 
 }  // namespace kith

@@ -244,19 +244,27 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
   return judged;
 }
 
-Trajectory expected_path(const Atlas& atlas, DemoIndex test) {
+std::optional<Trajectory> answerable_path(const Atlas& atlas, DemoIndex test) {
   const auto [world, start] = atlas.id(test);
   const auto& mdp = atlas.domain().mdp(world);
-  if (mdp.is_deterministic()) return atlas.trajectory(test);
-  Trajectory path{{start}, {}};
   const auto most = std::min(kMaxAnswerActions, atlas.domain().max_steps());
+  if (mdp.is_deterministic()) {
+    auto path = atlas.trajectory(test);
+    return path.actions.size() <= most ? std::optional{std::move(path)} : std::nullopt;
+  }
+  Trajectory path{{start}, {}};
   while (!mdp.is_terminal(path.states.back())) {
-    if (path.actions.size() == most) return atlas.trajectory(test);
+    if (path.actions.size() == most) return std::nullopt;
     const auto here = path.states.back();
     path.actions.push_back(robot_action(atlas, world, here));
     path.states.push_back(likeliest(mdp, here, *choice_of(mdp, here, path.actions.back().value())).next);
   }
   return path;
+}
+
+Trajectory expected_path(const Atlas& atlas, DemoIndex test) {
+  auto path = answerable_path(atlas, test);
+  return path ? *std::move(path) : atlas.trajectory(test);
 }
 
 }  // namespace kith

@@ -14,21 +14,39 @@ using testing::Play;
 constexpr double kGrace = 20.0;  // seconds
 
 struct DropoutCase {
-  const char* policy;
-  const char* stage;  // where the leavers are
-  std::size_t leavers;
-  bool after_grace;
+  std::string policy;
+  std::string stage;  // where the leavers are
+  std::size_t leavers = 0;
+  bool after_grace = false;
 };
 
-std::string name_of_case(const ::testing::TestParamInfo<DropoutCase>& info) {
-  std::string name = std::string{info.param.policy} + "_" + info.param.stage + "_" +
-                     std::to_string(info.param.leavers) + (info.param.after_grace ? "_after" : "_before");
+std::string trace_of(const DropoutCase& tested) {
+  return tested.policy + ", " + std::to_string(tested.leavers) + " at " + tested.stage +
+         (tested.after_grace ? ", after the grace period" : ", in time");
+}
+
+std::string name_of_policy(const ::testing::TestParamInfo<const char*>& info) {
+  std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-class Dropouts : public ::testing::TestWithParam<DropoutCase> {
+// The policies; all cases of one are one test, so that they share the lessons that they have in common.
+class Dropouts : public ::testing::TestWithParam<const char*> {
  protected:
+  [[nodiscard]] static std::vector<DropoutCase> cases(const std::string& policy) {
+    std::vector<DropoutCase> all;
+    for (const std::string stage : {"consent", "check", "screening", "lobby", "wait-lesson", "watch", "wait-watch",
+                                    "predict", "wait-answer", "feedback", "wait-feedback", "questions", "debrief"}) {
+      const bool is_wait = stage.rfind("wait-", 0) == 0 || stage == "lobby";
+      for (const std::size_t leavers : {1u, 2u, 3u}) {
+        if (leavers == 3 && is_wait && stage != "wait-lesson") continue;  // then nobody waits
+        for (const bool after : {false, true}) all.push_back({policy, stage, leavers, after});
+      }
+    }
+    return all;
+  }
+
   // Everybody is brought to the stage; who comes there by themselves is a leaver.
   static void bring_to(Play& play, const std::string& stage, std::size_t leavers) {
     const auto act_all = [&] {
@@ -84,95 +102,98 @@ class Dropouts : public ::testing::TestWithParam<DropoutCase> {
     }
   }
   static bool is_replacing(const Play& play) { return play.study().group().dropout.reserves > 0; }
+
+  // @param replays  whether the room is taught once more at the end, which takes most of the time.
+  static void check(const DropoutCase& tested, bool replays) {
+    const auto& [policy, stage, leavers, after_grace] = tested;
+    const std::string reserves = policy == "replace-from-pool" ? ", reserves = 1" : "";
+    Play play{live_study("[group]\ndropout = { policy = \"" + policy + "\", grace_s = 20" + reserves +
+                         " }\nscreening = { tests = 1 }\n"
+                         "questions = [{ id = \"a\", kind = \"text\", text = \"?\" }]\n")};
+    bring_to(play, stage, leavers);
+    if (HasFatalFailure()) return;
+    const bool in_lobby = stage == "consent" || stage == "check" || stage == "screening" || stage == "lobby";
+    const bool at_end = stage == "questions" || stage == "debrief";
+    std::vector<std::string> before;
+    for (std::size_t i = 1; i <= 3; ++i) before.push_back(play.room().stage_of(i));
+
+    for (std::size_t i = 1; i <= leavers; ++i) {
+      ASSERT_EQ(play.send("server", "away", {{"seat", i}}), "");
+    }
+    play.wait(after_grace ? kGrace + 1.0 : kGrace - 1.0);
+
+    if (!after_grace) {
+      // Whoever returns in time finds the same page.
+      for (std::size_t i = 1; i <= leavers; ++i) {
+        ASSERT_EQ(play.send("server", "present", {{"seat", i}}), "");
+      }
+      if (policy == "continue-now" && !in_lobby && !at_end) {
+        EXPECT_EQ(play.room().stage(), leavers == 3 ? RoomStage::kEnded : RoomStage::kRunning);
+      } else {
+        for (std::size_t i = 1; i <= 3; ++i) EXPECT_EQ(play.room().stage_of(i), before[i - 1]) << i;
+      }
+    } else if (in_lobby) {
+      for (std::size_t i = 1; i <= leavers; ++i) EXPECT_EQ(play.room().stage_of(i), "replaced");
+      EXPECT_TRUE(play.room().has_free_seat());  // the others wait for somebody new
+    } else if (at_end) {
+      for (std::size_t i = 1; i <= 3; ++i) EXPECT_EQ(play.room().stage_of(i), before[i - 1]) << i;
+      const bool done = leavers == 3;  // nobody is waited for
+      EXPECT_EQ(play.room().stage(), done ? RoomStage::kEnded : RoomStage::kQuestions);
+    } else if (policy == "end-group" || (leavers == 3 && policy != "replace-from-pool")) {
+      EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
+      const auto third = play.room().stage_of(3);
+      EXPECT_TRUE(third == "ended" || third == "replaced") << third;
+      EXPECT_TRUE(play.room().view({Viewer::Role::kParticipant, 3}, play.now())["end"].contains("code"));
+    } else {
+      EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
+      EXPECT_EQ(play.room().stage_of(1), policy == "simulate" || policy == "replace-from-pool" ? "replaced" : "wait");
+      EXPECT_NE(play.room().stage_of(3), "replaced");  // active members are never removed
+    }
+
+    // Nobody who is there waits longer than the grace period, whatever the others do; and the session comes to an end.
+    play.set_teacher(true);
+    if (!in_lobby && play.room().stage() == RoomStage::kRunning) {
+      for (int i = 0; i < 600 && play.room().stage() == RoomStage::kRunning; ++i) {
+        for (std::size_t seat = 1; seat <= play.room().num_seats(); ++seat) {
+          const bool left = seat <= leavers && after_grace;
+          if (play.room().is_person(seat) && !left) play.act(seat);
+        }
+        if (i % 3 != 0) continue;
+        play.wait(kGrace + 5.0);
+        // Somebody who is there can do something: whoever was waited for has been away for longer than that.
+        bool can_act = play.room().stage() != RoomStage::kRunning;
+        for (std::size_t seat = 1; seat <= play.room().num_seats(); ++seat) {
+          const bool left = seat <= leavers && after_grace;
+          const auto stage_now = play.room().stage_of(seat);
+          can_act = can_act || (!left && (stage_now == "watch" || stage_now == "predict" || stage_now == "feedback"));
+        }
+        ASSERT_TRUE(can_act);
+      }
+      EXPECT_NE(play.room().stage(), RoomStage::kRunning);
+    }
+    if (replays) play.expect_replay();
+  }
 };
+using DropoutsSlow = Dropouts;
 
 TEST_P(Dropouts, LeadToTheRightStateInTime) {
-  const auto& [policy_name, stage_name, leavers, after_grace] = GetParam();
-  const std::string policy = policy_name, stage = stage_name;
-  const std::string reserves = policy == "replace-from-pool" ? ", reserves = 1" : "";
-  Play play{live_study("[group]\ndropout = { policy = \"" + policy + "\", grace_s = 20" + reserves +
-                       " }\nscreening = { tests = 1 }\n"
-                       "questions = [{ id = \"a\", kind = \"text\", text = \"?\" }]\n")};
-  bring_to(play, stage, leavers);
-  if (HasFatalFailure()) return;
-  const bool in_lobby = stage == "consent" || stage == "check" || stage == "screening" || stage == "lobby";
-  const bool at_end = stage == "questions" || stage == "debrief";
-  std::vector<std::string> before;
-  for (std::size_t i = 1; i <= 3; ++i) before.push_back(play.room().stage_of(i));
-
-  for (std::size_t i = 1; i <= leavers; ++i) {
-    ASSERT_EQ(play.send("server", "away", {{"seat", i}}), "");
+  for (const auto& tested : cases(GetParam())) {
+    SCOPED_TRACE(trace_of(tested));
+    check(tested, tested.stage == "predict" && tested.leavers == 1);
   }
-  play.wait(after_grace ? kGrace + 1.0 : kGrace - 1.0);
-
-  if (!after_grace) {
-    // Whoever returns in time finds the same page.
-    for (std::size_t i = 1; i <= leavers; ++i) {
-      ASSERT_EQ(play.send("server", "present", {{"seat", i}}), "");
-    }
-    if (policy == "continue-now" && !in_lobby && !at_end) {
-      EXPECT_EQ(play.room().stage(), leavers == 3 ? RoomStage::kEnded : RoomStage::kRunning);
-    } else {
-      for (std::size_t i = 1; i <= 3; ++i) EXPECT_EQ(play.room().stage_of(i), before[i - 1]) << i;
-    }
-  } else if (in_lobby) {
-    for (std::size_t i = 1; i <= leavers; ++i) EXPECT_EQ(play.room().stage_of(i), "replaced");
-    EXPECT_TRUE(play.room().has_free_seat());  // the others wait for somebody new
-  } else if (at_end) {
-    for (std::size_t i = 1; i <= 3; ++i) EXPECT_EQ(play.room().stage_of(i), before[i - 1]) << i;
-    const bool done = leavers == 3;  // nobody is waited for
-    EXPECT_EQ(play.room().stage(), done ? RoomStage::kEnded : RoomStage::kQuestions);
-  } else if (policy == "end-group" || (leavers == 3 && policy != "replace-from-pool")) {
-    EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
-    const auto third = play.room().stage_of(3);
-    EXPECT_TRUE(third == "ended" || third == "replaced") << third;
-    EXPECT_TRUE(play.room().view({Viewer::Role::kParticipant, 3}, play.now())["end"].contains("code"));
-  } else {
-    EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
-    EXPECT_EQ(play.room().stage_of(1), policy == "simulate" || policy == "replace-from-pool" ? "replaced" : "wait");
-    EXPECT_NE(play.room().stage_of(3), "replaced");  // active members are never removed
-  }
-
-  // Nobody who is there waits longer than the grace period, whatever the others do; and the session comes to an end.
-  play.set_teacher(true);
-  if (!in_lobby && play.room().stage() == RoomStage::kRunning) {
-    for (int i = 0; i < 600 && play.room().stage() == RoomStage::kRunning; ++i) {
-      for (std::size_t seat = 1; seat <= play.room().num_seats(); ++seat) {
-        const bool left = seat <= leavers && after_grace;
-        if (play.room().is_person(seat) && !left) play.act(seat);
-      }
-      if (i % 3 != 0) continue;
-      play.wait(kGrace + 5.0);
-      // Somebody who is there can do something: whoever was waited for has been away for longer than that.
-      bool can_act = play.room().stage() != RoomStage::kRunning;
-      for (std::size_t seat = 1; seat <= play.room().num_seats(); ++seat) {
-        const bool left = seat <= leavers && after_grace;
-        const auto stage_now = play.room().stage_of(seat);
-        can_act = can_act || (!left && (stage_now == "watch" || stage_now == "predict" || stage_now == "feedback"));
-      }
-      ASSERT_TRUE(can_act);
-    }
-    EXPECT_NE(play.room().stage(), RoomStage::kRunning);
-  }
-  play.expect_replay();
 }
 
-std::vector<DropoutCase> dropout_cases() {
-  std::vector<DropoutCase> cases;
-  for (const char* policy : {"pause-then-continue", "continue-now", "replace-from-pool", "simulate", "end-group"}) {
-    for (const char* stage : {"consent", "check", "screening", "lobby", "wait-lesson", "watch", "wait-watch", "predict",
-                              "wait-answer", "feedback", "wait-feedback", "questions", "debrief"}) {
-      for (const std::size_t leavers : {1u, 2u, 3u}) {
-        const bool is_wait = std::string{stage}.rfind("wait-", 0) == 0 || std::string{stage} == "lobby";
-        if (leavers == 3 && is_wait && std::string{stage} != "wait-lesson") continue;  // then nobody waits
-        for (const bool after : {false, true}) cases.push_back({policy, stage, leavers, after});
-      }
-    }
+TEST_P(DropoutsSlow, ReplayFromEveryState) {
+  for (const auto& tested : cases(GetParam())) {
+    SCOPED_TRACE(trace_of(tested));
+    check(tested, true);
   }
-  return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(R18, Dropouts, ::testing::ValuesIn(dropout_cases()), name_of_case);
+constexpr const char* kPolicies[] = {"pause-then-continue", "continue-now", "replace-from-pool", "simulate",
+                                     "end-group"};
+INSTANTIATE_TEST_SUITE_P(R18, Dropouts, ::testing::ValuesIn(kPolicies), name_of_policy);
+INSTANTIATE_TEST_SUITE_P(R18, DropoutsSlow, ::testing::ValuesIn(kPolicies), name_of_policy);
 
 TEST(Dropout, AreLeftOutOfTheTeachersBeliefs) {
   Play play{live_study("[group]\ndropout = { policy = \"continue-now\" }\n")};

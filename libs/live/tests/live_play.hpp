@@ -121,7 +121,7 @@ class Play {
       if (!due.empty()) {
         for (const auto& event : due) apply(event);
       } else if (task) {
-        const auto lesson = task->run(cache_);
+        const auto& lesson = taught(*task);
         apply(room_.taught(lesson, now_us_), &lesson);
       } else {
         return;
@@ -222,6 +222,14 @@ class Play {
   void pass(double seconds) { now_us_ += static_cast<std::int64_t>(seconds * 1e6); }
 
  private:
+  // Equal keys mean equal lessons, so plays of the same study share them; a replay chooses its own.
+  const TaughtLesson& taught(const TeachingTask& task) {
+    static std::map<std::pair<const LiveStudy*, std::string>, TaughtLesson> known;  // studies are kept for good
+    auto& lesson = known[{study_.get(), task.key()}];
+    if (lesson.key.empty()) lesson = task.run(cache_);
+    return lesson;
+  }
+
   std::shared_ptr<const LiveStudy> study_;
   TeachingCache cache_;
   Room room_;

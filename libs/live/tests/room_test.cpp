@@ -31,11 +31,15 @@ questions = [
 
 TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   Play play{live_study(kQuestions)};
-  for (int i = 0; i < 3; ++i) ASSERT_EQ(play.send("server", "join", {{"query", {{"PID", "p 1"}, {"x", "y"}}}}), "");
+  play.join(3);
   EXPECT_EQ(play.room().stage_of(1), "consent");
   EXPECT_FALSE(play.room().has_free_seat());
   EXPECT_EQ(page(play, 1)["consent"]["version"], "1");
-  ASSERT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "1"}}), "");
+  const Json query{{"PID", "p 1"}, {"x", "y"}};
+  for (const std::size_t i : {1u, 2u}) {
+    ASSERT_EQ(play.seat(i, "consent", {{"accept", true}, {"version", "1"}, {"query", query}}), "");
+    EXPECT_EQ(play.events().back().body["query"], (Json{{"PID", "p 1"}}));
+  }
   EXPECT_EQ(play.room().stage_of(1), "check");
   EXPECT_TRUE(page(play, 1)["check"]["board"].contains("map"));
   ASSERT_EQ(play.seat(1, "name", {{"name", "Ada"}}), "");
@@ -224,7 +228,7 @@ TEST(Room, EndsTeachingWhenTheTimeOfTheSessionIsOver) {
   play.start(2);
   play.wait(61);
   EXPECT_EQ(play.room().stage_of(1), "debrief");
-  EXPECT_EQ(play.room().row({Viewer::Role::kObserver, 0}, play.now())["ended"], "time-limit");
+  EXPECT_EQ(play.room().row({Viewer::Role::kObserver, 0})["ended"], "time-limit");
 }
 
 TEST(Room, LetsFacilitatorsInterveneWithAReason) {
@@ -346,7 +350,7 @@ TEST(Room, AsksScreeningTestsBeforeTheLobby) {
   EXPECT_FALSE(page(play, 1).contains("feedback"));
   ASSERT_EQ(play.seat(1, "screen", {{"test", 2}, {"actions", play.right_path(tests[2])}, {"ms", 1}}), "");
   EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
-  const auto row = play.room().row({Viewer::Role::kFacilitator, 0}, play.now());
+  const auto row = play.room().row({Viewer::Role::kFacilitator, 0});
   EXPECT_EQ(row["seats"][0]["estimate"], screening_estimate(2, 3));
   EXPECT_EQ(row["seats"][0]["estimate_is_high"], true);
   play.expect_replay();
@@ -357,6 +361,36 @@ TEST(Screening, EstimatesByTheRuleOfSuccession) {
   EXPECT_EQ(screening_estimate(0, 2), 0.25);
   EXPECT_EQ(screening_estimate(3, 3), 0.8);
   EXPECT_THROW((void)screening_estimate(2, 1), std::invalid_argument);
+}
+
+TEST(Room, ShowsTheFacilitatorSinceWhenPeopleAreAtTheirStage) {
+  Play play{live_study("[group]\ndropout = { policy = \"simulate\", grace_s = 20 }\n")};
+  const auto seat = [&](std::size_t number) {
+    return play.room().row({Viewer::Role::kFacilitator, 0})["seats"][number - 1];
+  };
+  const auto now_ms = [&] { return play.now() / 1000; };
+  EXPECT_FALSE(seat(1).contains("stage_since_ms"));  // nobody has come
+  play.join(3);
+  for (std::size_t i = 1; i <= 2; ++i) play.get_ready(i);
+  const auto ready = now_ms();
+  play.wait(3);
+  ASSERT_EQ(play.seat(3, "consent", {{"accept", true}, {"version", "1"}}), "");
+  EXPECT_EQ(seat(1)["stage_since_ms"], ready);
+  EXPECT_EQ(seat(3)["stage_since_ms"], now_ms());
+  play.wait(2);
+  ASSERT_EQ(play.seat(3, "checked"), "");
+  EXPECT_EQ(seat(1)["stage"], "watch");
+  EXPECT_EQ(seat(1)["stage_since_ms"], now_ms());  // the whole group began
+  play.wait(4);
+  play.watch(1);
+  EXPECT_EQ(seat(1)["stage"], "wait");
+  EXPECT_EQ(seat(1)["stage_since_ms"], now_ms());
+  EXPECT_EQ(seat(2)["stage_since_ms"], now_ms() - 4000);
+  ASSERT_EQ(play.send("server", "away", {{"seat", 2}}), "");
+  play.wait(21);
+  EXPECT_EQ(seat(2)["stage"], "replaced");
+  EXPECT_EQ(seat(4)["member"], 2);  // the stand-in's seat is a new one
+  EXPECT_FALSE(seat(1).contains("member"));
 }
 
 TEST(Room, ShowsTheFacilitatorWhyALessonWasChosen) {
@@ -387,6 +421,8 @@ TEST(Room, ShowsTheFacilitatorWhyALessonWasChosen) {
   EXPECT_EQ(detail["beliefs"].size(), 4u);
   EXPECT_EQ(detail["beliefs"][0]["points"].get<std::string>().size(), 300u * 6u / 3u * 4u);
   EXPECT_GE(detail["truth"]["bec"].size(), 3u);
+  EXPECT_EQ(detail["truth"]["features"], Json(study->atlas->domain().feature_names()));
+  EXPECT_EQ(detail["truth"]["weights"].size(), 3u);
   const auto observer = room.view({Viewer::Role::kObserver, 0}, 6'000'000);
   EXPECT_FALSE(observer["row"].contains("code"));
   EXPECT_FALSE(observer["row"]["seats"][1].contains("name"));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kith/core/error.hpp"
 #include "live_play.hpp"
 
 namespace kith {
@@ -130,6 +131,39 @@ TEST(LiveStudy, ChoosesASandboxThatTestsNothing) {
   EXPECT_EQ(live_study("[group]\nscreening = { tests = 4 }\n")->screening, study->screening);
 }
 
+TEST(LiveStudy, RefusesStrategiesThatReadWhatSimulatedPeopleBelieve) {
+  auto reading = parse_study(testing::kLiveStudy, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
+  ASSERT_TRUE(reading.study);
+  reading.study->variants.front().strategies[1].kind.needs_truth = true;
+  try {
+    (void)make_live_study(*reading.study, testing::atlas_of("item-delivery"));
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+    EXPECT_EQ(std::string{error.what()},
+              "the strategy 'joint' reads what simulated people believe, so it cannot teach real ones: "
+              "remove it from [design]");
+  }
+}
+
+// On the ice the likeliest steps lead round in a circle from some starts.
+TEST(LiveStudy, NeverAsksWhereTheLikeliestStepsDoNotEnd) {
+  const auto all = testing::atlas_of("domains/icy_crossing.toml");
+  const auto asked = live_study("[group]\nscreening = { tests = 2 }\n", "domains/icy_crossing.toml");
+  std::size_t left_out = 0, kept = 0;
+  for (ConstraintIndex c{0}; c.value() < all->constraints().size(); ++c) {
+    const auto tests = asked->atlas->tests_for(c);
+    for (const auto demo : all->tests_for(c)) {
+      const bool is_asked = std::find(tests.begin(), tests.end(), demo) != tests.end();
+      EXPECT_EQ(is_asked, answerable_path(*all, demo).has_value());
+      ++(is_asked ? kept : left_out);
+    }
+  }
+  EXPECT_GT(left_out, 0u);
+  EXPECT_GT(kept, 0u);
+  for (const auto test : asked->screening) EXPECT_TRUE(answerable_path(*all, test));
+}
+
 TEST(LiveStudy, ListsTheCellsThatRoomsAreMadeFor) {
   const auto cells = live_cells(*live_study("[group]\nsize = 2\n"));
   EXPECT_NE(std::find(cells.begin(), cells.end(), LiveCell{"joint", "NNP"}), cells.end());
@@ -140,6 +174,23 @@ TEST(LiveStudy, ListsTheCellsThatRoomsAreMadeFor) {
   }
   const auto one = live_cells(*live_study());
   EXPECT_NE(std::find(one.begin(), one.end(), LiveCell{"baseline", "N"}), one.end());
+}
+
+TEST(LiveStudy, TellsFacilitatorsWhichRoomsTheDesignHas) {
+  const auto json = live_study_json(*live_study("[group]\nsize = 2\n"));
+  EXPECT_EQ(json["compositions"], Json::array({"NNP", "NN"}));
+  EXPECT_EQ(json["size"], 3);
+}
+
+// What links of recruitment platforms carry is stored only if the study asks for it.
+TEST(LiveStudy, CollectsTheQueryParametersThatItNames) {
+  const auto study = live_study("[group]\ncollect_query = [\"PID\", \"SESSION\"]\n");
+  const auto collected = [&](const Json& query) { return collected_query(*study, query); };
+  EXPECT_EQ(collected({{"PID", "a"}, {"email", "b"}, {"SESSION", "c"}}), (Json{{"PID", "a"}, {"SESSION", "c"}}));
+  EXPECT_EQ(collected({{"PID", std::string(201, 'x')}, {"SESSION", "line\x01"}}), Json::object());
+  EXPECT_EQ(collected({{"PID", 7}}), Json::object());
+  EXPECT_EQ(collected(Json::array({"PID"})), Json::object());
+  EXPECT_EQ(collected(nullptr), Json::object());
 }
 
 TEST(LiveStudy, GivesCodesThatCannotBeGuessed) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <stdexcept>
 
 #include "evaluation.hpp"
 #include "frontier.hpp"
 #include "kith/planning/space_filling.hpp"
 #include "kith/stats/distributions.hpp"
+#include "minimize.hpp"
 #include "misfit.hpp"
 #include "surfaces.hpp"
 
@@ -96,22 +97,16 @@ class Calibrator {
   [[nodiscard]] Box smaller(const Box& box, std::size_t round) const {
     constexpr std::size_t kSample = 8192;
     constexpr double kPossible = 12.0;  // more than intervals need, which end at 3.84
-    auto points = latin_hypercube(kSample, present_.size(), 1, stream("shrink", round));
-    std::vector<double> values;
-    for (auto& point : points) {
-      point = box.place(point);
-      values.push_back(misfit_->at(point));
-    }
-    std::vector<std::size_t> order(kSample);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    const Objective misfit = [&](std::span<const double> unit) { return misfit_->at(unit); };
+    auto sample = ranked_sample(misfit, box, Fixed(present_.size()), kSample, stream("shrink", round));
     const double limit = misfit_->at(estimate_.unit) + kPossible;
-    const auto possible = std::count_if(values.begin(), values.end(), [&](double value) { return value <= limit; });
-    order.resize(std::max(kSample / 50, static_cast<std::size_t>(possible)));
+    const auto possible =
+        std::count_if(sample.begin(), sample.end(), [&](const SamplePoint& one) { return one.value <= limit; });
+    sample.resize(std::max(kSample / 50, static_cast<std::size_t>(possible)));
     Box next = box;
     for (std::size_t k = 0; k < present_.size(); ++k) {
       std::vector<double> coordinates;
-      for (const auto i : order) coordinates.push_back(points[i][k]);
+      for (const auto& one : sample) coordinates.push_back(one.unit[k]);
       std::sort(coordinates.begin(), coordinates.end());
       const auto quantile = [&](double q) {
         return coordinates[static_cast<std::size_t>(q * static_cast<double>(coordinates.size() - 1))];

@@ -6,33 +6,10 @@
 
 #include "kith/core/error.hpp"
 #include "kith/planning/power.hpp"
+#include "kith/stats/moments.hpp"
 #include "study_tests.hpp"
 
 namespace kith {
-namespace {
-
-// Count, mean and sum of squared deviations, which can be merged and taken apart.
-struct Moments {
-  double n = 0.0;
-  double sum = 0.0;      // of values less the shift
-  double squares = 0.0;  // of values less the shift
-
-  void add(double value) {
-    n += 1.0;
-    sum += value;
-    squares += value * value;
-  }
-  [[nodiscard]] Moments less(const Moments& other) const {
-    return {n - other.n, sum - other.sum, squares - other.squares};
-  }
-  [[nodiscard]] double mean() const { return n > 0.0 ? sum / n : 0.0; }
-  [[nodiscard]] double sd() const {
-    return n > 1.0 ? std::sqrt(std::max(0.0, (squares - sum * sum / n) / (n - 1.0))) : 0.0;
-  }
-};
-
-}  // namespace
-
 namespace {
 
 // A figure of all teams and without each replicate; both with their own number of them.
@@ -42,8 +19,8 @@ struct Figures {
 };
 
 Figures pooled_figures(const Target& target, const TeamPool& pool) {
-  Moments all;
-  std::vector<Moments> by_replicate(pool.replicates());
+  PowerSums all;
+  std::vector<PowerSums> by_replicate(pool.replicates());
   double shift = 0.0;  // the first value: sums of squares do not cancel
   for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
     for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
@@ -56,11 +33,11 @@ Figures pooled_figures(const Target& target, const TeamPool& pool) {
       }
     }
   }
-  const auto figure = [&](const Moments& some) {
-    return target.statistic == Statistic::kMean ? shift + some.mean() : some.sd();
+  const auto figure = [&](const PowerSums& some) {
+    return target.statistic == Statistic::kMean ? shift + some.mean() : std::sqrt(some.variance());
   };
   Figures figures{figure(all), {}};
-  for (const auto& one : by_replicate) figures.without.push_back(figure(all.less(one)));
+  for (const auto& one : by_replicate) figures.without.push_back(figure(all.without(one)));
   return figures;
 }
 
@@ -68,11 +45,11 @@ Figures pooled_figures(const Target& target, const TeamPool& pool) {
 Figures term_figures(const Target& target, const TeamPool& pool) {
   const auto cells = cells_of(pool, *target.effect);
   const auto num_cells = static_cast<double>(cells.groups.size() * cells.compositions.size());
-  std::vector<std::vector<Moments>> all;
+  std::vector<std::vector<PowerSums>> all;
   for (const auto s : cells.groups) {
     all.emplace_back();
     for (const auto c : cells.compositions) {
-      Moments moments;
+      PowerSums moments;
       for (const double value : pool.cell(target.quantity, s, c)) moments.add(value);
       all.back().push_back(moments);
     }
@@ -85,12 +62,12 @@ Figures term_figures(const Target& target, const TeamPool& pool) {
       for (std::size_t j = 0; j < all[i].size(); ++j) {
         auto moments = all[i][j];
         if (left_out) {
-          Moments one;
+          PowerSums one;
           one.add(pool.cell(target.quantity, cells.groups[i], cells.compositions[j])[*left_out]);
-          moments = moments.less(one);
+          moments = moments.without(one);
         }
         means.back().push_back(moments.mean());
-        variance += moments.sd() * moments.sd() / num_cells;
+        variance += moments.variance() / num_cells;
       }
     }
     const double eta = eta_squared(means, variance, pool.replicates() - (left_out ? 1 : 0), *target.effect);
@@ -130,15 +107,6 @@ Eigen::MatrixXd covariance_of(std::span<const Target> targets, const Evaluation&
   return values.transpose() * values * (static_cast<double>(n) - 1.0) / static_cast<double>(n);
 }
 
-double jackknife_error(std::span<const double> without) {
-  const auto n = static_cast<double>(without.size());
-  double mean = 0.0;
-  for (const double value : without) mean += value / n;
-  double sum = 0.0;
-  for (const double value : without) sum += (value - mean) * (value - mean);
-  return std::sqrt((n - 1.0) / n * sum);
-}
-
 std::vector<double> misses_of(std::span<const Target> targets, std::span<const double> figures) {
   std::vector<double> misses;
   for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -175,7 +143,7 @@ Laboratory::Laboratory(const Atlas& atlas, const StudyMaker& make_study, const T
   if (!reading.study) throw Error{reading.diagnostics};
   const auto& spec = reading.study->variants.front();
   cells_ = spec.strategies.size() * spec.compositions.size();
-  // The largest batch, which may be the last: nobody wants to learn after hours that it does not fit.
+  // The largest batch, which may be the last: refuse it now and not after hours.
   const auto largest = std::max({cost(options_.points, options_.teams), cost(3, options_.confirm_teams),
                                  cost(options_.frontier_points, options_.confirm_teams / 2)});
   Study study{{spec}};

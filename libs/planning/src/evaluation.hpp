@@ -23,9 +23,6 @@ struct Evaluation {
 // shape [targets, targets].
 [[nodiscard]] Eigen::MatrixXd covariance_of(std::span<const Target> targets, const Evaluation& evaluation);
 
-// Standard error of a statistic from its values without each replicate.
-[[nodiscard]] double jackknife_error(std::span<const double> without);
-
 // How far figures are off, in published standard errors.
 [[nodiscard]] std::vector<double> misses_of(std::span<const Target> targets, std::span<const double> figures);
 
@@ -48,7 +45,7 @@ class Laboratory {
 
  private:
   const Atlas& atlas_;
-  const StudyMaker& make_study_;
+  StudyMaker make_study_;
   const TargetSet& set_;
   const CalibrationOptions& options_;
   std::size_t cells_ = 0;

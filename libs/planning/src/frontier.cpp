@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "minimize.hpp"
 #include "misfit.hpp"
 
 namespace kith {

@@ -3,9 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "kith/planning/space_filling.hpp"
 
 namespace kith {
 namespace {
@@ -98,23 +95,12 @@ std::vector<double> Misfit::improved(std::vector<double> unit, const Fixed& fixe
 std::vector<double> Misfit::minimum(const Fixed& fixed, const RandomStream& random) const {
   constexpr std::size_t kSample = 1024;
   constexpr std::size_t kImproved = 6;
-  const auto& box = surfaces_.box();
-  auto points = latin_hypercube(kSample, fixed.size(), 1, random);
-  std::vector<double> values;
-  for (auto& point : points) {
-    point = box.place(point);
-    for (std::size_t k = 0; k < fixed.size(); ++k) {
-      if (fixed[k]) point[k] = *fixed[k];
-    }
-    values.push_back(at(point));
-  }
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  const Objective here = [&](std::span<const double> unit) { return at(unit); };
+  const auto sample = ranked_sample(here, surfaces_.box(), fixed, kSample, random);
   std::vector<double> best;
   double least = 0.0;
   for (std::size_t i = 0; i < kImproved; ++i) {
-    auto point = improved(points[order[i]], fixed);
+    auto point = improved(sample[i].unit, fixed);
     const double value = at(point);
     if (!best.empty() && value >= least) continue;
     least = value;

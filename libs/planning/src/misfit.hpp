@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "minimize.hpp"
 #include "surfaces.hpp"
 
 namespace kith {

@@ -6,6 +6,7 @@
 
 #include "kith/stats/anova.hpp"
 #include "kith/stats/distributions.hpp"
+#include "kith/stats/moments.hpp"
 #include "kith/stats/power.hpp"
 #include "kith/stats/tests.hpp"
 
@@ -20,10 +21,6 @@ std::vector<std::size_t> group_positions(const TeamPool& pool) {
   return groups;
 }
 
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 // Mean over cells of the squared deviations from the cells' means, n - 1 in each.
 double variance_within(const TeamPool& pool, Quantity quantity, const std::vector<std::size_t>& strategies,
                        const std::vector<std::size_t>& compositions) {
@@ -31,8 +28,8 @@ double variance_within(const TeamPool& pool, Quantity quantity, const std::vecto
   for (const auto s : strategies) {
     for (const auto c : compositions) {
       const auto cell = pool.cell(quantity, s, c);
-      const double mean = mean_of(cell);
-      for (const double value : cell) sum += (value - mean) * (value - mean);
+      const double center = mean(cell);
+      for (const double value : cell) sum += (value - center) * (value - center);
       df += static_cast<double>(cell.size() - 1);
     }
   }
@@ -94,7 +91,7 @@ std::vector<std::vector<double>> cell_means(const TeamPool& pool, const Effect& 
   std::vector<std::vector<double>> means;
   for (const auto s : groups) {
     means.emplace_back();
-    for (const auto c : compositions) means.back().push_back(mean_of(pool.cell(effect.quantity, s, c)));
+    for (const auto c : compositions) means.back().push_back(mean(pool.cell(effect.quantity, s, c)));
   }
   return means;
 }
@@ -118,7 +115,7 @@ EffectData::EffectData(const TeamPool& pool, const Effect& effect) : num_composi
   for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
     for (std::size_t c = 0; c < num_compositions_; ++c) {
       cells_.push_back(pool.cell(effect.quantity, s, c));
-      mean_.push_back(mean_of(cells_.back()));
+      mean_.push_back(mean(cells_.back()));
     }
   }
   shift_.assign(cells_.size(), 0.0);
@@ -358,10 +355,10 @@ double effect_size(const TeamPool& pool, const Effect& effect) {
     double sum[2] = {0.0, 0.0}, n[2] = {0.0, 0.0};
     for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
       for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
-        const double mean = mean_of(pool.cell(effect.quantity, s, c));
+        const double center = mean(pool.cell(effect.quantity, s, c));
         for (const int side : {0, 1}) {
           if (!is_selected(pool, side == 0 ? effect.first : effect.second, s, c)) continue;
-          sum[side] += mean;
+          sum[side] += center;
           n[side] += 1.0;
         }
       }

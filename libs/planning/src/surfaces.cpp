@@ -2,37 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "kith/planning/space_filling.hpp"
 
 namespace kith {
-namespace {
-
-// One step length per coordinate, halved when no step helps.
-void improve(const Objective& objective, const Box& box, const Fixed& fixed, std::vector<double>& point,
-             double& value) {
-  double step = 0.1;
-  while (step > 1e-3) {
-    bool better = false;
-    for (std::size_t k = 0; k < point.size(); ++k) {
-      if (fixed[k]) continue;
-      for (const double sign : {-1.0, 1.0}) {
-        auto other = point;
-        other[k] = std::clamp(point[k] + sign * step * (box.high[k] - box.low[k]), box.low[k], box.high[k]);
-        const double there = objective(other);
-        if (there < value) {
-          value = there;
-          point = std::move(other);
-          better = true;
-        }
-      }
-    }
-    if (!better) step /= 2.0;
-  }
-}
-
-}  // namespace
 
 Surfaces::Surfaces(std::span<const Target> targets, Box box, std::span<const std::vector<double>> points,
                    std::span<const Evaluation> evaluations)
@@ -97,30 +68,6 @@ double Surfaces::miss_error(std::size_t target) const {
 
 double Surfaces::error_of(std::size_t target) const {
   return surfaces_[target].error() * (targets_[target].is_factor ? targets_[target].value : 1.0);
-}
-
-std::vector<double> minimum(const Objective& objective, const Box& box, const Fixed& fixed,
-                            const RandomStream& random) {
-  constexpr std::size_t kSample = 2048;
-  constexpr std::size_t kImproved = 5;
-  auto points = latin_hypercube(kSample, fixed.size(), 1, random);
-  std::vector<double> values;
-  for (auto& point : points) {
-    point = box.place(point);
-    for (std::size_t k = 0; k < fixed.size(); ++k) {
-      if (fixed[k]) point[k] = *fixed[k];
-    }
-    values.push_back(objective(point));
-  }
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  std::size_t best = order.front();
-  for (std::size_t i = 0; i < kImproved; ++i) {
-    improve(objective, box, fixed, points[order[i]], values[order[i]]);
-    if (values[order[i]] < values[best]) best = order[i];
-  }
-  return points[best];
 }
 
 }  // namespace kith

@@ -2,13 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "evaluation.hpp"
 #include "kith/planning/response_surface.hpp"
-#include "kith/random/stream.hpp"
 #include "parameter_box.hpp"
 
 namespace kith {
@@ -46,15 +44,5 @@ class Surfaces {
   Eigen::MatrixXd correlation_;  // of the targets' figures
   Eigen::MatrixXd covariance_;
 };
-
-// A function to be made small, and the least value found.
-using Objective = std::function<double(std::span<const double> unit)>;
-
-// Coordinates that are given; the others are free.
-using Fixed = std::vector<std::optional<double>>;
-
-// The minimum over a box: the best of a space-filling sample, each of the first few improved coordinate by coordinate.
-[[nodiscard]] std::vector<double> minimum(const Objective& objective, const Box& box, const Fixed& fixed,
-                                          const RandomStream& random);
 
 }  // namespace kith

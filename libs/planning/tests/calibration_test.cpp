@@ -8,6 +8,7 @@
 #include "evaluation.hpp"
 #include "item_delivery.hpp"
 #include "kith/random/distributions.hpp"
+#include "kith/stats/moments.hpp"
 #include "misfit.hpp"
 #include "parameter_box.hpp"
 #include "small_study.hpp"

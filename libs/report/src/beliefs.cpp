@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "kith/files/base64.hpp"
 #include "kith/geometry/outline.hpp"
 #include "kith/study/team_run.hpp"
 #include "parameters.hpp"
@@ -57,8 +58,8 @@ class Camera : public TeamObserver {
     }
     return result;
   }
-  [[nodiscard]] std::vector<std::uint8_t> points() const {
-    std::vector<std::uint8_t> all;
+  [[nodiscard]] std::string points() const {
+    std::string all;
     for (const auto& frame : frames_) {
       for (const auto picture : frame) {
         all.insert(all.end(), pictures_[picture].points.begin(), pictures_[picture].points.end());
@@ -174,20 +175,6 @@ bool agrees(const TeamRecord& record, const TeamValues& row) {
 }
 
 }  // namespace
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? std::uint32_t{bytes[i + k]} : 0u; };
-    const std::uint32_t bits = byte(0) << 16u | byte(1) << 8u | byte(2);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kDigits[bits >> (18u - 6u * k) & 63u];
-    }
-  }
-  return text;
-}
 
 std::optional<Json> belief_spheres(const RunFiles& run, const ReportDesign& design, const RunData& data,
                                    const Atlas& atlas, std::size_t particles, std::vector<std::string>& notes) {

@@ -25,6 +25,4 @@ struct TellingTeam {
 // one, of different strategies where possible; the typical one first.
 [[nodiscard]] std::vector<TellingTeam> telling_teams(const ReportDesign& design, const RunData& data);
 
-[[nodiscard]] std::string base64(const std::vector<std::uint8_t>& bytes);
-
 }  // namespace kith::detail

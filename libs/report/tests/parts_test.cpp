@@ -59,14 +59,6 @@ TEST(Parameters, HaveMeaningsByKey) {
   }
 }
 
-TEST(Base64, AgreesWithItsDefinition) {
-  EXPECT_EQ(base64({}), "");
-  EXPECT_EQ(base64({'f'}), "Zg==");
-  EXPECT_EQ(base64({'f', 'o'}), "Zm8=");
-  EXPECT_EQ(base64({'f', 'o', 'o'}), "Zm9v");
-  EXPECT_EQ(base64({0xFF, 0xFF, 0xFE, 0x00}), "///+AA==");
-}
-
 // Corners on the border, in order round the inside, no two of them half a turn apart.
 void expect_outline(const Cone& cone) {
   const auto corners = outline(cone);

@@ -7,6 +7,7 @@
 #include "journal_file.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/folder_lock.hpp"
+#include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/files/sqlite.hpp"
 #include "kith/runs/team_codec.hpp"
@@ -186,8 +187,8 @@ Journal Journal::read(const fs::path& path) {
   Database database{file, Database::Mode::kRead};
   auto identity = read_identity(database);
   if (!identity || (!is_written && identify(path) != identity)) {
-    throw Error{ErrorKind::kIo, file.string() + " is damaged",
-                Advice{"rerun the command that ran the study, which recovers what can be read", Remedy::kStartOver}};
+    refuse_run(ErrorKind::kIo, "E0643", file, "the journal is damaged",
+               {"rerun the command that ran the study, which recovers what can be read", Remedy::kStartOver});
   }
   return Journal{std::make_unique<State>(std::move(database), *std::move(identity))};
 }

@@ -388,7 +388,8 @@ TEST_F(JournalTest, RefusesNumbersThatCannotBe) {
     (void)Journal::create(file_, identity());
     execute(file_, change);
     EXPECT_EQ(Journal::identify(file_), std::nullopt) << change;
-    EXPECT_THAT(message_of([&] { (void)Journal::read(file_); }), HasSubstr("is damaged")) << change;
+    EXPECT_THAT(message_of([&] { (void)Journal::read(file_); }), HasSubstr("error[E0643]: the journal is damaged"))
+        << change;
   }
 }
 

@@ -56,6 +56,6 @@ class Admission {
 };
 
 /// What limits count as one address: of IPv6 the network of 64 bits, which one household or machine has.
-[[nodiscard]] std::string address_group(std::string_view address);
+[[nodiscard]] std::string address_group(std::string_view text);
 
 }  // namespace kith

@@ -56,7 +56,7 @@ std::optional<BotAct> act_for(const Json& view) try {
     return BotAct{.type = "consent", .body = body, .key = stage, .pace = 0.2};
   }
   if (stage == "check") return BotAct{.type = "checked", .body = Json::object(), .key = stage, .pace = 0.2};
-  if (stage == "screening") return path_for(view.at("screening"), "screen", period);
+  if (stage == "screening") return path_for(view.at("predict"), "screen", period);
   if (stage == "watch") {
     const auto index = number(view.at("watch"), "index");
     return BotAct{.type = "watched",

@@ -15,6 +15,8 @@ namespace websocket = boost::beast::websocket;
 using Code = websocket::close_code;
 
 constexpr std::size_t kReasonBytes = 123;  // RFC 6455, 5.5
+constexpr std::chrono::seconds kBetweenPings{10};
+constexpr const char* kPing = "how far?";  // tells our pings from those that Beast sends to a silent client
 
 // At most so many bytes, and no character cut in two.
 std::string shortened(std::string text) {
@@ -86,7 +88,8 @@ void WebSocketConnection::start(HttpMessage request) {
   stream_->set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
     for (const auto& [name, value] : security_headers()) response.set(name, value);
   }));
-  stream_->control_callback([this](websocket::frame_type, boost::beast::string_view) { on_control(); });
+  stream_->control_callback(
+      [this](websocket::frame_type kind, boost::beast::string_view payload) { on_control(kind, payload); });
   stream_->async_accept(request_, [self = shared_from_this()](NetError error) { self->on_open(error); });
 }
 
@@ -115,6 +118,7 @@ void WebSocketConnection::on_read(NetError error) {
   if (is_finished_) return;
   if (error) return finish();
   if (!closing_) deliver();
+  if (!closing_) measure();
   in_.consume(in_.size());
   read();
 }
@@ -138,9 +142,23 @@ void WebSocketConnection::deliver() {
   }
 }
 
-// Pings are answered by Beast; they count as messages.
-void WebSocketConnection::on_control() {
-  if (closing_ || messages_.take(std::chrono::steady_clock::now())) return;
+// Asks a client that has just said something how far away it is.
+void WebSocketConnection::measure() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_authenticated_ || is_pinging_ || now - pinged_at_ < kBetweenPings) return;
+  is_pinging_ = true;
+  pinged_at_ = now;
+  stream_->async_ping(kPing, [self = shared_from_this()](NetError) { self->is_pinging_ = false; });
+}
+
+// Pings are answered by Beast; they count as messages, and so do pongs.
+void WebSocketConnection::on_control(websocket::frame_type kind, boost::beast::string_view payload) {
+  const auto now = std::chrono::steady_clock::now();
+  if (kind == websocket::frame_type::pong && payload == kPing && is_known_to_application_) {
+    const auto round_trip = std::chrono::duration_cast<std::chrono::microseconds>(now - pinged_at_);
+    context_.application.measured(id_, round_trip);
+  }
+  if (closing_ || messages_.take(now)) return;
   asio::post(strand_, [self = shared_from_this()] { self->begin_close(Code::policy_error, "too many messages"); });
 }
 

@@ -2,6 +2,7 @@
 
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -45,7 +46,8 @@ class WebSocketConnection final : public ServerConnection, public std::enable_sh
   void on_written(NetError error);
   void begin_close(std::uint16_t code, const std::string& reason);
   void close_now();
-  void on_control();
+  void on_control(boost::beast::websocket::frame_type kind, boost::beast::string_view payload);
+  void measure();
   void arm(std::chrono::milliseconds time);
   void on_time_out();
   void finish();
@@ -67,6 +69,8 @@ class WebSocketConnection final : public ServerConnection, public std::enable_sh
   bool is_authenticated_ = false;
   bool is_finished_ = false;
   bool is_closing_sent_ = false;
+  bool is_pinging_ = false;                            // a ping is being written
+  std::chrono::steady_clock::time_point pinged_at_{};  // when the last one was begun
   std::optional<boost::beast::websocket::close_reason> closing_;
   std::shared_ptr<const std::string> out_;  // being written
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +48,17 @@ class FakeApplication final : public LiveApplication {
     if (text.rfind("large ", 0) == 0) return say(*socket, std::string(std::stoul(text.substr(6)), 'x'));
     say(*socket, text);
   }
+  void measured(ConnectionId, std::chrono::microseconds round_trip) override {
+    const std::lock_guard lock{mutex_};
+    round_trips.push_back(round_trip);
+    changed_.notify_all();
+  }
+  /// Waits until a round trip was measured. @return how long it took, or nothing if there is none for 20 s.
+  std::optional<std::chrono::microseconds> wait_for_round_trip() {
+    std::unique_lock lock{mutex_};
+    if (!changed_.wait_for(lock, std::chrono::seconds{20}, [this] { return !round_trips.empty(); })) return {};
+    return round_trips.front();
+  }
   void closed(ConnectionId connection) override {
     const std::lock_guard lock{mutex_};
     sockets_.erase(connection);
@@ -84,6 +97,7 @@ class FakeApplication final : public LiveApplication {
   std::atomic<int> received{0};
   bool holds = true;
   std::vector<std::string> remotes;
+  std::vector<std::chrono::microseconds> round_trips;
 
  private:
   std::mutex mutex_;

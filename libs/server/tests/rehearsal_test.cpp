@@ -99,6 +99,13 @@ TEST(BotMind, DoesNothingForViewsThatItDoesNotUnderstand) {
   }
   EXPECT_FALSE(act_for({{"stage", "check"}, {"pause", {{"why", "someone-away"}}}}).has_value());
   EXPECT_EQ(act_for({{"stage", "check"}})->type, "checked");
+  const auto screened =
+      act_for({{"stage", "screening"}, {"predict", {{"index", 1}, {"world", "abc-0"}, {"start", 7}}}});
+  ASSERT_TRUE(screened);
+  EXPECT_EQ(screened->type, "screen");
+  EXPECT_EQ(screened->body["test"], 1);
+  EXPECT_EQ(screened->world, "abc-0");
+  EXPECT_EQ(screened->start, 7);
 }
 
 TEST(WorldTable, FindsAShortestPath) {

@@ -235,5 +235,27 @@ TEST(Server, HearsManyClientsAtOnce) {
   EXPECT_TRUE(all_gone(served.server));
 }
 
+TEST(WebSockets, TellHowFarAwayAClientIs) {
+  Served served;
+  RawWebSocket socket{served.port()};
+  socket.say(kHello);
+  EXPECT_EQ(socket.hear(), R"({"t":"welcome"})");
+  std::string ping;
+  for (int i = 0; i < 100 && ping.empty(); ++i) {  // it is asked once the server knows that the token was good
+    socket.say("hello again");
+    while (const auto frame = socket.read(50)) {
+      if (frame->head == 0x89) ping = frame->payload;
+      if (frame->head == 0x81) break;
+    }
+  }
+  ASSERT_FALSE(ping.empty());
+  socket.send(frame_of(0x8A, "another"));  // not an answer
+  socket.send(frame_of(0x8A, ping));
+  const auto round_trip = served.application.wait_for_round_trip();
+  ASSERT_TRUE(round_trip);
+  EXPECT_GT(round_trip->count(), 0);
+  EXPECT_EQ(served.application.round_trips.size(), 1u);
+}
+
 }  // namespace
 }  // namespace kith::testing

@@ -17,10 +17,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "kith/stats/distributions.hpp"
 #include "rising_product.hpp"
-#include "sub_model.hpp"
 #include "term_hypotheses.hpp"
+#include "type_two_test.hpp"
 
 namespace kith {
 namespace {
@@ -280,25 +279,14 @@ MatrixXd coefficient_covariance(const CensoredData& data, const CensoredFit& fit
 
 TermTest censored_term_test(std::span<const double> counts, const std::vector<bool>& observed,
                             std::span<const Factor> factors, const FactorDesign& design, std::size_t term) {
-  TermTest test{detail::term_name(design, term)};
-  const auto models = detail::type_two_models(design.terms, term);
-  const auto with = make_factor_design(counts.size(), factors, models.with);
-  const auto without = make_factor_design(counts.size(), factors, models.without);
-  const auto larger = fit_censored(censored_data(counts, observed, *with));
-  const auto smaller = fit_censored(censored_data(counts, observed, *without));
-  if (!larger || !smaller) {
-    test.test = Estimable<TestResult>::impossible("the model without it could not be fitted");
-    return test;
-  }
-  test.df = with->kept.size() - without->kept.size();
-  if (test.df == 0) {
-    test.test = Estimable<TestResult>::impossible("its levels cannot be told apart from those of other terms");
-    return test;
-  }
-  const auto df = static_cast<double>(test.df);
-  const double statistic = std::max(0.0, 2.0 * (larger->log_likelihood - smaller->log_likelihood));
-  test.test = TestResult{"chi-squared", statistic, {df}, chi_squared_upper(statistic, df)};
-  return test;
+  const auto fit = [&](const std::vector<std::vector<std::size_t>>& terms) -> std::optional<detail::SubFit> {
+    const auto model = make_factor_design(counts.size(), factors, terms);
+    if (!model) return std::nullopt;
+    const auto fitted = fit_censored(censored_data(counts, observed, *model));
+    if (!fitted) return std::nullopt;
+    return detail::SubFit{fitted->log_likelihood, model->kept.size()};
+  };
+  return detail::type_two_test(design, term, fit, detail::likelihood_ratio_test);
 }
 
 }  // namespace

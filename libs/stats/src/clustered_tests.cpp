@@ -13,20 +13,6 @@
 namespace kith {
 namespace {
 
-// Sums of two samples by which clusters can be left out.
-struct Sums {
-  double n = 0.0, sum = 0.0, squares = 0.0;
-  void add(double value) {
-    n += 1.0;
-    sum += value;
-    squares += value * value;
-  }
-  [[nodiscard]] Sums without(const Sums& other) const {
-    return {n - other.n, sum - other.sum, squares - other.squares};
-  }
-  [[nodiscard]] double variance() const { return (squares - sum * sum / n) / (n - 1.0); }
-};
-
 void require_two_samples(std::span<const double> values, const Factor& sample, const Factor& clusters,
                          const char* function) {
   require_finite(values, function);
@@ -35,7 +21,7 @@ void require_two_samples(std::span<const double> values, const Factor& sample, c
   if (sample.levels.size() != 2) throw std::invalid_argument{std::string{function} + ": there must be two samples"};
 }
 
-std::optional<double> log_ratio(const Sums& a, const Sums& b) {
+std::optional<double> log_ratio(const PowerSums& a, const PowerSums& b) {
   if (a.n < 2.0 || b.n < 2.0) return std::nullopt;
   const double first = a.variance(), second = b.variance();
   if (!(first > 0.0) || !(second > 0.0)) return std::nullopt;
@@ -94,8 +80,8 @@ Estimable<VarianceRatio> clustered_variance_ratio(std::span<const double> values
   const auto num_clusters = used.levels.size();
   if (num_clusters < 3) return Result::impossible("there are fewer than three clusters");
   const double origin = mean(values);
-  std::array<Sums, 2> all;
-  std::vector<Sums> first(num_clusters), second(num_clusters);
+  std::array<PowerSums, 2> all;
+  std::vector<PowerSums> first(num_clusters), second(num_clusters);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto code = sample.codes[i];
     all.at(code).add(values[i] - origin);
@@ -110,10 +96,7 @@ Estimable<VarianceRatio> clustered_variance_ratio(std::span<const double> values
     left_out.push_back(*one);
   }
   const auto n = static_cast<double>(num_clusters);
-  const double center = mean(left_out);
-  double squares = 0.0;
-  for (const double one : left_out) squares += (one - center) * (one - center);
-  const double error = std::sqrt((n - 1.0) / n * squares);
+  const double error = jackknife_error(left_out);
   if (!(error > 0.0)) return Result::impossible("the clusters do not differ");
   const double t = *estimate / error;
   const double width = student_t_quantile(0.5 + confidence / 2.0, n - 1.0) * error;
@@ -129,7 +112,7 @@ Estimable<TestResult> clustered_brown_forsythe(std::span<const double> values, c
   if (samples[0].empty() || samples[1].empty()) return Result::impossible("a sample has no observations");
   const std::array medians{median_of(samples[0]), median_of(samples[1])};
   const auto used = drop_unused(clusters);
-  std::vector<Sums> first(used.levels.size()), second(used.levels.size());
+  std::vector<PowerSums> first(used.levels.size()), second(used.levels.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto code = sample.codes[i];
     (code == 0 ? first : second)[used.codes[i]].add(std::abs(values[i] - medians.at(code)));

@@ -11,6 +11,7 @@
 #include "count_design.hpp"
 #include "kith/stats/distributions.hpp"
 #include "negative_binomial.hpp"
+#include "type_two_test.hpp"
 
 namespace kith {
 namespace {
@@ -78,8 +79,7 @@ std::vector<RateRatio> ratios_of(std::span<const Factor> factors, const CountFit
 
 Estimable<TestResult> likelihood_ratio(const CountFit& full, const std::optional<CountFit>& reduced, double df) {
   if (!reduced) return Estimable<TestResult>::impossible("the model without it could not be fitted");
-  const double statistic = std::max(0.0, 2.0 * (full.log_likelihood - reduced->log_likelihood));
-  return TestResult{"chi-squared", statistic, {df}, chi_squared_upper(statistic, df)};
+  return detail::likelihood_ratio_test(std::max(0.0, 2.0 * (full.log_likelihood - reduced->log_likelihood)), df);
 }
 
 }  // namespace

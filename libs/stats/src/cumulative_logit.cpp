@@ -10,8 +10,8 @@
 
 #include "checks.hpp"
 #include "kith/stats/distributions.hpp"
-#include "sub_model.hpp"
 #include "term_hypotheses.hpp"
+#include "type_two_test.hpp"
 
 namespace kith {
 namespace {
@@ -202,39 +202,16 @@ Estimable<TestResult> brant_test(const OrdinalData& data) {
   return TestResult{"chi-squared", statistic, {df}, chi_squared_upper(statistic, df)};
 }
 
-struct SubFit {
-  double log_likelihood = 0.0;
-  std::size_t parameters = 0;
-};
-
-std::optional<SubFit> fit_terms(const Factor& response, std::span<const Factor> factors,
-                                const std::vector<std::vector<std::size_t>>& terms) {
-  const auto design = make_factor_design(response.codes.size(), factors, terms);
-  if (!design) return std::nullopt;
-  const auto fit = fit_ordinal(ordinal_data(*design, response));
-  if (!fit) return std::nullopt;
-  return SubFit{fit->log_likelihood, design->kept.size()};
-}
-
 TermTest ordinal_term_test(const Factor& response, std::span<const Factor> factors, const FactorDesign& design,
                            std::size_t term) {
-  const auto models = detail::type_two_models(design.terms, term);
-  const auto with = fit_terms(response, factors, models.with);
-  const auto without = fit_terms(response, factors, models.without);
-  TermTest test{detail::term_name(design, term)};
-  if (!with || !without) {
-    test.test = Estimable<TestResult>::impossible("the model without it could not be fitted");
-    return test;
-  }
-  test.df = with->parameters - without->parameters;
-  if (test.df == 0) {
-    test.test = Estimable<TestResult>::impossible("its levels cannot be told apart from those of other terms");
-    return test;
-  }
-  const auto df = static_cast<double>(test.df);
-  const double statistic = std::max(0.0, 2.0 * (with->log_likelihood - without->log_likelihood));
-  test.test = TestResult{"chi-squared", statistic, {df}, chi_squared_upper(statistic, df)};
-  return test;
+  const auto fit = [&](const std::vector<std::vector<std::size_t>>& terms) -> std::optional<detail::SubFit> {
+    const auto model = make_factor_design(response.codes.size(), factors, terms);
+    if (!model) return std::nullopt;
+    const auto fitted = fit_ordinal(ordinal_data(*model, response));
+    if (!fitted) return std::nullopt;
+    return detail::SubFit{fitted->log_likelihood, model->kept.size()};
+  };
+  return detail::type_two_test(design, term, fit, detail::likelihood_ratio_test);
 }
 
 }  // namespace

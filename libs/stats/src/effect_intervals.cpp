@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "checks.hpp"
 #include "kith/stats/distributions.hpp"
 
 namespace kith {
@@ -18,7 +19,7 @@ Interval partial_eta_squared_interval(double f, double df1, double df2, double c
   require_that(f >= 0.0 && std::isfinite(f), "partial_eta_squared_interval: f must be >= 0 and finite");
   require_that(df1 > 0.0 && std::isfinite(df1) && df2 > 0.0 && std::isfinite(df2),
                "partial_eta_squared_interval: degrees of freedom must be > 0 and finite");
-  require_that(confidence > 0.0 && confidence < 1.0, "partial_eta_squared_interval: confidence must be in (0, 1)");
+  require_confidence(confidence, "partial_eta_squared_interval");
   const double tail = 0.5 * (1.0 - confidence);
   const auto limit = [&](double p) {
     const double lambda = non_centrality_of_f(f, df1, df2, p);
@@ -31,7 +32,7 @@ Interval standardized_interval(double t, double df, double unit, double confiden
   require_that(std::isfinite(t), "standardized_interval: t must be finite");
   require_that(df > 0.0, "standardized_interval: df must be > 0");
   require_that(unit > 0.0 && std::isfinite(unit), "standardized_interval: unit must be > 0 and finite");
-  require_that(confidence > 0.0 && confidence < 1.0, "standardized_interval: confidence must be in (0, 1)");
+  require_confidence(confidence, "standardized_interval");
   const double tail = 0.5 * (1.0 - confidence);
   return {t * unit, non_centrality_of_t(t, df, 1.0 - tail) * unit, non_centrality_of_t(t, df, tail) * unit};
 }

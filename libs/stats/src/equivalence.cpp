@@ -68,8 +68,11 @@ Equivalence test_equivalence(const MeanDifference& difference, EquivalenceBounds
 
 Estimable<Equivalence> test_equivalence(const LinearEstimate& contrast, EquivalenceBounds bounds, double alpha) {
   if (!contrast.inference) return Estimable<Equivalence>::impossible(contrast.inference.reason());
-  return test_equivalence(*contrast.estimate, contrast.inference->standard_error, contrast.inference->df, bounds,
-                          alpha);
+  auto result =
+      test_equivalence(*contrast.estimate, contrast.inference->standard_error, contrast.inference->df, bounds, alpha);
+  result.p_difference = contrast.inference->p;
+  result.verdict = verdict_of(result.p_difference < alpha, result.p < alpha);
+  return result;
 }
 
 }  // namespace kith

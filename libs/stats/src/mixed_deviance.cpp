@@ -90,6 +90,17 @@ MixedDeviance::MixedDeviance(const FactorDesign& design, std::span<const double>
   solver_.analyzePattern(system_);
 }
 
+bool MixedDeviance::is_confounded(std::size_t k) const {
+  constexpr double kRounding = 1e-9;
+  const Eigen::LDLT<MatrixXd> decomposed{fixed_products_};
+  for (auto g = first_[k]; g < first_[k + 1]; ++g) {
+    const VectorXd products = cross_products_.row(g);  // X'z
+    const double size = products_.coeff(g, g);
+    if (size - products.dot(decomposed.solve(products)) > kRounding * size) return false;
+  }
+  return true;
+}
+
 MixedDeviance::Value MixedDeviance::evaluate(const VectorXd& tau) {
   tau_ = tau;
   scale_.resize(first_.back());

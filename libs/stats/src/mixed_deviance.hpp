@@ -46,6 +46,9 @@ class MixedDeviance {
   // Whether the decomposition is small enough to be computed again and again.
   [[nodiscard]] bool is_feasible() const { return solver_.work() <= kMostWork; }
 
+  // Whether the fixed effects already tell the groups of a grouping apart: the columns of Z_k are in the span of X.
+  [[nodiscard]] bool is_confounded(std::size_t k) const;
+
   // tau >= 0, one per grouping.
   [[nodiscard]] Value evaluate(const Eigen::VectorXd& tau);
   // At the tau of the latest evaluate(). Entries of groupings with tau = 0 are 0.

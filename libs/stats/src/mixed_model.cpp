@@ -323,6 +323,11 @@ Estimable<MixedModel> fit_mixed_model(std::span<const double> response, std::spa
   const auto standardized = standardize(response);
   MixedDeviance data{design, standardized.values, used, options.reml};
   if (!data.is_feasible()) return Result::impossible("too many groups are crossed with one another");
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    if (data.is_confounded(k))
+      return Result::impossible("the factors of the model already tell every " + used[k].name +
+                                " apart, so the variance between them cannot be estimated");
+  }
   const auto num = static_cast<Index>(used.size());
   if (data.evaluate(VectorXd::Zero(num)).sum_of_squares <=
       negligible_sum_of_squares(standardized.rounding, response.size()))

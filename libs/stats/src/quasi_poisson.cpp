@@ -9,8 +9,7 @@
 #include "checks.hpp"
 #include "count_design.hpp"
 #include "kith/stats/distributions.hpp"
-#include "sub_model.hpp"
-#include "term_hypotheses.hpp"
+#include "type_two_test.hpp"
 
 namespace kith {
 namespace {
@@ -37,8 +36,8 @@ LogLinearFit fit_log_linear(std::span<const double> counts, const FactorDesign& 
   return result;
 }
 
-// What of twice the log-likelihood differs between models: sums of y log(mu) - mu.
-double twice_log_likelihood(const LogLinearFit& model) {
+// What of the log-likelihood differs between models: the sum of y log(mu) - mu.
+double log_likelihood_of(const LogLinearFit& model) {
   const Eigen::VectorXd eta = detail::linear_predictor(model.design, model.fit.coefficients);
   double sum = 0.0;
   for (std::size_t c = 0; c < model.data.cells.size(); ++c) {
@@ -46,31 +45,22 @@ double twice_log_likelihood(const LogLinearFit& model) {
     const double eta_c = eta[static_cast<Eigen::Index>(c)];
     sum += cell.sum * eta_c - cell.observations * std::exp(eta_c);
   }
-  return 2.0 * sum;
+  return sum;
 }
 
 TermTest f_test_of_term(std::span<const double> counts, std::span<const Factor> factors, const FactorDesign& design,
                         std::size_t term, double dispersion, double residual_df) {
-  TermTest test{detail::term_name(design, term)};
-  const auto models = detail::type_two_models(design.terms, term);
-  const auto with = make_factor_design(counts.size(), factors, models.with);
-  const auto without = make_factor_design(counts.size(), factors, models.without);
-  const auto larger = fit_log_linear(counts, *with);
-  const auto smaller = fit_log_linear(counts, *without);
-  if (!larger.fault.empty() || !smaller.fault.empty()) {
-    test.test = Estimable<TestResult>::impossible("the model without it could not be fitted");
-    return test;
-  }
-  test.df = with->kept.size() - without->kept.size();
-  if (test.df == 0) {
-    test.test = Estimable<TestResult>::impossible("its levels cannot be told apart from those of other terms");
-    return test;
-  }
-  const auto df = static_cast<double>(test.df);
-  const double difference = std::max(0.0, twice_log_likelihood(larger) - twice_log_likelihood(smaller));
-  const double f = difference / df / dispersion;
-  test.test = TestResult{"F", f, {df, residual_df}, f_upper(f, df, residual_df)};
-  return test;
+  const auto fit = [&](const std::vector<std::vector<std::size_t>>& terms) -> std::optional<detail::SubFit> {
+    const auto model = make_factor_design(counts.size(), factors, terms);
+    if (!model) return std::nullopt;
+    const auto fitted = fit_log_linear(counts, *model);
+    if (!fitted.fault.empty()) return std::nullopt;
+    return detail::SubFit{log_likelihood_of(fitted), model->kept.size()};
+  };
+  return detail::type_two_test(design, term, fit, [&](double statistic, double df) {
+    const double f = statistic / df / dispersion;
+    return TestResult{"F", f, {df, residual_df}, f_upper(f, df, residual_df)};
+  });
 }
 
 }  // namespace

@@ -279,6 +279,9 @@ TEST(Equivalence, OfAContrastIsThatOfItsEstimate) {
   const auto result = test_equivalence(contrast, {-1.0, 0.8});
   ASSERT_TRUE(result);
   EXPECT_NEAR(result->below_high.p, normal_upper(2.0), 1e-15);
+  // One of several contrasts, with an adjusted p: it must not be called different beside p = 0.09.
+  const LinearEstimate adjusted{"x", {}, 2.0, Inference{0.9, testing::kInfinity, 2.2, 0.09, 0.03, -0.2, 4.2}};
+  EXPECT_EQ(test_equivalence(adjusted, {-1.0, 1.0})->verdict, EquivalenceVerdict::kUndecided);
   EXPECT_FALSE(test_equivalence(LinearEstimate{}, {-1.0, 1.0}));
   EXPECT_THROW((void)test_equivalence(contrast, {1.0, 1.0}), std::invalid_argument);
   EXPECT_THROW((void)test_equivalence(contrast, {-1.0, 1.0}, 0.5), std::invalid_argument);

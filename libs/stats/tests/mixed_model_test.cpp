@@ -220,6 +220,7 @@ TEST(MixedModel, WhatCannotBeFittedHasAReason) {
   EXPECT_THAT(reason_of(y, {single}, {group}), HasSubstr("no more observations than coefficients"));
   EXPECT_THAT(reason_of({5, 5, 5, 5, 5, 5}, {}, {group}), HasSubstr("no spread around"));
   EXPECT_THAT(reason_of({1, 1, 2, 2, 4, 4}, {}, {group}), HasSubstr("no spread of rows within"));
+  EXPECT_THAT(reason_of(y, {renamed}, {group}), HasSubstr("the factors of the model already tell every team apart"));
 }
 
 TEST(MixedModel, TooManyCrossedGroupsHaveAReason) {

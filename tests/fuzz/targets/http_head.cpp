@@ -90,15 +90,17 @@ std::string fuzzing::crossed(std::string_view input, std::string_view other, Dic
   return std::string{head} + cross_lines(body, behind_bytes(other, 1).body, dice);
 }
 
-// The first byte says how long the pieces are.
+// The first byte says how long the pieces are. An empty line ends whatever is not complete: a head that cannot become a
+// request may be refused as soon as that shows, or when it ends.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzzing::Bytes bytes{data, size};
   const auto piece = 1 + bytes.below(64);
-  const auto whole = outcome_of(bytes.rest(), std::max<std::size_t>(bytes.rest().size(), 1));
+  const auto stream = std::string{bytes.rest()} + "\r\n\r\n";
+  const auto whole = outcome_of(stream, stream.size());
   const auto failed = whole.size() >= 6 && whole.compare(whole.size() - 6, 6, "failed") == 0;
   fuzzing::note({reinterpret_cast<const char*>(data), size},
                 failed ? fuzzing::Outcome::kRefused : fuzzing::Outcome::kRead);
-  const auto in_pieces = outcome_of(bytes.rest(), piece);
+  const auto in_pieces = outcome_of(stream, piece);
   fuzzing::require(in_pieces == whole, "the same requests from pieces", in_pieces + " instead of " + whole);
   return 0;
 }

@@ -13,11 +13,17 @@ using namespace kith;
 
 namespace {
 
-std::size_t depth_of(const nlohmann::json& value) {
-  if (!value.is_structured()) return 0;
+// As a parser meets it; of two members with the same name only the last is in what it makes.
+std::size_t depth_of(std::string_view text) {
   std::size_t deepest = 0;
-  for (const auto& element : value) deepest = std::max(deepest, depth_of(element));
-  return deepest + 1;
+  const auto note = [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json&) {
+    const bool opens =
+        event == nlohmann::json::parse_event_t::object_start || event == nlohmann::json::parse_event_t::array_start;
+    if (opens) deepest = std::max(deepest, static_cast<std::size_t>(depth) + 1);
+    return true;
+  };
+  [[maybe_unused]] const auto parsed = nlohmann::json::parse(text, note, false);
+  return deepest;
 }
 
 }  // namespace
@@ -39,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto json = nests ? nlohmann::json::parse(text, nullptr, false) : nlohmann::json{};
   fuzzing::note(text, nests && !json.is_discarded() ? fuzzing::Outcome::kRead : fuzzing::Outcome::kRefused);
   if (!nests || json.is_discarded()) return 0;
-  const auto depth = depth_of(json);
+  const auto depth = depth_of(text);
   fuzzing::require(depth <= kDeepest && json_nests_within(text, depth), "no deeper than counted");
   fuzzing::require(depth == 0 || !json_nests_within(text, depth - 1), "as deep as counted");
   if (const auto act = act_for(json)) {

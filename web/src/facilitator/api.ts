@@ -1,4 +1,5 @@
 // Requests beside the WebSocket; the token goes into a header, never into an address.
+import { download } from '../shared/download';
 import { isObject } from './protocol';
 
 export class Api {
@@ -25,12 +26,7 @@ export class Api {
     const reply = await this.get(room === null ? '/api/export' : `/api/export?room=${encodeURIComponent(room)}`);
     const named = /filename="?([A-Za-z0-9._-]+)"?/.exec(reply.headers.get('Content-Disposition') ?? '');
     const name = named?.[1] ?? `kith-${room ?? 'all-rooms'}.tar`;
-    const address = URL.createObjectURL(await reply.blob());
-    const link = document.createElement('a');
-    link.href = address;
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    download(await reply.blob(), name);
     return name;
   }
 }

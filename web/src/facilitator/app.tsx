@@ -1,11 +1,13 @@
 // The page around the tabs: header, state of the connection, dialogs.
 import type { JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { announce } from '../shared/dom';
+import type { LineState } from '../shared/line';
 import { themeToggle } from '../shared/theme';
 import { Api } from './api';
-import { ClockOffset, spanText, useNow } from './clock';
-import { Connection, type LinkState, socketAddress } from './connection';
+import { duration } from '../shared/duration';
+import { ClockOffset, useNow } from './clock';
+import { Connection } from './connection';
 import type { Action } from './controls/actions';
 import { ActionDialog } from './controls/action_dialog';
 import { Data, problemsOf } from './data';
@@ -34,13 +36,13 @@ interface Received {
 }
 
 export function App({ token }: { token: string }): JSX.Element {
-  const [link, setLink] = useState<LinkState>({ state: 'connecting' });
+  const [line, setLine] = useState<LineState>({ phase: 'connecting', since: 0, bye: null });
   const [received, setReceived] = useState<Received | null>(null);
   const connection = useRef<Connection | null>(null);
   const [api] = useState(() => new Api(token));
   useEffect(() => {
-    const made = new Connection(socketAddress(window.location), token, {
-      link: setLink,
+    const made = new Connection(token, {
+      line: setLine,
       view: (view) => setReceived({ view, offset: view.server_ms - Date.now() }),
       welcome: () => {
         const room = remembered('room');
@@ -48,17 +50,16 @@ export function App({ token }: { token: string }): JSX.Element {
       },
     });
     connection.current = made;
-    return () => made.close();
-  }, [token]);
+  }, []);
   const send = (command: string, body: object): Promise<void> =>
     connection.current?.send(command, body) ?? Promise.reject(new Error('not connected'));
 
-  if (link.state === 'refused') return <Dismissed reason={link.reason} />;
-  if (!received) return <NoServer link={link} onRetry={() => connection.current?.retryNow()} />;
+  if (line.phase === 'closed') return <Dismissed reason={line.bye} />;
+  if (!received) return <NoServer line={line} onRetry={() => connection.current?.retry()} />;
   return (
     <ClockOffset.Provider value={received.offset}>
       <ApiContext.Provider value={api}>
-        <Shell view={received.view} link={link} send={send} onRetry={() => connection.current?.retryNow()} />
+        <Shell view={received.view} line={line} send={send} onRetry={() => connection.current?.retry()} />
       </ApiContext.Provider>
     </ClockOffset.Provider>
   );
@@ -66,7 +67,7 @@ export function App({ token }: { token: string }): JSX.Element {
 
 interface ShellProps {
   view: FacilitatorView;
-  link: LinkState;
+  line: LineState;
   send: (command: string, body: object) => Promise<void>;
   onRetry: () => void;
 }
@@ -78,12 +79,12 @@ function firstTab(view: FacilitatorView): Tab {
   return view.rooms.length === 1 ? 'live' : 'rooms';
 }
 
-function Shell({ view, link, send, onRetry }: ShellProps): JSX.Element {
+function Shell({ view, line, send, onRetry }: ShellProps): JSX.Element {
   const [tab, setTab] = useState<Tab>(() => firstTab(view));
   const [selected, setSelected] = useState<string | null>(remembered('room'));
   const [asked, setAsked] = useState<{ action: Action; room: string } | null>(null);
   const isFacilitator = view.role === 'facilitator';
-  const mayAct = isFacilitator && link.state === 'live';
+  const mayAct = isFacilitator && line.phase === 'open';
   const go = (to: Tab): void => {
     remember('tab', to);
     setTab(to);
@@ -113,11 +114,11 @@ function Shell({ view, link, send, onRetry }: ShellProps): JSX.Element {
         </nav>
         <span class="top-end">
           {!isFacilitator && <span class="badge observer">Observer</span>}
-          <LinkMark link={link} />
+          <LinkMark line={line} />
           <ThemeButton />
         </span>
       </header>
-      <Banners view={view} link={link} onRetry={onRetry} onData={() => go('data')} />
+      <Banners view={view} line={line} onRetry={onRetry} onData={() => go('data')} />
       <main id="main" tabIndex={-1}>
         {tab === 'setup' && <Setup view={view} mayAct={mayAct} send={send} />}
         {tab === 'rooms' && (
@@ -151,8 +152,8 @@ function Shell({ view, link, send, onRetry }: ShellProps): JSX.Element {
   );
 }
 
-function LinkMark({ link }: { link: LinkState }): JSX.Element {
-  const isLive = link.state === 'live';
+function LinkMark({ line }: { line: LineState }): JSX.Element {
+  const isLive = line.phase === 'open';
   return (
     <span class={isLive ? 'link-mark is-live' : 'link-mark is-lost'} role="status">
       <svg width="10" height="10" viewBox="-5 -5 10 10" aria-hidden="true">
@@ -165,31 +166,31 @@ function LinkMark({ link }: { link: LinkState }): JSX.Element {
 
 function ThemeButton(): JSX.Element {
   const place = useRef<HTMLSpanElement>(null);
-  useEffect(() => place.current?.replaceChildren(themeToggle()), []);
+  useLayoutEffect(() => place.current?.replaceChildren(themeToggle()), []);
   return <span ref={place} />;
 }
 
 interface BannersProps {
   view: FacilitatorView;
-  link: LinkState;
+  line: LineState;
   onRetry: () => void;
   onData: () => void;
 }
 
-function Banners({ view, link, onRetry, onData }: BannersProps): JSX.Element {
+function Banners({ view, line, onRetry, onData }: BannersProps): JSX.Element {
   const now = useNow();
   const problems = problemsOf(view.integrity, now);
   return (
     <>
-      {link.state === 'reconnecting' && (
+      {line.phase === 'lost' && (
         <div class="banner" role="alert">
           <span>
-            {link.stopped
-              ? 'The server has stopped. This page reconnects when it is started again.'
-              : 'The connection to the server is lost. Trying to reconnect.'}{' '}
-            Until then you see the last known state.
+            {line.bye === 'server-stops'
+              ? 'The server has stopped. This page reconnects when the server restarts.'
+              : 'The connection to the server was lost. Trying to reconnect.'}{' '}
+            Until then, this page shows the last known state.
           </span>
-          <Elapsed since_ms={link.since_ms} />
+          <Elapsed since={line.since} />
           <button type="button" onClick={onRetry}>
             Try now
           </button>
@@ -208,8 +209,8 @@ function Banners({ view, link, onRetry, onData }: BannersProps): JSX.Element {
   );
 }
 
-// By this computer's clock: the moment the line was lost was noted on it.
-function Elapsed({ since_ms }: { since_ms: number }): JSX.Element {
+// Since a moment on the clock of performance.now().
+function Elapsed({ since }: { since: number }): JSX.Element {
   useNow();
-  return <span class="elapsed" aria-hidden="true">{spanText(Date.now() - since_ms)}</span>;
+  return <span class="elapsed" aria-hidden="true">{duration(performance.now() - since)}</span>;
 }

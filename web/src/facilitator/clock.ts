@@ -1,6 +1,7 @@
 // The server's clock, and times as people read them.
 import { createContext } from 'preact';
 import { useContext, useEffect, useState } from 'preact/hooks';
+import { duration } from '../shared/duration';
 
 // Milliseconds to add to this computer's clock, which may be wrong by hours.
 export const ClockOffset = createContext(0);
@@ -15,21 +16,13 @@ export function useNow(every_ms = 1000): number {
   return Date.now() + offset;
 }
 
-// "0:42", "12:05", "1:02:33"
-export function spanText(ms: number): string {
-  const seconds = Math.max(0, Math.round(ms / 1000));
-  const [h, m, s] = [Math.floor(seconds / 3600), Math.floor(seconds / 60) % 60, seconds % 60];
-  const two = (n: number): string => String(n).padStart(2, '0');
-  return h > 0 ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
-}
-
 // "14:03:22", in the reader's time zone.
 export function clockText(at_ms: number): string {
   return new Date(at_ms).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit', second: '2-digit' });
 }
 
 export function secondsText(ms: number): string {
-  return ms < 100_000 ? `${(ms / 1000).toFixed(ms < 10_000 ? 1 : 0)} s` : `${spanText(ms)} min`;
+  return ms < 100_000 ? `${(ms / 1000).toFixed(ms < 10_000 ? 1 : 0)} s` : `${duration(ms)} min`;
 }
 
 // "8 to 12 min"

@@ -1,7 +1,8 @@
 // Whether the data are safe, how to get them out, and what is stored.
 import type { JSX } from 'preact';
 import { useContext, useState } from 'preact/hooks';
-import { clockText, spanText, useNow } from './clock';
+import { duration } from '../shared/duration';
+import { clockText, useNow } from './clock';
 import { isObject, type FacilitatorView, type Integrity } from './protocol';
 import { ApiContext } from './setup/link_box';
 import { Explained } from './tip';
@@ -13,12 +14,12 @@ const kLowSpace = { banner: 200, refuse: 50 }; // MB
 export function problemsOf({ unsaved, last_commit_ms, free_mb, problems }: Integrity, now: number): string[] {
   const found = [...problems];
   if (free_mb < kLowSpace.refuse) {
-    found.push(`Only ${Math.round(free_mb)} MB of disk space are left. No new session can begin; answers are still stored. Free some space now.`);
+    found.push(`Only ${Math.round(free_mb)} MB of disk space are left. No new session can start; answers are still stored. Free some space now.`);
   } else if (free_mb < kLowSpace.banner) {
-    found.push(`Only ${Math.round(free_mb)} MB of disk space are left. Below ${kLowSpace.refuse} MB no new session can begin.`);
+    found.push(`Only ${Math.round(free_mb)} MB of disk space are left. Below ${kLowSpace.refuse} MB no new session can start.`);
   }
   if (unsaved > 0 && now - last_commit_ms > 5000) {
-    found.push(`${unsaved} events have been waiting to be written for ${spanText(now - last_commit_ms)}. Check the disk.`);
+    found.push(`${unsaved} events have been waiting to be written for ${duration(now - last_commit_ms)}. Check the disk.`);
   }
   return found;
 }
@@ -117,8 +118,8 @@ function Export({ view }: { view: FacilitatorView }): JSX.Element {
       <h2 id="export-title">Export</h2>
       <p>
         Tables of sessions, participants, periods, tests with paths and times, key presses, beliefs and events, with a
-        codebook and checksums. Names and free text are left out. The export can be made at any time; a session that is
-        running is exported up to now.
+        codebook and checksums. Names and free text are left out. You can export at any time; running sessions are exported
+        as they are now.
       </p>
       <div class="filters">
         <label for="export-room">Rooms</label>
@@ -142,11 +143,11 @@ const kStored: [string, string][] = [
   ['Consent', 'which version was accepted, and when; of those who decline, only their number'],
   ['Answers', 'the path, the keys with their times, the time taken, right or wrong, regret'],
   ['Lessons', 'what was shown and why, and a checksum of the beliefs, so that a session can be recomputed and compared'],
-  ['Presence', 'when somebody was connected, away or back'],
-  ['Recruitment parameters', 'those of the join link that the study asks for, such as an anonymous id'],
+  ['Presence', 'when someone was connected, away or back'],
+  ['Recruitment parameters', 'parameters of the join link that the study asks for, such as an anonymous id'],
   ['Names and free text', 'only if the study asks for them; kith session redact erases them'],
   ['Controls', 'everything that a facilitator does on this page, with the reason'],
-  ['Not stored', 'network addresses, browser names (unless the study asks for them), and links: only a hash of each'],
+  ['Not stored', 'network addresses, browser names (unless the study asks for them), and links (only a hash of each)'],
 ];
 
 function Stored(): JSX.Element {

@@ -60,7 +60,7 @@ export function LogPage({ view }: { view: FacilitatorView }): JSX.Element {
           ))}
         </select>
         <label class="check">
-          <input type="checkbox" checked={onlyPeople} onChange={(event) => setOnlyPeople(event.currentTarget.checked)} /> Only what facilitators did
+          <input type="checkbox" checked={onlyPeople} onChange={(event) => setOnlyPeople(event.currentTarget.checked)} /> Only actions of facilitators
         </label>
       </div>
       <LogTable log={shown} rooms={view.rooms} withRoom />

@@ -1,7 +1,8 @@
 // All rooms, one row each: who is there, how far they are, and how long they will take.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import { minutesText, spanText, useNow } from './clock';
+import { duration } from '../shared/duration';
+import { minutesText, useNow } from './clock';
 import { PresenceMark, whereabouts } from './live/group_table';
 import type { FacilitatorView, RoomRow, RoomStage, SeatRow } from './protocol';
 import { Explained } from './tip';
@@ -53,7 +54,7 @@ export function Rooms({ view, selected, onOpen }: RoomsProps): JSX.Element {
         <input id="rooms-find" type="search" value={text} placeholder="code, strategy, name" onInput={(event) => setText(event.currentTarget.value)} />
       </div>
       {shown.length === 0 ? (
-        <p class="nothing">{view.rooms.length === 0 ? 'There are no rooms yet. Make some under Set-up.' : 'No room matches.'}</p>
+        <p class="nothing">{view.rooms.length === 0 ? 'There are no rooms yet. Create one under Set-up.' : 'No room matches.'}</p>
       ) : (
         <div class="scroller" role="region" aria-label="Rooms" tabIndex={0}>
           <table class="rooms">
@@ -124,7 +125,7 @@ function Row({ room, now, isSelected, onOpen }: RowProps): JSX.Element {
       </td>
       <td class="number">{room.period || ''}</td>
       <td>{room.stage === 'lobby' ? '' : room.component}</td>
-      <td class="number">{room.started_ms === undefined || room.stage === 'ended' ? '' : spanText(now - room.started_ms)}</td>
+      <td class="number">{room.started_ms === undefined || room.stage === 'ended' ? '' : duration(now - room.started_ms)}</td>
       <td>{forecast && room.stage !== 'ended' ? minutesText(forecast.minutes_low, forecast.minutes_high) : ''}</td>
       <td class={room.stage === 'ended' ? 'ended-cell' : 'worry-cell'}>{room.stage === 'ended' ? endText(room.ended) : attention(room)}</td>
     </tr>

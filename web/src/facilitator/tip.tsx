@@ -1,7 +1,7 @@
 // Explanations on hover and focus: anything with data-tip has one. There is one box for all of them, which
 // stays inside the window; Escape hides it.
 import type { ComponentChildren, JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { kTerms, type Term } from './words';
 
 const kId = 'tip';
@@ -18,7 +18,7 @@ export function Explained({ term, children }: { term: Term; children: ComponentC
 export function Tips(): JSX.Element {
   const [on, setOn] = useState<Element | null>(null);
   const box = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const find = (event: Event): Element | null =>
       event.target instanceof Element ? event.target.closest('[data-tip]') : null;
     const show = (event: Event): void => setOn(find(event));
@@ -39,7 +39,7 @@ export function Tips(): JSX.Element {
       document.removeEventListener('keydown', key);
     };
   }, []);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!on || !box.current) return;
     on.setAttribute('aria-describedby', kId);
     place(box.current, on.getBoundingClientRect());

@@ -1,17 +1,17 @@
 // What is shown before there is anything to show, or when there is nothing any more.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import type { LinkState } from './connection';
+import type { LineState } from '../shared/line';
 import { forgetToken, tokenIn } from './session';
 
-export function NoServer({ link, onRetry }: { link: LinkState; onRetry: () => void }): JSX.Element {
-  const isRetrying = link.state === 'reconnecting';
+export function NoServer({ line, onRetry }: { line: LineState; onRetry: () => void }): JSX.Element {
+  const isRetrying = line.phase === 'lost';
   return (
     <main id="main" class="plain-page" tabIndex={-1}>
       <h1>{isRetrying ? 'The server cannot be reached' : 'Connecting'}</h1>
       <p role="status">
         {isRetrying
-          ? 'This page keeps trying. Check that kith serve is running and that this computer is in the same network.'
+          ? 'This page keeps trying. Check that kith serve is running and that this computer is on the same network.'
           : 'Connecting to the server.'}
       </p>
       {isRetrying && (
@@ -26,7 +26,7 @@ export function NoServer({ link, onRetry }: { link: LinkState; onRetry: () => vo
 const kDismissals: Record<string, { title: string; text: string }> = {
   'bad-token': {
     title: 'This link is not valid',
-    text: 'It has expired, was revoked, or was not copied completely. kith serve prints the facilitator link when it starts.',
+    text: 'It has expired, was revoked, or was copied incompletely. kith serve prints the facilitator link when it starts.',
   },
   removed: { title: 'This link was revoked', text: 'Another facilitator revoked it. Ask for a new one.' },
   'opened-elsewhere': {
@@ -35,8 +35,8 @@ const kDismissals: Record<string, { title: string; text: string }> = {
   },
 };
 
-export function Dismissed({ reason }: { reason: string }): JSX.Element {
-  const { title, text } = kDismissals[reason] ?? { title: 'Disconnected', text: `The server closed the connection (${reason}).` };
+export function Dismissed({ reason }: { reason: LineState['bye'] }): JSX.Element {
+  const { title, text } = kDismissals[reason ?? ''] ?? { title: 'Disconnected', text: `The server closed the connection (${reason}).` };
   return (
     <main id="main" class="plain-page" tabIndex={-1}>
       <h1>{title}</h1>
@@ -69,7 +69,7 @@ function AskLink(): JSX.Element {
     event.preventDefault();
     const token = tokenIn(text);
     if (!token) {
-      setProblem('This is not a link of kith serve: it ends with #t= and a long word.');
+      setProblem('This is not a link printed by kith serve. Such a link contains #t= followed by a long token.');
       return;
     }
     forgetToken();

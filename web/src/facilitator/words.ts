@@ -62,7 +62,7 @@ const kLogged: Record<string, string> = {
   lesson: 'chose a lesson',
   watched: 'watched a demonstration',
   answered: 'answered a test',
-  continued: 'went on after the feedback',
+  continued: 'continued after the feedback',
   questions: 'answered the questions',
   dropped: 'dropped out',
   released: 'released from the lobby',
@@ -76,21 +76,21 @@ const kLogged: Record<string, string> = {
 export const loggedText = (what: string): string => kLogged[what] ?? what;
 
 const kEnds: Record<string, string> = {
-  complete: 'everything learned',
-  'max-periods': 'the largest number of periods was reached',
-  'time-limit': 'the time limit was reached',
-  'lobby-time': 'not enough people came in time',
+  complete: 'all components learned',
+  'max-periods': 'reached the maximum number of periods',
+  'time-limit': 'reached the time limit',
+  'lobby-time': 'not enough people joined in time',
   facilitator: 'ended by the facilitator',
 };
 
 export const endText = (reason: string | undefined): string => (reason ? (kEnds[reason] ?? reason.replace(/-/g, ' ')) : '');
 
 const kPolicies: Record<string, string> = {
-  'pause-then-continue': 'Pause the group; continue without the person when the grace period is over',
-  'continue-now': 'Continue at once without the person',
+  'pause-then-continue': 'Pause the group; continue without the person after the grace period',
+  'continue-now': 'Continue without the person immediately',
   'replace-from-pool': 'Fill the seat with a person who is waiting',
   simulate: 'Fill the seat with a simulated learner',
-  'end-group': 'End the group; everybody gets a completion code',
+  'end-group': 'End the session; everyone gets a completion code',
 };
 
 export const policyText = (policy: string): string => kPolicies[policy] ?? policy;
@@ -102,20 +102,20 @@ export const kTerms = {
   bec: 'BEC region (behaviour equivalence class): all reward weights with which the robot would behave exactly as it does.',
   prior: 'Prior: the reward weights that were possible before the first demonstration.',
   truth: 'True reward: the robot\u2019s own reward weights, as a direction.',
-  common: 'Common belief: what every active member is assumed to know.',
-  joint: 'Joint belief: what the active members know if they pool everything.',
+  common: 'Common belief: what all active members are assumed to know.',
+  joint: 'Joint belief: what the active members know when they pool their knowledge.',
   belief: 'Belief: the reward weights that the teacher thinks a learner considers possible. Each dot is one of 300 particles.',
-  gain: 'Information gain: how much smaller the demonstration makes the region of reward weights that are still possible for the belief that is taught (ratio of areas before and after; larger is better).',
+  gain: 'Information gain: how much the demonstration shrinks the region of reward weights that are still possible under the belief being taught (ratio of the areas before and after; larger is better).',
   regret: 'Regret: by how much the answer\u2019s return is below that of the robot\u2019s own path. 0: as good as the robot\u2019s.',
-  component: 'Knowledge component: a part of the reward that is taught and tested by itself, for example one feature against the cost of a step.',
-  forecast: 'Forecast: each open component takes as many periods as those before did on average; the range is from the shortest to the longest period so far.',
-  latency: 'Latency: how long a message to the browser and back takes.',
-  estimate: 'Screening: the share of tests that this person is expected to answer right, from the tests before the lobby.',
+  component: 'Knowledge component: a part of the reward that is taught and tested separately, for example one feature against the cost of a step.',
+  forecast: 'Forecast: assumes that each open component takes as many periods as the earlier ones did on average; the range is based on the shortest and the longest period so far.',
+  latency: 'Latency: round-trip time of a message to the browser.',
+  estimate: 'Screening: the share of tests that this person is expected to answer correctly, estimated from the tests before the lobby.',
   grace: 'Grace period: how long a person may be away before the dropout policy applies.',
-  simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. Participants are told about it in the consent form.',
+  simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. The consent form informs participants about it.',
   interactions: 'Period: one round of demonstrations, tests and feedback.',
   runners_up: 'Runners-up: the demonstrations with the next largest gains. They were not shown.',
-  unsaved: 'Unsaved: events that have been accepted but not yet written to disk. They are not acknowledged to the browser before they are.',
+  unsaved: 'Unsaved: events that have been accepted but not yet written to disk. The browser gets an acknowledgement only after the write.',
 };
 export type Term = keyof typeof kTerms;
 

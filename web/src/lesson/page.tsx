@@ -1,6 +1,6 @@
 // The lesson: what the map's things are, then every component with its demonstrations and tests.
 import type { JSX } from 'preact';
-import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { kFew } from '../shared/board/board';
 import { Patterns, PartGlyph, Robot } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
@@ -42,7 +42,7 @@ export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
 // An element that the shared code makes.
 function Adopted({ make }: { make: () => HTMLElement }): JSX.Element {
   const place = useRef<HTMLSpanElement>(null);
-  useEffect(() => place.current?.replaceChildren(make()), []);
+  useLayoutEffect(() => place.current?.replaceChildren(make()), []);
   return <span ref={place} />;
 }
 
@@ -159,7 +159,7 @@ function Summary({ component }: { component: Component }): JSX.Element {
 
 function Notices({ lesson }: { lesson: Lesson }): JSX.Element {
   const place = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const notices = document.getElementById('kith-notices');
     if (notices instanceof HTMLTemplateElement) place.current?.replaceChildren(notices.content);
   }, []);

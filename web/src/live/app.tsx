@@ -1,7 +1,9 @@
 // The page is a function of the last view of the server and of what somebody is doing on it now.
 import { Component, type ComponentChildren, type JSX } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
-import { duration, useTick } from './clock';
+import { useLayoutEffect, useState } from 'preact/hooks';
+import { duration } from '../shared/duration';
+import type { LineState } from '../shared/line';
+import { useTick } from './clock';
 import { Connection, type Snapshot } from './connection';
 import { Bare, Shell } from './parts/shell';
 import { Button, Heading } from './parts/ui';
@@ -35,7 +37,7 @@ export function App(): JSX.Element {
     setToken(null);
   };
   // Another link opened in this tab is another person.
-  useEffect(() => {
+  useLayoutEffect(() => {
     const changed = (): void => location.reload();
     window.addEventListener('hashchange', changed);
     return () => window.removeEventListener('hashchange', changed);
@@ -64,18 +66,18 @@ function useConnection(token: string): { connection: Connection; snapshot: Snaps
       }),
   );
   const [snapshot, setSnapshot] = useState(connection.snapshot());
-  useEffect(() => connection.subscribe(() => setSnapshot(connection.snapshot())), [connection]);
+  useLayoutEffect(() => connection.subscribe(() => setSnapshot(connection.snapshot())), [connection]);
   return { connection, snapshot };
 }
 
 function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX.Element {
   const { connection, snapshot } = useConnection(token);
-  const { view, bye, phase } = snapshot;
+  const { view, line } = snapshot;
   useLanguage(view?.lang);
-  if (phase === 'closed') {
+  if (line.phase === 'closed') {
     return (
       <Bare>
-        <Closed reason={bye ?? 'removed'} connection={connection} onLeave={onLeave} />
+        <Closed reason={line.bye ?? 'removed'} connection={connection} onLeave={onLeave} />
       </Bare>
     );
   }
@@ -98,7 +100,7 @@ function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX
 // The language of the study, if this page did not know it before.
 function useLanguage(lang: string | undefined): void {
   const [, setCount] = useState(0);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (lang !== undefined && lang !== currentLanguage()) void loadTexts(lang).then(() => setCount((count) => count + 1));
   }, [lang]);
 }
@@ -167,7 +169,7 @@ function Connecting({ snapshot }: { snapshot: Snapshot }): JSX.Element {
 }
 
 interface ClosedProps {
-  reason: NonNullable<Snapshot['bye']>;
+  reason: NonNullable<LineState['bye']>;
   connection: Connection;
   onLeave: () => void;
 }

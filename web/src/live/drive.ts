@@ -1,5 +1,5 @@
 // Driving the robot through a world: the path so far, what was pressed and when.
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { Frame, Place } from '../shared/board/types';
 import type { KeyPress } from './protocol';
 import { keep, recall } from './storage';
@@ -114,7 +114,7 @@ function beginning(key: string, draft: number[]): Kept {
 function useDrafts(actions: number[], known: number[], onDraft: Options['onDraft']): { current: number[] } {
   const told = useRef(known);
   const at = useRef(-Infinity);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!onDraft || String(told.current) === String(actions)) return;
     const tell = (): void => {
       told.current = actions;

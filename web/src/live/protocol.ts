@@ -126,16 +126,6 @@ export interface Message<T extends CommandType = CommandType> {
   body: Commands[T];
 }
 
-export type ByeReason = 'opened-elsewhere' | 'removed' | 'server-stops' | 'bad-token';
-
-export type ServerFrame =
-  | { t: 'welcome'; role: 'participant' | 'observer' | 'facilitator'; server: string }
-  | { t: 'ack'; id: string }
-  | { t: 'nak'; id: string; reason: string; text: string }
-  | { t: 'view'; view: ParticipantView }
-  | { t: 'beat' }
-  | { t: 'bye'; reason: ByeReason };
-
 // GET /api/world/KEY. A compact frame is [column, row, [[column, row, carried], ...], [index into stations, ...]],
 // or {state} where the domain has no map.
 export type CompactFrame = [number, number, [number, number, number | boolean][], number[]] | { state: string };

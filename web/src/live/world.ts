@@ -1,5 +1,5 @@
 // The moves of a world: which state follows from which action.
-import { useEffect, useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import type { Frame, Place } from '../shared/board/types';
 import type { Legend } from '../shared/board/legend';
 import type { LiveBoard, WorldDocument } from './protocol';
@@ -143,7 +143,7 @@ async function fetchWorld(key: string, token: string): Promise<World> {
 export function useWorld(key: string | undefined, token: string): { world: World | null; hasTrouble: boolean } {
   const [, setCount] = useState(0);
   const [hasTrouble, setTrouble] = useState(false);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (key === undefined || worlds.has(key)) return;
     let isOver = false;
     let timer: ReturnType<typeof setTimeout> | undefined;

@@ -1,4 +1,5 @@
 // The document that kith writes (schema kith.report/1), as far as the page uses it.
+import type { Vector } from '../shared/sphere';
 
 export type Cell = string | number | boolean | null;
 export type Row = Record<string, Cell>;
@@ -41,7 +42,6 @@ export interface Reference {
   bibtex?: string;
 }
 
-export type Vector = [number, number, number];
 
 export interface BeliefTeam {
   title: string;

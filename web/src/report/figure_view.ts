@@ -3,7 +3,8 @@ import { type Drawing, draw, toPng, toSvg } from './chart';
 import type { Table } from './document';
 import { announce, button, el, lazyDetails } from '../shared/dom';
 import type { Figure } from './figures/figure';
-import { download, toCsv } from './save';
+import { download } from '../shared/download';
+import { toCsv } from './save';
 import { tableView } from './table_view';
 import type { Words } from './words';
 

@@ -1,15 +1,5 @@
-// Files from inside the page: blob addresses work from file:// too.
+// Tables as CSV files.
 import type { Cell, Table } from './document';
-
-export function download(blob: Blob, name: string): void {
-  const address = URL.createObjectURL(blob);
-  const link = document.createElement('a');
-  link.href = address;
-  link.download = name;
-  link.click();
-  // Some browsers read the blob only after this task.
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
-}
 
 function csvCell(cell: Cell): string {
   const text = cell === null ? '' : String(cell);

@@ -1,5 +1,5 @@
 // Plays a path step by step, and says whether somebody asks for less motion.
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useState } from 'preact/hooks';
 
 export interface Playback {
   step: number;
@@ -15,27 +15,25 @@ const kPace = { slowest: 750, fastest: 160 };
 // `speed` divides the time between steps.
 export function usePlayback(last: number, speed = 1): Playback {
   const [step, setStep] = useState(0);
-  const [playing, setPlaying] = useState(false);
+  const [isStarted, setStarted] = useState(false);
+  const playing = isStarted && step < last;
   useEffect(() => {
     if (!playing) return;
     const pace = Math.max(kPace.fastest, Math.min(kPace.slowest, kLongest / Math.max(1, last))) / speed;
     const timer = setInterval(() => setStep((now) => Math.min(now + 1, last)), pace);
     return () => clearInterval(timer);
   }, [playing, last, speed]);
-  useEffect(() => {
-    if (step === last) setPlaying(false);
-  }, [step, last]);
   return {
     step,
     last,
     playing,
     show: (to) => {
-      setPlaying(false);
+      setStarted(false);
       setStep(Math.max(0, Math.min(to, last)));
     },
     toggle: () => {
-      if (!playing && step === last) setStep(0);
-      setPlaying(!playing);
+      if (step === last) setStep(0);
+      setStarted(!playing);
     },
   };
 }
@@ -44,7 +42,7 @@ export function usePlayback(last: number, speed = 1): Playback {
 export function useCalm(): boolean {
   const query = window.matchMedia('(prefers-reduced-motion: reduce)');
   const [calm, setCalm] = useState(query.matches);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const changed = (event: MediaQueryListEvent): void => setCalm(event.matches);
     query.addEventListener('change', changed);
     return () => query.removeEventListener('change', changed);

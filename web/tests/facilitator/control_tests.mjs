@@ -72,6 +72,20 @@ export function controlTests({ withPage, shoot }) {
     });
   });
 
+  it('makes a new link for a seat whose link is not known any more', async () => {
+    await withPage({}, async (page, mock) => {
+      for (const seat of mock.view.rooms[0].seats) delete seat.link;
+      mock.showAll();
+      await openRoom(page, 'Room A1');
+      await page.click('button.seat >> nth=0');
+      await page.click('dialog button:text-is("New link")');
+      await page.click('.suggestions button >> nth=0');
+      await page.click('dialog button[type=submit]');
+      await page.waitForSelector('dialog', { state: 'detached' });
+      assert.deepEqual(received(mock, 'readmit'), [{ room: 'a1', reason: 'The link was lost', seat: 1 }]);
+    });
+  });
+
   it('says why the server refuses, and keeps what was typed', async () => {
     await withPage({}, async (page, mock) => {
       mock.refusals.extend = { reason: 'no-limit', text: 'This stage has no time limit.' };
@@ -108,7 +122,7 @@ export function controlTests({ withPage, shoot }) {
       await page.fill('#make-size', '4');
       await page.fill('#make-count', '2');
       await page.selectOption('.seat-choices select >> nth=3', 'P');
-      assert.match(await page.textContent('fieldset'), /3 of 4 are people/);
+      assert.match(await page.textContent('fieldset'), /3 of 4 seats are for people/);
       await page.click('.make button[type=submit]');
       await until('the rooms', () => mock.view.rooms.length === 2);
       const [made] = received(mock, 'room-make');

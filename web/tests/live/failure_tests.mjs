@@ -5,6 +5,9 @@ import { begin, lesson, withGroup } from './group.mjs';
 import { openPerson } from './person.mjs';
 import { kQuestions, makeViews } from './views.mjs';
 
+// What somebody does must not have to wait for the page: these journeys take place in a single moment.
+const kStopped = { stopped: true };
+
 const answersOf = (room) => room.log.filter(({ type }) => type === 'answer');
 
 async function toPredict(person) {
@@ -18,7 +21,7 @@ async function toPredict(person) {
 export function failureTests(setting) {
   describe('a session in trouble', () => {
     it('is where it was after a reload of any screen', async () => {
-      await withGroup(setting, { parts: 1, screening: 1, questions: kQuestions }, async ({ person, page }) => {
+      await withGroup(setting, { parts: 1, screening: 1, questions: kQuestions, look: kStopped }, async ({ person, page }) => {
         const reload = async () => {
           const before = await person.heading();
           await page.reload();
@@ -34,7 +37,7 @@ export function failureTests(setting) {
         await reload();
         await person.drive(await person.best());
         await reload();
-        await person.button('It works').click();
+        await person.button('Continue').click();
         await person.at('A few tasks to begin with');
         await person.drive(['up']);
         await reload();
@@ -59,7 +62,7 @@ export function failureTests(setting) {
         await person.at('Correct');
         await reload();
         await person.feedback();
-        await person.at('Some questions');
+        await person.at('A few questions');
         await reload();
         await page.getByRole('radio', { name: '6', exact: true }).check();
         await page.getByRole('radio', { name: 'never' }).check();
@@ -70,13 +73,14 @@ export function failureTests(setting) {
     });
 
     it('is taken over by a second tab, and back', async () => {
-      await withGroup(setting, {}, async ({ mock, person }) => {
+      await withGroup(setting, { look: kStopped }, async ({ mock, person }) => {
         await person.at('Before you start');
         const other = await openPerson(setting.browser, mock.link(1), {});
         await other.open();
         await other.at('Before you start');
         await person.at('Open in another tab');
-        await person.page.waitForTimeout(1500); // it does not fight for the session
+        await person.pass(60_000); // it does not fight for the session
+        assert.equal(mock.numHellos, 2);
         await other.at('Before you start');
         await person.button('Use this tab instead').click();
         await person.at('Before you start');
@@ -90,13 +94,13 @@ export function failureTests(setting) {
       await withGroup(setting, {}, async ({ mock, room, person }) => {
         await toPredict(person);
         await person.drive(['down', 'right']);
-        while (room.seats[0].draft.length < 2) await person.page.waitForTimeout(50);
+        await person.until(() => room.seats[0].draft.length === 2);
         const other = await openPerson(setting.browser, mock.link(1), {});
         await other.open();
         await other.page.waitForSelector('.drive-area');
         await other.counts('2 steps');
         await other.drive(['right']);
-        while (room.seats[0].draft.length < 3) await person.page.waitForTimeout(50);
+        await person.until(() => room.seats[0].draft.length === 3);
         await person.button('Use this tab instead').click();
         await person.page.waitForSelector('.drive-area');
         await person.counts('3 steps');
@@ -104,24 +108,41 @@ export function failureTests(setting) {
       });
     });
 
+    it('sends a draft of a path at once, and then every two seconds', async () => {
+      await withGroup(setting, { look: kStopped }, async ({ mock, person }) => {
+        const drafts = () => mock.received.filter(({ t }) => t === 'draft').map(({ body }) => body.actions.length);
+        await toPredict(person);
+        await person.drive(['down']);
+        await person.pass(1);
+        await person.until(() => drafts().length === 1);
+        await person.drive(['right']);
+        await person.pass(1000);
+        await person.drive(['right']);
+        await person.pass(1000);
+        await person.until(() => drafts().length > 1);
+        assert.deepEqual(drafts(), [1, 3]);
+      });
+    });
+
     it('loses no answer that is given offline, and sends it once', async () => {
-      await withGroup(setting, {}, async ({ mock, room, person, page }) => {
+      await withGroup(setting, { look: kStopped }, async ({ mock, room, person, page }) => {
         person.expectLosses();
         await toPredict(person);
         await person.drive(['down']);
         await person.context.setOffline(true);
         mock.isDown = true;
         mock.drop();
-        await page.waitForFunction(() => document.querySelector('.status').textContent.includes('Reconnecting'));
+        await person.hasStatus('Reconnecting');
         await person.drive(['right', 'right', 'pickup', 'left', 'left', 'left', 'dropoff']);
         await person.button('Submit').click();
+        await person.pass(3000);
         await page.waitForFunction(() => document.querySelector('.message.warning')?.textContent.includes('was lost'));
         await person.counts('being saved');
         mock.up();
         await person.context.setOffline(false);
         await person.at('Not quite');
         assert.equal(answersOf(room).length, 1);
-        await page.waitForFunction(() => document.querySelector('.status').textContent.includes('Saved'));
+        await person.hasStatus('Saved');
       });
     });
 
@@ -132,10 +153,9 @@ export function failureTests(setting) {
         mock.holdsAcks = true;
         await person.drive(await person.best());
         await person.button('Submit').click();
-        while (answersOf(room).length === 0) await page.waitForTimeout(20);
+        await person.until(() => answersOf(room).length > 0);
         assert.match(await page.textContent('.status'), /Saving/);
         mock.down(); // committed, but not acknowledged
-        await page.waitForTimeout(300);
         mock.holdsAcks = false;
         mock.held = [];
         mock.up();
@@ -144,25 +164,31 @@ export function failureTests(setting) {
         assert.equal(answersOf(room).length, 1);
         const sent = mock.received.filter(({ t }) => t === 'answer');
         assert.ok(sent.length >= 2 && sent.every(({ id }) => id === sent[0].id), 'not sent again with the same id');
-        await page.waitForFunction(() => document.querySelector('.status').textContent.includes('Saved'));
+        await person.hasStatus('Saved');
       });
     });
 
-    it('tries again after connections that break, and notices one that is silent', async () => {
-      await withGroup(setting, {}, async ({ mock, person, page }) => {
+    it('tries again after connections that break, and sends again what is not acknowledged', async () => {
+      await withGroup(setting, { look: kStopped }, async ({ mock, person }) => {
         person.expectLosses();
         await person.at('Before you start');
         for (let i = 0; i < 3; i += 1) {
           mock.drop();
-          await page.waitForFunction(() => document.querySelector('.status').textContent.includes('Reconnecting'));
-          await page.waitForFunction(() => document.querySelector('.status').textContent.includes('Saved'), null, { timeout: 15000 });
+          await person.hasStatus('Reconnecting');
+          await person.pass(500);
+          await person.hasStatus('Saved');
         }
-        while (mock.numBeats < 1) await page.waitForTimeout(100);
-        await page.waitForTimeout(200);
-        mock.beats = false;
-        const before = [...mock.sockets.values()][0];
-        while ([...mock.sockets.values()][0] === before) await page.waitForTimeout(200);
-        mock.beats = true;
+        mock.holdsAcks = true;
+        await person.consent();
+        await person.until(() => mock.received.length === 1);
+        await person.pass(21_000);
+        await person.hasStatus('Reconnecting');
+        await person.pass(500);
+        await person.until(() => mock.received.length === 2);
+        assert.equal(mock.received[0].id, mock.received[1].id);
+        mock.releaseAcks();
+        await person.hasStatus('Saved');
+        await person.at('What this is about');
       });
     });
 
@@ -213,12 +239,14 @@ export function failureTests(setting) {
 
     it('counts on the server\'s clock, a day off in either direction', async () => {
       for (const skew of [-86_400_000, 86_400_000]) {
-        await withGroup(setting, {}, async ({ mock, person, page }) => {
+        await withGroup(setting, { look: kStopped }, async ({ mock, person, page }) => {
           const { views } = makeViews(lesson, Date.now() + skew);
           mock.show(1, views.lobby);
           await person.at('Waiting for your group');
-          assert.match(await page.textContent('main .time'), /1:0[5-9]/);
-          assert.match(await page.textContent('.next-step'), /leave in 3:5\d/);
+          assert.match(await page.textContent('main .time'), /1:05/);
+          await person.pass(2100);
+          assert.match(await page.textContent('main .time'), /1:07/);
+          assert.match(await page.textContent('.next-step'), /leave in 3:52/);
         });
       }
     });

@@ -42,8 +42,7 @@ export class Mock {
     this.received = []; // {seat, t, id, body}, also what was sent again
     this.isDown = false;
     this.holdsAcks = false;
-    this.beats = true; // whether they are answered
-    this.numBeats = 0;
+    this.numHellos = 0;
     const { WebSocketServer } = requireFrom(modules)('ws');
     this.ws = new WebSocketServer({ noServer: true, maxPayload: 16384 });
     this.server = createServer((request, response) => this.http(request, response));
@@ -157,21 +156,12 @@ export class Mock {
   open(socket) {
     if (this.isSilent) return;
     let token = null;
-    let drafted = -Infinity;
     socket.on('message', (data) => {
       const frame = JSON.parse(String(data));
       if (frame.t === 'hello') token = this.hello(socket, frame);
       else if (token === null) this.violations.push(`'${frame.t}' before hello`);
-      else if (frame.t === 'beat') {
-        this.numBeats += 1;
-        if (this.beats) socket.send(JSON.stringify({ t: 'beat' }));
-      } else {
-        if (frame.t === 'draft') {
-          if (Date.now() - drafted < 1900) this.violations.push('drafts too close together');
-          drafted = Date.now();
-        }
-        this.receive(socket, token, frame);
-      }
+      else if (frame.t === 'beat') socket.send(JSON.stringify({ t: 'beat' }));
+      else this.receive(socket, token, frame);
     });
     socket.on('close', () => {
       if (token === null || this.sockets.get(token) !== socket) return;
@@ -182,6 +172,7 @@ export class Mock {
   }
 
   hello(socket, { v, token, tab }) {
+    this.numHellos += 1;
     if (v !== 1 || !/^[0-9a-f-]{36}$/.test(tab)) this.violations.push('a wrong hello');
     if (token === 'facilitator-token') socket.send(JSON.stringify({ t: 'welcome', role: 'facilitator', server: 'mock' }));
     if (!this.tokens.has(token)) {

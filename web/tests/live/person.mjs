@@ -2,9 +2,12 @@
 import assert from 'node:assert/strict';
 import { bestPath, priced } from './delivery.mjs';
 
-// A page in a context of its own; requests to elsewhere, console messages and uncaught errors are collected.
+const kPatience = 120_000; // milliseconds: the machine may be busy; nothing here is about time
+
+// A page in a context of its own; requests to elsewhere, console messages and uncaught errors are collected. With
+// `stopped`, time passes on the page only when `pass` says so.
 export async function openPerson(browser, address, look = {}) {
-  const { width = 1280, height = 900, dark = false, reducedMotion = false, scale = 1, offline = false, locale = 'en-US' } = look;
+  const { width = 1280, height = 900, dark = false, reducedMotion = false, scale = 1, offline = false, stopped = false, locale = 'en-US' } = look;
   const context = await browser.newContext({
     viewport: { width, height },
     deviceScaleFactor: scale,
@@ -14,6 +17,10 @@ export async function openPerson(browser, address, look = {}) {
     offline,
     locale,
   });
+  if (stopped) {
+    await context.clock.install({ time: 0 });
+    await context.clock.pauseAt(1000);
+  }
   return new Person(context, await context.newPage(), address);
 }
 
@@ -39,7 +46,7 @@ export class Person {
         if (frame.t === 'view') this.view = frame.view;
       });
     });
-    page.setDefaultTimeout(120_000); // the machine may be busy; nothing here is about time
+    page.setDefaultTimeout(kPatience);
     // A study without texts of its own answers 404, which a browser reports.
     this.expects.push(/api\/texts/);
   }
@@ -52,6 +59,11 @@ export class Person {
 
   async close() {
     await this.context.close();
+  }
+
+  // On the page's clock.
+  pass(ms) {
+    return this.page.clock.runFor(ms);
   }
 
   // Lost connections are reported by the browser, whatever the page does about them.
@@ -86,7 +98,7 @@ export class Person {
     await this.button('Continue').click();
     await this.at('Try the controls');
     await this.drive(await this.best());
-    await this.button('It works').click();
+    await this.button('Continue').click();
   }
 
   // The best path of what is to be driven now, by numbers of actions; [0 .. n) of the table.
@@ -96,11 +108,15 @@ export class Person {
     return bestPath(priced(task.board, table), task.start).actions.map((action) => table.actions[action].name);
   }
 
+  // By the browser, which knows what to do when a connection that it kept is closed.
   async table(key) {
-    const { token } = await this.page.evaluate(() => ({ token: JSON.parse(sessionStorage.getItem('kith.token')) }));
-    const reply = await this.context.request.get(`${this.origin}/api/world/${key}`, { headers: { Authorization: `Bearer ${token}` } });
-    assert.equal(reply.status(), 200);
-    return reply.json();
+    const { status, table } = await this.page.evaluate(async (name) => {
+      const token = JSON.parse(sessionStorage.getItem('kith.token'));
+      const reply = await fetch(`/api/world/${name}`, { headers: { Authorization: `Bearer ${token}` } });
+      return { status: reply.status, table: await reply.json() };
+    }, key);
+    assert.equal(status, 200);
+    return table;
   }
 
   // With the keyboard, wherever the focus is.
@@ -111,23 +127,21 @@ export class Person {
     for (const name of names) await this.page.keyboard.press(keys[name]);
   }
 
-  // One demonstration, step by step; gives the lengths of the path that was drawn.
-  async watch() {
-    const lengths = [];
+  // One example by keyboard, step by step; `look` is called after every step.
+  async watch(look) {
     await this.at('Watch the robot');
     const { index, of } = this.view.watch;
     const kicker = `Example ${index + 1} of ${of}`;
     await this.page.waitForFunction((text) => document.querySelector('.kicker')?.textContent === text, kicker);
     for (let i = 1; i < this.view.watch.frames.length; i += 1) {
-      await this.button('Next step').click();
-      lengths.push(await this.drawn('own'));
+      await this.page.keyboard.press('ArrowRight');
+      await look?.();
     }
     await this.button('Next').click();
     await this.page.waitForFunction(
       (text) => document.querySelector('.kicker')?.textContent !== text,
       kicker,
     );
-    return lengths;
   }
 
   drawn(kind) {
@@ -135,6 +149,20 @@ export class Person {
       const line = document.querySelector(`.live-board .way.${name} .line`);
       return line ? line.getAttribute('points').split(' ').length : 0;
     }, kind);
+  }
+
+  // The word at the top of the page: Saved, Saving or Reconnecting.
+  async hasStatus(word) {
+    await this.page.waitForFunction((text) => document.querySelector('.status')?.textContent.includes(text), word);
+  }
+
+  // Until something on the server is so.
+  async until(isSo) {
+    const end = Date.now() + kPatience;
+    while (!isSo()) {
+      assert.ok(Date.now() < end, `waited in vain until ${isSo}`);
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
   }
 
   // Until the last sentence about the board says so.
@@ -169,9 +197,14 @@ export class Person {
     }
   }
 
-  async violations(axe) {
+  // Of all rules, or of some.
+  async violations(axe, rules) {
+    if (rules?.length === 0) return [];
     await this.page.evaluate(axe); // from the debugger, so that the page's policy stays as it is
-    const { violations } = await this.page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+    const { violations } = await this.page.evaluate(
+      (runOnly) => window.axe.run(document, { resultTypes: ['violations'], ...(runOnly ? { runOnly } : {}) }),
+      rules,
+    );
     return violations
       .filter(({ impact }) => impact === 'serious' || impact === 'critical')
       .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);

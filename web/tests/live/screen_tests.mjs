@@ -8,12 +8,12 @@ import { lesson } from './group.mjs';
 import { openPerson } from './person.mjs';
 import { hostileView, kHostile, makeViews } from './views.mjs';
 
+// `rules`: those of axe that a look may break; without, all of them.
 const kLooks = [
-  { name: 'light-1280', width: 1280, height: 900, dark: false, axe: true },
-  { name: 'dark-1280', width: 1280, height: 900, dark: true, axe: true },
-  { name: 'light-320', width: 320, height: 640, dark: false, axe: true },
-  { name: 'dark-320', width: 320, height: 640, dark: true, axe: false },
-  { name: 'zoom-200', width: 640, height: 450, dark: false, axe: false }, // 1280 x 900 at 200 %
+  { name: 'light-1280', width: 1280, height: 900 },
+  { name: 'dark-1280', width: 1280, height: 900, dark: true, rules: ['color-contrast'] },
+  { name: 'light-320', width: 320, height: 640, rules: ['scrollable-region-focusable'] },
+  { name: 'zoom-200', width: 640, height: 450, rules: [] }, // 1280 x 900 at 200 %
 ];
 
 // Buttons, links and fields that are smaller than a finger.
@@ -50,7 +50,6 @@ async function show({ mock, page }, view) {
   const marked = { ...view, study: { ...view.study, title: `${view.study.title} ${show.count}` } };
   mock.show(1, progress ? { ...marked, progress: { ...progress, round: show.count } } : marked);
   await page.waitForFunction((text) => document.querySelector('.study-title')?.textContent === text, marked.study.title);
-  await page.waitForTimeout(60);
 }
 
 // What is to be seen now: it fits, it can be touched, and it can be read by assistive technology.
@@ -66,16 +65,18 @@ async function examine(setting, person, name, look) {
   }));
   assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
   assert.deepEqual(await page.evaluate(smallTargets), [], name);
-  if (look.axe) assert.deepEqual(await person.violations(setting.axe), [], name);
+  assert.deepEqual(await person.violations(setting.axe, look.rules), [], name);
 }
 
-async function playToTheEnd(person) {
-  for (let i = 0; i < 40; i += 1) {
-    const next = person.button('Next step');
-    if ((await next.count()) === 0 || (await next.getAttribute('aria-disabled'))) return;
-    await next.click();
-  }
-}
+// Step by step, if the screen has a player.
+const playToTheEnd = ({ page }) =>
+  page.evaluate(async () => {
+    const next = () => document.querySelectorAll('.step-button')[1];
+    while (next() && !next().ariaDisabled) {
+      next().click();
+      await new Promise((resolve) => setTimeout(resolve));
+    }
+  });
 
 export function screenTests(setting) {
   describe('every screen', () => {
@@ -100,7 +101,7 @@ export function screenTests(setting) {
       });
     }
 
-    for (const look of kLooks.filter(({ axe }) => axe)) {
+    for (const look of kLooks) {
       it(`without a session, at ${look.name}`, async () => {
         await withViews(
           setting,
@@ -120,8 +121,10 @@ export function screenTests(setting) {
             await page.click('summary');
             await check('landing');
             mock.isSilent = true;
+            await page.clock.install();
             await page.goto(mock.link(1));
             await person.at('Connecting');
+            await person.pass(6000);
             await page.waitForSelector('text=has not answered');
             await check('connecting');
           },
@@ -187,13 +190,14 @@ export function screenTests(setting) {
 
     it('needs less than 200 kB of scripts, before compression', async () => {
       await withViews(setting, async ({ page, mock }) => {
-        const sizes = [];
-        page.on('response', async (response) => {
-          if (/\.js$/.test(response.url())) sizes.push((await response.body()).length);
+        const bodies = [];
+        page.on('response', (response) => {
+          if (/\.js$/.test(response.url())) bodies.push(response.body());
         });
         await page.goto('about:blank');
         await page.goto(mock.link(1));
         await page.waitForSelector('h1');
+        const sizes = (await Promise.all(bodies)).map(({ length }) => length);
         const sum = sizes.reduce((a, b) => a + b, 0);
         assert.ok(sum > 10_000 && sum < 200_000, `${sizes} bytes before compression`);
       });

@@ -39,6 +39,11 @@ export function textTests() {
       assert.deepEqual(Object.keys(english).filter((key) => !isUsed(key)), []);
     });
 
+    it('contain no terms of ours', () => {
+      const terms = /\b(demonstrations?|components?|beliefs?|rewards?|weights|polic(y|ies)|regret|periods?|strateg(y|ies)|teacher|learners?|seats?)\b/i;
+      assert.deepEqual(Object.values(english).filter((text) => terms.test(text)), []);
+    });
+
     for (const name of readdirSync(join(source, 'texts')).filter((file) => file !== 'en.json')) {
       it(`of ${name} have the keys and placeholders of English`, () => {
         const own = read(name);

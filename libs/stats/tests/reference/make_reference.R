@@ -12,21 +12,8 @@
 set.seed(20240601, kind = "Mersenne-Twister", normal.kind = "Inversion", sample.kind = "Rejection")
 options(warn = 1)
 
-# ---- JSON ----
-
-number <- function(x) ifelse(is.finite(x), sprintf("%.17g", x), "null")
-json <- function(x) {
-  if (is.null(x)) return("null")
-  if (is.list(x)) {
-    items <- vapply(x, json, "")
-    if (is.null(names(x))) return(paste0("[", paste(items, collapse = ","), "]"))
-    return(paste0("{", paste0("\"", names(x), "\":", items, collapse = ","), "}"))
-  }
-  if (is.character(x)) return(paste0("\"", x, "\""))
-  if (is.logical(x)) return(ifelse(x, "true", "false"))
-  number(x)
-}
-array_of <- function(x) if (length(x) == 0) list() else unname(as.list(x))
+folder <- dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE)))
+source(file.path(folder, "common.R"))
 
 # ---- analysis of variance ----
 
@@ -68,23 +55,6 @@ type_three <- function(terms, names, data) {
          p = row[["Pr(>F)"]], eta = row[["Sum of Sq"]] / (row[["Sum of Sq"]] + deviance(full)))
   })
   list(terms = rows, residual_ss = deviance(full), residual_df = df.residual(full))
-}
-
-# ---- studentised range, by its definition ----
-
-range_upper <- function(r, k) vapply(r, function(r) {
-  f <- function(z) k * dnorm(z) * pnorm(z)^(k - 1) * -expm1((k - 1) * log1p(-pnorm(z - r) / pnorm(z)))
-  integrate(f, r / 2 - 9, max(r / 2 + 9, 9.5), rel.tol = 1e-12, subdivisions = 2000)$value
-}, 0)
-
-tukey_upper <- function(q, k, df) {
-  if (q == 0) return(1)
-  density <- function(s) exp(log(2) + df / 2 * log(df / 2) - lgamma(df / 2) + (df - 1) * log(s) - df * s^2 / 2)
-  f <- function(s) density(s) * range_upper(q * s, k)
-  middle <- sqrt(df / (df + q^2 / 2))
-  sd <- 1 / sqrt(2 * df)
-  integrate(f, max(0, middle - 12 * sd), middle, rel.tol = 1e-11, subdivisions = 4000)$value +
-    integrate(f, middle, 1 + 12 * sd, rel.tol = 1e-11, subdivisions = 4000)$value
 }
 
 tukey <- function(y, g) {
@@ -289,9 +259,6 @@ d <- cells(balanced(4, 1)); add_degenerate("one observation per group", d, rnorm
 
 # ---- write ----
 
-argument <- grep("^--file=", commandArgs(FALSE), value = TRUE)
-folder <- dirname(sub("^--file=", "", argument[1]))
-lines <- function(name, entries) paste0("\"", name, "\":[\n", paste(vapply(entries, json, ""), collapse = ",\n"), "\n]")
 writeLines(paste0("{\"made_by\":\"", R.version.string, "\",\n",
                   paste(lines("data_sets", data_sets), lines("blocks", blocks), lines("adjusted", adjusted),
                         lines("degenerate", degenerate), lines("studentized_range", ranges), lines("power", powers), sep = ",\n"), "\n}"),

@@ -14,24 +14,8 @@ suppressPackageStartupMessages({
 
 RNGkind("Mersenne-Twister", "Inversion", "Rejection")
 
-# ---- JSON, with all digits ----
-
-one <- function(x) structure(list(x), class = "one")
-scalars <- function(x) {
-  if (is.character(x)) return(paste0('"', x, '"'))
-  if (is.logical(x) && !anyNA(x)) return(ifelse(x, "true", "false"))
-  ifelse(is.na(x), "null", formatC(x, digits = 17, format = "g", width = 1))
-}
-as_json <- function(x) {
-  if (inherits(x, "one")) return(scalars(x[[1]]))
-  if (!is.list(x)) return(paste0("[", paste(scalars(x), collapse = ","), "]"))
-  parts <- vapply(x, as_json, "")
-  if (length(x) && is.null(names(x))) return(paste0("[", paste(parts, collapse = ",\n"), "]"))
-  if (!length(x)) return("[]")
-  paste0("{", paste0('"', names(x), '":', parts, collapse = ",\n"), "}")
-}
-codes <- function(f) as.integer(f) - 1L
-factor_json <- function(name, f) list(name = one(name), levels = levels(f), codes = codes(f))
+folder <- dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE)))
+source(file.path(folder, "common.R"))
 
 # ---- fits ----
 
@@ -139,7 +123,6 @@ mixed_case <- function(name, y, factors, terms, groups, reml = TRUE, centre = 0)
 
 level_factor <- function(prefix, codes) factor(paste0(prefix, codes), levels = unique(paste0(prefix, sort(codes))))
 effect <- function(g, sd) rnorm(nlevels(g), 0, sd)[g]
-drawn <- function(prefix, k, n) factor(sample(paste0(prefix, seq_len(k)), n, TRUE), levels = paste0(prefix, seq_len(k)))
 
 cases <- function() {
   set.seed(11)

@@ -11,27 +11,8 @@ library(MASS)
 
 RNGkind("Mersenne-Twister", "Inversion", "Rejection")
 
-# ---- JSON, with all digits ----
-
-# A vector is an array, unless it is marked as one value; a list is an object if it has names.
-one <- function(x) structure(list(x), class = "one")
-scalars <- function(x) {
-  if (is.character(x)) return(paste0('"', x, '"'))
-  if (is.logical(x) && !anyNA(x)) return(ifelse(x, "true", "false"))
-  ifelse(is.na(x), "null", formatC(x, digits = 17, format = "g", width = 1))
-}
-as_json <- function(x) {
-  if (inherits(x, "one")) return(scalars(x[[1]]))
-  if (!is.list(x)) return(paste0("[", paste(scalars(x), collapse = ","), "]"))
-  parts <- vapply(x, as_json, "")
-  if (length(x) && is.null(names(x))) return(paste0("[", paste(parts, collapse = ",\n"), "]"))
-  if (!length(x)) return("[]")
-  paste0("{", paste0('"', names(x), '":', parts, collapse = ",\n"), "}")
-}
-
-codes <- function(f) as.integer(f) - 1L
-factor_json <- function(name, f) list(name = one(name), levels = levels(f), codes = codes(f))
-factors_json <- function(fs) unname(Map(factor_json, names(fs), fs))
+folder <- dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE)))
+source(file.path(folder, "common.R"))
 
 # ---- survival ----
 

@@ -25,7 +25,7 @@ export function ActionDialog({ action, send, onClose }: ActionDialogProps): JSX.
     event.preventDefault();
     if (isSent) return;
     if (reason.trim().length < kShortest) {
-      setProblem('Please give a reason. It is kept in the log.');
+      setProblem('Please give a reason. It is recorded in the log.');
       first.current?.focus();
       return;
     }
@@ -46,7 +46,7 @@ export function ActionDialog({ action, send, onClose }: ActionDialogProps): JSX.
         {action.fields.map((field) => (
           <FieldView field={field} value={values[field.name] ?? ''} onInput={(value) => setValues({ ...values, [field.name]: value })} />
         ))}
-        <label for={id}>Reason (kept in the log)</label>
+        <label for={id}>Reason (recorded in the log)</label>
         <input
           id={id}
           ref={first}

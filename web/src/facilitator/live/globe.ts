@@ -1,5 +1,5 @@
 // Orthographic drawing of the unit sphere: points, great-circle outlines and regions as SVG paths.
-export type Vector = [number, number, number];
+import { middle, normalise, toLonLat, type Vector } from '../../shared/sphere';
 
 // Longitude and latitude that face the viewer, degrees.
 export interface Turn {
@@ -15,31 +15,11 @@ export interface Placed {
 
 const kRadians = Math.PI / 180;
 
-export const asVector = (v: number[]): Vector => {
-  const [x, y, z] = [v[0] ?? 0, v[1] ?? 0, v[2] ?? 0];
-  const length = Math.hypot(x, y, z) || 1;
-  return [x / length, y / length, z / length];
-};
+export const asVector = ([x = 0, y = 0, z = 0]: number[]): Vector => normalise([x, y, z]);
 
-const cross = (a: Vector, b: Vector): Vector => [
-  a[1] * b[2] - a[2] * b[1],
-  a[2] * b[0] - a[0] * b[2],
-  a[0] * b[1] - a[1] * b[0],
-];
-
-export const turnTo = ([x, y, z]: Vector): Turn => ({
-  lambda: Math.atan2(y, x) / kRadians,
-  phi: Math.asin(Math.max(-1, Math.min(1, z))) / kRadians,
-});
-
-// Middle of a spherical polygon: the direction of its vector area, which a hemisphere has too.
-function middle(outline: Vector[]): Vector {
-  let sum: Vector = [0, 0, 0];
-  outline.forEach((corner, i) => {
-    const part = cross(corner, outline[(i + 1) % outline.length] ?? corner);
-    sum = [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]];
-  });
-  return asVector(sum);
+function turnTo(v: Vector): Turn {
+  const [lambda, phi] = toLonLat(v);
+  return { lambda, phi };
 }
 
 const kFromPrior = 0.6;

@@ -1,7 +1,8 @@
 // Everybody in the room, one row each: who is there, what they are doing, and all their answers.
 import type { JSX } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
-import { secondsText, spanText, useNow } from '../clock';
+import { useLayoutEffect, useRef } from 'preact/hooks';
+import { duration } from '../../shared/duration';
+import { secondsText, useNow } from '../clock';
 import type { Answer, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
 import { memberOfSeat } from './beliefs';
@@ -42,7 +43,7 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
   // The latest answers are at the right end, which has to be seen.
   const box = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (box.current) box.current.scrollLeft = box.current.scrollWidth;
   }, [columns.length]);
   const periods = [...new Set(columns.map(({ period }) => period))];
@@ -125,7 +126,7 @@ export function whereabouts(seat: SeatRow, now: number): string {
   if (seat.kind === 'simulated') return 'simulated learner';
   if (seat.presence === 'empty' || seat.since_ms === 0) return stateText(seat);
   const doing = seat.dropped ? 'dropped out' : personStage(seat.stage);
-  const presence = `${kPresence[seat.presence]} for ${spanText(now - seat.since_ms)}`;
+  const presence = `${kPresence[seat.presence]} for ${duration(now - seat.since_ms)}`;
   return seat.presence === 'left' ? presence : `${doing}; ${presence}`;
 }
 
@@ -133,7 +134,7 @@ export function whereabouts(seat: SeatRow, now: number): string {
 function timeText(seat: SeatRow, now: number): string {
   if (seat.kind === 'simulated') return '';
   const since = seat.presence === 'here' ? (seat.stage_since_ms ?? seat.since_ms) : seat.since_ms;
-  return since === 0 || seat.presence === 'empty' ? '' : spanText(now - since);
+  return since === 0 || seat.presence === 'empty' ? '' : duration(now - since);
 }
 
 const shortEstimate = ({ estimate }: SeatRow): string =>

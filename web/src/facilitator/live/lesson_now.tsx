@@ -1,6 +1,6 @@
 // The lesson that is being taught: its boards, animated, why it was chosen, and what came next.
 import type { JSX } from 'preact';
-import { useEffect, useMemo, useState } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useState } from 'preact/hooks';
 import { Player } from '../../lesson/player';
 import { actionsText, placedStepText } from '../../lesson/words';
 import { BoardView as BoardDrawing } from '../../shared/board/board';
@@ -40,7 +40,6 @@ function choicesOf(lesson: LessonNow): Choice[] {
 
 export function LessonPanel({ lesson, period }: { lesson: LessonNow | undefined; period: number }): JSX.Element {
   const [picked, setPicked] = useState('d0');
-  useEffect(() => setPicked('d0'), [period]);
   if (!lesson) {
     return (
       <section class="lesson-now" aria-labelledby="lesson-title">
@@ -82,7 +81,7 @@ function Shown({ choice }: { choice: Choice }): JSX.Element {
   const board = asBoard(shown.board, shown.frames);
   const isTall = (domain.height ?? 0) > 1.2 * (domain.width ?? 1);
   const calm = useCalm();
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!calm) playback.toggle();
   }, []);
   return (

@@ -1,7 +1,8 @@
 // One room as it happens: beliefs, people and answers on the left, the lesson and the progress on the right.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import { spanText, useNow } from '../clock';
+import { duration } from '../../shared/duration';
+import { useNow } from '../clock';
 import { type Action, roomActions } from '../controls/actions';
 import { SeatDialog } from '../controls/seat_dialog';
 import { LogTable } from '../log';
@@ -26,7 +27,7 @@ interface LiveProps {
 
 export function Live({ view, selected, mayAct, onSelect, onAct }: LiveProps): JSX.Element {
   const room = view.rooms.find(({ id }) => id === selected);
-  if (view.rooms.length === 0) return <Nothing text="There are no rooms yet. Make some under Set-up." />;
+  if (view.rooms.length === 0) return <Nothing text="There are no rooms yet. Create one under Set-up." />;
   if (!room) return <Nothing text="Choose a room under Rooms." />;
   return (
     <>
@@ -75,7 +76,7 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
       )}
       {room.started_ms !== undefined && room.stage !== 'ended' && (
         <span class="fact">
-          Running for <b>{spanText(now - room.started_ms)}</b>
+          Running for <b>{duration(now - room.started_ms)}</b>
         </span>
       )}
       {room.ended && <span class="fact">{endText(room.ended)}</span>}
@@ -124,6 +125,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
   const heights = heightsFor(useWindowHeight(), room.seats.length);
   const detail = view.room;
   if (!detail) return <Nothing text="Loading the room..." />;
+  const period = detail.session.phase === 'teacher' ? room.period - 1 : room.period; // of the lesson
   const seat = room.seats.find((one) => one.seat === opened);
   const nameOf = (belief: string): string => seatOf(room.seats, belief)?.label ?? belief;
   const memberOf = (number: string): number => {
@@ -147,7 +149,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
         </div>
         <div class="live-side">
           <Progress room={room} detail={detail} />
-          <LessonPanel lesson={detail.lesson} period={detail.session.phase === 'teacher' ? room.period - 1 : room.period} />
+          <LessonPanel key={period} lesson={detail.lesson} period={period} />
         </div>
       </div>
       <section class="room-log" aria-labelledby="room-log-title">

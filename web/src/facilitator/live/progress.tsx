@@ -1,6 +1,7 @@
 // Where the session is: components, forecast and timers.
 import type { JSX } from 'preact';
-import { minutesText, spanText, useNow } from '../clock';
+import { duration } from '../../shared/duration';
+import { minutesText, useNow } from '../clock';
 import type { RoomDetail, RoomRow, Timer } from '../protocol';
 import { Explained } from '../tip';
 import { upperFirst } from '../words';
@@ -18,7 +19,7 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
       </h3>
       <ol class="components">
         {components.map(({ name, status }, i) => {
-          const isNow = status === 'open' && (component === name || component === i + 1);
+          const isNow = room.stage !== 'ended' && status === 'open' && (component === name || component === i + 1);
           return (
             <li class={`${status}${isNow ? ' now' : ''}`} aria-current={isNow ? 'step' : undefined}>
               <svg width="12" height="12" viewBox="-6 -6 12 12" aria-hidden="true">
@@ -32,12 +33,14 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
         })}
       </ol>
       <dl class="timers">
-        <div>
-          <dt>
-            <Explained term="forecast">Time left</Explained>
-          </dt>
-          <dd>{forecast ? `${minutesText(forecast.minutes_low, forecast.minutes_high)}, about ${periodsText(forecast.periods)}` : 'unknown'}</dd>
-        </div>
+        {room.stage !== 'ended' && (
+          <div>
+            <dt>
+              <Explained term="forecast">Time left</Explained>
+            </dt>
+            <dd>{forecast ? `${minutesText(forecast.minutes_low, forecast.minutes_high)}, about ${periodsText(forecast.periods)}` : 'unknown'}</dd>
+          </div>
+        )}
         {detail.timers.filter(isShown).map((timer) => (
           <div>
             <dt>{timerName(timer, detail.session.phase)}</dt>
@@ -73,6 +76,6 @@ function periodsText(periods: number): string {
 const isLate = ({ until_ms }: Timer, now: number): boolean => until_ms !== undefined && until_ms - now < 15_000;
 
 function timerText({ since_ms, until_ms }: Timer, now: number): string {
-  if (until_ms === undefined) return spanText(now - since_ms);
-  return until_ms > now ? `${spanText(until_ms - now)} left` : 'over';
+  if (until_ms === undefined) return duration(now - since_ms);
+  return until_ms > now ? `${duration(until_ms - now)} left` : 'over';
 }

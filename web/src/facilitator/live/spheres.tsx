@@ -1,12 +1,13 @@
 // Belief spheres: one per member, and the common and joint beliefs. All are turned together, by dragging,
 // by the arrow keys or with the sliders.
 import type { JSX } from 'preact';
-import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
+import type { Vector } from '../../shared/sphere';
 import type { Belief, RoomDetail, Truth } from '../protocol';
 import { Explained } from '../tip';
 import { upperFirst } from '../words';
 import { asVector, dotsPath, firstTurn, kGraticule, linePath, placer, refined, regionPath, turned, unpack } from './globe';
-import type { Placed, Turn, Vector } from './globe';
+import type { Placed, Turn } from './globe';
 import { beliefKind, memberOf, shortName } from './beliefs';
 import { useWidth } from './width';
 
@@ -44,7 +45,7 @@ export function Spheres({ detail, height, nameOf, marked, onMark }: SpheresProps
   const [setBox, width] = useWidth();
   const home = useMemo(() => firstTurn(truth?.weights ?? [0, 0, 1], truth?.prior ?? []), [JSON.stringify(truth)]);
   const [turn, setTurn] = useState<Turn>(home);
-  useEffect(() => setTurn(home), [home]);
+  useLayoutEffect(() => setTurn(home), [home]);
   const drag = useRef<{ x: number; y: number; turn: Turn } | null>(null);
   const { columns, size } = layoutOf(beliefs.length, width, height);
   const latest = detail.curves[detail.curves.length - 1]?.p_bec ?? {};

@@ -1,10 +1,10 @@
 // How wide an element is, and how high the window.
-import { useEffect, useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 
 export function useWidth(): [(box: HTMLElement | null) => void, number] {
   const [box, setBox] = useState<HTMLElement | null>(null);
   const [width, setWidth] = useState(0);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!box) return;
     const watcher = new ResizeObserver(() => setWidth(box.clientWidth));
     watcher.observe(box);
@@ -15,7 +15,7 @@ export function useWidth(): [(box: HTMLElement | null) => void, number] {
 
 export function useWindowHeight(): number {
   const [height, setHeight] = useState(window.innerHeight);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const changed = (): void => setHeight(window.innerHeight);
     window.addEventListener('resize', changed);
     return () => window.removeEventListener('resize', changed);

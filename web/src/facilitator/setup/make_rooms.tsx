@@ -45,7 +45,7 @@ export function MakeRooms({ study, send }: MakeRoomsProps): JSX.Element {
         <div>
           <label for="make-strategy">Strategy</label>
           <select id="make-strategy" value={strategy} onChange={(event) => setStrategy(event.currentTarget.value)}>
-            <option value="">in turn, as in the design</option>
+            <option value="">in turn, by design</option>
             {study.strategies.map(({ name }) => (
               <option value={name}>{name}</option>
             ))}
@@ -72,10 +72,10 @@ export function MakeRooms({ study, send }: MakeRoomsProps): JSX.Element {
         </div>
       </div>
       <p class="hint">{strategy === ''
-          ? 'Rooms get the combinations of strategy and composition of the study in turn, those with the fewest rooms first.'
+          ? 'Rooms are assigned the study\u2019s combinations of strategy and composition in turn, starting with those that have the fewest rooms.'
           : study.strategies.find(({ name }) => name === strategy)?.description}</p>
       <fieldset>
-        <legend>Who sits where</legend>
+        <legend>Seats of a room</legend>
         <div class="seat-choices">
           {seats.map((seat, i) => (
             <label>
@@ -91,8 +91,8 @@ export function MakeRooms({ study, send }: MakeRoomsProps): JSX.Element {
         </div>
         <p class="hint">
           {people === seats.length
-            ? 'Everybody is a person.'
-            : `${people} of ${seats.length} are people. The consent form tells them that the others are simulated.`}
+            ? 'All seats are for people.'
+            : `${people} of ${seats.length} seats are for people. The consent form says that the others are simulated.`}
         </p>
       </fieldset>
       <button type="submit" class="primary" aria-disabled={isSent}>

@@ -12,7 +12,7 @@ export function RoomLinks({ rooms }: { rooms: RoomRow[] }): JSX.Element | null {
   if (withLinks.length === 0) return null;
   return (
     <div class="room-links">
-      <h3>Links of single seats</h3>
+      <h3>Links of individual seats</h3>
       {withLinks.map((room) => (
         <Links key={room.id} room={room} opened={withLinks.length <= kOpenUpTo} />
       ))}

@@ -28,15 +28,15 @@ export function Setup({ view, mayAct, send }: SetupProps): JSX.Element {
         <section aria-labelledby="links-title">
           <h2 id="links-title">Links</h2>
           <p class="hint">
-            Everybody who opens the join link gets the next free seat. To decide who sits where, hand out the links of
-            single seats below. Whoever has the facilitator link can do everything on this page.
+            Everyone who opens the join link gets the next free seat. To assign people to seats, give each of them the link of
+            their seat, listed below. Anyone with the facilitator link can use all controls on this page.
           </p>
           <div class="links">
             <div>
               {links.join && <LinkBox label="Join link" link={links.join} withCode />}
               {links.code && (
                 <p>
-                  Code to type in on the start page: <b class="code">{links.code}</b>
+                  Code for the start page: <b class="code">{links.code}</b>
                 </p>
               )}
             </div>
@@ -44,7 +44,7 @@ export function Setup({ view, mayAct, send }: SetupProps): JSX.Element {
               {links.observer && <LinkBox label="Observer link (no names, no controls)" link={links.observer} />}
               {links.facilitator && <LinkBox label="Facilitator link (keep it to yourself)" link={links.facilitator} />}
               {(!links.observer || !links.facilitator) && (
-                <p class="hint">Only hashes of links are stored. After a restart, kith serve prints new ones.</p>
+                <p class="hint">Only hashes of links are stored. kith serve prints new links after a restart.</p>
               )}
             </div>
           </div>
@@ -109,14 +109,14 @@ function Rehearsal({ study }: { study: StudyInfo }): JSX.Element {
     <section aria-labelledby="rehearsal-title">
       <h2 id="rehearsal-title">Rehearsal</h2>
       <p>
-        Before the first participants come, let simulated participants go through the whole study. They connect like
-        browsers do, so what is tried is the server, the network settings and your study file. Run in a terminal:
+        Before the first participants arrive, run the whole study with simulated participants. They connect as browsers do,
+        so this tests the server, the network settings and your study file. Run in a terminal:
       </p>
       <pre tabIndex={0}>{`kith serve ${study.id}.toml --rehearse 3`}</pre>
       <p>
-        It makes three groups of simulated participants and ends with a summary: periods, times, and whether anything was
-        lost. The results are kept in a folder of their own, apart from those of your participants. To watch a group of{' '}
-        <Explained term="simulated">simulated learners</Explained> on this page, make a room above whose seats are all
+        This creates three groups of simulated participants and prints a summary: periods, times, and whether anything was
+        lost. Their results go into a separate folder. To watch a group of{' '}
+        <Explained term="simulated">simulated learners</Explained> on this page, create a room above and set all its seats to
         simulated.
       </p>
     </section>

@@ -1,6 +1,6 @@
 // A robot that somebody drives: board, keys, clicks, pad, undo and reset. Used for predictions and for practice.
 import type { ComponentChildren, JSX } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { Legend } from '../../shared/board/legend';
 import type { Frame, Place } from '../../shared/board/types';
 import type { Drive, Outcome } from '../drive';
@@ -129,7 +129,7 @@ type Told = Outcome | 'none';
 // Says what an action has done. The path is that of the next rendering.
 function useTelling(board: LiveBoard, legend: Legend, drive: Drive, log: Log): (outcome: Told) => void {
   const length = useRef(drive.actions.length);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (drive.actions.length > length.current) {
       log.say(lastStep(board, legend, drive.frames) + (drive.isAtEnd ? ` ${t('predict.end')}` : ''));
     }
@@ -178,7 +178,7 @@ const kArrows: Record<string, [number, number]> = {
 function useKeys(options: KeyOptions): void {
   const current = useRef(options);
   current.current = options;
-  useEffect(() => {
+  useLayoutEffect(() => {
     let last = -Infinity;
     const pressed = (event: KeyboardEvent): void => {
       if (isElsewhere(event) || event.altKey || event.metaKey) return;

@@ -1,6 +1,6 @@
 // Plays a path: play or pause, one step back or forward, and how fast.
 import type { JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { usePlayback, type Playback } from '../../shared/playback';
 import { isElsewhere } from '../keys';
 import { t } from '../texts';
@@ -41,7 +41,7 @@ export function Player({ playback, primary }: { playback: Paced; primary: boolea
   const { step, last, playing, show, toggle, speed, setSpeed } = playback;
   const current = useRef(playback);
   current.current = playback; // keys may come faster than effects
-  useEffect(() => {
+  useLayoutEffect(() => {
     const pressed = (event: KeyboardEvent): void => {
       if (isElsewhere(event) || event.altKey || event.ctrlKey || event.metaKey) return;
       const now = current.current;

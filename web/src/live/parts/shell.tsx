@@ -1,7 +1,8 @@
 // What is around every screen: the title, whether everything is saved, how far the session is, messages and pauses.
 import type { ComponentChildren, JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import { duration, serverNow, useTick } from '../clock';
+import { duration } from '../../shared/duration';
+import { serverNow, useTick } from '../clock';
 import type { Connection, Snapshot } from '../connection';
 import type { ParticipantView, Pause } from '../protocol';
 import { keep, recall } from '../storage';
@@ -38,7 +39,7 @@ export function Shell({ connection, snapshot, view, children }: Props): JSX.Elem
 
 // A tick, an arrow or an exclamation mark, and always a word.
 function Status({ snapshot }: { snapshot: Snapshot }): JSX.Element {
-  const state = snapshot.phase !== 'open' ? 'reconnecting' : snapshot.pending.length > 0 ? 'saving' : 'saved';
+  const state = snapshot.line.phase !== 'open' ? 'reconnecting' : snapshot.pending.length > 0 ? 'saving' : 'saved';
   const signs = { saved: '\u2713', saving: '\u2191', reconnecting: '!' };
   return (
     <p class={`status ${state}`} role="status">
@@ -61,14 +62,10 @@ const kPatience = 2000; // a short break needs no banner
 
 function Lost({ connection, snapshot }: { connection: Connection; snapshot: Snapshot }): JSX.Element | null {
   useTick();
-  const [lostAt, setLostAt] = useState<number | null>(null);
-  const isLost = snapshot.phase === 'waiting' || snapshot.phase === 'connecting';
-  if (isLost && lostAt === null) setLostAt(snapshot.since);
-  if (!isLost && lostAt !== null) setLostAt(null);
-  if (!isLost || lostAt === null) return null;
-  const time = performance.now() - lostAt;
-  if (time < kPatience) return null;
-  const isStopping = snapshot.bye === 'server-stops';
+  const { phase, since, bye } = snapshot.line;
+  const time = performance.now() - since;
+  if (phase !== 'lost' || time < kPatience) return null;
+  const isStopping = bye === 'server-stops';
   return (
     <div class="message warning">
       <p>{isStopping ? t('bye.server-stops.text') : t('status.lost', { time: duration(time) })}</p>

@@ -1,14 +1,15 @@
 // Small pieces that all screens are made of.
 import type { ComponentChildren, JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
-import { duration, serverNow, useTick } from '../clock';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { duration } from '../../shared/duration';
+import { serverNow, useTick } from '../clock';
 import { t } from '../texts';
 import { setHeading } from './title';
 
 // The heading of a screen. It gets the focus when the screen appears, so that a screen reader starts there.
 export function Heading({ children, quiet }: { children: ComponentChildren; quiet?: boolean }): JSX.Element {
   const heading = useRef<HTMLHeadingElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     setHeading(heading.current?.textContent ?? '');
     if (!quiet) heading.current?.focus({ preventScroll: true });
     window.scrollTo(0, 0);

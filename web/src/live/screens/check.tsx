@@ -9,35 +9,62 @@ import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
 import { isEnglish, sentence, t } from '../texts';
 import { plainWorld, useWorld, type World } from '../world';
-import { Name } from './name';
 
+const kLongestName = 80; // bytes, as the server counts
 const kEnough = 4; // steps after which somebody knows how to drive
 type Shown = NonNullable<ScreenProps['view']['check']>;
 
 // Before the first board: what it is all about.
 export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
   const [isIntroduced, setIntroduced] = useState(() => recall<boolean>('introduced') === true);
-  const { story, goal } = props.view.study;
-  const isEmpty = story.length === 0 && !goal && !props.check.ask_name;
+  const [name, setName] = useState(() => recall<string>('name') ?? '');
+  const { check, connection, view } = props;
+  const { story, goal } = view.study;
+  const isEmpty = story.length === 0 && !goal && !check.ask_name;
   if (isIntroduced || isEmpty) return <Controls {...props} />;
+  const go = (event: Event): void => {
+    event.preventDefault();
+    if (name.trim() !== '') connection.send('name', { name: shortened(name.trim()) });
+    keep('introduced', true);
+    setIntroduced(true);
+  };
   return (
-    <div class="intro">
+    <form class="intro" onSubmit={go}>
       <Heading>{t('intro.title')}</Heading>
       <Paragraphs texts={story} />
       {goal && <p class="goal">{goal}</p>}
       <p>{t('intro.how')}</p>
-      {props.check.ask_name && <Name view={props.view} connection={props.connection} />}
-      <Button
-        primary
-        onClick={() => {
-          keep('introduced', true);
-          setIntroduced(true);
-        }}
-      >
+      {check.ask_name && (
+        <div class="name">
+          <label for="name">{t('person.label')}</label>
+          <p id="name-help" class="muted">
+            {t('person.help', { label: view.me.label })}
+          </p>
+          <input
+            id="name"
+            type="text"
+            maxLength={kLongestName}
+            autocomplete="off"
+            aria-describedby="name-help"
+            value={name}
+            onInput={(event) => {
+              setName(event.currentTarget.value);
+              keep('name', event.currentTarget.value);
+            }}
+          />
+        </div>
+      )}
+      <button type="submit" class="primary">
         {t('common.continue')}
-      </Button>
-    </div>
+      </button>
+    </form>
   );
+}
+
+function shortened(name: string): string {
+  let text = name;
+  while (new TextEncoder().encode(text).length > kLongestName) text = [...text].slice(0, -1).join('');
+  return text;
 }
 
 function Controls(props: ScreenProps & { check: Shown }): JSX.Element {

@@ -1,6 +1,7 @@
 // The text that somebody agrees to. The choice stands below it, so that nobody passes by the text.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
+import { download } from '../../shared/download';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
 import { t } from '../texts';
@@ -71,12 +72,6 @@ export function Consent({ consent, view, connection }: ScreenProps & { consent: 
 
 // The reader's own copy, as a text file.
 function saveText(title: string, paragraphs: string[]): void {
-  const address = URL.createObjectURL(new Blob([[title, ...paragraphs].join('\n\n'), '\n'], { type: 'text/plain;charset=utf-8' }));
-  const link = document.createElement('a');
-  link.href = address;
-  link.download = 'consent.txt';
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+  const text = `${[title, ...paragraphs].join('\n\n')}\n`;
+  download(new Blob([text], { type: 'text/plain;charset=utf-8' }), 'consent.txt');
 }

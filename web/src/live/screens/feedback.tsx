@@ -1,6 +1,6 @@
 // What the robot really does, beside what was predicted.
 import type { JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { BoardInWords, LiveBoardView, Things, useLegend } from '../parts/live_board';
 import { LogView, useLog } from '../parts/log';
 import { Player, usePacedPlayback } from '../parts/player';
@@ -64,12 +64,12 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
   const playback = usePacedPlayback(last);
   const { step } = playback;
   const [wasSeen, setSeen] = useState(false);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (step === last) setSeen(true);
   }, [step, last]);
   const log = useLog(t('watch.start'));
   const shown = useRef(0);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (step === shown.current) return;
     shown.current = step;
     const [before, after] = [robot[step - 1], robot[step]];

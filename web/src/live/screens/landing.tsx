@@ -1,6 +1,6 @@
 // Enter a code to join.
 import type { JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
 import { codeOfLink } from '../session';
@@ -102,7 +102,7 @@ export function Landing({ onToken, onFull, onReturn }: Props): JSX.Element {
 
 function Licences(): JSX.Element {
   const place = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const notices = document.getElementById('kith-notices');
     if (notices instanceof HTMLTemplateElement) place.current?.replaceChildren(notices.content.cloneNode(true));
   }, []);

@@ -1,7 +1,8 @@
 // Who is missing and for how long, what happens next, and how to leave.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import { duration, serverNow, useTick } from '../clock';
+import { duration } from '../../shared/duration';
+import { serverNow, useTick } from '../clock';
 import { Button, Heading, NextStep, Paragraphs, Since } from '../parts/ui';
 import type { ScreenProps } from '../screen';
 import { t } from '../texts';

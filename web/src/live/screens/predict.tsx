@@ -1,6 +1,6 @@
 // Where somebody shows what the robot will do.
 import type { JSX } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import { useDrive, type Drive } from '../drive';
 import { Driver } from '../parts/driver';
 import { useLegend } from '../parts/live_board';
@@ -57,7 +57,7 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
   const type = isScreening ? 'screen' : 'answer';
   const [isSubmitted, setSubmitted] = useState(false);
   const { refused } = connection.snapshot();
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (refused?.type === type) setSubmitted(false);
   }, [refused]);
   const off = isSubmitted || connection.isPending(type);
@@ -76,12 +76,11 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
 
 // A path that is not finished is submitted only if it is meant so. The button stays where it is, and with it the focus.
 function Submit({ drive, off, onSubmit }: { drive: Drive; off: boolean; onSubmit: () => void }): JSX.Element {
-  const [asks, setAsks] = useState(false);
-  useEffect(() => setAsks(false), [drive.actions]);
-  const isAsking = asks && !off;
+  const [asked, setAsked] = useState<number[] | null>(null); // the path that the question is about
+  const isAsking = asked === drive.actions && !off;
   return (
     <div class="submit">
-      <Button primary={!isAsking} off={off || isAsking} onClick={() => (drive.isAtEnd ? onSubmit() : setAsks(true))}>
+      <Button primary={!isAsking} off={off || isAsking} onClick={() => (drive.isAtEnd ? onSubmit() : setAsked(drive.actions))}>
         {t(off ? 'predict.submitting' : 'predict.submit')}
       </Button>
       <p role="status" class={isAsking ? 'asks' : 'muted'}>
@@ -93,7 +92,7 @@ function Submit({ drive, off, onSubmit }: { drive: Drive; off: boolean; onSubmit
       </p>
       {isAsking && (
         <div class="buttons">
-          <Button primary onClick={() => setAsks(false)}>
+          <Button primary onClick={() => setAsked(null)}>
             {t('predict.keep')}
           </Button>
           <Button onClick={onSubmit}>{t('predict.anyway')}</Button>

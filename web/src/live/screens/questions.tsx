@@ -1,6 +1,6 @@
 // Questions at the end: scales, choices and free text. What was filled in survives a reload.
 import type { JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useRef, useState } from 'preact/hooks';
 import { Button, Heading } from '../parts/ui';
 import type { Question } from '../protocol';
 import type { ScreenProps } from '../screen';
@@ -14,9 +14,13 @@ export function Questions({ items, connection }: ScreenProps & { items: Question
   const [answers, setAnswers] = useState<Answers>(() => recall<Answers>('questions') ?? {});
   const [showsMissing, setShowsMissing] = useState(false);
   const form = useRef<HTMLFormElement>(null);
-  useEffect(() => keep('questions', answers), [answers]);
   const off = connection.isPending('questions');
   const isMissing = ({ id, required }: Question): boolean => required && String(answers[id] ?? '').trim() === '';
+  const fillIn = (id: string, value: string | number): void => {
+    const filled = { ...answers, [id]: value };
+    keep('questions', filled); // at once: a reload may come before the next rendering
+    setAnswers(filled);
+  };
   const missing = items.filter(isMissing);
   const numTexts = items.filter(({ kind }) => kind === 'text').length;
   const submit = (): void => {
@@ -32,7 +36,7 @@ export function Questions({ items, connection }: ScreenProps & { items: Question
   };
   return (
     <>
-      <Heading>{t('questions.title')}</Heading>
+      <Heading>{t('questions.title', { n: items.length })}</Heading>
       <p class="lead">{t('questions.intro')}</p>
       <form
         ref={form}
@@ -46,7 +50,7 @@ export function Questions({ items, connection }: ScreenProps & { items: Question
             value={answers[question.id] ?? ''}
             error={showsMissing && isMissing(question)}
             longest={Math.min(kLongestText.one, Math.floor(kLongestText.all / numTexts))}
-            onValue={(value) => setAnswers((before) => ({ ...before, [question.id]: value }))}
+            onValue={(value) => fillIn(question.id, value)}
           />
         ))}
         <p role="alert" class="error">

@@ -1,6 +1,6 @@
 // One demonstration: the robot moves when asked to, and its path is drawn only as far as it has gone.
 import type { JSX } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { BoardInWords, LiveBoardView, Things, useLegend } from '../parts/live_board';
 import { LogView, useLog } from '../parts/log';
 import { Player, usePacedPlayback } from '../parts/player';
@@ -23,13 +23,13 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
   const [wasSeen, setSeen] = useState(() => recall<string>('seen') === key);
   const log = useLog(t('watch.start'));
   const shown = useRef(0);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (step === shown.current) return;
     shown.current = step;
     const [before, after] = [frames[step - 1], frames[step]];
     log.say(before && after ? stepText(board, legend, before, after) : t('watch.start'));
   }, [step]);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (step < last || wasSeen) return;
     setSeen(true);
     keep('seen', key);

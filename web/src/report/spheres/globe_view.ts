@@ -3,7 +3,7 @@
 import { changeset } from 'vega';
 import { type Drawing, draw } from '../chart';
 import type { Beliefs, BeliefTeam } from '../document';
-import { middle, toLonLat } from './geometry';
+import { middle, toLonLat } from '../../shared/sphere';
 import { Particles } from './particles';
 import { type Turn, beliefRows, particleRows, sphereSpec } from './sphere_spec';
 import type { Spec } from '../chart';

@@ -1,6 +1,6 @@
 // Unpacks the particles of a team: int16, little endian, in the order frame, belief, particle, xyz.
 import type { BeliefTeam } from '../document';
-import { type LonLat, toLonLat } from './geometry';
+import { type LonLat, toLonLat } from '../../shared/sphere';
 
 export class Particles {
   private readonly bytes: DataView;

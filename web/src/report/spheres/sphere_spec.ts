@@ -2,10 +2,11 @@
 // rotation, the signals `lambda` and `phi`: longitude and latitude that face the viewer, degrees; above a
 // `zoom` of 1 a round window shows a part of them.
 import type { Json, Spec } from '../chart';
-import type { Beliefs, BeliefTeam, Vector } from '../document';
+import { toLonLat, type Vector } from '../../shared/sphere';
+import type { Beliefs, BeliefTeam } from '../document';
 import { color } from '../../shared/theme';
 import { formatFixed } from '../words';
-import { closedLine, polygon, toLonLat } from './geometry';
+import { closedLine, polygon } from './geometry';
 import { globeMarks } from './globe_marks';
 import type { Particles } from './particles';
 import { kRegionDashes, keys, placedKeys } from './sphere_legend';

@@ -161,6 +161,10 @@ class Atlas {
     return tests_for_[c.value()];
   }
 
+  /// The same atlas without some tests: tests_for() lists only demonstrations of which `is_usable` is true.
+  /// @param is_usable  shape [num_demos]. @throws std::invalid_argument for another shape.
+  [[nodiscard]] Atlas with_tests(const std::vector<bool>& is_usable) const;
+
   /// The set of all constraints in the table that are empty: a fresh set of the right size.
   [[nodiscard]] ConstraintSet no_constraints() const { return ConstraintSet{constraints_.size()}; }
 

@@ -29,8 +29,8 @@ struct StoreCounters {
 /// the disk is one transaction (group commit). The folder is locked while the object lives.
 class EventStore {
  public:
-  /// Is told when a batch is on the disk, or why it is not: then nothing of it is, and it can be handed in again.
-  /// Called by the thread that writes; must not block.
+  /// Called when a batch is on the disk or could not be saved; then nothing of it is stored, and it can be handed in
+  /// again. Called by the thread that writes; must not block.
   using Done = std::function<void(bool saved)>;
 
   /// @param now_us  the clock; called by the thread that writes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +18,7 @@ class LiveStudy;
 
 /// How live groups are kept and served.
 struct LiveServiceOptions {
-  /// What the study can be made from again, and its digest: see SessionStudy. Rooms of another digest are refused.
+  /// From which the study can be restored, and its digest: see SessionStudy. Rooms of another digest are refused.
   std::map<std::string, std::string> inputs{};
   std::string digest{};
   std::filesystem::path folder{};                   ///< Where the store is; made if it does not exist.
@@ -26,9 +27,7 @@ struct LiveServiceOptions {
   std::size_t cache_bytes = std::size_t{24} << 20;  ///< What each of them remembers, see TeachingCache.
   std::size_t joins_per_minute = 10;                ///< POST /api/join per address; 0: no limit.
   std::size_t max_rooms = 2000;                     ///< No room is made beyond this number.
-  bool makes_rooms = true;                          ///< Who joins the study finds a room, made for them if need be.
   std::int64_t token_hours = 24 * 14;               ///< How long links are valid, in hours.
-  std::int64_t hello_limit_ms = 5000;               ///< A connection that has not said hello by then is closed.
   /// Microseconds since 1970; empty: the system's clock. Called from several threads.
   std::function<std::int64_t()> now_us{};
   /// Whether a thread calls tick() every 100 ms. Tests with a clock of their own call it themselves.
@@ -44,7 +43,7 @@ struct LiveServiceOptions {
 /// called from any thread; receive() and http() never wait for teaching, and receive() never for the disk.
 class LiveService {
  public:
-  /// A connection, as the service sees it. Both functions may be called from any thread and must not block; they may be
+  /// A connection, as the service sees it. All functions may be called from any thread and must not block; they may be
   /// called after the connection was closed by the other side, and then do nothing.
   struct Socket {
     virtual ~Socket() = default;
@@ -52,6 +51,8 @@ class LiveService {
     virtual void send(std::shared_ptr<const std::string> frame) = 0;
     /// Closes the connection after the frames sent so far, with a close code of WebSocket.
     virtual void close(std::uint16_t code, std::string reason) = 0;
+    /// The client has shown a valid token. Until then it is up to the caller how long the connection may stay open.
+    virtual void authenticated() {}
   };
   using ConnectionId = std::uint64_t;
 
@@ -87,16 +88,20 @@ class LiveService {
 
   /// New tokens of a facilitator and an observer. Those given earlier stay valid until they expire or are revoked.
   [[nodiscard]] StartLinks start_links();
+  /// All rooms, also those that are being rebuilt and that views do not show yet.
+  [[nodiscard]] std::size_t num_rooms() const;
   /// How links begin, such as "http://127.0.0.1:8080"; views show them so.
   void set_base_url(std::string url);
 
   // --- connections ----------------------------------------------------------
   /// A new connection. It is told nothing until its first frame is a valid hello.
-  [[nodiscard]] ConnectionId open(std::shared_ptr<Socket> socket, std::string remote);
+  [[nodiscard]] ConnectionId open(std::shared_ptr<Socket> socket);
   /// One text frame of a connection. Never throws for what is in it.
-  void receive(ConnectionId connection, std::string_view frame);
+  void receive(ConnectionId id, std::string_view text);
+  /// How long a message to the connection and back takes, for facilitators.
+  void measured(ConnectionId id, std::chrono::microseconds round_trip);
   /// The connection is closed.
-  void closed(ConnectionId connection);
+  void closed(ConnectionId id);
 
   // --- requests -------------------------------------------------------------
   /// Everything below /api. Never throws for what is in the request.

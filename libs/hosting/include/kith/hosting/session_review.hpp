@@ -29,13 +29,13 @@ struct RoomSummary {
   std::string ended{};  ///< Why, if it ended before its time.
 };
 
-/// The rooms of a session, in order, from their events alone: nothing is taught again.
+/// The rooms of a session, in order, from their events alone: no lesson is chosen again.
 [[nodiscard]] std::vector<RoomSummary> list_rooms(EventFile& file);
 
 /// The room with this id ("r3") or code. @throws kith::Error (kInvalidInput, E1618) if there is none.
 [[nodiscard]] StoredRoom find_room(EventFile& file, const std::string& name);
 
-/// What became of replaying a room.
+/// The result of replaying a room.
 struct ReplayedRoom {
   std::int64_t number = 0;
   std::string id;
@@ -56,7 +56,8 @@ struct ReplayedRoom {
 
 /// Erases what identifies people: names, free text of questions, query parameters. Everything else stays, ids too, so
 /// the session replays as before. The erasure is an event of its own.
-/// @param room  one room; otherwise all. @return the number of events that were changed.
+/// @param room  one room; otherwise all, and also the query parameters of people who found no seat. @return the number
+/// of events that were changed.
 /// @throws kith::Error kBusy E1610 if the session is being served; kIo.
 std::size_t redact(const std::filesystem::path& folder, std::optional<std::string> room, std::int64_t now_us);
 

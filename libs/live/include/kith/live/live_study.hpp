@@ -33,11 +33,12 @@ struct LiveStudy {
   [[nodiscard]] const GroupOptions& group() const noexcept { return spec.group; }
 };
 
-/// What rooms of this study share. Tests of the screening are drawn from the study's seed.
+/// What rooms of this study share. Tests of the screening are drawn from the study's seed. People are never asked about
+/// starts without an answerable_path(): the atlas of the result has no tests there.
 /// @param folder  where consent_file and language are looked for.
-/// @throws kith::Error (kInvalidInput) if the study varies keys, or consent_file or language cannot be understood;
-/// (kInfeasible) if a world has more than kMaxLiveStates states or the domain cannot be taught; (kIo) if a file cannot
-/// be read.
+/// @throws kith::Error (kInvalidInput) if the study varies keys, a strategy needs the truth about learners, or
+/// consent_file or language cannot be understood; (kInfeasible) if a world has more than kMaxLiveStates states or the
+/// domain cannot be taught or asked about; (kIo) if a file cannot be read.
 [[nodiscard]] std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
                                                                const std::filesystem::path& folder = {});
 
@@ -50,15 +51,20 @@ struct LiveCell {
 };
 [[nodiscard]] std::vector<LiveCell> live_cells(const LiveStudy& study);
 
-/// {id, title, domain, strategies: [{name, description}], types: [{letter, label}], dropout, grace_s, time}: what the
-/// facilitator's page says about the study.
+/// {id, title, domain, strategies: [{name, description}], types: [{letter, label}], compositions, size, dropout,
+/// grace_s, time}: what the facilitator's page says about the study. `compositions` are those of live_cells(), `size`
+/// is the number of seats of the largest.
 [[nodiscard]] Json live_study_json(const LiveStudy& study);
 
 /// {lang, dir, strings}: texts of pages that differ from the built-in English ones.
 [[nodiscard]] Json language_json(const LiveStudy& study);
 
+/// Of the query parameters of a link, those that the study collects: texts without control characters, at most 200
+/// bytes. Others are dropped, so they are never stored. @param query  an object; anything else gives none.
+[[nodiscard]] Json collected_query(const LiveStudy& study, const Json& query);
+
 /// The page of somebody for whom there was no seat: a ParticipantView in the stage `full`.
-/// @param code  a completion code, empty: none. @param query  the person's query parameters, for the redirect.
+/// @param code  a completion code, empty: none. @param query  see collected_query(); for the redirect.
 [[nodiscard]] Json full_view(const LiveStudy& study, const std::string& code, const Json& query, std::int64_t now_us);
 
 /// A completion code: the study's prefix, a hyphen and 10 letters and digits from a hash of the arguments.

@@ -15,10 +15,10 @@
 
 namespace kith {
 
-/// What a room is made with; it never changes.
+/// How a room is set up. It never changes.
 struct RoomSetup {
   std::string id{};               ///< Unique among the rooms of a server.
-  std::string code{};             ///< That people type in to join.
+  std::string code{};             ///< Typed in by people to join.
   std::string strategy{};         ///< A strategy of the study.
   std::string composition{};      ///< One letter of a learner type per member.
   std::vector<bool> simulated{};  ///< Per member; empty: all are people, or as `group.people` says.
@@ -32,14 +32,14 @@ struct RoomSetup {
 /// @throws kith::Error (kInvalidInput).
 [[nodiscard]] RoomSetup room_setup(const Json& json);
 
-/// Who looks.
+/// Who is looking at a room.
 struct Viewer {
   enum class Role { kParticipant, kObserver, kFacilitator };
   Role role = Role::kParticipant;
   std::size_t seat = 0;  ///< Of a participant, from 1.
 };
 
-/// Where a room stands.
+/// The stage of a room.
 enum class RoomStage { kLobby, kRunning, kQuestions, kEnded };
 
 /// One group of people and stand-ins being taught: a pure state machine without clock, input or output.
@@ -49,8 +49,8 @@ enum class RoomStage { kLobby, kRunning, kQuestions, kEnded };
 /// use it on one thread at a time.
 ///
 /// Seats. Members are the places of the session, one per letter of the composition. Seats are people (or stand-ins),
-/// numbered in the order of members and then of arrival: who leaves keeps the number, and who takes over gets a new
-/// one.
+/// numbered in the order of members and then of arrival: somebody who leaves keeps their number, and whoever takes over
+/// gets a new one.
 ///
 /// A period. Everybody watches the demonstrations at their own pace; once all active people have, the tests are asked;
 /// once all of them have answered, everybody sees the feedback, while the teacher chooses the next lesson; once all
@@ -59,7 +59,7 @@ enum class RoomStage { kLobby, kRunning, kQuestions, kEnded };
 class Room {
  public:
   /// @throws kith::Error (kInvalidInput) if the study has no such strategy or letter, the composition and the list of
-  /// simulated members differ in length, or several people should be taught by the baseline, which teaches one.
+  /// simulated members differ in length, or the baseline, which teaches one person, is to teach several.
   /// @param cache  of the study's atlas.
   Room(std::shared_ptr<const LiveStudy> study, RoomSetup setup, TeachingCache& cache);
 
@@ -74,18 +74,18 @@ class Room {
   [[nodiscard]] bool is_person(std::size_t seat) const;
   /// Whether somebody could join now.
   [[nodiscard]] bool has_free_seat() const;
-  /// Whether the person's page is a last one: nothing that they do is expected any more.
+  /// Whether the person has reached a last page: nothing more is expected of them.
   [[nodiscard]] bool is_done(std::size_t seat) const;
-  /// The word of the spec: "consent", "check", "screening", "lobby", "watch", "predict", "wait", "feedback",
-  /// "questions", "debrief", "declined", "ended", "replaced", "full". Empty for stand-ins.
+  /// The stage in docs/live-protocol.md: "consent", "check", "screening", "lobby", "watch", "predict", "wait",
+  /// "feedback", "questions", "debrief", "declined", "ended", "replaced", "full". Empty for stand-ins.
   [[nodiscard]] std::string stage_of(std::size_t seat) const;
 
   /// Which events a command leads to. Changes nothing. A command that was accepted before in the same state (the same
   /// answer again) gives neither events nor a refusal. Never throws for what people send.
   [[nodiscard]] Decision decide(const RoomCommand& command, std::int64_t now_us) const;
-  /// What clocks demand by now, at most one step: call again after applying it.
+  /// What is due by the clock, at most one step: call again after applying it.
   [[nodiscard]] std::vector<RoomEvent> due(std::int64_t now_us) const;
-  /// When due() will demand something if nothing happens before.
+  /// When something will be due if nothing happens before.
   [[nodiscard]] std::optional<std::int64_t> next_due() const;
 
   /// The lesson that the room waits for, or will need next. While there is a task nothing else advances the period.
@@ -106,9 +106,9 @@ class Room {
   /// RoomDetail}, without links, and for observers without names and codes.
   [[nodiscard]] Json view(const Viewer& viewer, std::int64_t now_us) const;
   /// The facilitator's row of this room: {id, code, stage, strategy, seats, period, component, ...}.
-  [[nodiscard]] Json row(const Viewer& viewer, std::int64_t now_us) const;
+  [[nodiscard]] Json row(const Viewer& viewer) const;
 
-  /// Of the whole state, to compare a replay with what was.
+  /// Digest of the whole state, to compare a replay with the original.
   [[nodiscard]] std::string digest() const;
 
   struct State;

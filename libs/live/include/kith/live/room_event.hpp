@@ -14,8 +14,8 @@ namespace kith {
 /// Something that happened in a room. The events of a room, in order, are all that there is to know about it.
 ///
 /// Types, with what their bodies hold (`seat` is a number of a person or stand-in, from 1):
-///   joined {seat, member|null, query}          somebody took a free seat, or waits in reserve
-///   consented {version}, declined {}           seat; who declines is gone, and the seat is free again
+///   joined {seat, member|null}                 somebody took a free seat, or waits in reserve
+///   consented {version, query}, declined {}    seat; whoever declines is gone, and the seat is free again
 ///   checked {}, named {name}                   seat
 ///   screened {test, actions, right, ms}        seat
 ///   started {by}                               server or facilitator
@@ -42,7 +42,7 @@ struct RoomEvent {
 };
 
 /// What somebody asks for. Types of seats and facilitators are those of docs/live-protocol.md; those of the server:
-///   join {query?, seat?}   takes a free seat: that one, or any; the event tells which
+///   join {seat?}           takes a free seat: that one, or any; the event tells which
 ///   away {seat}, present {seat}
 struct RoomCommand {
   std::string actor;

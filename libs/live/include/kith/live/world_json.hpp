@@ -50,8 +50,11 @@ struct JudgedPath {
 [[nodiscard]] JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions);
 
 /// The robot's own way from a start if every action leads to its likeliest outcome: what a right answer looks like on a
-/// page. Without chance it is Atlas::trajectory(); with chance that one may show another outcome. If this way does not
-/// come to an end it is Atlas::trajectory() all the same.
+/// page. Nothing if people could not enter it: it does not come to an end within the actions that an answer may have.
+/// With chance the likeliest outcomes may lead round in a circle, where the robot itself leaves by a less likely one.
+[[nodiscard]] std::optional<Trajectory> answerable_path(const Atlas& atlas, DemoIndex test);
+
+/// The same, or Atlas::trajectory() where there is none.
 [[nodiscard]] Trajectory expected_path(const Atlas& atlas, DemoIndex test);
 
 }  // namespace kith

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -51,6 +52,8 @@ class LiveApplication {
   virtual ConnectionId open(std::shared_ptr<Socket> socket, std::string remote) = 0;
   /// A text frame arrived. Must not block. Calls for one connection never overlap.
   virtual void receive(ConnectionId connection, std::string_view frame) = 0;
+  /// How long a ping to the client and back took: now and then, while the client says something. Must not block.
+  virtual void measured(ConnectionId, std::chrono::microseconds) {}
   /// The connection has ended. Called once for every open().
   virtual void closed(ConnectionId connection) = 0;
   /// Answers a request below /api, on a worker thread; may take its time.

@@ -45,7 +45,8 @@ struct Equivalence {
 /// Of Welch's or a paired t test.
 [[nodiscard]] Equivalence test_equivalence(const MeanDifference& difference, EquivalenceBounds bounds,
                                            double alpha = 0.05);
-/// Of a contrast of a model, not adjusted for other contrasts. Not estimable as the contrast's inference is not.
+/// Of a contrast of a model. The test against 0 is the contrast's own, adjusted if that is; tests of equivalence are
+/// not adjusted for other contrasts. Not estimable as the contrast's inference is not.
 [[nodiscard]] Estimable<Equivalence> test_equivalence(const LinearEstimate& contrast, EquivalenceBounds bounds,
                                                       double alpha = 0.05);
 

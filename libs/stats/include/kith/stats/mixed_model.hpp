@@ -27,7 +27,7 @@ struct MixedModelOptions {
 struct VarianceComponent {
   std::string name;        ///< "team", "team:member"
   std::size_t groups = 0;  ///< Levels with observations.
-  /// >= 0. 0: rows of a group are no more alike than rows of different groups (lme4: singular fit).
+  /// >= 0. 0: in these data, rows of a group are no more alike than other rows (lme4: singular fit).
   double variance = 0.0;
   /// Its share of the variance, variance / (sum of all components' variances + residual variance), in [0, 1): the
   /// correlation of two rows that have this group in common and no other, given their fixed effects.
@@ -65,8 +65,9 @@ struct MixedModel {
 /// decomposition per step, 10 to 30 of them.
 ///
 /// Not estimable, with a reason: no observations; no more observations than coefficients; a grouping factor with one
-/// level, or with as many levels as rows; two grouping factors that divide the rows alike; no spread of rows within
-/// groups; so many crossed groups that their decomposition would be too large.
+/// level, or with as many levels as rows; two grouping factors that divide the rows alike; factors that already
+/// tell all groups apart; no spread of rows within groups; so many crossed groups that their decomposition would be too
+/// large.
 ///
 /// @param response  finite. @param factors, terms  the fixed effects, as in Formula; no terms: the mean alone.
 /// @param groups  one or more grouping factors; for (1|a:b) see group_factor().

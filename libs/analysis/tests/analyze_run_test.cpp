@@ -1,0 +1,336 @@
+#include "kith/analysis/analysis.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "findings.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/stats/tests.hpp"
+#include "resealed.hpp"
+
+namespace kith {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::cell_at;
+using ::testing::Contains;
+using testing::failure_of;
+using testing::finding;
+using testing::has_finding;
+using ::testing::HasSubstr;
+using testing::methods_of;
+using ::testing::Not;
+using testing::number;
+using testing::quick;
+using testing::table_named;
+
+// A run folder written by hand: two group strategies and the baseline, two compositions, four replicates. The
+// strategy "joint" saves exactly one period for every group of people; knowledge does not depend on it.
+class RunTest : public ::testing::Test {
+ protected:
+  RunTest() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "tables");
+  }
+  ~RunTest() override { fs::remove_all(folder_); }
+
+  static std::string row(const std::string& strategy, const std::string& composition, int replicate, int team,
+                         int periods, double knowledge) {
+    return strategy + "," + composition + "," + std::to_string(replicate) + "," + std::to_string(team) + ",7/" +
+           composition + "/" + std::to_string(replicate) + ",true," + std::to_string(periods) + "," +
+           std::to_string(knowledge) + ",0.3\n";
+  }
+  static std::string teams() {
+    std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+    int team = 0;
+    for (const std::string strategy : {"baseline", "common", "joint"}) {
+      for (const std::string composition : {"NNN", "PPP"}) {
+        for (int replicate = 1; replicate <= 4; ++replicate) {
+          ++team;
+          const int people = (composition == "NNN" ? 9 : 6) + replicate % 3;
+          const int periods = strategy == "baseline" ? 2 * people : people - (strategy == "joint" ? 1 : 0);
+          text += row(strategy, composition, replicate, team, periods, 0.5 + 0.01 * ((replicate * 7 + team) % 5));
+        }
+      }
+    }
+    return text;
+  }
+  // Different people in every team, as with pairing = "none".
+  static std::string other_people(std::string text) {
+    for (std::size_t at = text.find(",7/"); at != std::string::npos; at = text.find(",7/", at + 4))
+      text.insert(at + 1, std::to_string(at) + "/");
+    return text;
+  }
+  void write(const std::string& name, const std::string& text) const {
+    write_file_atomically(folder_ / "tables" / name, text);
+    testing::reseal(folder_);
+  }
+  [[nodiscard]] Analysis analyse() const { return analyze_run(folder_, quick()); }
+
+  fs::path folder_ = fs::path{::testing::TempDir()} /
+                     ("kith analysis " + std::string{::testing::UnitTest::GetInstance()->current_test_info()->name()});
+};
+
+TEST_F(RunTest, AnswersTheQuestionsOfTheStudy) {
+  write("teams.csv", teams());
+  const auto analysis = analyse();
+  for (const auto* id :
+       {"periods", "knowledge", "periods-within-composition", "knowledge-within-composition", "periods-paired",
+        "knowledge-paired", "demonstrations", "periods-baseline", "knowledge-baseline"})
+    EXPECT_TRUE(has_finding(analysis, id)) << id;
+  EXPECT_FALSE(has_finding(analysis, "periods-beliefs"));  // no strategy for one member's belief
+  EXPECT_THAT(finding(analysis, "knowledge").sentence, HasSubstr("(16 teams in 8 groups)"));
+  EXPECT_EQ(finding(analysis, "knowledge").model,
+            "knowledge ~ strategy + composition + strategy:composition + (1|people)");
+  write("teams.csv", other_people(teams()));
+  const auto independent = analyse();
+  EXPECT_THAT(finding(independent, "periods").sentence, HasSubstr("(16 teams)"));
+  EXPECT_THAT(finding(independent, "periods").sentence, HasSubstr("Composition has a large effect"));
+}
+
+// Composition differs between people: four of each, so F(1, 6), whatever the number of strategies that taught them.
+TEST_F(RunTest, ComparesCompositionsBetweenPeople) {
+  std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+  std::vector<double> means;
+  Factor composition{"composition", {"NNN", "PPP"}, {}};
+  int team = 0;
+  for (int replicate = 1; replicate <= 4; ++replicate) {
+    for (const std::string who : {"NNN", "PPP"}) {
+      double sum = 0.0;
+      for (const auto& [strategy, shift] : {std::pair{"common", 0.02}, std::pair{"joint", 0.05}}) {
+        const double value = 0.5 + 0.05 * (replicate * 5 % 4) + (who == "PPP" ? 0.04 : 0.0) +
+                             shift * ((replicate + (who == "PPP" ? 1 : 0)) % 3 - 1);
+        text += row(strategy, who, replicate, ++team, 7, value);
+        sum += value;
+      }
+      means.push_back(sum / 2.0);
+      composition.codes.push_back(who == "PPP" ? 1 : 0);
+    }
+  }
+  write("teams.csv", text);
+  const auto found = finding(analyse(), "knowledge");
+  const auto between = one_way_anova(means, composition);
+  const auto& tests = table_named(found, "Tests of the fixed effects");
+  EXPECT_NEAR(cell_at(tests, "composition", "p-value"), between->p, 1e-5);
+  EXPECT_LT(cell_at(table_named(found, "Analysis of variance as published"), "composition", "p-value"), between->p);
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("several strategies taught the same people (16 teams, 8 groups")));
+}
+
+// [[contrast]] of the study file, as it is frozen in the run folder.
+TEST_F(RunTest, TestsTheContrastsOfTheStudy) {
+  fs::create_directories(folder_ / "inputs");
+  write_file_atomically(folder_ / "inputs" / "study.toml",
+                        "[[contrast]]\nname = \"mine\"\nfactor = \"strategy\"\nresponse = \"periods\"\n"
+                        "weights = { joint = 1.0, common = -1 }\n"
+                        "[[contrast]]\nname = \"alone\"\nweights = { joint = 1.0, baseline = -1.0 }\n");
+  write("teams.csv", other_people(teams()));
+  const auto analysis = analyse();
+  EXPECT_NEAR(cell_at(table_named(finding(analysis, "periods"), "Planned contrasts of strategy"), "mine", "difference"),
+              -1.0, 1e-12);
+  EXPECT_THROW((void)table_named(finding(analysis, "knowledge"), "Planned contrasts"), std::out_of_range);
+  EXPECT_THAT(analysis.not_analysed, Contains(HasSubstr("contrast 'alone' of the study")));
+}
+
+// "common" becomes "individual-low": 1 period more than "joint", and as much spread.
+TEST_F(RunTest, ComparesTeamBeliefsWithIndividualOnes) {
+  auto text = other_people(teams());
+  for (std::size_t at = text.find("common"); at != std::string::npos; at = text.find("common", at))
+    text.replace(at, 6, "individual-low");
+  write("teams.csv", text);
+  const auto analysis = analyse();
+  const auto found = finding(analysis, "periods-beliefs");
+  const auto& contrasts = table_named(found, "Planned contrasts of strategy");
+  EXPECT_NEAR(cell_at(contrasts, "team beliefs - individual beliefs", "difference"), -1.0, 1e-12);
+  EXPECT_EQ(table_named(found, "Planned contrasts of strategy at each level of composition").rows.size(), 2u);
+  const auto variation = finding(analysis, "periods-variation");
+  EXPECT_NEAR(cell_at(variation.tables.at(0), "all", "variance ratio"), 1.0, 1e-12);
+  EXPECT_THAT(variation.sentence, HasSubstr("no difference was found"));
+}
+
+// The same for knowledge, of the same people: the contrast is that of their mean difference.
+TEST_F(RunTest, ComparesBeliefsWithinTheSamePeople) {
+  auto text = teams();
+  for (std::size_t at = text.find("common"); at != std::string::npos; at = text.find("common", at))
+    text.replace(at, 6, "individual-low");
+  write("teams.csv", text);
+  const auto found = finding(analyse(), "knowledge-beliefs");
+  EXPECT_THAT(found.sentence, HasSubstr("(16 teams of 8 groups of people)"));
+  EXPECT_THAT(found.model, HasSubstr("(1|people)"));
+  EXPECT_EQ(table_named(found, "Does the difference between beliefs").rows.size(), 1u);
+  EXPECT_EQ(finding(analyse(), "periods-variation").tables.at(0).columns.at(8).name, "p-value, jackknife");
+}
+
+TEST_F(RunTest, ComparesStrategiesOnTheSamePeople) {
+  write("teams.csv", teams());
+  const auto found = finding(analyse(), "periods-paired");
+  // Every pair differs by exactly one: the difference is certain and has no spread, which no t test can judge.
+  EXPECT_THAT(found.warnings, Contains("common - joint: no test: all differences are equal"));
+}
+
+TEST_F(RunTest, ComparesGroupsWithTeachingAlone) {
+  write("teams.csv", other_people(teams()));
+  EXPECT_THAT(finding(analyse(), "periods-baseline").sentence,
+              HasSubstr("Mean periods were 8.000 in 16 groups taught together and 17.00 in 8 groups whose members were "
+                        "taught one after the other; the difference is statistically significant (p < 0.001)."));
+}
+
+// Eight teams taught alone need twice the periods of their people, sixteen taught together one less or as many: by
+// hand, 17 and 8.
+TEST_F(RunTest, ListsTheComparisonWithTeachingAloneInItsTable) {
+  write("teams.csv", other_people(teams()));
+  const auto found = finding(analyse(), "periods-baseline");
+  ASSERT_EQ(found.tables.size(), 2u);
+  ASSERT_EQ(found.tables[0].rows.size(), 1u);
+  EXPECT_DOUBLE_EQ(number(found, 0, "together - alone", "difference"), 8.0 - 17.0);
+  EXPECT_LT(number(found, 0, "together - alone", "lower limit"), -9.0);
+  EXPECT_GT(number(found, 0, "together - alone", "upper limit"), -9.0);
+  EXPECT_LT(number(found, 0, "together - alone", "p-value"), 0.001);
+  EXPECT_LT(number(found, 1, "together - alone", "Hedges' g"), -1.0);
+}
+
+// The baseline and one group strategy, as in studies/quick.toml: nothing can be said of pairs of group strategies, but
+// the same people were taught both ways.
+TEST_F(RunTest, ComparesTogetherAndAloneOnTheSamePeople) {
+  std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+  for (int i = 0; i < 3; ++i) text += row("baseline", "NP", i, i, 10 + 2 * i, 0.5);
+  for (int i = 0; i < 3; ++i) text += row("common", "NP", i, 3 + i, 6 + i, 0.6);
+  write("teams.csv", text);
+  const auto analysis = analyse();
+  const auto found = finding(analysis, "periods-baseline");
+  ASSERT_EQ(found.tables.size(), 1u);
+  EXPECT_EQ(std::get<std::int64_t>(found.tables[0].rows.at(0).at(1)), 3);
+  EXPECT_DOUBLE_EQ(number(found, 0, "together - alone", "difference"), -5.0);  // -4, -5 and -6
+  EXPECT_NEAR(number(found, 0, "together - alone", "t"), -5.0 * std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(number(found, 0, "together - alone", "d"), -5.0, 1e-12);
+  EXPECT_THAT(found.sentence, HasSubstr("Within 3 groups of the same people the mean difference is -5.000 "
+                                        "(p = 0.013)."));
+  EXPECT_THAT(methods_of(found), ::testing::ElementsAre("a paired t test of the same people"));
+  // The interval belongs to the test, so they say the same: p = 0.013, and 0 is outside.
+  EXPECT_LT(number(found, 0, "together - alone", "d, upper limit"), 0.0);
+  // One sentence for each analysis that the design does not allow, whatever the response.
+  EXPECT_THAT(analysis.not_analysed, ::testing::SizeIs(5));
+  EXPECT_THAT(analysis.not_analysed, Contains(HasSubstr("needs at least two group strategies")));
+  EXPECT_THAT(analysis.notes, ::testing::ElementsAre("6 teams: 2 strategies x 1 composition"));
+}
+
+TEST_F(RunTest, SaysThatStrategiesTaughtDifferentPeople) {
+  write("teams.csv", other_people(teams()));
+  const auto analysis = analyse();
+  EXPECT_THAT(analysis.not_analysed,
+              Contains("same people, different strategies: the strategies taught different people "
+                       "(design.pairing = \"none\")"));
+  EXPECT_EQ(finding(analysis, "periods-baseline").tables.size(), 2u);
+}
+
+TEST_F(RunTest, NamesTheMethodsThatItUsed) {
+  write("teams.csv", other_people(teams()));
+  const auto analysis = analyse();
+  EXPECT_THAT(methods_of(finding(analysis, "periods")),
+              ::testing::IsSupersetOf({"two-way analysis of variance (type II sums of squares)", "aligned rank tests",
+                                       "permutation tests of residuals (199 permutations)", "estimated marginal means",
+                                       "Kaplan-Meier estimates", "quasi-Poisson regression with F tests",
+                                       "log-rank tests stratified by the other factors"}));
+  EXPECT_THAT(methods_of(finding(analysis, "knowledge")), Not(Contains(HasSubstr("log-rank"))));
+  EXPECT_THAT(methods_of(finding(analysis, "periods-within-composition")),
+              Contains("one-way analyses of variance with Bonferroni correction for 2 compositions"));
+  auto holm = quick();
+  holm.correction = Correction::kHolm;
+  EXPECT_THAT(methods_of(finding(analyze_run(folder_, holm), "periods-within-composition")),
+              Contains("one-way analyses of variance with Holm correction for 2 compositions"));
+}
+
+TEST_F(RunTest, NamesTheMethodsForTheSamePeople) {
+  write("teams.csv", teams());
+  const auto analysis = analyse();
+  EXPECT_THAT(methods_of(finding(analysis, "knowledge")),
+              ::testing::IsSupersetOf(
+                  {"linear mixed model (REML) with Satterthwaite's degrees of freedom", "estimated marginal means"}));
+  EXPECT_THAT(methods_of(finding(analysis, "knowledge-within-composition")),
+              ::testing::IsSupersetOf({"mixed models of each composition with Bonferroni correction for 2 compositions",
+                                       "Friedman tests (uncorrected)"}));
+  EXPECT_THAT(methods_of(finding(analysis, "knowledge-paired")),
+              Contains("paired t tests with Holm correction for 1 pair"));
+  // All differences of periods are one, which no t test can judge: it is not a method of this analysis.
+  EXPECT_THAT(methods_of(finding(analysis, "periods-paired")), Not(Contains(HasSubstr("paired t tests"))));
+}
+
+TEST_F(RunTest, HasNoTableWithoutRows) {
+  write("teams.csv", teams());
+  for (const auto& found : analyse().findings) {
+    for (const auto& table : found.tables) {
+      EXPECT_FALSE(table.rows.empty()) << found.id << ": " << table.caption;
+      for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.caption;
+    }
+  }
+}
+
+TEST_F(RunTest, AveragesTheAreasOfAComponentWithoutItsFirstPeriod) {
+  write("teams.csv", other_people(teams()));
+  std::string periods = "team,period,kc,area_sr\n";
+  for (int team = 9; team <= 24; ++team) {  // the groups
+    const double area = team <= 16 ? 0.5 + 0.001 * team : 0.25 + 0.001 * team;
+    periods += std::to_string(team) + ",1,1,9\n" + std::to_string(team) + ",2,1," + std::to_string(area) + "\n" +
+               std::to_string(team) + ",3,1," + std::to_string(area) + "\n";
+  }
+  write("periods.csv", periods);
+  const auto found = finding(analyse(), "demonstrations");
+  // Means of log(0.25 + 0.001 i) over teams 17 to 24 and of log(0.5 + 0.001 i) over 9 to 16; log 9 is not in them.
+  EXPECT_THAT(found.sentence, HasSubstr("Component 1: the strategies differ (p < 0.001); mean log areas range from "
+                                        "-1.308 (joint) to -0.668 (common)."));
+}
+
+TEST_F(RunTest, IsTheSameForTheSameSeed) {
+  write("teams.csv", teams());
+  const auto a = analyse(), b = analyse();
+  ASSERT_EQ(a.findings.size(), b.findings.size());
+  for (std::size_t i = 0; i < a.findings.size(); ++i) {
+    EXPECT_EQ(a.findings[i].sentence, b.findings[i].sentence);
+    for (std::size_t t = 0; t < a.findings[i].tables.size(); ++t)
+      EXPECT_EQ(a.findings[i].tables[t].rows, b.findings[i].tables[t].rows);
+  }
+}
+
+TEST_F(RunTest, RefusesFoldersWithoutResults) {
+  EXPECT_EQ(failure_of([&] { (void)analyze_run(folder_ / "nowhere", quick()); }).first, ErrorKind::kIo);
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }).first, ErrorKind::kInvalidInput);  // no run folder
+  fs::create_directories(folder_ / "inputs");
+  try {
+    (void)analyse();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+    EXPECT_THAT(error.what(), HasSubstr("has not finished"));
+  }
+}
+
+TEST_F(RunTest, RefusesDamagedTables) {
+  write("teams.csv", "strategy,composition,replicate,team,seed_address,completed,periods,knowledge\n");
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0502"}}));
+  auto text = teams();
+  text.replace(text.find("7/NNN/1,true,"), 14, "7/NNN/1,true,x");
+  write("teams.csv", text);
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0902"}}));
+  write("teams.csv", teams() + row("joint", "PPP", 5, 25, 5, 0.5).replace(0, 5, ""));
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInvalidInput, std::string{"E0903"}}));
+}
+
+TEST_F(RunTest, SaysWhatADesignDoesNotAllow) {
+  std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";
+  for (int i = 1; i <= 3; ++i) text += row("joint", "NNN", i, i, 7 + i, 0.5);
+  write("teams.csv", text);
+  EXPECT_EQ(failure_of([&] { (void)analyse(); }), (std::pair{ErrorKind::kInfeasible, std::string{"E0906"}}));
+  for (int i = 1; i <= 3; ++i) text += row("joint", "PPP", i, 3 + i, 5 + i, 0.6);
+  write("teams.csv", text);
+  const auto analysis = analyse();
+  EXPECT_TRUE(has_finding(analysis, "periods"));
+  EXPECT_FALSE(has_finding(analysis, "periods-paired"));
+  EXPECT_THAT(analysis.not_analysed,
+              ::testing::IsSupersetOf({"same people, different strategies: needs at least two group strategies",
+                                       "taught together or alone: needs the baseline and a group strategy"}));
+}
+
+}  // namespace
+}  // namespace kith
