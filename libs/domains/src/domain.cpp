@@ -21,13 +21,22 @@ std::int64_t expectation_scale(double largest_feature) {
   return scale;
 }
 
+[[noreturn]] void refuse_mdp(MdpIndex m, const char* function) {
+  throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
+}
+
+[[noreturn]] void refuse_start(DemoId demo, const char* function) {
+  throw std::invalid_argument{std::string{function} + ": there is no start state " +
+                              std::to_string(demo.start.value())};
+}
+
 // visit(member) of either kind.
 template <typename Visit>
 decltype(auto) visit_member(const Domain::Data& data, MdpIndex m, const char* function, const Visit& visit) {
   return std::visit(
       [&](const auto& family) -> decltype(auto) {
-        if (m.value() < family.members.size()) return visit(family.members[m.value()]);
-        throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
+        if (m.value() >= family.members.size()) refuse_mdp(m, function);
+        return visit(family.members[m.value()]);
       },
       data.family);
 }
@@ -40,16 +49,11 @@ const Mdp& mdp_of(const Domain::Data& data, MdpIndex m, const char* function) {
   return visit_member(data, m, function, [](const auto& member) -> const Mdp& { return member.mdp; });
 }
 
-void check_start(const Domain::Data& data, DemoId demo, const char* function) {
-  if (demo.start.value() < mdp_of(data, demo.mdp, function).num_states()) return;
-  throw std::invalid_argument{std::string{function} + ": there is no start state " +
-                              std::to_string(demo.start.value())};
-}
-
+// Called in inner loops, so what it rarely does is elsewhere.
 template <typename Family>
-bool has_start(const Family& family, DemoId demo) {
-  return demo.mdp.value() < family.members.size() &&
-         demo.start.value() < family.members[demo.mdp.value()].mdp.num_states();
+void check_start(const Family& family, DemoId demo, const char* function) {
+  if (demo.mdp.value() >= family.members.size()) refuse_mdp(demo.mdp, function);
+  if (demo.start.value() >= family.members[demo.mdp.value()].mdp.num_states()) refuse_start(demo, function);
 }
 
 std::size_t row_of(const GridFamily& grid, DemoId demo) {
@@ -146,14 +150,13 @@ bool Domain::has_feature(MdpIndex m, std::size_t k) const {
   return k + 1 == num_features() || mdp.has_feature(k);
 }
 
-int Domain::complexity(DemoId demo) const {
-  check_start(*data_, demo, "Domain::complexity");
-  if (!data_->has_map()) return 0;
-  const GridFamily& grid = data_->grid();
+namespace {
+
+int complexity_of(const GridFamily& grid, DemoId demo) {
   return grid.members[demo.mdp.value()].num_toggled + grid.num_stations[row_of(grid, demo)];
 }
 
-namespace {
+int complexity_of(const ExplicitFamily&, DemoId) { return 0; }
 
 int dissimilarity_of(const GridFamily& grid, DemoId a, DemoId b) {
   const std::size_t row_a = row_of(grid, a);
@@ -187,13 +190,20 @@ int dissimilarity_of(const ExplicitFamily& model, DemoId a, DemoId b) {
 
 }  // namespace
 
+int Domain::complexity(DemoId demo) const {
+  return std::visit(
+      [&](const auto& family) {
+        check_start(family, demo, "Domain::complexity");
+        return complexity_of(family, demo);
+      },
+      data_->family);
+}
+
 int Domain::dissimilarity(DemoId a, DemoId b) const {
   return std::visit(
       [&](const auto& family) {
-        if (!has_start(family, a) || !has_start(family, b)) [[unlikely]] {
-          check_start(*data_, a, "Domain::dissimilarity");
-          check_start(*data_, b, "Domain::dissimilarity");
-        }
+        check_start(family, a, "Domain::dissimilarity");
+        check_start(family, b, "Domain::dissimilarity");
         return dissimilarity_of(family, a, b);
       },
       data_->family);

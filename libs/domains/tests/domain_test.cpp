@@ -217,6 +217,17 @@ TEST_P(DomainLaws, DissimilarityIsTheDocumentedSum) {
   }
 }
 
+TEST_P(DomainLaws, PicturesAreOfStartsThatExist) {
+  const DemoId good{MdpIndex{0}, StateIndex{0}};
+  const DemoId no_world{MdpIndex{domain_.num_mdps()}, StateIndex{0}};
+  const DemoId no_start{MdpIndex{0}, StateIndex{domain_.mdp(MdpIndex{0}).num_states()}};
+  for (const DemoId bad : {no_world, no_start}) {
+    EXPECT_THROW((void)domain_.complexity(bad), std::invalid_argument);
+    EXPECT_THROW((void)domain_.dissimilarity(bad, good), std::invalid_argument);
+    EXPECT_THROW((void)domain_.dissimilarity(good, bad), std::invalid_argument);
+  }
+}
+
 TEST_P(DomainLaws, CopiesAreTheSameDomain) {
   const Domain copy = domain_;
   EXPECT_EQ(copy.num_starts(), domain_.num_starts());

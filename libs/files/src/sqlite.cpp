@@ -130,6 +130,20 @@ void Database::execute(const std::string& sql) {
   if (code != SQLITE_OK) fail(code);
 }
 
+void Database::transaction(const std::function<void()>& change) {
+  execute("BEGIN IMMEDIATE");
+  try {
+    change();
+    execute("COMMIT");
+  } catch (...) {
+    try {
+      execute("ROLLBACK");
+    } catch (const SqliteError&) {  // SQLite has rolled back by itself
+    }
+    throw;
+  }
+}
+
 Statement Database::prepare(const std::string& sql) { return {*this, handle_, sql}; }
 
 void Database::fail(int code) const {

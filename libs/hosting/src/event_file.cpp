@@ -253,14 +253,14 @@ void EventFile::verify() {
 }
 
 void EventFile::write(std::span<const StoreBatch> batches) {
-  in_transaction(state_->database, [&] {
+  state_->database.transaction([&] {
     for (const auto& batch : batches) state_->insert(batch);
   });
 }
 
 void EventFile::rewrite(std::span<const StoredEvent> events) {
   auto& database = state_->database;
-  in_transaction(database, [&] {
+  database.transaction([&] {
     auto update = database.prepare("UPDATE event SET json = ?, checksum = ? WHERE room = ? AND seq = ?");
     for (const auto& event : events) {
       const auto checksum = seal(event, state_->key);

@@ -350,9 +350,12 @@ void LiveService::stop() {
   for (const auto& connection : all) connection->dismiss("server-stops", kGoingAway);
   state.teachers->stop();
   state.busy.wait_for_none();
-  for (const auto& [number, room] : state.rooms) {
-    state.strands->post(static_cast<std::size_t>(number), [room](TeachingCache&) { room->abandon(); });
+  std::vector<std::shared_ptr<HostedRoom>> rooms;
+  {
+    const std::lock_guard lock{state.mutex};
+    for (const auto& [number, room] : state.rooms) rooms.push_back(room);
   }
+  for (const auto& room : rooms) state.post(room->number(), [room](TeachingCache&) { room->abandon(); });
   state.busy.wait_for_none();
 }
 

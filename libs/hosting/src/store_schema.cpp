@@ -36,12 +36,13 @@ void prepare_connection(Database& database) {
 }
 
 void make_tables(Database& database, const StoreFacts& facts) {
-  database.execute("PRAGMA page_size = " + std::to_string(kSqlitePageSize) +
-                   "; PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
-  database.execute(kTables);
-  auto insert = database.prepare("INSERT INTO meta VALUES (?, ?)");
-  for (const auto& [key, value] : to_meta(facts)) insert.bind_text(1, key).bind_text(2, value).run();
-  database.execute("PRAGMA user_version = " + std::to_string(EventFile::kVersion) + "; COMMIT");
+  database.execute("PRAGMA page_size = " + std::to_string(kSqlitePageSize) + "; PRAGMA journal_mode = WAL");
+  database.transaction([&] {
+    database.execute(kTables);
+    auto insert = database.prepare("INSERT INTO meta VALUES (?, ?)");
+    for (const auto& [key, value] : to_meta(facts)) insert.bind_text(1, key).bind_text(2, value).run();
+    database.execute("PRAGMA user_version = " + std::to_string(EventFile::kVersion));
+  });
 }
 
 bool is_empty(Database& database) {
@@ -71,7 +72,7 @@ void migrate(Database& database, int version, std::span<const Migration> steps) 
   const auto backup = database.path().string() + ".v" + std::to_string(found) + ".bak";
   std::filesystem::remove(backup);
   database.execute("VACUUM INTO " + quoted(backup));
-  in_transaction(database, [&] {
+  database.transaction([&] {
     for (int from = found; from < version; ++from) {
       for (const auto& step : steps) {
         if (step.from == from) database.execute(step.sql);

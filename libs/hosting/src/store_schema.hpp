@@ -20,22 +20,6 @@ struct Migration {
 // The steps that there are: none yet.
 [[nodiscard]] std::span<const Migration> migrations();
 
-// Does all of a change, or nothing of it if it throws.
-template <typename Change>
-void in_transaction(Database& database, Change change) {
-  database.execute("BEGIN IMMEDIATE");
-  try {
-    change();
-    database.execute("COMMIT");
-  } catch (...) {
-    try {
-      database.execute("ROLLBACK");
-    } catch (const SqliteError&) {  // it has been rolled back
-    }
-    throw;
-  }
-}
-
 // Sets up a connection that writes.
 void prepare_connection(Database& database);
 

@@ -213,8 +213,7 @@ void Journal::begin_session() {
 void Journal::write(std::span<const JournalEntry> entries, std::span<const TeamFailure> failures) {
   if (entries.empty() && failures.empty()) return;
   auto& database = state_->database;
-  database.execute("BEGIN IMMEDIATE");
-  try {
+  database.transaction([&] {
     auto insert = database.prepare("INSERT OR REPLACE INTO units VALUES (?, ?)");
     auto forgive = database.prepare("DELETE FROM failures WHERE team = ?");
     for (const auto& [team, bytes] : entries) {
@@ -229,14 +228,7 @@ void Journal::write(std::span<const JournalEntry> entries, std::span<const TeamF
     }
     auto batch = database.prepare("INSERT INTO batches(session, written, teams) VALUES (?, ?, ?)");
     batch.bind(1, state_->session).bind(2, now()).bind(3, static_cast<std::int64_t>(entries.size())).run();
-    database.execute("COMMIT");
-  } catch (...) {
-    try {
-      database.execute("ROLLBACK");
-    } catch (const Error&) {  // SQLite has rolled back by itself
-    }
-    throw;
-  }
+  });
   for (const auto& entry : entries) state_->mark(entry.team);
 }
 

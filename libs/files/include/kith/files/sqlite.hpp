@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -47,6 +48,8 @@ class Database {
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   void execute(const std::string& sql);
+  /// Makes all of a change, or nothing of it if it throws: one transaction. Transactions cannot be nested.
+  void transaction(const std::function<void()>& change);
   /// Whether the write-ahead log is kept as it is, or written to the file when it grows long and on closing (the
   /// default).
   void keep_log(bool keep);
