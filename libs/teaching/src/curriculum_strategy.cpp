@@ -14,7 +14,7 @@ const std::array kCurriculumParameters{
               .min = 1,
               .max = 1000},
     Parameter{.name = "demonstrations",
-              .default_value = std::int64_t{2},
+              .default_value = std::int64_t{3},
               .description = "demonstrations per lesson; teacher.max_demonstrations takes precedence",
               .min = 1,
               .max = 100},

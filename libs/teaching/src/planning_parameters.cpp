@@ -26,7 +26,7 @@ const std::array kParameters{
               .description = "gain of ability by the time of the feedback that is expected of everybody",
               .max = 0.5},
     Parameter{.name = "demonstrations",
-              .default_value = std::int64_t{2},
+              .default_value = std::int64_t{3},
               .description = "demonstrations per lesson at most; teacher.max_demonstrations takes precedence",
               .min = 1,
               .max = 100},
@@ -35,9 +35,8 @@ const std::array kParameters{
               .description = "different constraints of a lesson that members are assumed to take in; 0: all",
               .max = 1000},
     Parameter{.name = "min_gain",
-              .default_value = 0.0,
-              .description = "a further demonstration is added to a lesson only if it raises the share of tests that "
-                             "members are expected to answer right by more than this"},
+              .default_value = 0.005,
+              .description = "a further demonstration is added to a lesson only if it raises U by more than this"},
 };
 
 }  // namespace
