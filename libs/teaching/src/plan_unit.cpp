@@ -20,31 +20,26 @@ struct Candidate {
   std::vector<DemoClassIndex> classes;
 };
 
-// Those of the component that convey anything; with members that were not met yet, if there are any such.
+// Those of the component that convey anything.
 std::vector<Candidate> candidates_of(TeachingCache& cache, const KnowledgeComponent& component,
-                                     std::span<const PolicyCellIndex> cells, const VisitedDemos& visited) {
+                                     std::span<const PolicyCellIndex> cells) {
   const auto& atlas = cache.atlas();
   const auto conveyed = cache.behaviours().conveyed_by_class(component, cells);
   std::vector<Candidate> candidates;
-  const auto collect = [&](bool also_visited) {
-    std::unordered_map<ConstraintSet, std::size_t> by_row, by_minimal;  // most classes share theirs with others
-    for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
-      if (!atlas.belongs_to(c, component)) continue;
-      if (!also_visited && !has_unvisited(atlas, c, visited)) continue;
-      auto row = conveyed.set(c);
-      if (row.empty()) continue;
-      const auto [same, is_new] = by_row.try_emplace(std::move(row), 0);
-      if (is_new) {
-        const auto& minimal = cache.regions().minimal(same->first);
-        const auto place = by_minimal.try_emplace(minimal, candidates.size());
-        if (place.second) candidates.push_back({minimal, {}});
-        same->second = place.first->second;
-      }
-      candidates[same->second].classes.push_back(c);
+  std::unordered_map<ConstraintSet, std::size_t> by_row, by_minimal;  // most classes share theirs with others
+  for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
+    if (!atlas.belongs_to(c, component)) continue;
+    auto row = conveyed.set(c);
+    if (row.empty()) continue;
+    const auto [same, is_new] = by_row.try_emplace(std::move(row), 0);
+    if (is_new) {
+      const auto& minimal = cache.regions().minimal(same->first);
+      const auto place = by_minimal.try_emplace(minimal, candidates.size());
+      if (place.second) candidates.push_back({minimal, {}});
+      same->second = place.first->second;
     }
-  };
-  collect(false);
-  if (candidates.empty()) collect(true);
+    candidates[same->second].classes.push_back(c);
+  }
   return candidates;
 }
 
@@ -134,7 +129,7 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
   const auto& atlas = view.atlas;
   const auto& component = atlas.knowledge_components()[view.component];
   VisitedDemos visited = view.visited;
-  auto candidates = candidates_of(cache, component, people.cells, visited);
+  const auto candidates = candidates_of(cache, component, people.cells);
   Unit unit;
   auto region = cache.numbers_of(view.taught_region);
   std::vector<ConstraintSet> shown;

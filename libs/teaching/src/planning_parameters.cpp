@@ -11,7 +11,7 @@ constexpr double kAbilityMax = 0.95;
 
 const std::array kParameters{
     Parameter{.name = "people",
-              .default_value = std::int64_t{8},
+              .default_value = std::int64_t{16},
               .description = "people imagined from the prior to find out what a demonstration can convey, and as many "
                              "from the beliefs about the members",
               .min = 1,
