@@ -1,8 +1,8 @@
 // The page: a Markdown file with generated parts between comments.
 //
-//   <!-- table NAME --> ... <!-- end -->   a table, made by tables.mjs
+//   <!-- table NAME --> ... <!-- end -->   a table, made by the content of the page (teachers_content.mjs, validation_content.mjs)
 //   <!--f NAME-->7.72<!--/f-->             a figure in a sentence
-//   <!-- holds: NAME -->                   the sentence before it states what claims.mjs tests
+//   <!-- holds: NAME -->                   the sentence before it states what a claim of the content tests
 //   <!-- fixed: REASON --> ... <!-- end --> text that is not generated (yet), digits and all
 //
 // Outside of these and of `code`, a number with a decimal point, a percentage (but 95 %) or one with

@@ -1,51 +1,21 @@
-// The commands behind the page. Each runs once, when its result is first asked for.
+// The commands behind a page, {name: [words]}. Each runs once, when its result is first asked for. DIR is the folder of the
+// run itself, DIR(NAME) that of another.
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-const both = (key, value) => [`learner.N.${key}=${value}`, `learner.P.${key}=${value}`];
-const study = (file, ...settings) => ['study', file, '-o', 'DIR', ...settings.flatMap((one) => ['--set', one])];
-const DOMAINS = ['two-goals', 'cookie-crumb', 'colored-tiles', 'skateboard'];
-const COMMON = 'common - the others: common - individual-low - individual-high - joint';
-const teamsOnly = 'record.level="team"';
-
-// Name of a run: its command. DIR is the folder of the run itself, DIR(NAME) that of another.
-export const COMMANDS = {
-  version: ['version', '--json'],
-  facts: ['inspect', 'item-delivery', '--show', 'demos', '--json'],
-  large: study('studies/paper.toml', 'replicates=500'),
-  small: study('studies/paper.toml', teamsOnly),
-  'scale 0.9': study('studies/paper-uncalibrated.toml', 'replicates=500', ...both('ability_scale', 0.9), teamsOnly),
-  'scale 1.0': study('studies/paper-uncalibrated.toml', 'replicates=500', ...both('ability_scale', 1.0), teamsOnly),
-  'less known': study('studies/paper.toml', 'replicates=200', ...both('prior', '[]'), teamsOnly),
-  'more known': study('studies/paper.toml', 'replicates=200', ...both('prior', '[{step=-1},{rubble=-1}]'), teamsOnly),
-  ...Object.fromEntries(
-    DOMAINS.map((domain) => [
-      domain,
-      study('studies/paper.toml', 'replicates=100', `domain="${domain}"`, teamsOnly),
-    ]),
-  ),
-  'analysis, large': ['analyze', 'DIR(large)', '--json'],
-  'analysis, small': ['analyze', 'DIR(small)', '--json'],
-  ...Object.fromEntries(
-    DOMAINS.map((domain) => [`analysis, ${domain}`, ['analyze', `DIR(${domain})`, '--contrast', COMMON, '--json']]),
-  ),
-  calibration: ['calibrate', 'studies/paper-uncalibrated.toml', '--targets', 'studies/paper-targets.toml', '--json'],
-  'findings, paired': ['power', 'studies/paper.toml', '--findings', 'studies/paper-targets.toml', '--json'],
-  'findings, unpaired': [
-    'power', 'studies/paper.toml', '--findings', 'studies/paper-targets.toml', '--set', 'design.pairing="none"', '--json',
-  ],
-};
-
 const quoted = (word) => (/^[\w./=,()-]+$/.test(word) ? word : `'${word}'`);
-export const commandLine = (name) => ['kith', ...COMMANDS[name].map(quoted)].join(' ');
+export const commandLine = (words) => ['kith', ...words.map(quoted)].join(' ');
+
+// A study into the folder of its run; settings are KEY=VALUE.
+export const study = (file, ...settings) => ['study', file, '-o', 'DIR', ...settings.flatMap((one) => ['--set', one])];
 
 export class Runs {
   // `folder` keeps results; those of another program in it are not used.
-  constructor(kith, source, folder, say) {
+  constructor(commands, kith, source, folder, say) {
     const digest = createHash('sha256').update(readFileSync(kith)).digest('hex').slice(0, 16);
-    Object.assign(this, { kith, source, say, folder: join(folder, digest), results: new Map(), tables: new Map() });
+    Object.assign(this, { commands, kith, source, say, folder: join(folder, digest), results: new Map(), tables: new Map() });
     mkdirSync(this.folder, { recursive: true });
   }
 
@@ -53,7 +23,7 @@ export class Runs {
   run(name) {
     if (this.results.has(name)) return this.results.get(name);
     const file = join(this.folder, `${name}.out`);
-    const args = COMMANDS[name].map((word) => {
+    const args = this.commands[name].map((word) => {
       if (word === 'DIR') return this.directory(name);
       const other = /^DIR\((.*)\)$/.exec(word);
       if (!other) return word;
@@ -67,13 +37,25 @@ export class Runs {
       const start = Date.now();
       const env = Object.fromEntries(Object.entries(process.env).filter(([key]) => !key.startsWith('KITH_')));
       const { status, stdout, stderr } = spawnSync(this.kith, args, { cwd: this.source, env, encoding: 'utf8', maxBuffer: 1 << 28 });
-      if (status !== 0) throw new Error(`${commandLine(name)} failed (${status}):\n${stderr}`);
+      if (status !== 0) throw new Error(`${this.commandLine(name)} failed (${status}):\n${stderr}`);
       text = stdout;
       writeFileSync(file, text);
-      this.say(`${((Date.now() - start) / 1000).toFixed(1).padStart(7)} s  ${commandLine(name)}`);
+      this.say(`${((Date.now() - start) / 1000).toFixed(1).padStart(7)} s  ${this.commandLine(name)}`);
     }
     this.results.set(name, text);
     return text;
+  }
+
+  commandLine(name) {
+    return commandLine(this.commands[name]);
+  }
+
+  // Rows of the table that lists the commands.
+  commandTable() {
+    return {
+      columns: ['run', 'command'],
+      rows: Object.keys(this.commands).map((name) => [name, `\`${this.commandLine(name)}\``]),
+    };
   }
 
   directory(name) {
@@ -101,7 +83,7 @@ export class Runs {
 
   finding(name, id) {
     const found = this.json(name).findings.find((finding) => finding.id === id);
-    if (!found) throw new Error(`${commandLine(name)} has no finding '${id}'`);
+    if (!found) throw new Error(`${this.commandLine(name)} has no finding '${id}'`);
     return found;
   }
 }

@@ -1,24 +1,28 @@
-// Regenerates docs/validation.md, or checks that it is what this program computes.
+// Regenerates the pages of docs/ whose figures are computed, or checks that they are what this program computes.
 //
 //   node tests/validation/validation.mjs KITH --write
 //   node tests/validation/validation.mjs KITH --check
 //
-//   --page FILE   another page than docs/validation.md
+//   --page FILE   only this page, or a copy of one by the same name (all of them)
 //   --only NAMES  only these tables and figures, separated by commas
 //   --keep DIR    keep the runs, and use those of the same program that are there
 //
-// Exits with 0 if the page agrees, 1 if it does not, 2 for a wrong command line. Results are
+// Exits with 0 if the pages agree, 1 if one does not, 2 for a wrong command line. Results are
 // deterministic, so any difference fails; each is printed with its size in Monte-Carlo standard errors.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { dirname, join, resolve } from 'node:path';
+import { basename, dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { compareTables, describe, findTypedFigures, parsePage, printPage, printTable } from './page.mjs';
 import { Runs } from './runs.mjs';
-import { makeContent } from './tables.mjs';
+import * as teachers from './teachers_content.mjs';
+import * as validation from './validation_content.mjs';
 
 const source = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+
+// What fills in a page: {COMMANDS, makeContent}.
+const CONTENT = { 'validation.md': validation, 'teachers.md': teachers };
 
 function readArguments() {
   const { values, positionals } = parseArgs({
@@ -34,7 +38,7 @@ function readArguments() {
 }
 
 function lookUp(list, what, name) {
-  if (!Object.hasOwn(list, name)) throw new Error(`the page has a ${what} '${name}', which tables.mjs does not define`);
+  if (!Object.hasOwn(list, name)) throw new Error(`the page has a ${what} '${name}', which its content does not define`);
   return list[name]();
 }
 
@@ -60,24 +64,29 @@ function regenerate(parts, content, wanted) {
   return { fresh, differences, broken: fresh.filter((part) => part.broken).map((part) => part.name) };
 }
 
-function main({ kith, write, page: given, only, keep }) {
-  const page = resolve(given ?? join(source, 'docs/validation.md'));
+function update(page, folder, { kith, write, only }) {
+  const content = CONTENT[basename(page)];
+  if (!content) throw new Error(`no content is known for a page '${basename(page)}', only for ${Object.keys(CONTENT).join(', ')}`);
   const before = readFileSync(page, 'utf8');
   const names = only?.split(',');
   const wanted = (name) => !names || names.includes(name);
+  const runs = new Runs(content.COMMANDS, kith, source, folder, (line) => console.error(line));
+  const { fresh, differences, broken } = regenerate(parsePage(before), content.makeContent(runs, source), wanted);
+  const problems = [...findTypedFigures(before), ...broken.map((name) => `the sentence before 'holds: ${name}' is no longer true`)];
+  if (write) writeFileSync(page, printPage(fresh));
+  for (const line of [...differences.map((one) => one.line), ...problems]) console.log(line);
+  const beyond = differences.filter((one) => one.beyond).length;
+  console.log(`${page}: ${differences.length} figures ${write ? 'changed' : 'differ'}, ${beyond} of them beyond chance`);
+  return problems.length + (write ? 0 : differences.length);
+}
+
+function main({ page, keep, ...options }) {
+  const pages = page ? [resolve(page)] : Object.keys(CONTENT).map((name) => join(source, 'docs', name));
   const folder = keep ? resolve(keep) : mkdtempSync(join(tmpdir(), 'validation-'));
   try {
-    const runs = new Runs(kith, source, folder, (line) => console.error(line));
-    const { fresh, differences, broken } = regenerate(parsePage(before), makeContent(runs, source), wanted);
-    const problems = [...findTypedFigures(before), ...broken.map((name) => `the sentence before 'holds: ${name}' is no longer true`)];
-    if (write) writeFileSync(page, printPage(fresh));
-    for (const line of [...differences.map((one) => one.line), ...problems]) console.log(line);
-    const beyond = differences.filter((one) => one.beyond).length;
-    console.log(`${page}: ${differences.length} figures ${write ? 'changed' : 'differ'}, ${beyond} of them beyond chance`);
-    if (write) return problems.length ? 1 : 0;
-    problems.push(...differences);
-    if (problems.length) console.log('After an intended change: node tests/validation/validation.mjs KITH --write');
-    return problems.length ? 1 : 0;
+    const problems = pages.map((one) => update(one, folder, options)).reduce((sum, count) => sum + count, 0);
+    if (problems && !options.write) console.log('After an intended change: node tests/validation/validation.mjs KITH --write');
+    return problems ? 1 : 0;
   } finally {
     if (!keep) rmSync(folder, { recursive: true, force: true });
   }

@@ -10,9 +10,9 @@ failures=0
 
 # expect EXIT_CODE TEXT_THAT_IS_PRINTED SED_SCRIPT: of the check of a page that was changed so.
 expect() {
-  sed "$3" "$page" >"$folder/page.md"
+  sed "$3" "$page" >"$folder/validation.md"
   "$node" "$here/validation.mjs" "$kith" --check --only facts,version,facts-agree --keep "$folder/runs" \
-    --page "$folder/page.md" >"$folder/log" 2>&1
+    --page "$folder/validation.md" >"$folder/log" 2>&1
   local got=$?
   if ((got != $1)) || ! grep -qF -- "$2" "$folder/log"; then
     echo "after '$3': exit $got, not $1, or nothing like '$2' in:"
@@ -32,11 +32,11 @@ expect 1 'the figure 12 % is typed by hand' 's/^## In short$/&\n\nIt was 12 %./'
 expect 1 'a mark that is not closed or not known' 's/<!--f version-->/<!--f version/'
 
 # --write mends what --check finds.
-sed '/mask counters/s/9 480/1 234/' "$page" >"$folder/page.md"
-"$node" "$here/validation.mjs" "$kith" --write --only facts --keep "$folder/runs" --page "$folder/page.md" >"$folder/log" 2>&1
-if ! cmp -s "$page" "$folder/page.md"; then
+sed '/mask counters/s/9 480/1 234/' "$page" >"$folder/validation.md"
+"$node" "$here/validation.mjs" "$kith" --write --only facts --keep "$folder/runs" --page "$folder/validation.md" >"$folder/log" 2>&1
+if ! cmp -s "$page" "$folder/validation.md"; then
   echo '--write does not restore the table:'
-  diff "$page" "$folder/page.md"
+  diff "$page" "$folder/validation.md"
   failures=$((failures + 1))
 fi
 ((failures == 0))

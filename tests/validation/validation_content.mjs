@@ -1,7 +1,7 @@
-// The tables, figures and claims of the page, made of runs and of what was published.
+// The tables, figures and claims of docs/validation.md, made of runs and of what was published.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { COMMANDS, commandLine } from './runs.mjs';
+import { study } from './runs.mjs';
 import { calibrationFigures, calibrationTables } from './calibration_tables.mjs';
 import { figure, fixed, grouped, interval, percent, probability, signed, withError, withInterval } from './format.mjs';
 import {
@@ -17,6 +17,37 @@ const DIGITS = { periods: 2, knowledge: 3 };
 const QUANTITIES = { mean: '', sd: 'sd of ' };
 const POOLS = { group: 'group strategies', baseline: 'baseline' };
 const DOMAINS = ['two-goals', 'cookie-crumb', 'colored-tiles', 'skateboard'];
+
+const both = (key, value) => [`learner.N.${key}=${value}`, `learner.P.${key}=${value}`];
+const COMMON = 'common - the others: common - individual-low - individual-high - joint';
+const teamsOnly = 'record.level="team"';
+
+export const COMMANDS = {
+  version: ['version', '--json'],
+  facts: ['inspect', 'item-delivery', '--show', 'demos', '--json'],
+  large: study('studies/paper.toml', 'replicates=500'),
+  small: study('studies/paper.toml', teamsOnly),
+  'scale 0.9': study('studies/paper-uncalibrated.toml', 'replicates=500', ...both('ability_scale', 0.9), teamsOnly),
+  'scale 1.0': study('studies/paper-uncalibrated.toml', 'replicates=500', ...both('ability_scale', 1.0), teamsOnly),
+  'less known': study('studies/paper.toml', 'replicates=200', ...both('prior', '[]'), teamsOnly),
+  'more known': study('studies/paper.toml', 'replicates=200', ...both('prior', '[{step=-1},{rubble=-1}]'), teamsOnly),
+  ...Object.fromEntries(
+    DOMAINS.map((domain) => [
+      domain,
+      study('studies/paper.toml', 'replicates=100', `domain="${domain}"`, teamsOnly),
+    ]),
+  ),
+  'analysis, large': ['analyze', 'DIR(large)', '--json'],
+  'analysis, small': ['analyze', 'DIR(small)', '--json'],
+  ...Object.fromEntries(
+    DOMAINS.map((domain) => [`analysis, ${domain}`, ['analyze', `DIR(${domain})`, '--contrast', COMMON, '--json']]),
+  ),
+  calibration: ['calibrate', 'studies/paper-uncalibrated.toml', '--targets', 'studies/paper-targets.toml', '--json'],
+  'findings, paired': ['power', 'studies/paper.toml', '--findings', 'studies/paper-targets.toml', '--json'],
+  'findings, unpaired': [
+    'power', 'studies/paper.toml', '--findings', 'studies/paper-targets.toml', '--set', 'design.pairing="none"', '--json',
+  ],
+};
 
 const once = (make) => {
   const made = new Map();
@@ -161,10 +192,7 @@ export function makeContent(runs, source) {
   });
 
   const tables = {
-    commands: () => ({
-      columns: ['run', 'command'],
-      rows: Object.keys(COMMANDS).map((name) => [name, `\`${commandLine(name)}\``]),
-    }),
+    commands: () => runs.commandTable(),
 
     facts: () => ({
       columns: ['fact', 'reference', 'kith'],
