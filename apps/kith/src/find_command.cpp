@@ -57,7 +57,7 @@ struct FoundDemo {
 
 std::string reason_of(const Atlas& atlas, DemoIndex demo, const HalfSpace& constraint) {
   const auto contrast = contrast_for(atlas, demo, constraint);
-  return contrast ? reason(atlas.domain(), *contrast) : in_words(atlas.domain(), constraint);
+  return contrast ? reason(atlas, *contrast) : in_words(atlas.domain(), constraint);
 }
 
 void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace& constraint, Purpose purpose,

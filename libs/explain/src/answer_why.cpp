@@ -1,6 +1,8 @@
 // Why does the robot do something, what does it do, and how much is a feature worth to it?
 #include "answerer.hpp"
 
+#include <algorithm>
+
 #include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
 
@@ -83,13 +85,22 @@ void Answerer::how_much() {
   const bool is_cost = domain_.weights().integer[k] < 0;
   reply_.question = "How much " + std::string{is_cost ? "does " : "is "} + name + (is_cost ? " cost?" : " worth?");
   std::vector<std::string> sentences;
+  bool is_told = false;
   for (const auto& constraint : atlas_.policy_bec_half_spaces()) {
     if (constraint.normal()[k] == 0) continue;
-    sentences.push_back(in_words(domain_, constraint));
+    is_told = true;
+    const auto sentence = in_words(domain_, constraint, atlas_.policy_bec_half_spaces());
+    if (sentence.empty() || std::find(sentences.begin(), sentences.end(), sentence) != sentences.end()) continue;
+    sentences.push_back(sentence);
     if (atlas_.prior_cone().implies(constraint)) continue;
     if (const auto demo = demonstration_of(constraint)) {
-      show(*demo, sentences.back(), contrast_for(atlas_, *demo, constraint));
+      show(*demo, sentence, contrast_for(atlas_, *demo, constraint));
     }
+  }
+  if (sentences.empty() && is_told) {
+    reply_.text = "What it does limits how much " + name + (is_cost ? " costs" : " is worth") +
+                  ", but there is no short and true sentence about it; 'kith inspect' shows the numbers.";
+    return;
   }
   if (sentences.empty()) {
     reply_.text = "Nothing that it does tells how much " + name + (is_cost ? " costs." : " is worth.");

@@ -62,12 +62,16 @@ std::optional<HalfSpace> conveyed_by(const Domain& domain, const Contrast& contr
   return preference_of_robot(domain, contrast.robot_counts - contrast.alternative_counts);
 }
 
-std::string reason(const Domain& domain, const Contrast& contrast) {
+std::string reason(const Atlas& atlas, const Contrast& contrast, std::span<const HalfSpace> together) {
+  const auto& domain = atlas.domain();
   if (domain.is_exact()) return reason(domain, contrast.robot_counts, contrast.alternative_counts);
   const auto conveyed = conveyed_by(domain, contrast);
   if (!conveyed) throw std::invalid_argument{"reason: both paths are worth the same"};
-  return on_average_in_words(domain, contrast.robot_counts - contrast.alternative_counts) + ": " +
-         in_words(domain, *conveyed);
+  const auto difference = contrast.robot_counts - contrast.alternative_counts;
+  const auto risk = risk_in_words(domain, atlas.id(contrast.demo).mdp, difference);
+  const auto sentence = in_words(domain, *conveyed, together);
+  return (risk.empty() ? "" : risk + ": ") + on_average_in_words(domain, difference) +
+         (sentence.empty() ? "" : "; " + sentence);
 }
 
 bool is_detour(const Domain& domain, const Contrast& contrast) {

@@ -114,7 +114,7 @@ class CurriculumMaker {
     const auto main = most_telling(conveys, known);
     auto contrast = contrast_for(cache_.behaviours(), shown.demo, main, cells_of(shown.counterfactuals));
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
-    auto sentence = reason(atlas_.domain(), *contrast);
+    auto sentence = reason(atlas_, *contrast, conveys);
     auto flip = nearest_flip(atlas_, *contrast);
     return {shown.demo, std::move(conveys), main, *std::move(contrast), std::move(sentence), std::move(flip)};
   }

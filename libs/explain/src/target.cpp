@@ -97,7 +97,8 @@ std::map<std::string, HalfSpace> sentences(const Atlas& atlas) {
   std::map<std::string, HalfSpace> known;
   const auto& table = atlas.constraints();
   for (ConstraintIndex c{0}; c.value() < table.size(); ++c) {
-    known.emplace(plain(in_words(atlas.domain(), table[c])), table[c]);
+    const auto sentence = in_words(atlas.domain(), table[c]);
+    if (!sentence.empty()) known.emplace(plain(sentence), table[c]);
   }
   return known;
 }

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
-#include <optional>
 #include <utility>
+
+#include "kith/explain/statement.hpp"
 
 namespace kith {
 namespace {
@@ -178,72 +178,10 @@ std::string in_general(const Wording& wording) {
 
 namespace {
 
-// n * multiple / unit for n >= 0, rounded towards nothing or away from it.
-std::int64_t scaled(std::int64_t n, std::int64_t multiple, std::int64_t unit, bool up) {
-  const Int128 product = Int128{n} * multiple;
-  return static_cast<std::int64_t>((product + (up ? unit - 1 : 0)) / unit);
-}
-
-// A sentence of small numbers that follows from a constraint, and how much weaker it is: the share of what both sides
-// weigh to the robot.
-struct Rounding {
-  IntegerVector normal;
-  double slack = 0.0;
-};
-
-// Numbers in units of `unit` / `multiple`. What stands on the heavier side of the inequality is rounded up and what
-// stands on the lighter side down, so that whoever agrees with the robot on what is a cost and what a gain, and with
-// the constraint, agrees with the result.
-Rounding rounded(const Domain& domain, const IntegerVector& normal, std::int64_t multiple, std::int64_t unit) {
-  const auto& robot = domain.weights().unit;
-  Rounding result{IntegerVector(normal.size()), 0.0};
-  const double scale = static_cast<double>(multiple) / static_cast<double>(unit);
-  double gap = 0.0, weight = 0.0;
-  for (std::size_t k = 0; k < normal.size(); ++k) {
-    if (normal[k] == 0) continue;
-    const bool is_cost = domain.weights().integer[k] < 0;
-    const bool heavier = is_cost == (normal[k] < 0);
-    const auto size = scaled(normal[k] < 0 ? -normal[k] : normal[k], multiple, unit, heavier);
-    result.normal[k] = normal[k] < 0 ? -size : size;
-    const double own = std::abs(robot[static_cast<Eigen::Index>(k)]);
-    const double exact = scale * std::abs(static_cast<double>(normal[k]));
-    gap += own * std::abs(static_cast<double>(size) - exact);
-    weight += own * exact;
-  }
-  result.slack = weight > 0.0 ? gap / weight : 0.0;
-  return result;
-}
-
-}  // namespace
-
-HalfSpace in_small_numbers(const Domain& domain, const HalfSpace& half_space) {
-  constexpr std::int64_t kLong = 1000;
-  constexpr std::int64_t kMultiples = 4;
-  constexpr double kClose = 0.1;
-  const auto& normal = half_space.normal();
-  std::vector<std::int64_t> sizes;
-  for (const auto entry : normal) {
-    if (entry != 0) sizes.push_back(entry < 0 ? -entry : entry);
-  }
-  std::sort(sizes.begin(), sizes.end(), std::greater<>{});
-  if (sizes.front() <= kLong) return half_space;
-  // The coarsest that is close enough, else the closest.
-  std::optional<Rounding> best;
-  for (std::int64_t multiple = 1; multiple <= kMultiples; ++multiple) {
-    for (const auto unit : sizes) {
-      auto candidate = rounded(domain, normal, multiple, unit);
-      if (best && candidate.slack >= best->slack) continue;
-      best = candidate;
-      if (best->slack <= kClose) return HalfSpace{best->normal};
-    }
-  }
-  return best ? HalfSpace{best->normal} : half_space;
-}
-
-std::string in_words(const Domain& domain, const HalfSpace& half_space) {
+// The sentence of a constraint with short numbers.
+std::string sentence_of(const Domain& domain, const IntegerVector& normal) {
   Side more, less;
   Int128 value = 0;
-  const auto normal = in_small_numbers(domain, half_space).normal();
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const auto entry = normal[k];
     if (entry == 0) continue;
@@ -252,6 +190,26 @@ std::string in_words(const Domain& domain, const HalfSpace& half_space) {
     value += Int128{entry} * domain.weights().integer[k];
   }
   return compared(more, less, value == 0);
+}
+
+}  // namespace
+
+std::string in_words(const Domain& domain, const HalfSpace& half_space, std::span<const HalfSpace> together) {
+  const auto statement = short_statement(domain, half_space, together);
+  if (!statement) return "";
+  const auto sentence = sentence_of(domain, statement->said.normal());
+  if (!statement->condition) return sentence;
+  return "if " + sentence_of(domain, statement->condition->normal()) + ", " + sentence;
+}
+
+std::vector<std::string> all_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces) {
+  std::vector<std::string> sentences;
+  for (const auto& half_space : half_spaces) {
+    auto sentence = in_words(domain, half_space, half_spaces);
+    if (sentence.empty() || std::find(sentences.begin(), sentences.end(), sentence) != sentences.end()) continue;
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
 }
 
 std::string normal_text(const Domain& domain, const HalfSpace& half_space) {
@@ -263,7 +221,8 @@ std::string normal_text(const Domain& domain, const HalfSpace& half_space) {
 }
 
 std::string described(const Domain& domain, const HalfSpace& half_space) {
-  return normal_text(domain, half_space) + ": " + in_words(domain, half_space);
+  const auto sentence = in_words(domain, half_space);
+  return normal_text(domain, half_space) + (sentence.empty() ? "" : ": " + sentence);
 }
 
 namespace {
@@ -283,31 +242,97 @@ std::string count_text(std::int64_t count, std::int64_t scale) {
 
 namespace {
 
-// "35.2 steps", "falling into a hole 0.31 times".
-std::string times_on_average(const Wording& wording, const std::string& number) {
-  const bool counts = wording.many.find(kNumber) != std::string::npos;
-  return with_number(counts ? wording.many : wording.many + " {n} times", number);
+// n >= 0 to two significant digits.
+std::int64_t about(double n) {
+  constexpr double kThreeDigits = 99.5;  // rounded
+  double unit = 1.0;
+  while (n / unit >= kThreeDigits) unit *= 10.0;
+  return std::llround(n / unit) * std::llround(unit);
 }
+
+// "about 35 more steps", "falling into a hole about 31 fewer times", "about one more step".
+std::string more_or_fewer(const Wording& wording, std::int64_t n, bool more) {
+  const auto& many = wording.many;
+  if (many.find("{n} times") != std::string::npos && n == 1) {
+    auto text = many;
+    replace_first(text, "{n} times", more ? "about once more" : "about once less");
+    return text;
+  }
+  if (n == 1) {
+    auto text = one_more(wording.one);
+    const bool has_number = text.rfind("one more", 0) == 0;
+    if (!more) replace_first(text, has_number ? "one more" : "once more", has_number ? "one fewer" : "once less");
+    replace_first(text, has_number ? "one " : "once ", has_number ? "about one " : "about once ");
+    return text;
+  }
+  const auto number = "about " + std::to_string(n) + (more ? " more" : " fewer");
+  return with_number(many.find(kNumber) == std::string::npos ? many + " {n} times" : many, number);
+}
+
+// What is left of a difference in so many tries once it is rounded, and whether it still speaks for the robot's choice.
+struct InTries {
+  std::vector<std::string> parts;
+  double value = 0.0;
+};
+
+InTries in_tries(const Domain& domain, const IntegerVector& difference, double tries) {
+  InTries result;
+  std::vector<std::string> less, more;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    const double n = tries * static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
+    const auto rounded = about(std::abs(n));
+    if (rounded == 0) continue;
+    result.value +=
+        domain.weights().unit[static_cast<Eigen::Index>(k)] * (n < 0.0 ? -1.0 : 1.0) * static_cast<double>(rounded);
+    const bool is_good = (domain.weights().integer[k] < 0) == (n < 0.0);
+    (is_good ? less : more).push_back(more_or_fewer(domain.wording(k), rounded, n > 0.0));
+  }
+  result.parts = std::move(less);  // what speaks for the choice first
+  result.parts.insert(result.parts.end(), more.begin(), more.end());
+  return result;
+}
+
+// Whether some action brings the feature in less than half of the cases: an accident, or a lucky chance.
+bool is_by_chance(const Mdp& mdp, std::size_t feature) {
+  constexpr double kHalf = 0.5;
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    for (const auto& choice : mdp.choices(s)) {
+      double chance = 0.0;
+      for (const auto& outcome : mdp.outcomes(choice)) {
+        if (mdp.features(outcome)[feature] != 0.0) chance += outcome.probability;
+      }
+      if (chance > 0.0 && chance < kHalf) return true;
+    }
+  }
+  return false;
+}
+
+constexpr const char* kNoDifference = "in 100 tries its choice makes almost no difference";
 
 }  // namespace
 
 std::string on_average_in_words(const Domain& domain, const IntegerVector& difference) {
-  constexpr double kNothing = 0.005;
-  constexpr double kMany = 10.0;
-  std::vector<std::string> saves, gains, costs, forgoes;
+  const bool is_discounted = domain.mdp(MdpIndex{0}).discount() < 1.0;
+  const std::string later = is_discounted ? ", with later steps counting less," : "";
+  for (const int tries : {100, 1000}) {
+    const auto told = in_tries(domain, difference, tries);
+    if (told.parts.empty() || told.value <= 0.0) continue;  // what decides would be rounded away
+    return "in " + std::to_string(tries) + " tries" + later + " its choice means " + listed(told.parts);
+  }
+  return kNoDifference;
+}
+
+std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVector& difference) {
+  constexpr double kNothing = 0.0005;
+  if (on_average_in_words(domain, difference) == kNoDifference) return "";
+  std::vector<std::string> risked, avoided;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const double n = static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
-    if (std::abs(n) < kNothing) continue;
-    const bool is_cost = domain.weights().integer[k] < 0;
-    auto& side = is_cost ? (n < 0 ? saves : costs) : (n < 0 ? forgoes : gains);
-    side.push_back(times_on_average(domain.wording(k), fixed(std::abs(n), std::abs(n) < kMany ? 2 : 1)));
+    if (domain.weights().integer[k] >= 0 || std::abs(n) < kNothing || !is_by_chance(domain.mdp(world), k)) continue;
+    (n > 0.0 ? risked : avoided).push_back(domain.wording(k).one);
   }
-  std::vector<std::string> parts;
-  if (!saves.empty()) parts.push_back("saves " + listed(saves));
-  if (!gains.empty()) parts.push_back("gains " + listed(gains));
-  if (!costs.empty()) parts.push_back("costs " + listed(costs));
-  if (!forgoes.empty()) parts.push_back("forgoes " + listed(forgoes));
-  return parts.empty() ? "on average its choice makes almost no difference" : "on average its choice " + listed(parts);
+  if (!risked.empty()) return "it risks " + listed(risked);
+  return avoided.empty() ? "" : "it avoids the risk of " + listed(avoided);
 }
 
 std::string counts_text(const Domain& domain, const IntegerVector& counts) {

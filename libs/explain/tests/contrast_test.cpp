@@ -122,13 +122,13 @@ void expect_contrast_without_tables(const Atlas& atlas, DemoIndex demo, const Ha
   EXPECT_EQ(contrast->decisive, first_step_that_conveys(atlas, demo, constraint));
   expect_one_other_action(atlas, *contrast);
   const auto why = in_words(domain, constraint);
-  const auto said = reason(domain, *contrast);
+  const auto said = reason(atlas, *contrast);
   ASSERT_GT(said.size(), why.size());
   EXPECT_EQ(said.substr(said.size() - why.size()), why);
   if (domain.is_exact()) {
     EXPECT_EQ(counts_of(domain, atlas.id(demo).mdp, contrast->alternative), contrast->alternative_counts);
   } else {
-    EXPECT_EQ(said.find("on average its choice "), 0u) << said;
+    EXPECT_NE(said.find("in 100"), std::string::npos) << said;  // or 1000 tries
   }
 }
 
@@ -222,9 +222,9 @@ TEST(Reason, RefusesContrastsThatTellNothing) {
   same.robot_counts = icy.feature_counts(DemoIndex{0});
   same.alternative_counts = same.robot_counts;
   EXPECT_FALSE(conveyed_by(icy.domain(), same).has_value());
-  EXPECT_THROW(static_cast<void>(reason(icy.domain(), same)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(reason(icy, same)), std::invalid_argument);
   same.robot_counts = same.alternative_counts = {1, 0, 2};
-  EXPECT_THROW(static_cast<void>(reason(atlas_of("item-delivery").domain(), same)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(reason(atlas_of("item-delivery"), same)), std::invalid_argument);
 }
 
 // The robot of one world, planned anew.

@@ -97,7 +97,7 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
                {"robot", frames_json(domain, world, robot)},
                {"differs_at", nullptr}};
     Json why = Json::array();
-    for (const auto& half_space : test.covered) why.push_back(sentence(in_words(domain, half_space)));
+    for (const auto& text : all_in_words(domain, test.covered)) why.push_back(sentence(text));
     entry["why"] = std::move(why);
     const auto& path = t < seat.paths.size() ? seat.paths[t] : std::optional<GivenPath>{};
     if (path) {

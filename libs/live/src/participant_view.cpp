@@ -222,8 +222,8 @@ class ParticipantPage {
     std::vector<std::string> sentences;
     for (const auto& past : state_.session->history()) {
       if (!past.feedback.component_learned) continue;
-      for (const auto& half_space : past.lesson.taught) {
-        auto text = sentence(in_words(room_.study.atlas->domain(), half_space));
+      for (const auto& words : all_in_words(room_.study.atlas->domain(), past.lesson.taught)) {
+        auto text = sentence(words);
         if (std::find(sentences.begin(), sentences.end(), text) == sentences.end() && sentences.size() < kMostSummary)
           sentences.push_back(std::move(text));
       }

@@ -39,7 +39,7 @@ Json outline_json(const Cone& cone) {
 
 Json plain_sentences(const Domain& domain, std::span<const HalfSpace> half_spaces) {
   Json list = Json::array();
-  for (const auto& half_space : half_spaces) list.push_back(sentence(in_words(domain, half_space)));
+  for (const auto& text : all_in_words(domain, half_spaces)) list.push_back(sentence(text));
   return list;
 }
 

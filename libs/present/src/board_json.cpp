@@ -102,7 +102,7 @@ Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces
   for (const auto& half_space : half_spaces) {
     Json normal = Json::array();
     for (std::size_t k = 0; k < domain.num_features(); ++k) normal.push_back(half_space.normal()[k]);
-    sentences.push_back({{"normal", normal}, {"text", in_words(domain, half_space)}});
+    sentences.push_back({{"normal", normal}, {"text", in_words(domain, half_space, half_spaces)}});
   }
   return sentences;
 }

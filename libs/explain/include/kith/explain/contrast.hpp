@@ -37,9 +37,11 @@ struct Contrast {
 [[nodiscard]] bool is_detour(const Domain& domain, const Contrast& contrast);
 
 /// What the robot does, rather than what, because of what: reason() of both counts. Where counts are expectations,
-/// on_average_in_words() and in_words() of what is conveyed.
+/// risk_in_words(), on_average_in_words() and, if there is a short one, in_words() of what is conveyed.
+/// @param together  other constraints that are conveyed at the same time; see short_statement().
 /// @throws std::invalid_argument if both paths count the same, or the alternative is worth more to the robot.
-[[nodiscard]] std::string reason(const Domain& domain, const Contrast& contrast);
+[[nodiscard]] std::string reason(const Atlas& atlas, const Contrast& contrast,
+                                 std::span<const HalfSpace> together = {});
 
 /// The contrast that conveys a constraint, at the earliest state of the robot's path where there is one: with a path
 /// that somebody expects and that differs from the robot's by a multiple of the constraint's normal; where nobody

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,24 @@ namespace kith {
 /// likes and dislikes on either side: for (-1, 0, 2) "crossing rubble costs more than 2 steps". Where the words of a
 /// feature do not tell whether they are plural: "the cost of rubble crossings is more than the cost of 2 steps".
 /// Where the robot is indifferent, because the constraint holds with equality at its weights, "at least as much as"
-/// stands in place of "more than". Long normals, as expectations have them, are said as in_small_numbers().
-[[nodiscard]] std::string in_words(const Domain& domain, const HalfSpace& half_space);
-/// The constraint itself if no entry exceeds 1000, else one of small numbers that follows from it for everybody who
-/// agrees with the robot on what is a cost and what is a gain: the heavier side is rounded up and the lighter one down,
-/// and no term of the heavier side is left out.
-[[nodiscard]] HalfSpace in_small_numbers(const Domain& domain, const HalfSpace& half_space);
-/// What a choice changes in expectation: "on average its choice saves falling into a hole 0.80 times and costs 1.67
-/// steps". Differences below 0.005 are left out.
-/// @param difference  the robot's counts minus the other ones, in units of 1 / Domain::count_scale(), shape [d].
+/// stands in place of "more than". Long normals, as expectations have them, are said as short_statement(), with its
+/// condition: "if coming home is worth something, 16 steps cost more than falling into the water".
+/// @param together  other constraints that are conveyed at the same time; see short_statement().
+/// @return Nothing if no short statement follows from the constraint.
+[[nodiscard]] std::string in_words(const Domain& domain, const HalfSpace& half_space,
+                                   std::span<const HalfSpace> together = {});
+/// Sentences of constraints that are conveyed together, in their order, without empty and repeated ones.
+[[nodiscard]] std::vector<std::string> all_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces);
+/// What a choice changes in expectation: "in 100 tries its choice means falling into a hole about 80 fewer times and
+/// about 170 more steps". Numbers have two significant digits; what speaks for the choice comes first. In 1000 tries if
+/// rounding would leave out what decides. In discounted domains it says that later steps count less.
 [[nodiscard]] std::string on_average_in_words(const Domain& domain, const IntegerVector& difference);
-/// The normal and the words: "(-1,0,2): crossing rubble costs more than 2 steps".
+/// What a choice risks: "it risks falling into a hole", "it avoids the risk of falling into a hole"; nothing if no cost
+/// that differs is an accident (something that some action brings in less than half of the cases). Looks at all
+/// outcomes of the world.
+/// @param difference  as above.
+[[nodiscard]] std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVector& difference);
+/// The normal and the words: "(-1,0,2): crossing rubble costs more than 2 steps"; the normal alone if there are none.
 [[nodiscard]] std::string described(const Domain& domain, const HalfSpace& half_space);
 /// "(-1,0,2)", without entries beyond the domain's features.
 [[nodiscard]] std::string normal_text(const Domain& domain, const HalfSpace& half_space);
