@@ -10,7 +10,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
 import { launch, openPage, requireFrom } from './browser.mjs';
-import { largeLesson, mapless } from './lessons.mjs';
+import { largeLesson, mapless, uncertain } from './lessons.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
@@ -42,6 +42,7 @@ const pages = {
   sample: addressOf('sample', sample),
   large: addressOf('large', largeLesson()),
   mapless: addressOf('mapless', mapless()),
+  uncertain: addressOf('uncertain', uncertain()),
 };
 
 let browser;
@@ -207,6 +208,25 @@ describe('a lesson', () => {
       assert.equal(await page.locator('.board').count(), 0);
       await page.click('.why summary');
       assert.match(await page.textContent('.steps .parting'), /dock: wait.*here they separate/);
+    });
+  });
+
+  it('shows several runs where chance has a part, and the most likely path only with the reason', async () => {
+    await withLesson('uncertain', { width: 1280, dark: false }, async (page) => {
+      const shown = page.locator('.demonstration').first();
+      assert.match(await shown.textContent(), /What will the robot do\?.*2 runs of the robot, just as they happened/s);
+      assert.doesNotMatch(await shown.textContent(), /most likely path/i);
+      assert.match(await shown.locator('.runs').textContent(), /Run 1 of 2.*the end.*the most common path in 1\./s);
+      await shown.getByRole('button', { name: 'Next run' }).click();
+      assert.match(await shown.locator('.runs').textContent(), /Run 2 of 2.*and so on/s);
+      await page.click('.why summary');
+      assert.match(await shown.textContent(), /The most likely path/);
+      const test = page.locator('.test').first();
+      assert.match(await test.textContent(), /here and wherever it may end up/);
+      await test.locator('summary').click();
+      assert.match(await test.textContent(), /Run 1 of 2/);
+      assert.doesNotMatch(await test.textContent(), /A correct answer shows/);
+      assert.deepEqual(await violations(page), []);
     });
   });
 });

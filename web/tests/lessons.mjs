@@ -99,3 +99,21 @@ export function mapless() {
     skipped: [{ name: 'something', why: 'all of it is known beforehand' }],
   };
 }
+
+// The same model where chance has a part: two runs, one of which does not end.
+export function uncertain() {
+  const lesson = mapless();
+  const [component] = lesson.components;
+  const first = component.demonstrations[0];
+  const runs = {
+    text: 'in 2 runs: a minute in all and the most common path in 1',
+    runs: [
+      { frames: first.frames, ended: true },
+      { frames: first.alternative.frames, ended: false },
+    ],
+  };
+  first.runs = runs;
+  component.tests[0].runs = runs;
+  component.tests[0].covers = [{ ...component.sentences[0], text: '' }]; // nothing short is true
+  return lesson;
+}

@@ -44,7 +44,7 @@ class CurriculumText {
   void component(std::size_t i) {
     const auto& component = curriculum_.components[i];
     out_ += "\n" + console_.bold(fmt::format("{}. {}", i + 1, component.name)) + "\n";
-    for (const auto& half_space : component.constraints) line("- " + in_words(domain_, half_space), 3);
+    for (const auto& sentence : all_in_words(domain_, component.constraints)) line("- " + sentence, 3);
     for (std::size_t j = 0; j < component.demonstrations.size(); ++j) demonstration(j, component.demonstrations[j]);
     for (std::size_t j = 0; j < component.tests.size(); ++j) test(j, component.tests[j]);
   }
@@ -56,15 +56,13 @@ class CurriculumText {
     line(shown.reason, 3);
     out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
     line("the robot: " + with_chance(world, contrast.robot), 5);
+    runs(shown.demo, shown.runs);
     if (contrast.robot.actions == contrast.alternative.actions) {
       line("someone missing this fact would predict the same likeliest path, with other chances", 5);
     } else {
       const auto fork = contrast.robot.states[contrast.decisive];
-      const auto map = domain_.map();
-      const auto where = map ? "at " + cell_text(*map, map->state(world, fork).robot)
-                             : "in state '" + domain_.state_name(world, fork) + "'";
       line("someone missing this fact would predict: " + with_chance(world, contrast.alternative), 5);
-      line(fmt::format("they differ from step {}, {}", contrast.decisive + 1, where), 5);
+      line(fmt::format("they differ from step {}, {}", contrast.decisive + 1, place(world, fork)), 5);
     }
     if (shown.flip) {
       line(fmt::format("world {}: {}", atlas_.id(shown.flip->demo).mdp.value(),
@@ -72,6 +70,28 @@ class CurriculumText {
            5);
       out_ += start_and_path(domain_, atlas_.id(shown.flip->demo), shown.flip->robot, 5);
     }
+  }
+
+  // What happened in several runs, and the paths that they took.
+  void runs(DemoIndex demo, const std::vector<PolicyRun>& all) {
+    if (all.empty()) return;
+    constexpr std::size_t kFew = 3;
+    line(runs_in_words(domain_, atlas_.id(demo).mdp, all), 5);
+    const auto ways = different_ways(all);
+    for (std::size_t i = 0; i < std::min(kFew, ways.size()); ++i) {
+      const auto& way = ways[i];
+      const auto& run = all[way.run];
+      line(fmt::format("{} of {}: {}, {}", way.times, all.size(), actions_text(domain_, run.path.actions),
+                       run.has_ended ? "ending " + place(atlas_.id(demo).mdp, run.path.states.back()) : "and so on"),
+           7);
+    }
+    if (ways.size() > kFew) line(fmt::format("and {}", counted(ways.size() - kFew, "other path")), 7);
+  }
+
+  [[nodiscard]] std::string place(MdpIndex world, StateIndex s) const {
+    const auto map = domain_.map();
+    return map ? "at " + cell_text(*map, map->state(world, s).robot)
+               : "in state '" + domain_.state_name(world, s) + "'";
   }
 
   [[nodiscard]] std::string with_chance(MdpIndex world, const Trajectory& path) const {
@@ -86,7 +106,8 @@ class CurriculumText {
                         id.mdp.value(), name_of(test.difficulty), 100.0 * test.share_right);
     out_ += start_and_path(domain_, id, path, 5);
     line("answer: " + with_chance(id.mdp, path), 5);
-    for (const auto& half_space : test.covers) line("shows that " + in_words(domain_, half_space), 5);
+    runs(test.demo, test.runs);
+    for (const auto& sentence : all_in_words(domain_, test.covers)) line("shows that " + sentence, 5);
   }
 
   const Atlas& atlas_;

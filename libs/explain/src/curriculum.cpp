@@ -116,7 +116,13 @@ class CurriculumMaker {
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
     auto sentence = reason(atlas_, *contrast, conveys);
     auto flip = nearest_flip(atlas_, *contrast);
-    return {shown.demo, std::move(conveys), main, *std::move(contrast), std::move(sentence), std::move(flip)};
+    return {shown.demo,      std::move(conveys),   main, *std::move(contrast), std::move(sentence),
+            std::move(flip), runs_from(shown.demo)};
+  }
+
+  [[nodiscard]] std::vector<PolicyRun> runs_from(DemoIndex demo) const {
+    auto random = RandomStream{options_.seed}.split("runs").split(demo.value());
+    return several_runs(atlas_, demo, options_.runs, random);
   }
 
   // In the order of the tables, where there are some.
@@ -173,7 +179,7 @@ class CurriculumMaker {
     const auto difficulty = share >= kEasy  ? Difficulty::kEasy
                             : share < kHard ? Difficulty::kHard
                                             : Difficulty::kMedium;
-    return {test.demo, test.covered, share, difficulty};
+    return {test.demo, test.covered, share, difficulty, runs_from(test.demo)};
   }
 
   void skip(std::size_t component) {

@@ -155,6 +155,21 @@ TEST(CurriculumJson, HasAllThatThePageShows) {
       EXPECT_GE(test.at("share_right").get<double>(), 0.0);
       EXPECT_LE(test.at("share_right").get<double>(), 1.0);
       EXPECT_FALSE(test.at("covers").empty());
+      EXPECT_TRUE(test.at("runs").is_null());
+    }
+  }
+}
+
+TEST(CurriculumJson, HasRunsWhereChanceHasAPart) {
+  const Atlas atlas{load_domain(std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml")};
+  const auto json = curriculum_json(atlas, make_curriculum(atlas), 7, "kith test");
+  for (const auto& shown : json.at("components").at(0).at("demonstrations")) {
+    const auto& runs = shown.at("runs");
+    EXPECT_EQ(runs.at("text").get<std::string>().rfind("in 10 runs: ", 0), 0u);
+    ASSERT_EQ(runs.at("runs").size(), 10u);
+    for (const auto& run : runs.at("runs")) {
+      EXPECT_EQ(look_of(run.at("frames").at(0)), shown.at("start"));
+      EXPECT_TRUE(run.at("ended").is_boolean());
     }
   }
 }

@@ -1,13 +1,18 @@
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Demonstration, Sentence } from './document';
+import { RunsView } from './runs';
 import { Scene, type Context } from './scene';
-import { upperFirst, withoutCells } from './words';
+import { actionsText, upperFirst, withoutCells } from './words';
+
+// Sentences that can be said, each once: of some constraints nothing short is true.
+export const textsOf = (sentences: Sentence[]): string[] =>
+  [...new Set(sentences.map(({ text }) => text))].filter((text) => text !== '');
 
 export function Sentences({ sentences }: { sentences: Sentence[] }): JSX.Element {
   return (
     <ul class="sentences">
-      {sentences.map(({ text }) => (
+      {textsOf(sentences).map((text) => (
         <li>{upperFirst(text)}.</li>
       ))}
     </ul>
@@ -18,30 +23,38 @@ export function Sentences({ sentences }: { sentences: Sentence[] }): JSX.Element
 export function DemonstrationView({ shown, number, ...context }: Context & { shown: Demonstration; number: number }) {
   const [open, setOpen] = useState(false);
   const { alternative, decisive, flip } = shown;
+  // Where chance has a part, the most likely paths can be the same although the decisions differ.
+  const isSame = Boolean(shown.runs && alternative && actionsText(shown.frames) === actionsText(alternative.frames));
   // The board of the other world marks the same place: there the robot decides differently.
   const there = flip && decisive ? { frame: decisive.frame, ...cellThere(flip.frames[decisive.frame]?.robot) } : null;
   return (
     <article class="demonstration">
       <h3>Example {number}</h3>
-      <p class="question">Where will the robot go? Decide first, then watch.</p>
-      <Scene
-        {...context}
-        board={shown}
-        title="The robot"
-        name="the robot's path"
-        {...(open && alternative ? { other: alternative.frames } : {})}
-        decisive={open ? decisive : null}
-      >
-        {open && alternative && decisive
-          ? `${shown.map ? 'The dashed path' : 'The other list'} is one that you might have expected. They differ from step ${decisive.frame + 1}.`
-          : null}
-      </Scene>
+      <p class="question">{shown.runs ? 'What will the robot do?' : 'Where will the robot go?'} Decide first, then watch.</p>
+      {shown.runs && <RunsView {...context} board={shown} shown={shown.runs} />}
+      {(!shown.runs || open) && (
+        <Scene
+          {...context}
+          board={shown}
+          title={shown.runs ? 'The most likely path' : 'The robot'}
+          name={shown.runs ? "the robot's most likely path" : "the robot's path"}
+          {...(open && alternative && !isSame ? { other: alternative.frames } : {})}
+          decisive={open && !isSame ? decisive : null}
+        >
+          {open && alternative && decisive && !isSame
+            ? `${shown.map ? 'The dashed path' : 'The other list'} is one that you might have expected. They differ from step ${decisive.frame + 1}.`
+            : null}
+          {open && isSame
+            ? 'On this path the robot does what you might have expected. The difference shows when things turn out otherwise.'
+            : null}
+        </Scene>
+      )}
       <details class="why" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
         <summary>{open ? 'Hide the reason' : 'Why does it do this?'}</summary>
         {open && (
           <>
             <p class="reason">{upperFirst(shown.reason)}.</p>
-            {shown.conveys.length > 1 && (
+            {textsOf(shown.conveys).length > 1 && (
               <div class="conveys">
                 <p>From this you can conclude:</p>
                 <Sentences sentences={shown.conveys} />

@@ -10,7 +10,14 @@ export interface Flip extends Board {
   text: string;
 }
 
+// Several runs of the robot, with outcomes as they fell, and what happened in how many of them.
+export interface Runs {
+  text: string;
+  runs: { frames: Frame[]; ended: boolean }[];
+}
+
 export interface Demonstration extends Board {
+  runs: Runs | null; // nothing where chance has no part
   reason: string;
   conveys: Sentence[];
   alternative: { frames: Frame[] } | null;
@@ -19,6 +26,7 @@ export interface Demonstration extends Board {
 }
 
 export interface Test extends Board {
+  runs: Runs | null;
   difficulty: 'easy' | 'medium' | 'hard';
   share_right: number;
   covers: Sentence[];

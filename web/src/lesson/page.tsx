@@ -5,7 +5,7 @@ import { kFew } from '../shared/board/board';
 import { Patterns, PartGlyph, Robot } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
 import { themeToggle } from '../shared/theme';
-import { DemonstrationView, Sentences } from './demonstration';
+import { DemonstrationView, Sentences, textsOf } from './demonstration';
 import type { Component, Lesson } from './document';
 import type { Context } from './scene';
 import { TestView } from './test_card';
@@ -145,8 +145,9 @@ function ComponentView({ component, ...context }: Context & { component: Compone
   );
 }
 
-function Summary({ component }: { component: Component }): JSX.Element {
+function Summary({ component }: { component: Component }): JSX.Element | null {
   const [open, setOpen] = useState(false);
+  if (textsOf(component.sentences).length === 0) return null;
   return (
     <details class="goals" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
       <summary>

@@ -5,7 +5,14 @@ import type { Frame } from '../shared/board/types';
 import { useCalm, type Playback } from '../shared/playback';
 import { stepText } from './words';
 
-export function Player({ frames, playback, what }: { frames: Frame[]; playback: Playback; what: string }): JSX.Element {
+interface PlayerProps {
+  frames: Frame[];
+  playback: Playback;
+  what: string;
+  isCutOff?: boolean | undefined; // the path is longer than what is shown
+}
+
+export function Player({ frames, playback, what, isCutOff }: PlayerProps): JSX.Element {
   const { step, last, playing, show, toggle } = playback;
   const calm = useCalm(); // then nothing plays by itself
   const id = useId();
@@ -36,7 +43,7 @@ export function Player({ frames, playback, what }: { frames: Frame[]; playback: 
         />
       </div>
       <p class="step" id={id} aria-live={playing ? 'off' : 'polite'}>
-        {stepText(frames, step)}
+        {stepText(frames, step, isCutOff)}
       </p>
     </div>
   );

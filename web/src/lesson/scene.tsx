@@ -19,6 +19,7 @@ interface SceneProps extends Context {
   title: string;
   other?: Frame[];
   decisive?: { frame: number; cell?: Place } | null;
+  isCutOff?: boolean; // the run is longer than what is shown
   children?: ComponentChildren;
 }
 
@@ -50,7 +51,7 @@ function PlayedBoard(props: SceneProps): JSX.Element {
   return (
     <>
       <BoardView {...props} step={step} walked={playback.step} label={labelOf(props)} path />
-      <Player frames={step < playback.step ? holding(board.frames, longer) : board.frames} playback={playback} what={props.name} />
+      <Player frames={step < playback.step ? holding(board.frames, longer) : board.frames} playback={playback} what={props.name} isCutOff={props.isCutOff} />
     </>
   );
 }
@@ -61,15 +62,15 @@ function holding(frames: Frame[], longer: Frame[]): Frame[] {
   return longer.map((_, i) => frames[i] ?? last ?? {});
 }
 
-function Steps({ board, other, decisive, name }: SceneProps): JSX.Element {
+function Steps({ board, other, decisive, name, isCutOff }: SceneProps): JSX.Element {
   const list = (frames: Frame[], title: string, first: number): JSX.Element => (
     <div>
       <p class="list-title">{title}</p>
       <ol class="steps" start={first + 1}>
         {frames.slice(first).map((frame, i) => (
           <li class={decisive?.frame === first + i ? 'parting' : undefined}>
-            {upperFirst(placeOf(frame))}
-            {frame.action ? `: ${frame.action}` : ': the end'}
+            {frame.robot ? upperFirst(placeOf(frame)) : (frame.state ?? 'a state')}
+            {frame.action ? `: ${frame.action}` : isCutOff ? ': and so on' : ': the end'}
             {decisive?.frame === first + i && <span class="mark">here they separate</span>}
           </li>
         ))}

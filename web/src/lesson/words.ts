@@ -43,11 +43,11 @@ function moveText(frame: Frame): string {
 }
 
 // The step that has just been made: "Step 2 of 7: it goes left." Nothing is told before the robot moves.
-export function stepText(frames: Frame[], step: number): string {
+export function stepText(frames: Frame[], step: number, isCutOff = false): string {
   const steps = frames.length - 1;
   const before = frames[step - 1];
   if (!before?.action) return step === 0 ? 'The robot has not moved yet.' : `After ${counted(steps, 'step')}: the end.`;
-  return `Step ${step} of ${steps}: ${moveText(before)}.${step === steps ? ' The end.' : ''}`;
+  return `Step ${step} of ${steps}: ${moveText(before)}.${step === steps ? (isCutOff ? ' It goes on.' : ' The end.') : ''}`;
 }
 
 // The step that begins with a frame, for those who do not see the board: "At column 3, row 1 it goes left."

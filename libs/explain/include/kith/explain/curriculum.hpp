@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kith/explain/contrast.hpp"
+#include "kith/explain/runs.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -18,6 +19,7 @@ struct CurriculumDemonstration {
   Contrast contrast;               ///< With the path that a person who does not know `main` would expect.
   std::string reason;              ///< One sentence; see reason().
   std::optional<Flip> flip;        ///< Nothing if the robot decides alike in all worlds.
+  std::vector<PolicyRun> runs;     ///< As outcomes fell; nothing if chance has no part in what the robot does.
 };
 
 enum class Difficulty { kEasy, kMedium, kHard };
@@ -32,6 +34,7 @@ struct CurriculumTest {
   /// Share of the beliefs that answer right, in [0, 1]: beliefs are uniform over what was known before the component.
   double share_right = 0.0;
   Difficulty difficulty = Difficulty::kMedium;  ///< Easy from two thirds on, hard below one third.
+  std::vector<PolicyRun> runs;                  ///< As of a demonstration.
 };
 
 /// A knowledge component with all that is shown and asked.
@@ -58,6 +61,7 @@ struct Curriculum {
 struct CurriculumOptions {
   TeachingOptions teaching{};
   std::uint64_t seed = 1;      ///< Root of all that the teacher draws.
+  std::size_t runs = 10;       ///< How many runs are drawn where chance has a part.
   std::size_t beliefs = 4000;  ///< Points of the regular cover by which share_right is measured, >= 1.
 };
 

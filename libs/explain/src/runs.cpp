@@ -1,0 +1,115 @@
+#include "kith/explain/runs.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "kith/core/assert.hpp"
+#include "kith/explain/words.hpp"
+
+namespace kith {
+namespace {
+
+// Follows the robot's policy; what it does in a state is looked up once.
+class Runner {
+ public:
+  Runner(const Atlas& atlas, MdpIndex world) : atlas_{atlas}, world_{world}, mdp_{atlas.domain().mdp(world)} {}
+
+  PolicyRun run(StateIndex s, RandomStream& random) {
+    PolicyRun result{{{s}, {}}, IntegerVector(mdp_.num_features()), false};
+    for (std::size_t t = 0; t < atlas_.domain().max_steps() && !mdp_.is_terminal(s); ++t) {
+      const auto& choice = choice_in(s);
+      const auto& outcome = drawn(choice, random);
+      const auto features = mdp_.features(outcome);
+      for (std::size_t k = 0; k < features.size(); ++k) result.times[k] += features[k] != 0.0 ? 1 : 0;
+      s = outcome.next;
+      result.path.actions.push_back(choice.action);
+      result.path.states.push_back(s);
+    }
+    result.has_ended = mdp_.is_terminal(s);
+    return result;
+  }
+
+  // Whether some outcome was left to chance so far.
+  [[nodiscard]] bool met_chance() const { return met_chance_; }
+
+ private:
+  const Choice& choice_in(StateIndex s) {
+    const auto known = choices_.find(s);
+    if (known != choices_.end()) return *known->second;
+    const auto action = atlas_.trajectory(atlas_.index({world_, s})).actions.front();
+    const auto choices = mdp_.choices(s);
+    const auto choice = std::ranges::find(choices, action, &Choice::action);
+    KITH_ASSERT(choice != choices.end());
+    met_chance_ = met_chance_ || mdp_.outcomes(*choice).size() > 1;
+    return *choices_.emplace(s, &*choice).first->second;
+  }
+
+  const Outcome& drawn(const Choice& choice, RandomStream& random) const {
+    const auto outcomes = mdp_.outcomes(choice);
+    if (outcomes.size() == 1) return outcomes.front();
+    double left = uniform01(random);
+    for (const auto& outcome : outcomes) {
+      if (left < outcome.probability) return outcome;
+      left -= outcome.probability;
+    }
+    return *std::ranges::max_element(outcomes, {}, &Outcome::probability);  // rounding
+  }
+
+  const Atlas& atlas_;
+  MdpIndex world_;
+  const Mdp& mdp_;
+  std::map<StateIndex, const Choice*> choices_;
+  bool met_chance_ = false;
+};
+
+}  // namespace
+
+std::vector<PolicyRun> several_runs(const Atlas& atlas, DemoIndex start, std::size_t n, RandomStream& random) {
+  const auto id = atlas.id(start);
+  Runner runner{atlas, id.mdp};
+  std::vector<PolicyRun> runs;
+  for (std::size_t i = 0; i < n; ++i) {
+    runs.push_back(runner.run(id.start, random));
+    if (!runner.met_chance()) return {};  // nor would any other run
+  }
+  return runs;
+}
+
+std::string runs_in_words(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs) {
+  std::vector<std::string> told;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    if (!domain.mdp(world).has_feature(k)) continue;
+    const auto n = static_cast<std::size_t>(
+        std::count_if(runs.begin(), runs.end(), [&](const PolicyRun& run) { return run.times[k] > 0; }));
+    if (n > 0 && n < runs.size()) told.push_back(domain.wording(k).one + " in " + std::to_string(n));
+  }
+  const auto unfinished = static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [](const PolicyRun& run) { return !run.has_ended; }));
+  if (unfinished > 0)
+    told.push_back("no end within " + counted(domain.max_steps(), "step") + " in " +
+                   (unfinished == runs.size() ? "all" : std::to_string(unfinished)));
+  const auto ways = different_ways(runs);
+  if (ways.size() > 1) {
+    told.push_back(ways.front().times > 1 ? "the most common path in " + std::to_string(ways.front().times)
+                                          : std::string{"a different path in each"});
+  }
+  return "in " + counted(runs.size(), "run") + ": " + (told.empty() ? "the same path each time" : listed(told));
+}
+
+std::vector<Way> different_ways(const std::vector<PolicyRun>& runs) {
+  std::vector<Way> ways;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto known = std::find_if(ways.begin(), ways.end(), [&](const Way& way) {
+      return runs[way.run].path.actions == runs[i].path.actions && runs[way.run].path.states == runs[i].path.states;
+    });
+    if (known == ways.end()) {
+      ways.push_back({i, 1});
+    } else {
+      ++known->times;
+    }
+  }
+  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.times > b.times; });
+  return ways;
+}
+
+}  // namespace kith

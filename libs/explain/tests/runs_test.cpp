@@ -1,0 +1,79 @@
+#include "kith/explain/runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlases.hpp"
+#include "lake.hpp"
+
+namespace kith {
+namespace {
+
+using testing::atlas_of;
+
+// Runs keep to the robot's policy and to outcomes that can follow.
+void expect_possible(const Atlas& atlas, DemoIndex demo, const PolicyRun& run) {
+  const auto world = atlas.id(demo).mdp;
+  const auto& mdp = atlas.domain().mdp(world);
+  ASSERT_EQ(run.path.states.front(), atlas.id(demo).start);
+  ASSERT_EQ(run.path.states.size(), run.path.actions.size() + 1);
+  EXPECT_EQ(run.has_ended, mdp.is_terminal(run.path.states.back()));
+  for (std::size_t t = 0; t < run.path.actions.size(); ++t) {
+    const auto s = run.path.states[t];
+    EXPECT_EQ(run.path.actions[t], atlas.trajectory(atlas.index({world, s})).actions.front());
+    const auto choice = std::ranges::find(mdp.choices(s), run.path.actions[t], &Choice::action);
+    const auto outcomes = mdp.outcomes(*choice);
+    EXPECT_TRUE(std::ranges::any_of(outcomes, [&](const Outcome& o) { return o.next == run.path.states[t + 1]; }));
+  }
+}
+
+TEST(Runs, AreRunsOfThePolicyAsOutcomesFall) {
+  const auto& atlas = atlas_of(testing::slippery_lake("steps", "{ step = -1 }", "1.0"));
+  RandomStream random{1}, again{1};
+  const auto runs = several_runs(atlas, DemoIndex{0}, 10, random);
+  ASSERT_EQ(runs.size(), 10u);
+  EXPECT_GT(different_ways(runs).size(), 1u);  // never only the likeliest path
+  for (const auto& run : runs) expect_possible(atlas, DemoIndex{0}, run);
+  const auto same = several_runs(atlas, DemoIndex{0}, 10, again);
+  for (std::size_t i = 0; i < runs.size(); ++i) EXPECT_EQ(same[i].path.states, runs[i].path.states);
+}
+
+TEST(Runs, AreLeftOutWhereNothingIsLeftToChance) {
+  RandomStream random{1};
+  EXPECT_TRUE(several_runs(atlas_of("item-delivery"), DemoIndex{0}, 10, random).empty());
+}
+
+// Expected shares within four standard errors.
+TEST(Runs, FallAsOftenAsTheModelSays) {
+  const auto& atlas = atlas_of(testing::slippery_lake("steps", "{ step = -1 }", "1.0"));
+  const auto& domain = atlas.domain();
+  RandomStream random{3};
+  constexpr std::size_t kRuns = 2000;
+  const auto runs = several_runs(atlas, DemoIndex{0}, kRuns, random);
+  std::size_t falls = 0;
+  for (const auto& run : runs) {
+    if (run.times[0] > 0) ++falls;
+  }
+  const double expected =
+      static_cast<double>(atlas.feature_counts(DemoIndex{0})[0]) / static_cast<double>(domain.count_scale());
+  EXPECT_NEAR(static_cast<double>(falls) / kRuns, expected, 4.0 * 0.5 / std::sqrt(static_cast<double>(kRuns)));
+}
+
+TEST(Runs, AreCountedInWords) {
+  const auto& domain = atlas_of(testing::slippery_lake("steps", "{ step = -1 }", "1.0")).domain();
+  const auto run = [](std::int64_t falls, std::size_t action) {
+    PolicyRun result;
+    result.path = Trajectory{{StateIndex{0}, StateIndex{1}}, {ActionIndex{action}}};
+    result.times = IntegerVector{falls, 1 - falls, 1};
+    result.has_ended = true;
+    return result;
+  };
+  EXPECT_EQ(runs_in_words(domain, MdpIndex{0}, {run(1, 0), run(0, 1), run(0, 1)}),
+            "in 3 runs: falling into a hole in 1, reaching the goal in 2 and the most common path in 2");
+  EXPECT_EQ(runs_in_words(domain, MdpIndex{0}, {run(0, 1), run(0, 1)}), "in 2 runs: the same path each time");
+}
+
+}  // namespace
+}  // namespace kith
