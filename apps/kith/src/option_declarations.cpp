@@ -99,6 +99,9 @@ void add_teach(CLI::App& app, Options& options) {
   auto* set = &add_set(command, teach.set);
   auto* from = command.add_option("--from", teach.from, "Replay a team of this run folder")->type_name("DIR");
   auto* team = command.add_option("--team", teach.team, "Number of the team, as in teams.csv")->type_name("N");
+  takes_integer(*command.add_option("--forecast", teach.forecast,
+                                    "Forecast the session from this many imagined teams of the same kind"),
+                0, 100'000);
   from->needs(team);
   team->needs(from);
   for (auto* other : {domain, group, strategy, seed, study, set}) from->excludes(other);

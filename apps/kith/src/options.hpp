@@ -67,6 +67,7 @@ struct TeachOptions {
   std::vector<std::string> set;
   std::string from;  ///< A run folder ...
   std::string team;  ///< ... and the number of one of its teams, as typed: only the folder tells how many there are.
+  std::optional<std::size_t> forecast;  ///< Imagined sessions; none: as the study says.
 };
 
 /// "2/7": part 2 of 7.

@@ -11,6 +11,7 @@
 #include "kith/files/sha256.hpp"
 #include "kith/live/world_json.hpp"
 #include "kith/random/distributions.hpp"
+#include "kith/study/session_forecasts.hpp"
 #include "live_texts.hpp"
 #include "room_body.hpp"
 
@@ -63,6 +64,16 @@ void require_teachable(const std::vector<StrategyChoice>& strategies) {
                                               "' reads what simulated people believe, so it cannot teach real ones: "
                                               "remove it from [design]"};
   }
+}
+
+// What sessions of people cannot do.
+void require_whole_group(const StudySpec& spec) {
+  std::string key;
+  if (spec.teaching.release != ReleaseRule::kNone) key = "stop.release";
+  if (spec.grouping != Grouping::kTogether) key = "teacher.grouping";
+  if (spec.teaching.placement_tests > 0) key = "teacher.placement_tests";
+  if (key.empty()) return;
+  throw Error{ErrorKind::kInvalidInput, "'" + key + "' works in simulated studies only: remove it to teach people"};
 }
 
 void require_small_worlds(const Domain& domain) {
@@ -156,6 +167,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   auto live = std::make_shared<LiveStudy>();
   live->spec = study.variants.front();
   require_teachable(live->spec.strategies);
+  require_whole_group(live->spec);
   auto& group = live->spec.group;
   require_small_worlds(atlas->domain());
   atlas = with_answerable_tests(std::move(atlas));
@@ -183,6 +195,13 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   }
   live->key = sha256(identity).substr(0, 8);
   live->atlas = std::move(atlas);
+  if (live->spec.forecast_sessions > 0) {
+    TeachingCache cache{live->atlas};
+    for (const auto& [strategy, composition] : live_cells(*live)) {
+      live->imagined[{strategy, composition}] =
+          imagine_sessions(*live->atlas, cache, live->spec, strategy, composition, live->spec.forecast_sessions);
+    }
+  }
   return live;
 }
 

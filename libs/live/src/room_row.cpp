@@ -95,23 +95,48 @@ class RoomRowPage {
     return moves_with_group ? std::max(seat.since_us, state_.phase_us) : seat.since_us;
   }
 
-  // Periods: as many per open component as the components before took on average. Minutes: the shortest and the
-  // longest period so far times that.
+  // From imagined sessions at the pace of this one so far, where the study has them; else from its own periods.
   [[nodiscard]] Json forecast() const {
     if (!is_running(state_) || state_.durations_us.empty()) return {};
-    const auto components = state_.session->components();
+    const auto& session = *state_.session;
+    const auto imagined = room_.study.imagined.find({session.strategy().name, room_.setup.composition});
+    if (imagined != room_.study.imagined.end()) return forecast_from(imagined->second);
+    const auto components = session.components();
     const auto count = [&](ComponentStatus status) {
-      return static_cast<double>(std::count(components.begin(), components.end(), status));
+      return static_cast<std::size_t>(std::count(components.begin(), components.end(), status));
     };
-    const double learned = std::max(1.0, count(ComponentStatus::kLearned));
-    const double done = static_cast<double>(state_.session->periods());
-    const double most = static_cast<double>(state_.session->options().max_periods) - done;
-    const double periods = std::min(most, std::ceil(count(ComponentStatus::kOpen) * std::max(1.0, done / learned)));
-    const auto [shortest, longest] = std::minmax_element(state_.durations_us.begin(), state_.durations_us.end());
-    const auto minutes = [&](std::int64_t us) {
-      return std::ceil(periods * static_cast<double>(us) / (60.0 * static_cast<double>(kSecond)));
-    };
-    return {{"periods", periods}, {"minutes_low", minutes(*shortest)}, {"minutes_high", minutes(*longest)}};
+    std::vector<double> minutes;
+    for (const auto us : state_.durations_us) minutes.push_back(in_minutes(us));
+    const auto left =
+        extrapolate_remaining(count(ComponentStatus::kOpen), count(ComponentStatus::kLearned), session.periods(),
+                              session.options().max_periods - session.periods(), minutes);
+    return {{"periods", left.mean_periods()},
+            {"minutes_low", std::ceil(left.minutes_quantile(0.0))},
+            {"minutes_high", std::ceil(left.minutes_quantile(1.0))}};
+  }
+
+  [[nodiscard]] Json forecast_from(const std::vector<PastSession>& sessions) const {
+    const auto& session = *state_.session;
+    const auto components = session.components();
+    SessionPlace place;
+    place.stage = static_cast<std::size_t>(std::find(components.begin(), components.end(), ComponentStatus::kOpen) -
+                                           components.begin());
+    double assumed = 0.0, took = 0.0;  // minutes of the periods so far
+    for (const auto& past : session.history()) {
+      place.periods += past.lesson.component == place.stage ? 1u : 0u;
+      assumed += minutes_of(room_.study.spec.pace, past.lesson.demonstrations.size(), past.lesson.tests.size());
+    }
+    for (const auto us : state_.durations_us) took += in_minutes(us);
+    const auto left = forecast_remaining(sessions, place).at_pace(assumed > 0.0 ? took / assumed : 1.0);
+    constexpr double kLow = 0.1, kHigh = 0.9;
+    return {{"periods", left.mean_periods()},
+            {"minutes_low", std::ceil(left.minutes_quantile(kLow))},
+            {"minutes_high", std::ceil(left.minutes_quantile(kHigh))},
+            {"done_within", {left.done_within(1), left.done_within(2), left.done_within(3)}}};
+  }
+
+  [[nodiscard]] static double in_minutes(std::int64_t us) {
+    return static_cast<double>(us) / (60.0 * static_cast<double>(kSecond));
   }
 
   const RoomParts& room_;

@@ -117,6 +117,26 @@ TEST(Room, TeachesASinglePersonAtAnyTime) {
   }
 }
 
+// With imagined sessions the forecast knows how long others took; without, only the periods so far.
+TEST(Room, ForecastsWhatIsLeft) {
+  for (const std::string record : {"", "[record]\nforecast = 8\n"}) {
+    Play play{live_study(record), RoomSetup{.id = "r", .code = "c", .strategy = "common", .composition = "N"}};
+    play.start(1);
+    const auto row = [&] { return play.room().row({Viewer::Role::kObserver, 0}); };
+    EXPECT_FALSE(row().contains("forecast"));
+    for (int i = 0; i < 20 && play.room().session().periods() < 1; ++i) {
+      play.pass(10.0);
+      play.act(1);
+    }
+    const auto ahead = row()["forecast"];
+    ASSERT_TRUE(ahead.is_object()) << row().dump();
+    EXPECT_GT(ahead["periods"], 0.0);
+    EXPECT_LE(ahead["minutes_low"], ahead["minutes_high"]);
+    EXPECT_EQ(ahead.contains("done_within"), !record.empty());
+    if (!record.empty()) EXPECT_EQ(play.study().imagined.at({"common", "N"}).size(), 8u);
+  }
+}
+
 TEST(Room, MixesPeopleAndStandIns) {
   Play play{live_study(), "NNP", {false, true, true}};
   play.start(1);

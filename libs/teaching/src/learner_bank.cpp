@@ -5,6 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "kith/teaching/placement.hpp"
+
 namespace kith {
 namespace {
 
@@ -46,8 +48,28 @@ std::vector<LearnerHypothesis> grid_of_hypotheses() {
   return grid;
 }
 
+std::vector<LearnerHypothesis> grid_of_known_components(std::size_t num_components) {
+  constexpr std::size_t kAllCombinations = 4, kMostComponents = 31;
+  if (num_components > kMostComponents) throw std::invalid_argument{"grid_of_known_components: too many components"};
+  std::vector<std::uint32_t> sets;
+  if (num_components <= kAllCombinations) {
+    for (std::uint32_t set = 0; set < 1u << num_components; ++set) sets.push_back(set);
+  } else {
+    sets.push_back(0);
+    for (std::size_t k = 0; k < num_components; ++k) sets.push_back(1u << k);
+    for (std::size_t k = 2; k <= num_components; ++k) sets.push_back((1u << k) - 1u);
+  }
+  std::vector<LearnerHypothesis> grid;
+  for (const auto set : sets) {
+    grid.emplace_back();
+    grid.back().known = set;
+  }
+  return grid;
+}
+
 LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
-                         std::vector<LearnerHypothesis> hypotheses, RandomStream random)
+                         std::vector<LearnerHypothesis> hypotheses, RandomStream random,
+                         std::span<const std::vector<HalfSpace>> components)
     : likelihood_{likelihood},
       hypotheses_{std::move(hypotheses)},
       random_{random},
@@ -64,6 +86,12 @@ LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, L
   for (const auto& one : hypotheses_) {
     weights_.push_back(one.probability / sum);
     abilities_.push_back(one.ability);
+  }
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    if (hypotheses_[h].known == 0) continue;
+    beliefs_[h].observe(known_half_spaces(components, hypotheses_[h].known),
+                        HalfSpaceLikelihood{kAbilityOfKnowing, likelihood_, beliefs_[h].dimension()},
+                        random_.split("known").split(h));
   }
 }
 
@@ -151,6 +179,14 @@ double LearnerBank::expected_ability() const {
   double mean = 0.0;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) mean += weights_[h] * hypotheses_[h].ability;
   return mean;
+}
+
+double LearnerBank::probability_of_knowing(std::size_t component) const {
+  double sum = 0.0;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    if ((hypotheses_[h].known >> component & 1u) != 0u) sum += weights_[h];
+  }
+  return sum;
 }
 
 // The abilities of the bank with the ranges they stand for, ascending.

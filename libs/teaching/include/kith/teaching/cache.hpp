@@ -5,13 +5,19 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "kith/bec/behaviours.hpp"
+#include "kith/belief/likelihood.hpp"
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/exam.hpp"
+#include "kith/teaching/learner_hypothesis.hpp"
+#include "kith/teaching/lesson.hpp"
 
 namespace kith {
+
+struct TeachingOptions;
 
 /// What sessions over one domain compute again and again: regions of constraint sets, what people do and what
 /// demonstrations tell them, and the initial points of beliefs.
@@ -56,6 +62,9 @@ class TeachingCache {
   /// The same, for those that outlive this object.
   const std::shared_ptr<const Exam>& shared_exam();
 
+  /// The placement tests of sessions with these options; see placement_tests().
+  const std::vector<Test>& placement(const TeachingOptions& options);
+
  private:
   struct Known {
     Known(const Atlas& atlas, std::size_t max_bytes)
@@ -67,6 +76,14 @@ class TeachingCache {
   std::size_t max_bytes_;
   std::unique_ptr<Known> known_;
   std::shared_ptr<const Exam> exam_;
+  // Placement tests by what they depend on; few.
+  struct Placement {
+    std::vector<LearnerHypothesis> hypotheses;
+    std::size_t particles, tests_wanted;
+    LikelihoodForm likelihood;
+    std::vector<Test> tests;
+  };
+  std::list<Placement> placements_;
   std::list<PriorCover> covers_;  // few: one per prior and filter size of a study
 };
 

@@ -20,13 +20,16 @@ namespace kith {
 ///
 /// under the belief of hypothesis h, and the weights are normalised; 0.003 stands for slips. Where behaviours are not
 /// tabulated, P_h is the mass of the weights that satisfy what the answers show. The ability of hypothesis h grows by
-/// its confirm_gain or correct_gain, as observed, and is reset when a component begins.
+/// its confirm_gain or correct_gain, as observed, and is reset when a component begins. A hypothesis that somebody
+/// knows components begins with the belief after their constraints, taken in with kAbilityOfKnowing.
 class LearnerBank {
  public:
   /// @param random  the root of what moves the beliefs' points.
+  /// @param components  constraints_of_components(), for hypotheses that somebody knows some of them.
   /// @throws std::invalid_argument if there is no hypothesis or one is out of range.
   LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
-              std::vector<LearnerHypothesis> hypotheses, RandomStream random);
+              std::vector<LearnerHypothesis> hypotheses, RandomStream random,
+              std::span<const std::vector<HalfSpace>> components = {});
 
   void begin_component();
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period);
@@ -49,6 +52,8 @@ class LearnerBank {
   [[nodiscard]] double ability_quantile(double q) const;
   /// Posterior probability that the initial ability is at least this; with the same interpolation.
   [[nodiscard]] double probability_of_ability(double at_least) const;
+  /// Posterior probability that the member knew the component beforehand.
+  [[nodiscard]] double probability_of_knowing(std::size_t component) const;
   /// Mass of every policy cell under the mixture of the hypotheses. @pre behaviours are tabulated.
   [[nodiscard]] std::vector<double> cell_masses(const Atlas& atlas);
   /// Expected mass of the weights that satisfy the half-spaces.
