@@ -13,7 +13,7 @@ struct WeightedShare {
 struct CredibleLevelOptions {
   double enough = 0.8;      ///< The share that counts as enough, in (0, 1).
   double coverage = 0.8;    ///< Probability of the interval, in (0, 1); equal tails.
-  double precision = 40.0;  ///< n > 0 of the Beta(n share, n (1 - share)) that each hypothesis stands for.
+  double precision = 80.0;  ///< n > 0 of the Beta(n share, n (1 - share)) that each hypothesis stands for.
 };
 
 /// How often something holds of a person, and how well that is known.
