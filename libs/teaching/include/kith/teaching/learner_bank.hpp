@@ -10,6 +10,9 @@
 
 namespace kith {
 
+/// 0.99 P + 0.003: how much answers of probability P, in [0, 1], count for a hypothesis. People make slips.
+[[nodiscard]] double weight_of_answers(double likelihood) noexcept;
+
 /// Who is this? A bank of hypotheses about one member, with the belief that the person would have under each.
 ///
 /// The beliefs learn from demonstrations and feedback, never from the person's answers, as simulated people do. Answers
@@ -19,9 +22,10 @@ namespace kith {
 ///                                        / (mass of the weights that give any),
 ///
 /// under the belief of hypothesis h, and the weights are normalised; 0.003 stands for slips. Where behaviours are not
-/// tabulated, P_h is the mass of the weights that satisfy what the answers show. The ability of hypothesis h grows by
-/// its confirm_gain or correct_gain, as observed, and is reset when a component begins. A hypothesis that somebody
-/// knows components begins with the belief after their constraints, taken in with kAbilityOfKnowing.
+/// tabulated, P_h is the mass of the weights that satisfy what the answers show; a path that is best for no weights, as
+/// people may take it, counts in the same way. The ability of hypothesis h grows by its confirm_gain or correct_gain, as
+/// observed, and is reset when a component begins. A hypothesis that somebody knows components begins with the belief
+/// after their constraints, taken in with kAbilityOfKnowing.
 class LearnerBank {
  public:
   /// @param random  the root of what moves the beliefs' points.
@@ -33,10 +37,17 @@ class LearnerBank {
 
   void begin_component();
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period);
-  /// @param verdicts  those of the answers, for domains without tables.
+  /// @param verdicts  those of the answers, for domains without tables and for paths that are best for nobody.
   void see_answers(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
                    std::span<const Verdict> verdicts);
+  /// P_h for answers that were given to all of the tests, one per hypothesis.
+  [[nodiscard]] std::vector<double> likelihoods(const Atlas& atlas, std::span<const Test> tests,
+                                                std::span<const Answer> answers, std::span<const Verdict> verdicts);
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period);
+
+  /// Blurs all beliefs: every point is moved by N(0, angle^2) per axis of its tangent plane (radians), inside the
+  /// prior.
+  void forget(double angle, const RandomStream& random);
 
   [[nodiscard]] std::span<const LearnerHypothesis> hypotheses() const noexcept { return hypotheses_; }
   /// Posterior probabilities, one per hypothesis; sum to 1.
