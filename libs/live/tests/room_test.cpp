@@ -133,7 +133,9 @@ TEST(Room, ForecastsWhatIsLeft) {
     EXPECT_GT(ahead["periods"], 0.0);
     EXPECT_LE(ahead["minutes_low"], ahead["minutes_high"]);
     EXPECT_EQ(ahead.contains("done_within"), !record.empty());
-    if (!record.empty()) EXPECT_EQ(play.study().imagined.at({"common", "N"}).size(), 8u);
+    if (!record.empty()) {
+      EXPECT_EQ(play.study().imagined.at({"common", "N"}).size(), 8u);
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ class TrueLevels : public TeamObserver {
   explicit TrueLevels(const Auditor& auditor) : auditor_{auditor} {}
   std::vector<std::vector<double>> levels;  // per member and component
 
-  void on_session(const Session& /*session*/, std::size_t /*member*/) override {}
+  void on_session(const Session& /*session*/, std::span<const std::size_t> /*members*/) override {}
   void on_lesson(const Session& /*session*/, const Lesson& /*lesson*/, const Learners& /*learners*/) override {}
   void on_feedback(const Session& /*session*/, const Lesson& /*lesson*/,
                    const std::vector<Learner::Response>& /*responses*/, const Feedback& /*feedback*/,

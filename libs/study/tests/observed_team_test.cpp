@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -19,7 +20,7 @@ class Witness : public TeamObserver {
  public:
   std::vector<std::vector<ObservedPeriod>> people;
 
-  void on_session(const Session& /*session*/, std::size_t /*member*/) override {}
+  void on_session(const Session& /*session*/, std::span<const std::size_t> /*members*/) override {}
   void on_lesson(const Session& /*session*/, const Lesson& /*lesson*/, const Learners& /*learners*/) override {}
   void on_feedback(const Session& /*session*/, const Lesson& /*lesson*/,
                    const std::vector<Learner::Response>& /*responses*/, const Feedback& /*feedback*/,

@@ -10,9 +10,10 @@ namespace kith {
 std::size_t TeachingCache::memory() const noexcept { return known_->behaviours.memory() + known_->regions.memory(); }
 
 void TeachingCache::trim() {
-  if (memory() <= max_bytes_) return;
+  if (memory() <= max_bytes_ && !partitions_->is_full()) return;
   known_.reset();  // first, so that both are never held
-  known_ = std::make_unique<Known>(*atlas_, max_bytes_);
+  if (partitions_->is_full()) partitions_->clear();
+  known_ = std::make_unique<Known>(*atlas_, max_bytes_, partitions_);
 }
 
 const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points) {

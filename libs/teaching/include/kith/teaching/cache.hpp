@@ -34,7 +34,10 @@ class TeachingCache {
 
   /// Keeps the atlas alive, and so do sessions that are made with this cache.
   explicit TeachingCache(std::shared_ptr<const Atlas> atlas, std::size_t max_bytes = kDefaultBytes)
-      : atlas_{std::move(atlas)}, max_bytes_{max_bytes}, known_{std::make_unique<Known>(*atlas_, max_bytes)} {}
+      : atlas_{std::move(atlas)},
+        max_bytes_{max_bytes},
+        partitions_{std::make_shared<PolicyPartitions>(*atlas_)},
+        known_{std::make_unique<Known>(*atlas_, max_bytes, partitions_)} {}
   /// For an atlas that outlives this cache and all sessions that are made with it.
   explicit TeachingCache(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes)
       : TeachingCache{std::shared_ptr<const Atlas>{std::shared_ptr<const Atlas>{}, &atlas}, max_bytes} {}
@@ -67,13 +70,15 @@ class TeachingCache {
 
  private:
   struct Known {
-    Known(const Atlas& atlas, std::size_t max_bytes)
-        : behaviours{atlas, Behaviours::kDefaultCells, max_bytes / 2}, regions{behaviours.constraints()} {}
+    Known(const Atlas& atlas, std::size_t max_bytes, std::shared_ptr<PolicyPartitions> partitions)
+        : behaviours{atlas, Behaviours::kDefaultCells, max_bytes / 2, std::move(partitions)},
+          regions{behaviours.constraints()} {}
     Behaviours behaviours;
     Regions regions;
   };
   std::shared_ptr<const Atlas> atlas_;
   std::size_t max_bytes_;
+  std::shared_ptr<PolicyPartitions> partitions_;
   std::unique_ptr<Known> known_;
   std::shared_ptr<const Exam> exam_;
   // Placement tests by what they depend on; few.

@@ -23,9 +23,9 @@ namespace kith {
 ///
 /// under the belief of hypothesis h, and the weights are normalised; 0.003 stands for slips. Where behaviours are not
 /// tabulated, P_h is the mass of the weights that satisfy what the answers show; a path that is best for no weights, as
-/// people may take it, counts in the same way. The ability of hypothesis h grows by its confirm_gain or correct_gain, as
-/// observed, and is reset when a component begins. A hypothesis that somebody knows components begins with the belief
-/// after their constraints, taken in with kAbilityOfKnowing.
+/// people may take it, counts in the same way. The ability of hypothesis h grows by its confirm_gain or correct_gain,
+/// as observed, and is reset when a component begins. A hypothesis that somebody knows components begins with the
+/// belief after their constraints, taken in with kAbilityOfKnowing.
 class LearnerBank {
  public:
   /// @param random  the root of what moves the beliefs' points.
