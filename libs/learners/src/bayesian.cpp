@@ -8,6 +8,7 @@
 #include "kith/learners/bayesian_learner.hpp"
 #include "kith/learners/learner_model.hpp"
 #include "kith/random/distributions.hpp"
+#include "kith/teaching/learner_hypothesis.hpp"
 
 namespace kith {
 namespace {
@@ -237,7 +238,7 @@ BayesianPerson person_of(const ParameterValues& values, std::span<const double> 
 std::vector<HalfSpace> known_by_chance(double probability, const std::vector<std::vector<HalfSpace>>& components,
                                        RandomStream random) {
   std::vector<HalfSpace> known;
-  for (std::size_t k = 0; k < components.size(); ++k) {
+  for (std::size_t k = 0; k < num_known_by_chance(components.size()); ++k) {
     auto draw = random.split(k);
     if (!(uniform01(draw) < probability)) continue;
     for (const auto& half_space : components[k]) {
@@ -332,7 +333,7 @@ std::vector<Parameter> bayesian_parameters() {
        .max = 3.0},
       {.name = "known",
        .default_value = 0.0,
-       .description = "probability with which a person knows each knowledge component beforehand, with ability_max"},
+       .description = "probability with which a person knows each knowledge component but the last beforehand, with ability_max"},
       particles_parameter(),
       process_noise_parameter(),
   };

@@ -64,13 +64,14 @@ std::vector<LearnerHypothesis> grid_of_hypotheses() {
 std::vector<LearnerHypothesis> grid_of_known_components(std::size_t num_components) {
   constexpr std::size_t kAllCombinations = 4, kMostComponents = 31;
   if (num_components > kMostComponents) throw std::invalid_argument{"grid_of_known_components: too many components"};
+  const auto n = num_known_by_chance(num_components);
   std::vector<std::uint32_t> sets;
-  if (num_components <= kAllCombinations) {
-    for (std::uint32_t set = 0; set < 1u << num_components; ++set) sets.push_back(set);
+  if (n <= kAllCombinations) {
+    for (std::uint32_t set = 0; set < 1u << n; ++set) sets.push_back(set);
   } else {
     sets.push_back(0);
-    for (std::size_t k = 0; k < num_components; ++k) sets.push_back(1u << k);
-    for (std::size_t k = 2; k <= num_components; ++k) sets.push_back((1u << k) - 1u);
+    for (std::size_t k = 0; k < n; ++k) sets.push_back(1u << k);
+    for (std::size_t k = 2; k <= n; ++k) sets.push_back((1u << k) - 1u);
   }
   std::vector<LearnerHypothesis> grid;
   for (const auto set : sets) {

@@ -108,7 +108,7 @@ export const kTerms = {
   gain: 'Information gain: how much the demonstration shrinks the region of reward weights that are still possible under the belief being taught (ratio of the areas before and after; larger is better).',
   regret: 'Regret: by how much the answer\u2019s return is below that of the robot\u2019s own path. 0: as good as the robot\u2019s.',
   component: 'Knowledge component: a part of the reward that is taught and tested separately, for example one feature against the cost of a step.',
-  forecast: 'Forecast: assumes that each open component takes as many periods as the earlier ones did on average; the range is based on the shortest and the longest period so far.',
+  forecast: 'Forecast: if the study has imagined sessions (record.forecast), from those that had got as far, at the pace of this session so far, with the central 80\u00a0%. Otherwise it assumes that each open component takes as many periods as the earlier ones did on average; the range is then based on the shortest and the longest period so far.',
   latency: 'Latency: round-trip time of a message to the browser.',
   estimate: 'Screening: the share of tests that this person is expected to answer correctly, estimated from the tests before the lobby.',
   grace: 'Grace period: how long a person may be away before the dropout policy applies.',

@@ -2,8 +2,11 @@
 import { abilityFigures, completionFigures, correctFigures, knowledgeFigures } from '../figures/progress';
 import { areaFigures } from '../figures/area';
 import type { Figure } from '../figures/figure';
+import { examCurveFigures } from '../figures/exam';
+import { forecastFigures } from '../figures/forecasts';
+import { frontFigures } from '../figures/front';
 import { interactionFigures } from '../figures/interaction';
-import { outcomeFigures } from '../figures/outcomes';
+import { examOutcomeFigures, outcomeFigures } from '../figures/outcomes';
 import { timeFigures } from '../figures/time';
 import { figureView } from '../figure_view';
 import { spheresFigure } from '../spheres/spheres';
@@ -16,6 +19,11 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
     title: 'Periods and knowledge',
     figures: (study) => [...outcomeFigures(study), ...interactionFigures(study)],
   },
+  {
+    id: 'exam',
+    title: 'The exam outside the lessons',
+    figures: (study) => [...examOutcomeFigures(study), ...examCurveFigures(study), ...frontFigures(study)],
+  },
   { id: 'manipulation', title: 'Manipulation check', figures: areaFigures },
   {
     id: 'progress',
@@ -27,6 +35,7 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
       ...correctFigures(study),
     ],
   },
+  { id: 'forecasts', title: 'Forecasts', figures: forecastFigures },
   { id: 'time', title: 'Where time goes', figures: timeFigures },
 ];
 
