@@ -85,9 +85,9 @@ struct StudySpec {
   TeachingOptions teaching;
   bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
   RecordLevel record = RecordLevel::kPeriod;
-  ExamLevel exam = ExamLevel::kNone;
-  std::size_t exam_questions = 0;          ///< Questions that everybody answers at the end, as people would.
-  std::vector<FactorSetting> factors;      ///< Empty unless the design varies keys.
+  ExamLevel exam = ExamLevel::kNone;   ///< Study files of domains with more than three features: kEnd unless they say.
+  std::size_t exam_questions = 0;      ///< Questions that everybody answers at the end, as people would.
+  std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
   std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
   bool has_group = false;                  ///< Whether the file has `[group]`.
   GroupOptions group{};                    ///< For sessions with people; changes nothing in how the study is simulated.
