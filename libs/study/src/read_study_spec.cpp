@@ -34,6 +34,8 @@ class SpecReader {
     if (domain_ != nullptr) {
       spec_.num_features = domain_->num_features();
       spec_.count_scale = domain_->count_scale();
+      // The mass in the policy's class is 0 for everybody there.
+      if (spec_.num_features > 3) spec_.exam = ExamLevel::kEnd;
     }
     read_top();
     read_learner_types();

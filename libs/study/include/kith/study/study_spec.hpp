@@ -103,10 +103,10 @@ struct StudySpec {
   Grouping grouping = Grouping::kTogether;    ///< Of every strategy but the baseline.
   Pace pace{};
   RecordLevel record = RecordLevel::kPeriod;
-  ExamLevel exam = ExamLevel::kNone;
-  std::size_t exam_questions = 0;          ///< Questions that everybody answers at the end, as people would.
-  std::size_t forecast_sessions = 0;       ///< Imagined sessions of a cell, for forecasts; 0: none are made.
-  std::vector<FactorSetting> factors;      ///< Empty unless the design varies keys.
+  ExamLevel exam = ExamLevel::kNone;   ///< Study files of domains with more than three features: kEnd unless they say.
+  std::size_t exam_questions = 0;      ///< Questions that everybody answers at the end, as people would.
+  std::size_t forecast_sessions = 0;   ///< Imagined sessions of a cell, for forecasts; 0: none are made.
+  std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
   std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
   bool has_group = false;                  ///< Whether the file has `[group]`.
   GroupOptions group{};                    ///< For sessions with people; changes nothing in how the study is simulated.
