@@ -151,6 +151,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     }
     if (free_space < kNoSpace) return error_reply(503, "no-space", "Nobody new can join at the moment.");
   }
+  std::unique_lock one_at_a_time{joining};
   std::vector<std::shared_ptr<HostedRoom>> open;
   bool is_study = false;
   bool is_known = false;  // that it is the code of a room
@@ -184,6 +185,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     return wait_for(std::move(seat));
   };
   const auto give_link = [&](const std::shared_ptr<HostedRoom>& room, std::int64_t seat) {
+    one_at_a_time.unlock();
     // Links that were made for the seat beforehand are void: two people must not share it.
     std::vector<std::string> former;
     {
@@ -225,6 +227,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
       if (seat && *seat > 0) return give_link(room, *seat);
     }
   }
+  one_at_a_time.unlock();
   // Nobody must be able to guess such a code, and whoever pays has to find it in the log.
   const bool pays = study->group().completion.pay_full;
   const auto paid = pays ? completion_code(*study, random_token(), "full", 0) : std::string{};

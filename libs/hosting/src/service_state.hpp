@@ -117,6 +117,9 @@ struct LiveService::State final : HostedRoom::Host {
   std::int64_t looked_at_space_us = 0;
   bool is_stopping = false;
 
+  // Held while a seat is looked for, before the other one: people who come at the same moment share rooms.
+  std::mutex joining;
+
   // --- set by the constructor -----------------------------------------------------------
   std::int64_t waiting_list = 0;  // its number; 0: there is none
 

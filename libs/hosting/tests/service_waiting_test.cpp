@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "kith/hosting/live_service.hpp"
 #include "kith/hosting/session_review.hpp"
 #include "service_group.hpp"
@@ -224,6 +226,22 @@ TEST(WaitingList, IsForTheLinkOfTheStudyOnly) {
   hall.stage.show(*page);
   EXPECT_EQ(page->view()["rooms"].front()["seats"].size(), 1u);
   EXPECT_NE(page->view()["rooms"].front()["seats"][0].value("link", ""), "");
+}
+
+// A class opens the link at the same moment.
+TEST(LiveService, FillsRoomsAlsoWhenManyJoinAtOnce) {
+  const ScratchFolder scratch;
+  Stage stage{scratch / "live", small_study()};
+  const auto code = stage.join_code();
+  std::vector<std::string> tokens(9);
+  {
+    std::vector<std::jthread> class_of_nine;
+    for (auto& token : tokens) {
+      class_of_nine.emplace_back([&] { token = stage.join(code); });
+    }
+  }
+  EXPECT_THAT(tokens, ::testing::Each(Not("")));
+  EXPECT_EQ(stage.service().num_rooms(), 3u);
 }
 
 }  // namespace
