@@ -164,6 +164,12 @@ void add_serve(CLI::App& app, Options& options) {
       ->needs(rehearse)
       ->check([](const std::string& text) { return wrong_fraction(text); })
       ->type_name("P");
+  command
+      .add_option("--restart-after", serve.restart_after,
+                  "With --rehearse: stop the server after so many seconds and start it again")
+      ->needs(rehearse)
+      ->check(positive)
+      ->type_name("SECONDS");
   add_common(command, options.common);
 }
 

@@ -254,6 +254,7 @@ struct ServeOptions {
   double for_seconds = 0.0;  ///< 0: until everybody has finished.
   double answer_every = 5.0;
   double reconnects = 0.0;
+  double restart_after = 0.0;  ///< Seconds after which a rehearsal restarts its server; 0: never.
 };
 
 struct SessionOptions {

@@ -9,6 +9,7 @@
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/hosting/session_review.hpp"
+#include "kith/live/screening.hpp"
 #include "kith/present/json.hpp"
 #include "kith/table/csv_writer.hpp"
 #include "room_history.hpp"
@@ -83,8 +84,11 @@ class Exporter {
 
   void add(const RoomHistory& history) {
     history_ = &history;
-    write_session();
-    for (const auto& [seat, row] : history.seats) write_participant(seat, row);
+    const bool is_waiting_list = setup().is_waiting_list;
+    if (!is_waiting_list) write_session();
+    for (const auto& [seat, row] : history.seats) {
+      if (!is_waiting_list || stage_of(seat) != "moved") write_participant(seat, row);
+    }
     for (const auto& lesson : history.lessons) {
       if (!lesson.is_replaced) write_period(lesson);
     }
@@ -100,6 +104,10 @@ class Exporter {
   [[nodiscard]] const std::string& id() const { return history_->replayed.id; }
   [[nodiscard]] const RoomSetup& setup() const { return history_->room->setup(); }
   [[nodiscard]] const Session& session() const { return history_->room->session(); }
+
+  [[nodiscard]] std::string stage_of(std::size_t seat) const {
+    return seat <= history_->room->num_seats() ? history_->room->stage_of(seat) : std::string{};
+  }
 
   // Whether another lesson was taught in place of the one that the answer belongs to.
   [[nodiscard]] bool is_void(const AnswerRow& answer) const { return history_->lessons[answer.lesson].is_replaced; }
@@ -179,14 +187,22 @@ class Exporter {
     } else {
       row.missing();
     }
-    row.text_or_missing(type_of(person.member)).text(setup().strategy).text(setup().composition);
-    row.boolean(person.simulated).integer(ms_if_any(person.joined_us)).text_or_missing(if_any(person.consent));
-    const auto stage = seat <= history_->room->num_seats() ? history_->room->stage_of(seat) : std::string{};
+    const auto group = setup().is_waiting_list ? RoomSetup{} : setup();
+    row.text_or_missing(type_of(person.member)).text_or_missing(if_any(group.strategy));
+    row.text_or_missing(if_any(group.composition))
+        .boolean(person.simulated)
+        .integer(ms_if_any(person.joined_us))
+        .text_or_missing(if_any(person.consent));
+    const auto stage = stage_of(seat);
     row.text_or_missing(if_any(stage)).integer(person.times_away).real(static_cast<double>(person.away_us) / 1e6);
     row.integer(tests).integer(right);
     row.real(tests == 0 ? std::nullopt : std::optional{static_cast<double>(right) / static_cast<double>(tests)});
     const bool is_last = person.member && history_->seat_of(*person.member) == seat;
     row.real(is_last ? belief_in(*person.member) : std::nullopt);
+    const auto& screened = person.screened;
+    const auto passed = static_cast<std::size_t>(std::count(screened.begin(), screened.end(), true));
+    const bool is_screened = !screened.empty() && screened.size() == study_->screening.size();
+    row.real(is_screened ? std::optional{screening_estimate(passed, screened.size())} : std::nullopt);
     if (options_.with_names) {
       row.text_or_missing(if_any(printable(person.name)));
       row.text_or_missing(person.query.empty() ? std::nullopt : std::optional{printable(person.query.dump())});
@@ -361,6 +377,10 @@ class Exporter {
     if (!options_.with_names && body.is_object()) {
       if (event.type == "named") body.erase("name");
       if (event.type == "consented") body.erase("query");
+      if (event.type == "seated") {
+        body.erase("name");
+        body.erase("query");
+      }
     }
     if (!options_.with_text && body.is_object()) {
       for (const auto* name : {"text", "reason"}) {
@@ -405,7 +425,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
   for (const auto& stored : file.rooms()) {
     if (options.room && stored.number != *options.room) continue;
     is_there = true;
-    ++rooms;
+    rooms += room_setup(Json::parse(stored.setup)).is_waiting_list ? 0u : 1u;
     exporter.add(read_history(file, stored, study, cache));
     events += file.count_events(stored.number);
   }

@@ -14,6 +14,7 @@
 #include "kith/study/session_forecasts.hpp"
 #include "live_texts.hpp"
 #include "room_body.hpp"
+#include "room_state.hpp"
 
 namespace kith {
 namespace {
@@ -151,6 +152,20 @@ std::vector<DemoIndex> draw_screening(const Atlas& atlas, std::size_t n, RandomS
   return chosen;
 }
 
+// Nobody must wait for a place that cannot exist.
+void require_places(const LiveStudy& study) {
+  if (!study.seats_by_ability()) return;
+  const auto cells = live_cells(study);
+  for (const bool high : {false, true}) {
+    if (std::any_of(cells.begin(), cells.end(), [&](const LiveCell& cell) { return has_place_for(study, cell, high); }))
+      continue;
+    throw Error{ErrorKind::kInvalidInput,
+                std::string{"people whose estimate of ability is "} + (high ? "high" : "low") +
+                    " would wait for nothing: no composition has a place for them. Change the compositions, or "
+                    "'high' of group.screening"};
+  }
+}
+
 std::string filled_up(std::string composition, std::size_t size) {
   if (composition.size() < size) composition.append(size - composition.size(), composition.back());
   return composition;
@@ -195,6 +210,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   }
   live->key = sha256(identity).substr(0, 8);
   live->atlas = std::move(atlas);
+  require_places(*live);
   if (live->spec.forecast_sessions > 0) {
     TeachingCache cache{live->atlas};
     for (const auto& [strategy, composition] : live_cells(*live)) {

@@ -163,7 +163,7 @@ class RoomDetailPage {
 
   [[nodiscard]] Json beliefs() const {
     Json list = Json::array();
-    if (domain_.num_features() != 3) return list;
+    if (domain_.num_features() != 3 || room_.setup.is_waiting_list) return list;
     const auto& session = *state_.session;
     for (std::size_t m = 0; m < session.num_members(); ++m) {
       list.push_back(

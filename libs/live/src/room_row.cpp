@@ -15,13 +15,17 @@ class RoomRowPage {
 
   [[nodiscard]] Json json() const {
     Json seats = Json::array();
-    for (std::size_t i = 0; i < state_.seats.size(); ++i) seats.push_back(seat_row(i));
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+      if (state_.seats[i].last_page != "moved") seats.push_back(seat_row(i));
+    }
     const auto& session = *state_.session;
+    const bool is_list = room_.setup.is_waiting_list;
     Json row{{"id", room_.setup.id}};
     if (is_facilitator_) row["code"] = room_.setup.code;
     row["stage"] = stage_word();
-    row["strategy"] = session.strategy().name;
+    row["strategy"] = is_list ? "waiting list" : session.strategy().name;
     row["composition"] = room_.setup.composition;
+    if (is_list) row["waiting_list"] = true;
     row["replicate"] = room_.setup.replicate;
     row["seats"] = std::move(seats);
     row["period"] = session.periods() + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
@@ -61,7 +65,8 @@ class RoomRowPage {
     const char* presence = seat.is_here ? "here" : "away";
     if (seat.status == SeatStatus::kGone) presence = "left";
     if (seat.status == SeatStatus::kEmpty) presence = "empty";
-    Json row{{"seat", i + 1}, {"label", seat.member ? member_label(*seat.member) : std::string{"Reserve"}}};
+    const auto* waits = room_.setup.is_waiting_list ? "Waiting" : "Reserve";
+    Json row{{"seat", i + 1}, {"label", seat.member ? member_label(*seat.member) : std::string{waits}}};
     if (is_facilitator_ && !seat.name.empty()) row["name"] = seat.name;
     row["kind"] = seat.is_person ? "person" : "simulated";
     row["type"] = std::string{seat.type};
@@ -80,7 +85,7 @@ class RoomRowPage {
       const auto right = static_cast<std::size_t>(std::count(seat.screened.begin(), seat.screened.end(), true));
       const double estimate = screening_estimate(right, seat.screened.size());
       row["estimate"] = estimate;
-      row["estimate_is_high"] = estimate >= room_.study.group().screening.cut;
+      row["estimate_is_high"] = has_high_estimate(room_, seat);
     }
     const bool has_code = seat.gets_code || (seat.is_person && stage_of_seat(room_, seat) == "debrief");
     if (is_facilitator_ && has_code) {

@@ -124,7 +124,7 @@ TEST(Room, ForecastsWhatIsLeft) {
     play.start(1);
     const auto row = [&] { return play.room().row({Viewer::Role::kObserver, 0}); };
     EXPECT_FALSE(row().contains("forecast"));
-    for (int i = 0; i < 20 && play.room().session().periods() < 1; ++i) {
+    for (int i = 0; i < 20 && !row().contains("forecast"); ++i) {
       play.pass(10.0);
       play.act(1);
     }

@@ -386,6 +386,13 @@ class SpecReader {
                     "'min_active' is " + std::to_string(dropout.min_active) + ", but the largest group has " +
                         std::to_string(largest) + " seats: every session would end at once");
     }
+    for (const char letter : spec_.group.high_types) {
+      const bool is_used = std::any_of(spec_.compositions.begin(), spec_.compositions.end(),
+                                       [&](const std::string& one) { return one.find(letter) != std::string::npos; });
+      if (spec_.compositions.empty() || is_used) continue;
+      report_.error("E0422", place_of_group_key(group, "screening"),
+                    std::string{"'high' names the learner type '"} + letter + "', which is in no composition");
+    }
     for (const auto seat : spec_.group.people) {
       if (spec_.compositions.empty() || seat <= largest) continue;
       report_.error(

@@ -230,6 +230,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0422", "[design]", "group.dropout.min_active = 3\n[design]", 6},
         Mistake{"E0422", "[design]", "group.people = [3]\n[design]", 6},
         Mistake{"E0423", "[design]", "teacher.placement_tests = 2\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.screening = { high = \"N\" }\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.screening = { tests = 2, high = \"Q\" }\n[design]", 6},
         Mistake{"E0422", "[design]", "group.completion.redirect = \"javascript:alert(1)\"\n[design]", 6},
         Mistake{"E0110", "[design]", "group.dropout.grace_s = -1\n[design]", 6},
         Mistake{"E0112", "[design]", "group.dropout.policy = \"wait\"\n[design]", 6},
@@ -402,7 +404,7 @@ size = 3
 people = [3, 1]
 dropout = { policy = "replace-from-pool", grace_s = 5, min_active = 2, reserves = 1 }
 time = { watch_s = 1, predict_s = 2, feedback_s = 3, lobby_s = 4, leave_after_s = 5, max_minutes = 6 }
-screening = { tests = 3, cut = 0.25 }
+screening = { tests = 3, cut = 0.25, high = "N" }
 completion = { prefix = "X", redirect = "https://example.org/?cc={code}", pay_full = false }
 ask_name = true
 collect_query = ["PROLIFIC_PID"]
@@ -432,6 +434,7 @@ TEST(StudyFile, ReadsAndWritesHowGroupsOfPeopleAreTaught) {
   EXPECT_EQ(group.dropout, (GroupDropout{DropoutPolicy::kReplaceFromPool, 5, 2, 1}));
   EXPECT_EQ(group.time, (GroupTime{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(group.screening, (GroupScreening{3, 0.25}));
+  EXPECT_EQ(group.high_types, "N");
   ASSERT_EQ(group.questions.size(), 2u);
   EXPECT_EQ(group.questions[1].kind, GroupQuestion::Kind::kChoice);
   EXPECT_TRUE(group.questions[0].required);
