@@ -75,7 +75,7 @@ export interface ParticipantView {
   notices: { text: string; at_ms: number }[];
   pause?: Pause;
   consent?: { version: string; paragraphs: string[] };
-  check?: { board: LiveBoard; task: string; world?: string; start?: number; ask_name?: boolean };
+  check?: { board: LiveBoard; world?: string; start?: number; ask_name?: boolean };
   screening?: Task; // or `predict` in the stage screening
   lobby?: {
     present: number;

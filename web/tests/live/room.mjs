@@ -204,7 +204,7 @@ export class Room {
       case 'consent':
         return { consent: { version: '3', paragraphs: this.options.texts.consent ?? ['This is a study about robots.', 'You may stop at any time.'] } };
       case 'check':
-        return { check: { ...drive(this.sandbox, 0, 1, []), task: '', ask_name: this.options.askName } };
+        return { check: { ...drive(this.sandbox, 0, 1, []), ask_name: this.options.askName } };
       case 'screening':
         return { predict: drive(this.screening[person.index], person.index, this.screening.length, []) };
       case 'lobby':
