@@ -42,7 +42,7 @@ const kUnstored: readonly Stage[] = ['consent', 'declined', 'full'];
 
 // A tick, an arrow or an exclamation mark, and always a word.
 function Status({ snapshot, stage }: { snapshot: Snapshot; stage: Stage }): JSX.Element {
-  const state = snapshot.line.phase !== 'open' ? 'reconnecting' : snapshot.pending.length > 0 ? 'saving' : 'saved';
+  const state = snapshot.socket.phase !== 'open' ? 'reconnecting' : snapshot.pending.length > 0 ? 'saving' : 'saved';
   const signs = { saved: '\u2713', saving: '\u2191', reconnecting: '!' };
   return (
     <p class={`status ${state}`} role="status">
@@ -69,7 +69,7 @@ const kPatience = 2000; // a short break needs no banner
 
 function Lost({ connection, snapshot }: { connection: Connection; snapshot: Snapshot }): JSX.Element | null {
   useTick();
-  const { phase, since, bye } = snapshot.line;
+  const { phase, since, bye } = snapshot.socket;
   const time = performance.now() - since;
   if (phase !== 'lost' || time < kPatience) return null;
   const isStopping = bye === 'server-stops';
