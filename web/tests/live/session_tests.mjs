@@ -188,8 +188,8 @@ export function sessionTests(setting) {
         await person.counts('3 steps');
         await person.button('Start over').click();
         await person.counts('0 steps');
-        await person.button('up').click();
-        await person.button('up').click(); // the edge
+        await person.button('Up').click();
+        await person.button('Up').click(); // the edge
         await person.said('cannot do that here');
         await person.button('Submit').click();
         await person.counts('has not finished');
