@@ -43,6 +43,7 @@ export interface Judged {
   mine: Frame[] | null;
   robot: Frame[];
   differs_at: number | null;
+  unfinished: boolean; // the prediction ends before the robot has finished
   why: string[];
   cost?: string;
 }

@@ -252,6 +252,7 @@ export class Room {
         mine,
         robot,
         differs_at: differs < 0 ? null : differs,
+        unfinished: answer !== undefined && !answer.isFinished,
         why: test.shown.covers.map(({ text }) => text),
         ...(right || !answer?.isFinished ? {} : { cost: `Your path costs ${(answer.cost - test.best.cost).toFixed(1)} steps more at (3,1)` }),
       };

@@ -185,6 +185,16 @@ export function screenTests(setting) {
       });
     });
 
+    it('says that a prediction ends too early', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        for (const [name, isShort] of [['feedback-short', true], ['feedback-wrong', false]]) {
+          await show({ mock, page }, views[name]);
+          await playToTheEnd(person);
+          assert.equal((await page.textContent('main')).includes('Your path ends before the robot has finished its job.'), isShort, name);
+        }
+      });
+    });
+
     it('shows a station that has been used up, but pale', async () => {
       await withViews(setting, async ({ views, mock, person, page }) => {
         const { board, frames } = demonstrationWithStation();
