@@ -102,10 +102,21 @@ class ParticipantPage {
     const bool between = state_.phase == RoomPhase::kFeedback || state_.phase == RoomPhase::kTeaching;
     // While feedback is read the next lesson may be there already: it must not show.
     return {
-        {"part", std::min(static_cast<std::size_t>(shown_over(over)) + 1, components.size())},
+        {"part", part(over, components.size())},
         {"round", rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u)},
         {"done",
          components.empty() ? 0.0 : static_cast<double>(shown_over(over)) / static_cast<double>(components.size())}};
+  }
+  // That of the lesson that is being taught. Feedback belongs to it, too, also if the part is finished now.
+  [[nodiscard]] std::size_t part(std::ptrdiff_t over, std::size_t parts) const {
+    const auto& session = *state_.session;
+    if (state_.phase == RoomPhase::kFeedback && !session.history().empty()) {
+      return session.history().back().lesson.component + 1;
+    }
+    if (state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting) {
+      return session.lesson().component + 1;
+    }
+    return std::min(static_cast<std::size_t>(over) + 1, parts);
   }
   [[nodiscard]] std::ptrdiff_t shown_over(std::ptrdiff_t over) const {
     if (state_.phase != RoomPhase::kFeedback || !state_.before) return over;
@@ -122,8 +133,7 @@ class ParticipantPage {
       view["check"] = {{"board", live_board(room_.study, room_.study.sandbox)},
                        {"world", world_key(room_.study, room_.study.atlas->id(room_.study.sandbox).mdp)},
                        {"start", start_number(room_.study.sandbox)},
-                       {"ask_name", room_.study.group().ask_name},
-                       {"task", "Try to move the robot around. Nothing on this page counts."}};
+                       {"ask_name", room_.study.group().ask_name}};
     } else if (stage == "screening") {
       view["predict"] =
           task(room_.study.screening[seat_.screened.size()], seat_.screened.size(), room_.study.screening.size(), {});

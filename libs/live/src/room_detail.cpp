@@ -98,7 +98,7 @@ class RoomDetailPage {
     if (!lesson.demonstrations.empty() && lesson.demonstrations.front().gain > 1.0) {
       const double share = 1.0 - 1.0 / lesson.demonstrations.front().gain;
       text += " The first demonstration rules out " + std::to_string(std::lround(100.0 * share)) +
-              " % of the rewards that fitted what was taught before.";
+              " % of the rewards that are consistent with the earlier lessons.";
     }
     return text;
   }

@@ -110,6 +110,7 @@ export const kTerms = {
   component: 'Knowledge component: a part of the reward that is taught and tested separately, for example one feature against the cost of a step.',
   forecast: 'Forecast: if the study has imagined sessions (record.forecast), from those that had got as far, at the pace of this session so far, with the central 80\u00a0%. Otherwise it assumes that each open component takes as many periods as the earlier ones did on average; the range is then based on the shortest and the longest period so far.',
   latency: 'Latency: round-trip time of a message to the browser.',
+  composition: 'Composition: the type of learner that the teacher assumes for each member, one letter per member. Set-up lists the types.',
   estimate: 'Screening: the share of tests that this person is expected to answer correctly, estimated from the tests before the lobby.',
   grace: 'Grace period: how long a person may be away before the dropout policy applies.',
   simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. The consent form informs participants about it.',
@@ -148,5 +149,12 @@ export function attention(room: RoomRow): string | null {
 }
 
 export const seatTitle = (seat: SeatRow): string => (seat.name ? `${seat.label} (${seat.name})` : seat.label);
+
+// Who did something, in a log: "Learner A" for seat:1.
+export function actorText(actor: string, room: RoomRow | undefined): string {
+  const number = /^seat:(\d+)$/.exec(actor)?.[1];
+  const seat = room?.seats.find((one) => String(one.seat) === number);
+  return seat?.label ?? actor.replace(/^seat:/, 'seat ');
+}
 
 export const roomTitle = (room: RoomRow): string => `Room ${room.code ?? room.id}`;

@@ -33,7 +33,7 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
         })}
       </ol>
       <dl class="timers">
-        {room.stage !== 'ended' && (
+        {(room.stage === 'running' || room.stage === 'paused') && (
           <div>
             <dt>
               <Explained term="forecast">Time left</Explained>
