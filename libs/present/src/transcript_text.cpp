@@ -250,7 +250,7 @@ class TranscriptWriter {
                                  [](bool right) { return right; });
     const auto& name = atlas_.knowledge_components()[period.lesson.component].name;
     if (period.feedback.component_learned) {
-      line("  Learned: " + name + " (all members answered all tests correctly)");
+      line("  Learned: " + name + (all ? " (all members answered all tests correctly)" : ""));
     } else {
       line("  " + name + " is not learned yet" +
            (all ? ": more periods in a row with all answers correct are required" : ""));

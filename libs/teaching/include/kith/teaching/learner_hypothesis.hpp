@@ -23,8 +23,8 @@ struct LearnerHypothesis {
 /// Abilities 0.62, 0.68, ..., 0.92, each with the gains (0.01, 0.03) and (0.03, 0.055), all equally probable.
 [[nodiscard]] std::vector<LearnerHypothesis> grid_of_hypotheses();
 
-/// The components that people may know beforehand: all but the last, which has the constraints of all others, so that who
-/// knows it knows everything; that one if it is the only one.
+/// The components that people may know beforehand: all but the last, which has the constraints of all others, so that
+/// who knows it knows everything; that one if it is the only one.
 [[nodiscard]] constexpr std::size_t num_known_by_chance(std::size_t num_components) noexcept {
   return num_components > 1 ? num_components - 1 : num_components;
 }
