@@ -264,7 +264,8 @@ Command command_of(const std::string& name) {
       {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge},
       {"export", Command::kExport},   {"bench", Command::kBench},         {"curriculum", Command::kCurriculum},
       {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind},
-      {"explain", Command::kExplain}, {"session", Command::kSession},     {"serve", Command::kServe}};
+      {"explain", Command::kExplain}, {"session", Command::kSession},     {"serve", Command::kServe},
+      {"audit", Command::kAudit}};
   return kCommands.at(name);
 }
 

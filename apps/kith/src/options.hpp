@@ -31,7 +31,8 @@ enum class Command {
   kInit,
   kExplain,
   kServe,
-  kSession
+  kSession,
+  kAudit
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -92,6 +93,16 @@ struct StudyOptions {
 
 struct StatusOptions {
   std::string folder;
+};
+
+struct AuditCommandOptions {
+  std::string folder;
+  std::optional<std::size_t> team;  ///< Number of a team of a run; none: all.
+  std::string room;                 ///< Id or code of a room of a live session; empty: all.
+  std::string out;                  ///< Where the page goes; "-" is standard output; empty: no page.
+  double forgetting = 0.02;         ///< Radians per period without lessons.
+  std::size_t threads = 0;          ///< 0: as many as there are cores.
+  ProgressMode progress = ProgressMode::kAuto;
 };
 
 struct VerifyCommandOptions {
@@ -282,6 +293,7 @@ struct Options {
   PowerCommandOptions power;
   FitCommandOptions fit;
   StatusOptions status;
+  AuditCommandOptions audit;
   VerifyCommandOptions verify;
   MergeOptions merge;
   BenchOptions bench;

@@ -101,7 +101,7 @@ std::vector<ComponentAudit> Auditor::audit(std::span<const ObservedPeriod> perio
     if (audit.understanding == Understanding::kMisconception) {
       choose_demonstration(bank, k, periods, *audit.misconception);
     }
-    audit.test = choose_test(bank, k, periods);
+    audit.test = choose_test(bank, audit, periods);
   }
   plan_tests(bank, random.split("forget"), audits);
   return audits;
@@ -165,6 +165,7 @@ std::vector<TellingAnswer> Auditor::telling(const HalfSpace& violated, std::span
   for (const auto& period : periods) {
     for (std::size_t t = 0; t < period.tests.size() && t < period.answers.size(); ++t) {
       if (!period.answers[t] || period.verdicts[t].correct) continue;
+      if (!concerns(violated, cache_->atlas().feature_counts(period.tests[t].demo) - *period.answers[t])) continue;
       const auto ratio = factor(violated, period.tests[t], period.answers[t], period.verdicts[t]);
       if (ratio && *ratio < options_.telling) continue;
       found.push_back({.period = period.period,
@@ -179,6 +180,18 @@ std::vector<TellingAnswer> Auditor::telling(const HalfSpace& violated, std::span
     found.erase(found.begin(), found.end() - static_cast<std::ptrdiff_t>(options_.most_answers));
   }
   return found;
+}
+
+// Whether paths differ in what the constraint weighs against the unit. If they do not, an answer could only tell by
+// what is common among people, which convinces nobody.
+bool Auditor::concerns(const HalfSpace& constraint, const IntegerVector& difference) const {
+  bool weighs_other_things = false;
+  for (std::size_t k = 0; k < difference.size(); ++k) {
+    if (k == unit_ || constraint.normal()[k] == 0) continue;
+    if (difference[k] != 0) return true;
+    weighs_other_things = true;
+  }
+  return !weighs_other_things;
 }
 
 std::optional<double> Auditor::factor(const HalfSpace& violated, const Test& test, const Answer& answer,
@@ -251,24 +264,29 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
   if (contrast) misconception.reason = reason(atlas.domain(), *contrast);
 }
 
-std::optional<DemoIndex> Auditor::choose_test(const MisconceptionBank& bank, std::size_t component,
+std::optional<DemoIndex> Auditor::choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
                                               std::span<const ObservedPeriod> periods) const {
   const auto& atlas = cache_->atlas();
-  std::vector<DemoIndex> asked;
+  std::vector<DemoIndex> known;
   for (const auto& period : periods) {
-    for (const auto& test : period.tests) asked.push_back(test.demo);
+    for (const auto& test : period.tests) known.push_back(test.demo);
+    for (const auto& demonstration : period.demonstrations) known.push_back(demonstration.demo);
   }
-  std::vector<std::pair<double, HalfSpace>> by_certainty;  // the least certain first
-  for (const auto& constraint : constraints_[component]) {
-    by_certainty.emplace_back(std::abs(bank.probability_of({&constraint, 1}) - 0.5), constraint);
+  const bool is_wrong = audit.understanding == Understanding::kMisconception;
+  if (is_wrong && audit.misconception->show) known.push_back(*audit.misconception->show);
+  // The constraint that the person gets wrong, then the least certain first.
+  std::vector<std::pair<double, HalfSpace>> wanted;
+  for (const auto& constraint : constraints_[audit.component]) {
+    const bool comes_first = is_wrong && constraint == audit.misconception->misbelief.violated;
+    wanted.emplace_back(comes_first ? -1.0 : std::abs(bank.probability_of({&constraint, 1}) - 0.5), constraint);
   }
-  std::sort(by_certainty.begin(), by_certainty.end());
-  for (const auto& [certainty, constraint] : by_certainty) {
+  std::sort(wanted.begin(), wanted.end());
+  for (const auto& [order, constraint] : wanted) {
     const auto number = atlas.constraints().find(constraint);
     if (!number) continue;
     Simplest simplest{atlas};
     for (const auto demo : atlas.tests_for(*number)) {
-      simplest.offer(demo, std::find(asked.begin(), asked.end(), demo) == asked.end(),
+      simplest.offer(demo, std::find(known.begin(), known.end(), demo) == known.end(),
                      atlas.tested_constraints(demo).count());
     }
     if (const auto best = simplest.best()) return best;

@@ -147,7 +147,7 @@ class Page {
 
   void level(const ComponentAudit& audit) {
     out_ += tag(
-        "p", fmt::format("Understands it with probability {}. Expected to satisfy all of it {} of the time "
+        "p", fmt::format("Understands it with probability {}. Expected to get all of it right {} of the time "
                          "({} interval: {} to {}). {} of {} right in {}.",
                          percent(audit.level.probability), percent(audit.level.mean),
                          percent(report_.options.level.coverage), percent(audit.level.low), percent(audit.level.high),
@@ -175,12 +175,13 @@ class Page {
   void misconception(const ComponentAudit& audit) {
     const auto& found = *audit.misconception;
     const bool sure = audit.understanding == Understanding::kMisconception;
-    out_ += fmt::format("<p>{} ({}) that {}. In fact, {}.</p>\n", sure ? "<b>Thinks</b>" : "Might think",
-                        percent(found.probability), svg_escaped(found.thinks), svg_escaped(found.fact));
+    out_ += fmt::format("<p>{} that {} (probability {}). In fact, {}.</p>\n",
+                        sure ? "<b>Probably thinks</b>" : "Might think", svg_escaped(found.thinks),
+                        percent(found.probability), svg_escaped(found.fact));
     if (found.answers.empty()) return;
     out_ += tag("p", found.answers.size() == 1 ? "The answer that shows it:" : "Answers that show it:") + "<ul>\n";
     for (const auto& answer : found.answers) {
-      out_ += tag("li", fmt::format("period {}, test {} (world {}): {}", answer.period, answer.test,
+      out_ += tag("li", fmt::format("period {}, test {} (world {}), predicted: {}", answer.period, answer.test,
                                     atlas_.id(answer.demo).mdp.value(), answer.text));
     }
     out_ += "</ul>\n";

@@ -264,6 +264,7 @@ TEST_F(AuditOfOneTeam, SaysWhatThePersonThinksAndWhatToDo) {
   ASSERT_TRUE(found.show.has_value());
   EXPECT_NE(found.reason.find("crossing rubble costs more than 2 steps"), std::string::npos) << found.reason;
   ASSERT_TRUE(audit.test.has_value());
+  EXPECT_NE(audit.test, found.show);
   EXPECT_EQ(advice_in_words(audit), "show the demonstration, then test in the same lesson");
 }
 

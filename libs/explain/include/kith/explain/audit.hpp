@@ -60,7 +60,9 @@ struct ComponentAudit {
   std::size_t correct = 0;  ///< Of them.
   /// The likeliest of the component's; nothing if it is not taught yet, or too unlikely to speak of.
   std::optional<LikelyMisconception> misconception{};
-  std::optional<DemoIndex> test{};  ///< The simplest start that tests what is least certain and was not asked yet.
+  /// The simplest start that tests what the person gets wrong, or else what is least certain; another one than was
+  /// shown or asked before, or is to be shown now, if there is any.
+  std::optional<DemoIndex> test{};
   /// With Understanding::kUnderstands: after how many periods without lessons to test again; 0: it will not be needed
   /// within kLongestBreak.
   std::size_t test_after = 0;
@@ -72,15 +74,15 @@ inline constexpr std::size_t kLongestBreak = 24;
 struct AuditOptions {
   MisconceptionBank::Options bank{};
   CredibleLevelOptions level{};
-  double sure = 0.95;        ///< Probability from which a person is said to understand.
-  double likely = 0.5;       ///< Probability from which a misconception is said to be there.
-  double negligible = 0.05;  ///< Below this no misconception is named.
-  double telling = 3.0;      ///< TellingAnswer::factor of an answer that shows a misconception.
+  double sure = 0.95;       ///< Probability from which a person is said to understand.
+  double likely = 0.5;      ///< Probability from which a misconception is said to be there.
+  double negligible = 0.1;  ///< Below this no misconception is named.
+  double telling = 3.0;     ///< TellingAnswer::factor of an answer that shows a misconception.
   std::size_t most_answers = 3;
   double forgetting = 0.02;  ///< Radians by which beliefs blur in a period without lessons; >= 0.
 };
 
-/// Judges from their answers who understands what. Keeps what all people have in common. Not thread-safe.
+/// Judges from their answers who understands what. Not thread-safe: it uses the cache.
 class Auditor {
  public:
   /// @param cache  stays valid as long as this object. @throws std::invalid_argument if an option is out of range.
@@ -102,12 +104,13 @@ class Auditor {
                                                                  std::span<const ObservedPeriod> periods);
   [[nodiscard]] Misbelief limited(const MisconceptionBank& bank, const HalfSpace& violated) const;
   [[nodiscard]] std::vector<TellingAnswer> telling(const HalfSpace& violated, std::span<const ObservedPeriod> periods);
+  [[nodiscard]] bool concerns(const HalfSpace& constraint, const IntegerVector& difference) const;
   [[nodiscard]] std::optional<double> factor(const HalfSpace& violated, const Test& test, const Answer& answer,
                                              const Verdict& verdict);
   [[nodiscard]] std::string answer_in_words(const Test& test, const Answer& answer, const Verdict& verdict) const;
   void choose_demonstration(const MisconceptionBank& bank, std::size_t component,
                             std::span<const ObservedPeriod> periods, LikelyMisconception& misconception);
-  [[nodiscard]] std::optional<DemoIndex> choose_test(const MisconceptionBank& bank, std::size_t component,
+  [[nodiscard]] std::optional<DemoIndex> choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
                                                      std::span<const ObservedPeriod> periods) const;
   void plan_tests(const MisconceptionBank& bank, const RandomStream& random, std::vector<ComponentAudit>& audits) const;
 
