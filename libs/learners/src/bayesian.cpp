@@ -333,7 +333,8 @@ std::vector<Parameter> bayesian_parameters() {
        .max = 3.0},
       {.name = "known",
        .default_value = 0.0,
-       .description = "probability with which a person knows each knowledge component but the last beforehand, with ability_max"},
+       .description =
+           "probability with which a person knows each knowledge component but the last beforehand, with ability_max"},
       particles_parameter(),
       process_noise_parameter(),
   };
