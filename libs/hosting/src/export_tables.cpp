@@ -156,6 +156,18 @@ TableDescription trials_table() {
                       text("mdp_parameters", "JSON with the constraints, normals of half-spaces.")}};
 }
 
+TableDescription beliefs_table() {
+  return {
+      .file = kBeliefsFile,
+      .description = "What the teacher believed at the end of a period.",
+      .columns = {session_column(), period_column(),
+                  text("belief", "Whom the belief is about: member N, or how beliefs were combined, such as common."),
+                  integer("member", "Place in the group, from 1; missing for combined beliefs.", false),
+                  real("p_bec",
+                       "Share of the belief in the set of rewards that lead to the robot's policy: the teacher's "
+                       "estimate of what the member knows.")}};
+}
+
 TableDescription events_table() {
   return {.file = kEventsFile,
           .description = "One event of a room: everything that happened, in order.",
@@ -172,7 +184,8 @@ TableDescription events_table() {
 
 std::vector<TableDescription> export_tables(const SessionExportOptions& options) {
   return {sessions_table(), participants_table(options), periods_table(), tests_table(),
-          keys_table(),     questions_table(options),    trials_table(),  events_table()};
+          keys_table(),     questions_table(options),    trials_table(),  beliefs_table(),
+          events_table()};
 }
 
 }  // namespace kith

@@ -55,13 +55,14 @@ class Tables {
     sink_(file, piece);
   }
 
-  ExportReport finish(const std::vector<TableDescription>& tables, const std::string& run) {
+  ExportReport finish(const std::vector<TableDescription>& tables, const std::string& run, const Json& about) {
     ExportReport report;
     for (auto& [file, writer] : writers_) {
       writer.flush();
       report.rows[file] = writer.num_rows();
     }
     put("codebook.json", codebook(tables, run));
+    put(kAboutFile, about.dump(2) + "\n");
     std::string sums;
     for (auto& [file, hash] : hashes_) {
       report.hashes[file] = std::move(hash).hex();
@@ -95,10 +96,13 @@ class Exporter {
     write_tests();
     write_questions();
     write_trials();
+    write_beliefs();
     for (const auto& event : history.events) write_event(event);
   }
 
-  ExportReport finish(const std::string& run) { return tables_.finish(export_tables(options_), run); }
+  ExportReport finish(const EventFile& file) {
+    return tables_.finish(export_tables(options_), file.identity().study, about(file));
+  }
 
  private:
   [[nodiscard]] const std::string& id() const { return history_->replayed.id; }
@@ -372,6 +376,42 @@ class Exporter {
     row.end_row();
   }
 
+  void write_beliefs() {
+    const auto detail = history_->room->view({.role = Viewer::Role::kObserver, .seat = 0}, 0)["room"];
+    for (const auto& point : detail["curves"]) {
+      for (const auto& [name, mass] : point["p_bec"].items()) {
+        constexpr std::string_view kMember{"member "};
+        auto& row = tables_[kBeliefsFile];
+        row.text(id()).integer(point["period"].get<std::size_t>()).text(name);
+        if (name.compare(0, kMember.size(), kMember) == 0) {
+          row.integer(static_cast<std::size_t>(std::stoul(name.substr(kMember.size()))));
+        } else {
+          row.missing();
+        }
+        row.real(mass.get<double>());
+        row.end_row();
+      }
+    }
+  }
+
+  // What was taught, and to whom.
+  [[nodiscard]] Json about(const EventFile& file) const {
+    const auto facts = live_study_json(*study_);
+    Json strategies = Json::array();
+    for (const auto& strategy : facts["strategies"]) strategies.push_back(strategy["name"]);
+    return {{"schema", "kith.session-tables/1"},
+            {"session", file.id()},
+            {"study", study_->spec.id},
+            {"title", study_->spec.title},
+            {"domain", facts["domain"]},
+            {"program", file.identity().program},
+            {"created_ms", ms_of(file.created_us())},
+            {"strategies", strategies},
+            {"compositions", facts["compositions"]},
+            {"types", facts["types"]},
+            {"inputs", file.identity().inputs}};
+  }
+
   void write_event(const StoredEvent& event) {
     auto body = room_event_of(event).body;
     if (!options_.with_names && body.is_object()) {
@@ -433,7 +473,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
     refuse_run(ErrorKind::kInvalidInput, "E1618", file.path(), "there is no such room in this session",
                "list the rooms with 'kith session list'");
   }
-  const auto report = exporter.finish(file.identity().study);
+  const auto report = exporter.finish(file);
   reconcile(file.path(), kSessionsFile, report.rows.at(kSessionsFile), rooms);
   reconcile(file.path(), kEventsFile, report.rows.at(kEventsFile), events);
   return report;

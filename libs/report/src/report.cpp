@@ -10,6 +10,8 @@
 #include "parameters.hpp"
 #include "people_tables.hpp"
 #include "plain_summary.hpp"
+#include "session_report.hpp"
+#include "session_tables.hpp"
 #include "team_tables.hpp"
 
 namespace kith {
@@ -249,6 +251,15 @@ Json reproduction_of(const RunFiles& run) {
           {"hashes", std::move(hashes)}};
 }
 
+// Answers in an event store are no tables yet.
+void refuse_live_sessions(const std::filesystem::path& folder) {
+  std::error_code failure;
+  if (!std::filesystem::exists(folder / "session.sqlite", failure)) return;
+  refuse_run(ErrorKind::kInvalidInput, "E0602", folder,
+             "the folder holds live sessions, from which tables are exported",
+             "run 'kith session export " + folder.string() + " -o TABLES', then 'kith report TABLES'");
+}
+
 Json document_of(const std::filesystem::path& folder, const ReportOptions& options) {
   const auto step = [&](std::string_view text) {
     if (options.on_step) options.on_step(text);
@@ -289,7 +300,10 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
 }  // namespace detail
 
 std::string build_report(const std::filesystem::path& run_folder, const ReportOptions& options) {
-  return detail::document_of(run_folder, options).dump(-1, ' ', true, detail::Json::error_handler_t::replace);
+  detail::refuse_live_sessions(run_folder);
+  const auto document = detail::is_session_export(run_folder) ? detail::session_report(run_folder, options)
+                                                              : detail::document_of(run_folder, options);
+  return document.dump(-1, ' ', true, detail::Json::error_handler_t::replace);
 }
 
 }  // namespace kith

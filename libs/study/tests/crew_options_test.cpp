@@ -111,7 +111,7 @@ TEST(KnownComponents, RaiseWhatPeopleBelieveAndNothingElse) {
   for (auto& type : knowing.learner_types) type.parameters.set("known", 1.0);
   const auto without = run_crews({{spec}}), with = run_crews({{knowing}});
   for (std::size_t i = 0; i < with.size(); ++i) {
-    EXPECT_GT(*with[i].exams.front().p_bec, *without[i].exams.front().p_bec + 0.3);
+    EXPECT_GT(*with[i].exams.front().p_bec, *without[i].exams.front().p_bec + 0.1);  // the last component stays unknown
     EXPECT_EQ(with[i].learners.front().traits, without[i].learners.front().traits);
     EXPECT_LE(with[i].periods, without[i].periods);
   }

@@ -43,7 +43,9 @@ export function figureSections(study: Study): Section[] {
   let number = 0;
   const sections: Section[] = [];
   for (const { id, title, figures } of kSections) {
-    const views = figures(study).map((figure) => figureView(figure, ++number, study.report.study, study.words));
+    const views = figures(study)
+      .map((figure) => ({ ...figure, ...study.report.labels?.figures?.[figure.id] }))
+      .map((figure) => figureView(figure, ++number, study.report.study, study.words));
     if (views.length > 0) sections.push({ id, title, content: views });
   }
   const { beliefs } = study.report;
