@@ -173,8 +173,7 @@ TEST(RunImport, RefusesRecordsOfTeamsOnlyAndCounterfactualsOfPeoplesOwn) {
 
 TEST(RunImport, RefusesPeopleWhoWereNotTaughtAllTheTime) {
   const testing::ScratchFolder folder;
-  testing::run_into(folder.path() / "released",
-                    testing::study_text("NN", 2, kTypes + "release = \"all-right\"\n"));
+  testing::run_into(folder.path() / "released", testing::study_text("NN", 2, kTypes + "release = \"all-right\"\n"));
   EXPECT_EQ(import_fault(folder.path() / "released"), "E0713 study.toml:0");
 }
 
