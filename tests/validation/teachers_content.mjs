@@ -17,6 +17,22 @@ const MIXED_TAKE_IN_TWO = ['learner.L.capacity=2', 'learner.H.capacity=2'];
 const PLAN_FOR_TWO = ['strategy.plan.capacity=2', 'strategy.adaptive.capacity=2', 'strategy.oracle.capacity=2'];
 const PLANNERS = ['plan', 'adaptive', 'oracle'];
 
+const AT_ONCE = 'teacher.scaffold="none"';
+const POSTERIOR = (probability) => ['stop.mastery="posterior"', `stop.probability=${probability}`];
+const KNOWN = [
+  FEW, AT_ONCE, 'stop.periods_per_component=4', 'teacher.max_demonstrations=1', 'teacher.hypotheses="known-components"',
+  'learner.N.known=0.5', 'learner.P.known=0.5',
+];
+// What is released and separated, {label: settings}.
+const SESSIONS = {
+  together: [],
+  'together, `release = "posterior"`': ['stop.release="posterior"'],
+  'together, `release = "all-right"`': ['stop.release="all-right"'],
+  '`by-type`': ['teacher.grouping="by-type"'],
+  '`by-type`, `release = "posterior"`': ['teacher.grouping="by-type"', 'stop.release="posterior"'],
+};
+const CREWS = { NNPP: TEACHERS, LLHH: MIXED };
+
 export const COMMANDS = {
   lessons: study(TEACHERS),
   'two demonstrations': study(TEACHERS, only(...PLANNERS), TWO_DEMONSTRATIONS),
@@ -26,6 +42,18 @@ export const COMMANDS = {
   'stop of the paper, two demonstrations': study(TEACHERS, only('plan'), PAPER_STOP, TWO_DEMONSTRATIONS),
   'mixed abilities': study(MIXED),
   'mixed abilities, bank alone': study(MIXED, only('adaptive'), 'strategy.adaptive.answers=0'),
+  ...Object.fromEntries([3, 4, 5].map((n) => [`fixed ${n}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, `stop.periods_per_component=${n}`)])),
+  ...Object.fromEntries([0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...POSTERIOR(p))])),
+  known: study(TEACHERS, only('joint', ...PLANNERS), ...KNOWN),
+  'known, placement tests': study(TEACHERS, only('adaptive'), ...KNOWN, 'teacher.placement_tests=4'),
+  ...Object.fromEntries(
+    Object.entries(CREWS).flatMap(([crew, file]) =>
+      Object.entries(SESSIONS).map(([label, settings]) => [
+        `${crew} ${label.replaceAll('`', '')}`,
+        study(file, 'replicates=100', only('joint'), `design.compositions=["${crew}"]`, AT_ONCE, ...POSTERIOR(0.9), ...settings),
+      ]),
+    ),
+  ),
   ...Object.fromEntries(DOMAINS.map((domain) => [`rivals, ${domain}`, study(TEACHERS, FEW, only(...RIVALS), `domain="${domain}"`)])),
   ...Object.fromEntries(
     DOMAINS.map((domain) => [
@@ -50,6 +78,7 @@ const MEASURES = {
   'of the worst member': [(team) => team.exam_worst_share_right, 4],
   p_BEC: [(team) => team.knowledge, 3],
   'least p_BEC of a team': [(team) => team.knowledge_min, 3],
+  'person periods': [(team) => team.person_periods, 1],
   items: [(team) => team.demonstrations + team.tests, 1],
 };
 
@@ -118,6 +147,28 @@ export function makeContent(runs) {
       ]),
     }),
 
+    posterior: () =>
+      table('rule', ['periods', 'regret', 'p_BEC'], [
+        ...[3, 4, 5].map((n) => [`fixed ${n}`, `fixed ${n}`, 'joint']),
+        ...[0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, `posterior ${p}`, 'joint']),
+      ]),
+
+    known: () =>
+      table('strategy', ['regret', 'p_BEC'], [
+        ...named('known', ['joint', ...PLANNERS]),
+        ['`adaptive` with four placement tests', 'known, placement tests', 'adaptive'],
+      ]),
+
+    sessions: () => ({
+      columns: ['sessions', ...Object.keys(CREWS).flatMap((crew) => [`${crew}: periods`, 'person periods', 'p_BEC', 'share right of the worst member'])],
+      rows: Object.keys(SESSIONS).map((label) => [
+        label,
+        ...Object.keys(CREWS).flatMap((crew) =>
+          ['periods', 'person periods', 'p_BEC', 'of the worst member'].map((measure) => cell(`${crew} ${label.replaceAll('`', '')}`, 'joint', measure)),
+        ),
+      ]),
+    }),
+
     rivals: () => compareRivals((domain) => `rivals, ${domain}`),
 
     'equal-items': () => compareRivals(runOfFewItems),
@@ -168,6 +219,21 @@ export function makeContent(runs) {
     'adapting-costs-nothing': () =>
       value('lessons', 'adaptive', 'p_BEC') > value('lessons', 'plan', 'p_BEC') - 0.005 &&
       ['LLH', 'LLLHHH'].every((one) => value('mixed abilities', 'adaptive', 'p_BEC', one) > value('mixed abilities', 'plan', 'p_BEC', one) - 0.005),
+    'knowing-pays-a-little': () => {
+      const gain = (strategy) => value('known', strategy, 'p_BEC') - value('known', 'plan', 'p_BEC');
+      return gain('adaptive') > 0 && gain('adaptive') < 0.05 && gain('oracle') < 0.05 && value('known', 'adaptive', 'regret') < 0.9 * value('known', 'plan', 'regret');
+    },
+    'placement-adds-nothing': () => Math.abs(value('known, placement tests', 'adaptive', 'p_BEC') - value('known', 'adaptive', 'p_BEC')) < 0.01,
+    'releasing-costs-knowledge': () =>
+      Object.keys(CREWS).every((crew) => {
+        const [all, released] = [`${crew} together`, `${crew} together, release = "posterior"`];
+        return value(released, 'joint', 'person periods') < 0.67 * value(all, 'joint', 'person periods') && value(released, 'joint', 'p_BEC') < value(all, 'joint', 'p_BEC') - 0.05;
+      }),
+    'types-apart': () =>
+      Object.keys(CREWS).every((crew) => {
+        const [all, apart] = [`${crew} together`, `${crew} by-type`];
+        return value(apart, 'joint', 'person periods') < value(all, 'joint', 'person periods') && value(apart, 'joint', 'periods') > 1.4 * value(all, 'joint', 'periods');
+      }),
     'plan-beats-rivals': () =>
       DOMAINS.every((domain) =>
         RIVALS.every((strategy) => strategy === 'plan' || value(`rivals, ${domain}`, 'plan', 'share right') > value(`rivals, ${domain}`, strategy, 'share right')),

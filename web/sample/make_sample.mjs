@@ -142,6 +142,53 @@ const periodsByComponent = each(names, compositions, components).map(([strategy,
   const mean = total * [0.22, 0.33, 0.45][kc - 1];
   return [strategy, composition, kc, round(mean), round(mean - 0.3), round(mean + 0.3)];
 });
+// An exam after every period, and forecasts. Chance of their own, so that the numbers above stay.
+const other = makeRandom(7);
+const around = (value, half) => [round(value), round(value - half), round(value + half)];
+const examByPeriod = each(names, [...Array(10).keys()]).map(([strategy, period]) => {
+  const k = names.indexOf(strategy);
+  const left = Math.exp(-(0.25 + 0.05 * k) * period);
+  return [
+    strategy,
+    period,
+    60,
+    round(3.1 * period, 1),
+    round(1.1 * period, 2),
+    round(3.3 * period, 2),
+    ...around(0.9 * left, 0.03),
+    ...around(1 - 0.7 * left, 0.02),
+    ...around(1 - 0.8 * left, 0.03),
+    ...around(0.95 - 0.85 * left, 0.03),
+  ];
+});
+const efficiency = each(names, compositions).map(([strategy, composition]) => {
+  const k = names.indexOf(strategy);
+  const items = 24 + 2 * k + other.normal();
+  const knowledge = 0.6 + 0.06 * k - (k === 2 ? 0.1 : 0) + 0.02 * numP(composition);
+  const onFront = k !== 2;
+  return [
+    strategy,
+    composition,
+    replicates,
+    ...around(items, 0.8),
+    ...around(0.35 * items, 0.3),
+    ...around(items, 0.9),
+    ...around(knowledge, 0.03),
+    ...around(0.9, 0.02),
+    ...around(0.04 - 0.006 * k, 0.004),
+    onFront,
+    onFront ? 0.9 : 0.1,
+  ];
+});
+const forecasts = each(names, compositions).map(([strategy, composition]) => {
+  const { mean, low, high } = meanInterval(cellOf(strategy, composition).map((t) => t.periods));
+  return [strategy, composition, replicates, round(mean), round(mean - 2), round(mean + 2), ...[mean, low, high].map((v) => round(v)), 0.8, 0.55, 0.93];
+});
+const calibration = each([1, 2, 3], [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95]).map(([within, p]) => {
+  const share = Math.min(1, Math.max(0, p + 0.04 * other.normal()));
+  return [within, p, round(share), round(Math.max(0, share - 0.1)), round(Math.min(1, share + 0.1)), 80];
+});
+const triple = (name) => [name, `${name}_low`, `${name}_high`];
 const timings = [
   ['planning', 0.041],
   ['teaching', 0.196],
@@ -236,6 +283,47 @@ const report = {
     ),
     correct_by_period: table(['strategy', 'type', 'period', 'share', 'low', 'high', 'answers'], correctByPeriod),
     periods_by_component: table(['strategy', 'composition', 'kc', 'mean_periods', 'low', 'high'], periodsByComponent),
+    exam_by_period: table(
+      [
+        'strategy',
+        'period',
+        'teams',
+        'items',
+        'minutes',
+        'person_minutes',
+        ...['regret', 'share_right', 'worst_share_right', 'knowledge'].flatMap(triple),
+      ],
+      examByPeriod,
+    ),
+    efficiency: table(
+      [
+        'strategy',
+        'composition',
+        'teams',
+        ...['items', 'minutes', 'person_minutes', 'knowledge', 'share_right', 'regret'].flatMap(triple),
+        'on_front',
+        'front_share',
+      ],
+      efficiency,
+    ),
+    forecasts: table(
+      [
+        'strategy',
+        'composition',
+        'teams',
+        'forecast_mean',
+        'forecast_low',
+        'forecast_high',
+        'mean',
+        'low',
+        'high',
+        'within',
+        'within_low',
+        'within_high',
+      ],
+      forecasts,
+    ),
+    forecast_calibration: table(['within', 'forecast', 'share', 'low', 'high', 'n'], calibration),
     timings: table(['phase', 'seconds'], timings),
     parameters: table(['group', 'key', 'value', 'meaning'], parameters),
   },

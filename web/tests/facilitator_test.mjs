@@ -27,7 +27,7 @@ if (!values.app) {
   process.exit(2);
 }
 
-describe('the line to the server', () => connectionTests(values.modules));
+describe('the connection to the server', () => connectionTests(values.modules));
 
 describe('the facilitator page', () => {
   const harness = new Harness(values);

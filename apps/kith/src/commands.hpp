@@ -25,6 +25,7 @@ int run_completion(const CompletionOptions& options, Console& console);
 int run_version(Console& console);
 int run_calibrate(const CalibrateOptions& options, Console& console);
 int run_status(const StatusOptions& options, Console& console);
+int run_audit(const AuditCommandOptions& options, Console& console);
 int run_verify(const VerifyCommandOptions& options, Console& console);
 int run_merge(const MergeOptions& options, Console& console);
 int run_bench(const BenchOptions& options, Console& console);

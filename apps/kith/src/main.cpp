@@ -55,6 +55,8 @@ int run(const Options& options, Console& console) {
       return run_calibrate(options.calibrate, console);
     case Command::kStatus:
       return run_status(options.status, console);
+    case Command::kAudit:
+      return run_audit(options.audit, console);
     case Command::kVerify:
       return run_verify(options.verify, console);
     case Command::kMerge:

@@ -99,6 +99,9 @@ void add_teach(CLI::App& app, Options& options) {
   auto* set = &add_set(command, teach.set);
   auto* from = command.add_option("--from", teach.from, "Replay a team of this run folder")->type_name("DIR");
   auto* team = command.add_option("--team", teach.team, "Number of the team, as in teams.csv")->type_name("N");
+  takes_integer(*command.add_option("--forecast", teach.forecast,
+                                    "Forecast the session from this many imagined teams of the same kind"),
+                0, 100'000);
   from->needs(team);
   team->needs(from);
   for (auto* other : {domain, group, strategy, seed, study, set}) from->excludes(other);
@@ -161,6 +164,12 @@ void add_serve(CLI::App& app, Options& options) {
       ->needs(rehearse)
       ->check([](const std::string& text) { return wrong_fraction(text); })
       ->type_name("P");
+  command
+      .add_option("--restart-after", serve.restart_after,
+                  "With --rehearse: stop the server after so many seconds and start it again")
+      ->needs(rehearse)
+      ->check(positive)
+      ->type_name("SECONDS");
   add_common(command, options.common);
 }
 
@@ -255,7 +264,8 @@ Command command_of(const std::string& name) {
       {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge},
       {"export", Command::kExport},   {"bench", Command::kBench},         {"curriculum", Command::kCurriculum},
       {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind},
-      {"explain", Command::kExplain}, {"session", Command::kSession},     {"serve", Command::kServe}};
+      {"explain", Command::kExplain}, {"session", Command::kSession},     {"serve", Command::kServe},
+      {"audit", Command::kAudit}};
   return kCommands.at(name);
 }
 

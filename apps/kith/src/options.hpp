@@ -31,7 +31,8 @@ enum class Command {
   kInit,
   kExplain,
   kServe,
-  kSession
+  kSession,
+  kAudit
 };
 enum class ColorMode { kAuto, kAlways, kNever };
 enum class ProgressMode { kAuto, kBar, kJson, kNone };
@@ -67,6 +68,7 @@ struct TeachOptions {
   std::vector<std::string> set;
   std::string from;  ///< A run folder ...
   std::string team;  ///< ... and the number of one of its teams, as typed: only the folder tells how many there are.
+  std::optional<std::size_t> forecast;  ///< Imagined sessions; none: as the study says.
 };
 
 /// "2/7": part 2 of 7.
@@ -91,6 +93,16 @@ struct StudyOptions {
 
 struct StatusOptions {
   std::string folder;
+};
+
+struct AuditCommandOptions {
+  std::string folder;
+  std::optional<std::size_t> team;  ///< Number of a team of a run; none: all.
+  std::string room;                 ///< Id or code of a room of a live session; empty: all.
+  std::string out;                  ///< Where the page goes; "-" is standard output; empty: no page.
+  double forgetting = 0.02;         ///< Radians per period without lessons.
+  std::size_t threads = 0;          ///< 0: as many as there are cores.
+  ProgressMode progress = ProgressMode::kAuto;
 };
 
 struct VerifyCommandOptions {
@@ -253,6 +265,7 @@ struct ServeOptions {
   double for_seconds = 0.0;  ///< 0: until everybody has finished.
   double answer_every = 5.0;
   double reconnects = 0.0;
+  double restart_after = 0.0;  ///< Seconds after which a rehearsal restarts its server; 0: never.
 };
 
 struct SessionOptions {
@@ -280,6 +293,7 @@ struct Options {
   PowerCommandOptions power;
   FitCommandOptions fit;
   StatusOptions status;
+  AuditCommandOptions audit;
   VerifyCommandOptions verify;
   MergeOptions merge;
   BenchOptions bench;

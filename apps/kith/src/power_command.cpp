@@ -56,6 +56,12 @@ std::vector<Effect> default_effects(const StudySpec& spec) {
                            "area_sr: strategy", "periods: group - baseline", "knowledge: group - baseline"}) {
     if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
   }
+  if (spec.exam != ExamLevel::kNone) {
+    for (const auto* text : {"exam_share_right: strategy", "exam_regret: strategy", "exam_worst_share_right: strategy",
+                             "exam_regret: group - baseline"}) {
+      if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
+    }
+  }
   if (!effects.empty()) return effects;
   throw Error{ErrorKind::kUsage, "this study has nothing to compare: it has one cell, or only the baseline"};
 }
@@ -286,10 +292,11 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   const bool same_people = spec.pairing == Pairing::kReplicate && spec.strategies.size() > 1;
   power.paired = options.paired || (!options.preregister.empty() && same_people);
   power.seed = options.seed.value_or(spec.seed);
-  auto pool_spec = spec;
+  std::vector<Quantity> quantities;
+  for (const auto& effect : effects) quantities.push_back(effect.quantity);
+  auto pool_spec = recording(spec, quantities);
   pool_spec.replicates = options.pool.value_or(std::max(kDefaultPool, 2 * power.teams.back()));
   pool_spec.seed = power.seed;
-  pool_spec.record = RecordLevel::kTeam;
   check_pool(options, pool_spec.replicates, power.teams);
   const Study pool_study{{pool_spec}};
   require_pool_memory(pool_study, options.threads, num_teams(pool_study));  // before the time is measured

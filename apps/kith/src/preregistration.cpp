@@ -51,6 +51,13 @@ std::string design_text(const StudySpec& spec) {
   text +=
       "* Outcomes: the number of interaction periods until everything is learned (`periods`), and the mean over "
       "members of the final belief in the true policy's behaviour (`knowledge`).\n";
+  if (spec.exam != ExamLevel::kNone) {
+    text +=
+        "* Outcomes of an exam over all starts of the domain, which the teacher does not influence: the share of "
+        "starts "
+        "where members predict the robot (`exam_share_right`), the smallest share of a member "
+        "(`exam_worst_share_right`), and what wrong predictions lose (`exam_regret`).\n";
+  }
   text += fmt::format("* {} cells with {} teams each: {} teams.\n\n", cells, spec.replicates, cells * spec.replicates);
   return text;
 }
@@ -108,7 +115,8 @@ std::string preregistration_text(const StudySpec& spec, const std::string& sourc
   const PlannedDesign design{.strategies = names_of(spec.strategies),
                              .compositions = spec.compositions,
                              .same_people = spec.pairing == Pairing::kReplicate,
-                             .contrasts = contrasts_of(spec)};
+                             .contrasts = contrasts_of(spec),
+                             .has_exam = spec.exam != ExamLevel::kNone};
   AnalysisOptions analysis;
   analysis.alpha = options.alpha;
   const auto plan = planned_analyses(design, analysis);

@@ -83,6 +83,9 @@ void check_options(const ServeOptions& options) {
   if (options.out.empty() && !options.demo && options.rehearse == 0) {
     throw Error{ErrorKind::kUsage, "kith serve needs -o DIR, the folder for the answers"};
   }
+  if (options.restart_after > 0.0 && options.for_seconds > 0.0 && options.restart_after >= options.for_seconds) {
+    throw Error{ErrorKind::kUsage, "the rehearsal is over before --restart-after; choose a time less than --for"};
+  }
   if (web_assets().empty() && options.rehearse == 0) {
     throw Error{ErrorKind::kInfeasible, "this program was built without pages for browsers",
                 Advice{"install Node.js and npm and build it again"}};
@@ -224,6 +227,56 @@ void open_in_browser(const std::vector<std::string>& links) {
   }
 }
 
+// The server of a session, from the port down to the folder, which can be restarted.
+class LiveServer {
+ public:
+  LiveServer(std::shared_ptr<const LiveStudy> study, LiveServiceOptions service, ServerOptions server,
+             const ServeAddress& address)
+      : study_{std::move(study)},
+        service_options_{std::move(service)},
+        server_options_{std::move(server)},
+        address_{address} {
+    start();
+  }
+
+  [[nodiscard]] LiveService& service() { return running_->service; }
+  [[nodiscard]] std::uint16_t port() const { return running_->server.port(); }
+  [[nodiscard]] std::string base() const { return base_url(address_, port()); }
+
+  void stop() {
+    running_->server.stop(kGoodbye);
+    running_->service.stop();
+  }
+  // At the same port and in the same folder: nothing but what is on the disk is kept.
+  void restart() {
+    stop();
+    server_options_.port = port();
+    running_.reset();
+    start();
+  }
+
+ private:
+  struct Running {
+    Running(std::shared_ptr<const LiveStudy> study, const LiveServiceOptions& service_options,
+            const ServerOptions& server_options)
+        : service{std::move(study), service_options}, adapter{service}, server{server_options, adapter} {}
+    LiveService service;
+    LiveAdapter adapter;
+    Server server;
+  };
+
+  void start() {
+    running_.emplace(study_, service_options_, server_options_);
+    running_->service.set_base_url(base());
+  }
+
+  std::shared_ptr<const LiveStudy> study_;
+  LiveServiceOptions service_options_;
+  ServerOptions server_options_;
+  ServeAddress address_;
+  std::optional<Running> running_;
+};
+
 void serve_until_stopped(NoticeBoard& board, Console& console) {
   while (stop_signal() == 0) {
     board.show(console);
@@ -251,25 +304,24 @@ int run_serve(const ServeOptions& options, Console& console) {
   const auto folder = temporary ? temporary->path() : fs::path{options.out};
   NoticeBoard board;
   RehearsalResult rehearsed;
+  RehearsalRecord record;
   {
     if (options.rehearse == 0) expect_to_be_stopped();
-    LiveService service{session.study, service_options(options, session, folder)};
-    LiveAdapter adapter{service};
-    Server server{server_options(options, address, board), adapter};
-    const auto base = base_url(address, server.port());
-    service.set_base_url(base);
-    const auto tokens = service.start_links();
+    LiveServer server{session.study, service_options(options, session, folder), server_options(options, address, board),
+                      address};
+    const auto tokens = server.service().start_links();
     if (options.rehearse > 0) {
       console.info("rehearsing; Ctrl-C ends it early");
-      rehearsed = rehearse(rehearsal_options(options, session.study, server.port(), tokens.facilitator));
+      rehearsed = rehearse(rehearsal_options(
+          options, session.study, server.port(), tokens.facilitator, [&server] { server.restart(); }, record));
     } else {
       Links links;
       {
-        LocalFacilitator facilitator{service, tokens.facilitator};
+        LocalFacilitator facilitator{server.service(), tokens.facilitator};
         // A room of its own for every start: the links of earlier ones are known to those who have them only.
-        if (options.demo) facilitator.make_rooms(service.num_rooms() + 1, persons(kDemoPeople));
+        if (options.demo) facilitator.make_rooms(server.service().num_rooms() + 1, persons(kDemoPeople));
         facilitator.make_rooms(options.rooms);
-        links = links_of(base, tokens, facilitator);
+        links = links_of(server.base(), tokens, facilitator);
         if (options.demo) links.seats = links_of_seats(facilitator);
       }
       print_links(links, folder, server.port(), console);
@@ -283,11 +335,12 @@ int run_serve(const ServeOptions& options, Console& console) {
       }
       serve_until_stopped(board, console);
     }
-    server.stop(kGoodbye);
-    service.stop();
+    server.stop();
     board.show(console);
   }
-  if (options.rehearse > 0) return report_rehearsal(rehearsed, look_up(rehearsed.answers, folder), console);
+  if (options.rehearse > 0) {
+    return report_rehearsal(options, rehearsed, record, look_up(rehearsed.answers, folder), console);
+  }
   console.info(temporary ? "stopped" : "stopped; everything is saved in " + options.out);
   return 0;
 }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 #include <utility>
@@ -36,6 +39,27 @@ double peak_megabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+// What the process occupies now; 0 if the system does not tell.
+double resident_megabytes() {
+  std::ifstream file{"/proc/self/statm"};
+  double total = 0.0, resident = 0.0;
+  file >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+// The median of what was measured in a quarter of the time, 1 to 4; nothing for a few measurements.
+std::optional<double> median_in_quarter(const std::vector<double>& values, std::size_t quarter) {
+  constexpr std::size_t kFewest = 8;
+  if (values.size() < kFewest) return std::nullopt;
+  const auto at = [&](std::size_t q) { return values.begin() + static_cast<std::ptrdiff_t>(values.size() * q / 4); };
+  std::vector<double> part{at(quarter - 1), at(quarter)};
+  const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
+  std::nth_element(part.begin(), middle, part.end());
+  return *middle;
+}
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json{}; }
+
 Json to_json(const LatencySummary& times) {
   return {{"count", times.count},
           {"p50_ms", times.p50},
@@ -44,7 +68,7 @@ Json to_json(const LatencySummary& times) {
           {"max_ms", times.max}};
 }
 
-Json document_of(const RehearsalResult& result, const StoredAnswers& stored) {
+Json document_of(const RehearsalResult& result, const RehearsalRecord& record, const StoredAnswers& stored) {
   Json document{
       {"schema", "kith.rehearsal/1"},
       {"groups", result.groups},
@@ -60,7 +84,12 @@ Json document_of(const RehearsalResult& result, const StoredAnswers& stored) {
       {"connections_lost", result.connections_lost},
       {"finished", result.num_finished()},
       {"stages", Json::object()},
-      {"peak_memory_mb", peak_megabytes()}};
+      {"restarts", record.restarted_after ? 1 : 0},
+      {"restart_seconds", record.restarted_after ? Json(record.restart_seconds) : Json{}},
+      {"peak_memory_mb", peak_megabytes()},
+      {"memory_mb",
+       {{"second_quarter", or_null(median_in_quarter(record.memory_mb, 2))},
+        {"last_quarter", or_null(median_in_quarter(record.memory_mb, 4))}}}};
   for (const auto& [reason, count] : result.refusals) document["refusals"][reason] = count;
   for (const auto& [stage, count] : result.stages) document["stages"][stage] = count;
   return document;
@@ -82,10 +111,27 @@ std::string counts_text(const auto& counts) {
   return text.empty() ? "none" : text;
 }
 
+std::string memory_text(const RehearsalRecord& record) {
+  auto text = fmt::format("{:.0f} MB at most, the simulated people included", peak_megabytes());
+  const auto early = median_in_quarter(record.memory_mb, 2);
+  const auto late = median_in_quarter(record.memory_mb, 4);
+  if (early && late) {
+    text += fmt::format("; median {:.0f} MB in the second quarter of the time, {:.0f} MB in the last", *early, *late);
+  }
+  return text;
+}
+
+std::string restart_text(const RehearsalRecord& record) {
+  if (!record.restarted_after) return "not restarted: the rehearsal was over before";
+  return fmt::format("restarted after {:.0f} s; accepted connections again {:.1f} s later", *record.restarted_after,
+                     record.restart_seconds);
+}
+
 }  // namespace
 
 RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<const LiveStudy> study,
-                                   std::uint16_t port, std::string facilitator) {
+                                   std::uint16_t port, std::string facilitator, std::function<void()> restart,
+                                   RehearsalRecord& record) {
   RehearsalOptions rehearsal;
   rehearsal.port = port;
   rehearsal.facilitator = std::move(facilitator);
@@ -93,10 +139,23 @@ RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<
   rehearsal.duration = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.for_seconds)};
   rehearsal.answer_every = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.answer_every)};
   rehearsal.reconnects = options.reconnects;
+  // Groups that learn are done after a minute or two; a load that is to last needs people who do not.
+  if (options.for_seconds > 0.0) rehearsal.right = 0.0;
   rehearsal.right_path = [study = std::move(study)](const std::string& world, int start) {
     return robots_path(*study, world, start);
   };
-  rehearsal.on_tick = [](std::chrono::milliseconds) { return stop_signal() == 0; };
+  const auto restart_after = options.restart_after;
+  rehearsal.on_tick = [restart_after, restart = std::move(restart), &record](std::chrono::milliseconds elapsed) {
+    const auto seconds = std::chrono::duration<double>(elapsed).count();
+    if (static_cast<double>(record.memory_mb.size()) <= seconds) record.memory_mb.push_back(resident_megabytes());
+    if (restart_after > 0.0 && !record.restarted_after && seconds >= restart_after) {
+      const auto start = std::chrono::steady_clock::now();
+      record.restarted_after = seconds;
+      restart();
+      record.restart_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    return stop_signal() == 0;
+  };
   return rehearsal;
 }
 
@@ -116,9 +175,11 @@ StoredAnswers look_up(const std::vector<std::string>& answers, const std::filesy
   return stored;
 }
 
-int report_rehearsal(const RehearsalResult& result, const StoredAnswers& stored, const Console& console) {
+int report_rehearsal(const ServeOptions& options, const RehearsalResult& result, const RehearsalRecord& record,
+                     const StoredAnswers& stored, const Console& console) {
+  const bool restarts = options.restart_after > 0.0;
   if (console.json()) {
-    console.print_json(document_of(result, stored));
+    console.print_json(document_of(result, record, stored));
   } else {
     std::string text = fmt::format(
         "{} with {}, {:.0f} s\n", counted(result.groups, "group"),
@@ -130,7 +191,8 @@ int report_rehearsal(const RehearsalResult& result, const StoredAnswers& stored,
     if (result.refused > 0) text += fmt::format("refused    {}\n", counts_text(result.refusals));
     text += fmt::format("reconnects {}; connections lost otherwise: {}\n", result.reconnects, result.connections_lost);
     text += fmt::format("ended at   {}\n", counts_text(result.stages));
-    text += fmt::format("memory     {:.0f} MB at most, the simulated people included\n\n", peak_megabytes());
+    if (restarts) text += fmt::format("server     {}\n", restart_text(record));
+    text += fmt::format("memory     {}\n\n", memory_text(record));
     TextTable table{"lrrrrr"};
     table.add({"milliseconds", "count", "median", "95 %", "99 %", "max"});
     table.add(row_of("acknowledgement", result.acknowledgement));
@@ -140,7 +202,8 @@ int report_rehearsal(const RehearsalResult& result, const StoredAnswers& stored,
   }
   if (stored.lost + stored.twice > 0) return exit_code(ErrorKind::kMismatch);
   if (stop_signal() != 0) return 128 + stop_signal();
-  return result.num_finished() < result.people ? exit_code(ErrorKind::kPartial) : 0;
+  const bool is_whole = result.num_finished() == result.people && (!restarts || record.restarted_after);
+  return is_whole ? 0 : exit_code(ErrorKind::kPartial);
 }
 
 }  // namespace kith::cli

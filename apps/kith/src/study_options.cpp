@@ -222,6 +222,27 @@ void add_status(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
+void add_audit(CLI::App& app, Options& options) {
+  auto& audit = options.audit;
+  auto& command = *app.add_subcommand("audit", "Judge from people's answers who understands what");
+  command.add_option("folder", audit.folder, "Run folder of a study, or folder of live sessions")
+      ->required()
+      ->type_name("DIR");
+  takes_integer(*command.add_option("--team", audit.team, "Only this team of a run, as numbered in teams.csv"), 1);
+  command.add_option("--room", audit.room, "Only this room of live sessions, by id or code")->type_name("ID");
+  command.add_option("-o,--out", audit.out, "Write one HTML page for a browser; '-' is standard output")
+      ->type_name("FILE");
+  command
+      .add_option("--forgetting", audit.forgetting,
+                  "Radians by which beliefs blur in a period without lessons; 0: people forget nothing")
+      ->capture_default_str()
+      ->check([](const std::string& text) { return text == "0" ? "" : wrong_positive(text); })
+      ->type_name("ANGLE");
+  takes_integer(*command.add_option("-j,--threads", audit.threads, "Worker threads (default: one per core)"), 1, 1024);
+  add_progress(command, audit.progress);
+  add_common(command, options.common);
+}
+
 void add_verify(CLI::App& app, Options& options) {
   auto& verify = options.verify;
   auto& command = *app.add_subcommand("verify", "Repeat a run from its frozen inputs and compare all bytes");
@@ -260,6 +281,7 @@ void add_study_commands(CLI::App& app, Options& options) {
   add_analyze(app, options);
   add_report(app, options);
   add_fit(app, options);
+  add_audit(app, options);
 }
 
 }  // namespace kith::cli

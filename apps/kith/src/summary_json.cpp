@@ -1,5 +1,6 @@
 #include "summary_json.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "kith/present/json.hpp"
@@ -21,6 +22,18 @@ Json group_json(const CellSummary& cell, const Study& study) {
   json["periods"] = mean_sd_json(cell.periods);
   json["knowledge"] = mean_sd_json(cell.knowledge);
   json["area_sr"] = mean_sd_json(cell.area_sr);
+  const auto& variants = study.variants;
+  if (std::any_of(variants.begin(), variants.end(), has_costs)) {
+    json["cost"] = {{"person_periods", mean_sd_json(cell.person_periods)},
+                    {"minutes", mean_sd_json(cell.minutes)},
+                    {"person_minutes", mean_sd_json(cell.person_minutes)}};
+  }
+  if (cell.forecast) {
+    const auto& ahead = *cell.forecast;
+    json["forecast"] = {
+        {"periods", {{"mean", ahead.periods}, {"low", ahead.periods_low}, {"high", ahead.periods_high}}},
+        {"minutes", {{"mean", ahead.minutes}, {"low", ahead.minutes_low}, {"high", ahead.minutes_high}}}};
+  }
   if (cell.exam) {
     json["exam"] = {{"share_right", mean_sd_json(cell.exam->share_right)},
                     {"regret", mean_sd_json(cell.exam->regret)},

@@ -65,6 +65,7 @@ Assignment from_options(const TeachOptions& options) {
 
 int run_teach(const TeachOptions& options, Console& console) {
   auto assignment = options.from.empty() ? from_options(options) : from_run_folder(options);
+  if (options.forecast) assignment.spec.forecast_sessions = *options.forecast;
   const Atlas atlas{std::move(assignment.domain)};
   require_something_to_teach(atlas);
   const auto transcript = transcribe(atlas, assignment.spec, assignment.address);

@@ -104,6 +104,9 @@ TEST(ServeCommand, RefusesOptionsThatContradictEachOther) {
       {"serve", "quick", "-o", "x", "--port", "70000"},
       {"serve", "quick", "--rehearse", "0"},
       {"serve", "quick", "--rehearse", "2", "--answer-every", "0"},
+      {"serve", "quick", "--rehearse", "2", "--restart-after", "0"},
+      {"serve", "quick", "--rehearse", "2", "--for", "3", "--restart-after", "3"},
+      {"serve", "quick", "-o", "x", "--restart-after", "3"},
       {"serve", "quick", "--rehearse", "2", "--lan"},
       {"serve", "quick", "--rehearse", "2", "--insecure-lan"},
       {"serve", "quick", "--rehearse", "2", "--bind", "0.0.0.0"},
@@ -254,6 +257,28 @@ TEST(ServeCommand, RehearsesWithSimulatedPeople) {
   EXPECT_EQ(document.at("answers").at("lost"), 0);
   EXPECT_EQ(document.at("answers").at("stored_twice"), 0);
   EXPECT_EQ(document.at("finished"), document.at("people"));
+  EXPECT_EQ(document.at("restarts"), 0);
+}
+
+TEST(ServeCommand, LosesNothingWhenARehearsalRestartsItsServer) {
+  const auto ran = run_kith({"serve", "quick", "--rehearse", "3", "--for", "8", "--answer-every", "0.3", "--reconnects",
+                             "0.05", "--restart-after", "3", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err << ran.out;
+  const auto document = Json::parse(ran.out);
+  EXPECT_EQ(document.at("restarts"), 1);
+  EXPECT_GT(document.at("connections_lost"), 0);
+  EXPECT_GT(document.at("answers").at("acknowledged"), 0);
+  EXPECT_EQ(document.at("answers").at("lost"), 0);
+  EXPECT_EQ(document.at("answers").at("stored_twice"), 0);
+  EXPECT_EQ(document.at("finished"), document.at("people"));
+  EXPECT_TRUE(document.at("memory_mb").contains("last_quarter"));
+}
+
+TEST(ServeCommand, SaysThatARehearsalWasOverBeforeTheRestart) {
+  const auto ran = run_kith({"serve", "quick", "--set", "stop.max_periods=1", "--rehearse", "1", "--answer-every",
+                             "0.05", "--restart-after", "3600"});
+  EXPECT_EQ(ran.code, 6) << ran.err << ran.out;
+  EXPECT_THAT(ran.out, HasSubstr("server     not restarted: the rehearsal was over before"));
 }
 
 }  // namespace

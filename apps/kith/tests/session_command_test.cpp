@@ -89,6 +89,20 @@ TEST_F(SessionCommand, ExportsTablesThatAreCompleteAndChecked) {
   EXPECT_EQ(kith::Json::parse(one.out)["rows"]["sessions.csv"], 1);
 }
 
+TEST_F(SessionCommand, ExportsTablesThatCanBeReported) {
+  ASSERT_EQ(run_kith({"session", "export", folder(), "-o", scratch_ / "tables"}).code, 0);
+  const auto ran = run_kith({"report", scratch_ / "tables", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto document = kith::Json::parse(ran.out);
+  EXPECT_EQ(document["overview"]["teams"], 0) << "nobody was taught yet";
+  EXPECT_EQ(document["domain"], "item-delivery");
+  EXPECT_EQ(run_kith({"report", scratch_ / "tables"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "tables/report.html"));
+  const auto early = run_kith({"report", folder()});
+  EXPECT_EQ(early.code, 3);
+  EXPECT_THAT(early.err, HasSubstr("kith session export"));
+}
+
 TEST_F(SessionCommand, ReplaysAndSaysWhatDiffers) {
   const auto ran = run_kith({"session", "replay", folder()});
   EXPECT_EQ(ran.code, 0) << ran.err;

@@ -6,12 +6,11 @@
 #include "kith/core/error.hpp"
 #include "kith/toml/document.hpp"
 #include "model_means.hpp"
+#include "outcomes.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
 namespace {
-
-using Response = std::pair<std::string, const std::vector<double>*>;
 
 std::string design_note(const RunTeams& teams) {
   const auto cut_off = std::count(teams.completed.begin(), teams.completed.end(), false);
@@ -80,7 +79,7 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
   Analysis analysis{run_folder.string(), {design_note(teams)}};
   for (const auto& what : run.missing())
     analysis.notes.push_back("the run is incomplete, and all results describe only the teams that are there: " + what);
-  const std::vector<Response> responses{{"periods", &teams.periods}, {"knowledge", &teams.knowledge}};
+  const auto responses = outcomes_of(teams);
   // What a design allows is the same for all responses.
   const auto model = team_model(teams, group_teams(teams), "periods", teams.periods);
   check_comparisons(model.factors, options);

@@ -5,6 +5,7 @@
 
 #include "kith/random/distributions.hpp"
 #include "model_means.hpp"
+#include "outcomes.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -32,6 +33,10 @@ RunTeams made_up_teams(const PlannedDesign& design) {
         teams.periods.push_back(1.0 + static_cast<double>(uniform_index(4, random)));
         teams.knowledge.push_back(uniform01(random));
         teams.area_sr.push_back(uniform01(random));
+        if (!design.has_exam) continue;
+        teams.exam_share_right.push_back(uniform01(random));
+        teams.exam_regret.push_back(uniform01(random));
+        teams.exam_worst_share_right.push_back(uniform01(random));
       }
     }
   }
@@ -50,8 +55,7 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
     if (finding)
       plan.push_back({finding->id, finding->title, finding->question, finding->model, finding->methods, contrasts});
   };
-  const std::vector<std::pair<std::string, const std::vector<double>*>> responses{{"periods", &teams.periods},
-                                                                                  {"knowledge", &teams.knowledge}};
+  const auto responses = outcomes_of(teams);
   if (!rows.empty()) {
     const auto factors = team_model(teams, rows, "knowledge", teams.knowledge).factors;
     for (const auto& [name, values] : responses) {

@@ -8,6 +8,7 @@
 #include "kith/stats/mixed_model.hpp"
 #include "kith/stats/moments.hpp"
 #include "model_means.hpp"
+#include "outcomes.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -139,16 +140,15 @@ std::optional<Finding> beliefs(const RunTeams& teams, const std::string& respons
   if (!found) return std::nullopt;
   const auto model = team_model(teams, found->rows, response, values);
   const auto fit = effects_of(model, options.alpha);
-  Finding finding{
-      .id = response + "-beliefs",
-      .title = "Team beliefs against individual beliefs: " + response,
-      .question = fmt::format("Do demonstrations chosen for the team's belief ({}) lead to {} {} than those "
-                              "chosen for one member's belief ({})?",
-                              with_and(found->team), response == "periods" ? "fewer" : "more", response,
-                              with_and(found->individual)),
-      .model = formula_text(model)};
+  const auto words = outcome_words(response);
+  Finding finding{.id = response + "-beliefs",
+                  .title = fmt::format("Team beliefs against individual beliefs: {}", words.label),
+                  .question = fmt::format("Do demonstrations chosen for the team's belief ({}) lead to {} than those "
+                                          "chosen for one member's belief ({})?",
+                                          with_and(found->team), words.better, with_and(found->individual)),
+                  .model = formula_text(model)};
   finding.sentence = fmt::format(
-      "Planned contrast of {} ({} teams{}).", response, model.values.size(),
+      "Planned contrast of {} ({} teams{}).", words.label, model.values.size(),
       model.groups.empty() ? std::string{}
                            : " of " + number_and_noun(model.groups.front().levels.size(), "group") + " of people");
   if (!fit) {
@@ -180,14 +180,15 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
                                  const AnalysisOptions& options) {
   const auto found = belief_teams(teams);
   if (!found) return std::nullopt;
+  const auto label = outcome_words(response).label;
   Finding finding{.id = response + "-variation",
-                  .title = "Variation of " + response + " under team and individual beliefs",
+                  .title = fmt::format("Variation of {} under team and individual beliefs", label),
                   .question = response == "periods"
                                   ? "Does the number of periods vary less between teams if demonstrations are chosen "
                                     "for the team's belief?"
-                                  : "Does " + response +
-                                        " vary less between teams if demonstrations are chosen for one "
-                                        "member's belief?",
+                                  : fmt::format("Does {} vary less between teams if demonstrations are chosen for "
+                                                "one member's belief?",
+                                                label),
                   .model = "variance of " + response + " ~ team or individual beliefs"};
   const auto composition = selected(teams.composition, found->rows);
   const auto part = selected(values, found->rows);
@@ -238,13 +239,13 @@ std::optional<Finding> variation(const RunTeams& teams, const std::string& respo
   };
   const auto overall = add("all", composition.levels.size());
   const auto robust = std::get_if<double>(&table.rows.front().back());
-  finding.sentence = fmt::format("Standard deviations of {} over {} teams of all compositions.", response, part.size());
+  finding.sentence = fmt::format("Standard deviations of {} over {} teams of all compositions.", label, part.size());
   if (overall) {
     finding.sentence = fmt::format(
         "The variance of {} under team beliefs is {:.2f} [{:.2f}, {:.2f}] times that under individual beliefs ({} "
         "teams of "
         "all compositions): {}.",
-        response, overall->ratio.estimate, overall->ratio.low, overall->ratio.high, part.size(),
+        label, overall->ratio.estimate, overall->ratio.low, overall->ratio.high, part.size(),
         overall->test.p >= options.alpha ? "no difference was found (" + p_text(overall->test.p) + ")"
         : overall->ratio.estimate < 1.0  ? "they make it vary less (" + p_text(overall->test.p) + ")"
                                          : "they make it vary more (" + p_text(overall->test.p) + ")");

@@ -4,6 +4,7 @@
 
 #include "kith/stats/clustered_tests.hpp"
 #include "kith/stats/mixed_model.hpp"
+#include "outcomes.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -82,9 +83,11 @@ std::optional<Finding> effects(const RunTeams& teams, const std::string& respons
   auto finding = analyze_model(model, options, stream_of(options, response));
   std::vector<std::string> names;
   for (const auto& factor : model.factors) names.push_back(factor.name);
-  finding.title = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names) + ": " + response;
-  finding.question = "Do " + response + " depend on how a group is taught and who is in it?";
-  if (response == "knowledge") finding.question.replace(0, 2, "Does");
+  finding.title = "Effect" + std::string{names.size() > 1 ? "s" : ""} + " of " + with_and(names) + ": ";
+  const auto words = outcome_words(response);
+  finding.title += words.label;
+  finding.question = fmt::format("{} {} depend on how a group is taught and who is in it?",
+                                 words.is_plural ? "Do" : "Does", words.label);
   if (!model.groups.empty()) add_as_published(model, options, finding);
   return finding;
 }
@@ -96,10 +99,11 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
   if (compositions.levels.size() < 2 || selected(teams.strategy, rows).levels.size() < 2) return std::nullopt;
   const bool is_corrected = options.correction != Correction::kNone;
   const std::string name{to_string(options.correction)};
+  const auto label = outcome_words(response).label;
   const auto correction = is_corrected ? name + " correction" : std::string{"no correction"};
   Finding finding{.id = response + "-within-composition",
-                  .title = "Strategy within each composition: " + response,
-                  .question = "Does the strategy affect " + response + " within any single composition?",
+                  .title = fmt::format("Strategy within each composition: {}", label),
+                  .question = fmt::format("Does the strategy affect {} within any single composition?", label),
                   .model = response + " ~ strategy, for each composition separately"};
   const auto people = shared_people(teams, rows);
   const std::string tests = people.empty() ? "One-way analyses of variance" : "Tests within the same people";
@@ -147,7 +151,7 @@ std::optional<Finding> effects_within(const RunTeams& teams, const std::string& 
     if (corrected[i] >= options.alpha) continue;
     found += fmt::format("{}{} ({})", found.empty() ? "" : ", ", compositions.levels[tested[i]], p_text(corrected[i]));
   }
-  finding.sentence = fmt::format("{} of {} in {} compositions ({} teams, {}): ", tests, response,
+  finding.sentence = fmt::format("{} of {} in {} compositions ({} teams, {}): ", tests, label,
                                  compositions.levels.size(), rows.size(), correction) +
                      (tested.empty()  ? "no composition could be tested."
                       : found.empty() ? "no effect of strategy was found in any of them."

@@ -8,6 +8,7 @@
 
 #include "kith/stats/effect_intervals.hpp"
 #include "kith/stats/moments.hpp"
+#include "outcomes.hpp"
 #include "run_findings.hpp"
 
 namespace kith {
@@ -149,9 +150,10 @@ std::optional<Finding> paired(const RunTeams& teams, const std::string& response
     return std::count_if(block.begin(), block.end(), [](const auto& value) { return value.has_value(); }) > 1;
   });
   if (!shared) return std::nullopt;
+  const auto label = outcome_words(response).label;
   Finding finding{.id = response + "-paired",
-                  .title = "Same people, different strategies: " + response,
-                  .question = "Do strategies differ in " + response + " when they teach the same people?",
+                  .title = fmt::format("Same people, different strategies: {}", label),
+                  .question = fmt::format("Do strategies differ in {} when they teach the same people?", label),
                   .model = response + " ~ strategy within people"};
   std::vector<Pair> pairs;
   std::vector<double> p_values;
@@ -343,16 +345,17 @@ std::optional<Finding> against_baseline(const RunTeams& teams, const std::string
   std::vector<double> group, alone;
   for (std::size_t i = 0; i < teams.size(); ++i) (teams.is_baseline(i) ? alone : group).push_back(values[i]);
   if (group.empty() || alone.empty()) return std::nullopt;
+  const auto words = outcome_words(response);
   Finding finding{.id = response + "-baseline",
-                  .title = "Taught together or alone: " + response,
-                  .question = response == "periods" ? "Does teaching together change how many periods are needed?"
-                                                    : "Does teaching together change final " + response + "?",
+                  .title = fmt::format("Taught together or alone: {}", words.label),
+                  .question = response == "periods"
+                                  ? "Does teaching together change how many periods are needed?"
+                                  : fmt::format("Does teaching together change final {}?", words.label),
                   .model = response + " ~ taught together or alone"};
-  finding.sentence =
-      fmt::format("Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other",
-                  response, response == "periods" ? "were" : "was", formatted(mean(group), Kind::kNumber),
-                  number_and_noun(group.size(), "group"), formatted(mean(alone), Kind::kNumber),
-                  number_and_noun(alone.size(), "group"));
+  finding.sentence = fmt::format(
+      "Mean {} {} {} in {} taught together and {} in {} whose members were taught one after the other", words.label,
+      words.is_plural ? "were" : "was", formatted(mean(group), Kind::kNumber), number_and_noun(group.size(), "group"),
+      formatted(mean(alone), Kind::kNumber), number_and_noun(alone.size(), "group"));
   const auto [together, apart] = same_people(teams, values);
   if (together.empty()) {
     add_other_people(group, alone, options, finding);

@@ -13,6 +13,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kTeamColumns{"strategy",  "composition", "replicate", "team",   "seed_address",
                                             "completed", "periods",     "knowledge", "area_sr"};
+const std::vector<std::string> kExamColumns{"exam_share_right", "exam_regret", "exam_worst_share_right"};
 
 // The study's varied keys stand between composition and replicate. Where these are missing, or others stand between
 // them, that is for the reader of the columns to say.
@@ -52,9 +53,13 @@ std::vector<std::string> required_texts(const Dataset& data, const std::string& 
 RunTeams read_teams(const PublishedRun& run) {
   const auto file = run.folder() / "tables" / "teams.csv";
   const auto text = run.read("tables/teams.csv");
-  const auto keys = varied_keys(read_csv_header(text, file.string()));
+  const auto header = read_csv_header(text, file.string());
+  const auto keys = varied_keys(header);
+  const bool has_exam =
+      std::any_of(header.begin(), header.end(), [](const Column& one) { return one.name == kExamColumns.front(); });
   auto wanted = kTeamColumns;
   wanted.insert(wanted.end(), keys.begin(), keys.end());
+  if (has_exam) wanted.insert(wanted.end(), kExamColumns.begin(), kExamColumns.end());
   const auto data = Dataset::parse(text, file.string(), wanted);
   RunTeams teams;
   teams.strategy = data.factor("strategy");
@@ -73,6 +78,11 @@ RunTeams read_teams(const PublishedRun& run) {
   teams.periods = required_numbers(data, "periods");
   teams.knowledge = required_numbers(data, "knowledge");
   teams.area_sr = required_numbers(data, "area_sr");
+  if (has_exam) {
+    teams.exam_share_right = required_numbers(data, "exam_share_right");
+    teams.exam_regret = required_numbers(data, "exam_regret");
+    teams.exam_worst_share_right = required_numbers(data, "exam_worst_share_right");
+  }
   if (teams.size() == 0)
     throw Error{{Diagnostic{.id = "E0906",
                             .message = "the study has no teams",

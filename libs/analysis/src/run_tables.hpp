@@ -26,7 +26,12 @@ struct RunTeams {
   std::vector<double> periods;
   std::vector<double> knowledge;
   std::vector<double> area_sr;
+  // Of the exam at the end; empty if the teams were not examined.
+  std::vector<double> exam_share_right;
+  std::vector<double> exam_regret;
+  std::vector<double> exam_worst_share_right;
 
+  [[nodiscard]] bool has_exam() const noexcept { return !exam_share_right.empty(); }
   [[nodiscard]] std::size_t size() const noexcept { return team.size(); }
   [[nodiscard]] bool is_baseline(std::size_t i) const { return strategy.levels[strategy.codes[i]] == kBaseline; }
 };

@@ -91,6 +91,35 @@ TEST_F(RunTest, AnswersTheQuestionsOfTheStudy) {
   EXPECT_THAT(finding(independent, "periods").sentence, HasSubstr("Composition has a large effect"));
 }
 
+// Exams are analysed as knowledge is, where teams.csv has them.
+TEST_F(RunTest, AnalysesTheExamAsAMeasurement) {
+  std::string text =
+      "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr,exam_share_right,"
+      "exam_regret,exam_worst_share_right\n";
+  int team = 0;
+  for (const std::string strategy : {"joint", "plan"}) {
+    for (const std::string who : {"NNN", "PPP"}) {
+      for (int replicate = 1; replicate <= 5; ++replicate) {
+        ++team;
+        auto line = row(strategy, who, replicate, team, 9, 0.5 + 0.01 * (team % 3));
+        line.pop_back();
+        const double noise = 0.001 * (replicate * 3 % 5 + (strategy == "plan" ? replicate % 2 : 0));
+        text += line + "," + std::to_string(0.9 + noise) + "," +
+                std::to_string((strategy == "plan" ? 0.003 : 0.03) + noise) + "," + std::to_string(0.8 + noise) + "\n";
+      }
+    }
+  }
+  write("teams.csv", text);
+  const auto analysis = analyse();
+  for (const auto* id : {"exam_share_right", "exam_regret", "exam_worst_share_right", "exam_regret-paired"})
+    EXPECT_TRUE(has_finding(analysis, id)) << id;
+  const auto found = finding(analysis, "exam_regret");
+  EXPECT_EQ(found.title, "Effects of strategy and composition: regret in the exam");
+  EXPECT_EQ(found.question, "Does regret in the exam depend on how a group is taught and who is in it?");
+  EXPECT_EQ(found.model, "exam_regret ~ strategy + composition + strategy:composition + (1|people)");
+  EXPECT_LT(cell_at(table_named(found, "Tests of the fixed effects"), "strategy", "p-value"), 0.001);
+}
+
 // Composition differs between people: four of each, so F(1, 6), whatever the number of strategies that taught them.
 TEST_F(RunTest, ComparesCompositionsBetweenPeople) {
   std::string text = "strategy,composition,replicate,team,seed_address,completed,periods,knowledge,area_sr\n";

@@ -46,6 +46,13 @@ TEST(PlannedAnalyses, AreThoseOfTheDesign) {
   EXPECT_TRUE(uses(plan.back(), "a paired t test of the same people"));
 }
 
+TEST(PlannedAnalyses, IncludeTheExam) {
+  const PlannedDesign design{.strategies = {"plan", "joint"}, .compositions = {"NNN"}, .has_exam = true};
+  const auto plan = planned_analyses(design, plan_options());
+  EXPECT_THAT(ids_of(plan), ::testing::IsSupersetOf(
+                                {"exam_share_right", "exam_regret", "exam_worst_share_right", "exam_regret-paired"}));
+}
+
 TEST(PlannedAnalyses, DependOnWhetherPeopleAreTheSame) {
   const PlannedDesign design{
       .strategies = {"baseline", "joint", "common"}, .compositions = {"NNN", "PPP"}, .same_people = false};

@@ -39,7 +39,10 @@ class AtlasBuilder {
   void count_masks();
   void make_components();
   [[nodiscard]] KnowledgeComponent component(std::vector<std::size_t> features, std::size_t reference);
-  void add_if_of_use(KnowledgeComponent component);
+  [[nodiscard]] std::vector<std::vector<std::size_t>> trade_offs(const std::vector<std::size_t>& order,
+                                                                 std::size_t reference) const;
+  [[nodiscard]] std::vector<KnowledgeComponent> worth_most(std::vector<KnowledgeComponent> candidates);
+  [[nodiscard]] bool is_of_use(const KnowledgeComponent& component) const;
   void make_facets();
   void group_demos();
   void group_by_hulls();

@@ -3,8 +3,18 @@
 #include <numeric>
 
 #include "atlas_builder.hpp"
+#include "kith/core/assert.hpp"
+#include "kith/geometry/cone_sampler.hpp"
+#include "people_regret.hpp"
 
 namespace kith {
+namespace {
+
+constexpr std::size_t kMostInOrder = 3;  // features up to which components follow from them alone
+constexpr std::size_t kPeople = 32;      // in proportion to whom regret is saved
+constexpr double kLeastShare = 0.02;     // of the regret before any lesson, for a lesson of its own
+
+}  // namespace
 
 void AtlasBuilder::make_policy_bec() {
   auto all = atlas_.no_constraints();
@@ -30,8 +40,8 @@ void AtlasBuilder::count_masks() {
   }
 }
 
-// The feature that matters most is the reference. The others are weighed against it one by one, those that matter more
-// first, then two by two, where some world has just these, then all together.
+// The feature that matters most is the reference. Up to three features, the others are weighed against it one by one,
+// those that matter more first, then all together. Of more features, what is weighed follows from the policy's region.
 void AtlasBuilder::make_components() {
   const auto& z = atlas_.mask_counters_;
   std::vector<std::size_t> order(z.size());
@@ -41,27 +51,90 @@ void AtlasBuilder::make_components() {
             [&](std::size_t a, std::size_t b) { return z[a] != z[b] ? z[a] > z[b] : a > b; });
   const std::size_t reference = order.front();
   order.erase(order.begin());
-  if (order.size() > 1) {
-    for (const std::size_t k : order) add_if_of_use(component({k}, reference));
+  std::vector<KnowledgeComponent> parts;
+  for (const auto& features : trade_offs(order, reference)) {
+    auto part = component(features, reference);
+    if (is_of_use(part)) parts.push_back(std::move(part));
   }
-  for (std::size_t i = 0; i < order.size() && order.size() > 2; ++i) {
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      add_if_of_use(component({order[i], order[j]}, reference));
-    }
-  }
+  if (z.size() > kMostInOrder) parts = worth_most(std::move(parts));
+  for (auto& part : parts) atlas_.components_.push_back(std::move(part));
   atlas_.components_.push_back(component(order, reference));
 }
 
-// If some world has all of the component's features and none of the masked ones.
-void AtlasBuilder::add_if_of_use(KnowledgeComponent component) {
+// Each feature against the reference; beyond three features also those that a facet of the policy's region trades
+// against each other.
+std::vector<std::vector<std::size_t>> AtlasBuilder::trade_offs(const std::vector<std::size_t>& order,
+                                                               std::size_t reference) const {
+  std::vector<std::vector<std::size_t>> found;
+  if (order.size() < 2) return found;
+  for (const std::size_t k : order) found.push_back({k});
+  if (order.size() + 1 <= kMostInOrder) return found;
+  for (const auto& facet : atlas_.policy_bec_half_spaces_) {
+    std::vector<std::size_t> features;
+    for (std::size_t k = 0; k < facet.dimension(); ++k) {
+      if (k != reference && facet.normal()[k] != 0) features.push_back(k);
+    }
+    const bool is_new = std::find(found.begin(), found.end(), features) == found.end();
+    if (features.size() > 1 && features.size() < order.size() && is_new) found.push_back(std::move(features));
+  }
+  return found;
+}
+
+// Of all candidates the one by which people who know what was taught before lose least regret per new facet, again and
+// again: at most d + 1, as one with everything follows. What saves hardly anything is left to that one.
+std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeComponent> candidates) {
+  std::vector<KnowledgeComponent> chosen;
+  if (candidates.empty()) return chosen;
+  PeopleRegret regret{atlas_};
+  Regions regions{atlas_.constraints_};
+  auto taught = atlas_.prior_;
+  std::optional<double> at_first;
+  while (!candidates.empty() && chosen.size() <= atlas_.domain_.num_features()) {
+    const auto cone = Cone::intersection(atlas_.constraints_.half_spaces(taught));
+    KITH_ASSERT(cone.has_value());  // the robot's weights satisfy everything that is taught
+    const Eigen::MatrixXd people = ConeSampler{*cone}.cover(kPeople);
+    std::vector<double> lost;
+    for (Eigen::Index i = 0; i < people.cols(); ++i) lost.push_back(regret.of(people.col(i)));
+    const double before = std::accumulate(lost.begin(), lost.end(), 0.0) / static_cast<double>(kPeople);
+    if (!at_first) at_first = before;
+
+    std::optional<std::size_t> best;
+    double most = 0.0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const auto after = regions.minimal(taught | candidates[i].constraints);
+      const auto num_new = static_cast<double>(after.without(taught).count());
+      if (num_new == 0.0) continue;
+      const auto known = atlas_.constraints_.half_spaces(candidates[i].constraints);
+      double sum = 0.0, inside = 0.0;
+      for (std::size_t p = 0; p < lost.size(); ++p) {
+        const Direction weights = people.col(static_cast<Eigen::Index>(p));
+        const bool knows = std::all_of(known.begin(), known.end(), [&](const auto& h) { return h.contains(weights); });
+        sum += knows ? lost[p] : 0.0;
+        inside += knows ? 1.0 : 0.0;
+      }
+      // Where nobody knows it yet, they are taken to lose nothing when they do.
+      const double saved = before - (inside > 0.0 ? sum / inside : 0.0);
+      if (saved < kLeastShare * *at_first || saved / num_new <= most) continue;
+      most = saved / num_new;
+      best = i;
+    }
+    if (!best) break;
+    taught = regions.minimal(taught | candidates[*best].constraints);
+    chosen.push_back(std::move(candidates[*best]));
+    candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(*best));
+  }
+  return chosen;
+}
+
+// Whether some world has all of the component's features and none of the masked ones.
+bool AtlasBuilder::is_of_use(const KnowledgeComponent& component) const {
   const auto& domain = atlas_.domain_;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     const bool has_all = std::all_of(component.features.begin(), component.features.end(),
                                      [&](std::size_t k) { return domain.has_feature(m, k); });
-    if (!component.uses_mdp[m.value()] || !has_all) continue;
-    atlas_.components_.push_back(std::move(component));
-    return;
+    if (component.uses_mdp[m.value()] && has_all) return true;
   }
+  return false;
 }
 
 KnowledgeComponent AtlasBuilder::component(std::vector<std::size_t> features, std::size_t reference) {

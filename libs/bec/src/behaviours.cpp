@@ -26,6 +26,15 @@ std::size_t Behaviours::DirectionHash::operator()(const Direction& weights) cons
   return static_cast<std::size_t>(hash);
 }
 
+std::size_t Behaviours::WordsHash::operator()(const std::vector<std::uint32_t>& words) const noexcept {
+  std::uint64_t hash = 0x9E3779B97F4A7C15ull;
+  for (const std::uint32_t word : words) {
+    hash = (hash ^ word) * 0xBF58476D1CE4E5B9ull;
+    hash ^= hash >> 29;
+  }
+  return static_cast<std::size_t>(hash);
+}
+
 ConstraintSet Behaviours::Conveyed::set(DemoClassIndex c) const {
   const auto row = rows.subspan(c.value() * words, words);
   if (numbering.empty()) return ConstraintSet{row};
@@ -36,8 +45,51 @@ ConstraintSet Behaviours::Conveyed::set(DemoClassIndex c) const {
   return result;
 }
 
-Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells, std::size_t max_row_bytes)
-    : atlas_{&atlas}, max_cells_{std::max<std::size_t>(max_cells, 1)}, constraints_{atlas.constraints()} {
+PolicyPartitions::PolicyPartitions(const Atlas& atlas, std::size_t max_bytes) : atlas_{&atlas}, max_bytes_{max_bytes} {
+  if (atlas.is_tabulated()) return;
+  const Domain& domain = atlas.domain();
+  for (const std::int64_t w : domain.weights().integer) robot_weights_.push_back(static_cast<double>(w));
+  partitions_.resize(domain.num_mdps());
+  places_.assign(atlas.num_demos(), -1);
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    std::vector<bool> is_on_path(domain.mdp(m).num_states(), false);
+    for (const StateIndex start : domain.starts(m)) {
+      for (const DemoIndex demo : atlas.path(atlas.index({m, start}))) is_on_path[atlas.id(demo).start.value()] = true;
+    }
+    auto& states = states_.emplace_back();
+    for (StateIndex s{0}; s.value() < is_on_path.size(); ++s) {
+      if (!is_on_path[s.value()]) continue;
+      places_[atlas.index({m, s}).value()] = static_cast<std::int32_t>(states.size());
+      states.push_back(s);
+    }
+  }
+}
+
+std::optional<PolicyPartitions::Located> PolicyPartitions::locate(MdpIndex m, const Direction& weights) {
+  const Mdp& mdp = atlas_->domain().mdp(m);
+  if (!is_exact(mdp)) return std::nullopt;
+  auto& partition = partitions_[m.value()];
+  if (!partition)
+    partition.emplace(mdp, states(m), robot_weights_, BehaveOptions{.scale = atlas_->domain().count_scale()});
+  const std::size_t before = partition->memory();
+  const bool has_optimum = partition->locate({weights.data(), static_cast<std::size_t>(weights.size())}, !is_full());
+  bytes_ += partition->memory() - before;
+  return Located{&*partition, has_optimum};
+}
+
+void PolicyPartitions::clear() {
+  for (auto& partition : partitions_) {
+    if (partition) partition->clear();
+  }
+  bytes_ = 0;
+}
+
+Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells, std::size_t max_row_bytes,
+                       std::shared_ptr<PolicyPartitions> partitions)
+    : atlas_{&atlas},
+      max_cells_{std::max<std::size_t>(max_cells, 1)},
+      constraints_{atlas.constraints()},
+      partitions_{std::move(partitions)} {
   const std::size_t row_bytes = atlas.num_demo_classes() * atlas.words_per_set() * sizeof(std::uint64_t);
   max_cells_with_rows_ = std::max<std::size_t>(max_row_bytes / std::max<std::size_t>(row_bytes, 1), 1);
   const Domain& domain = atlas.domain();
@@ -45,19 +97,11 @@ Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells, std::size_t ma
   if (atlas.is_tabulated()) return;
   require_memory(teaching_memory(domain), "choosing what to teach in domain '" + domain.id() + "'",
                  "use a smaller map, or teach from some starts only: [family] starts = 1000");
-  place_on_paths_.assign(atlas.num_demos(), -1);
-  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-    std::vector<bool> is_on_path(domain.mdp(m).num_states(), false);
-    for (const StateIndex start : domain.starts(m)) {
-      for (const DemoIndex demo : atlas.path(atlas.index({m, start}))) is_on_path[atlas.id(demo).start.value()] = true;
-    }
-    auto& states = states_on_paths_.emplace_back();
-    for (StateIndex s{0}; s.value() < is_on_path.size(); ++s) {
-      if (!is_on_path[s.value()]) continue;
-      place_on_paths_[atlas.index({m, s}).value()] = static_cast<std::int32_t>(states.size());
-      states.push_back(s);
-    }
-  }
+  if (!partitions_) partitions_ = std::make_shared<PolicyPartitions>(atlas);
+  worlds_.resize(domain.num_mdps());
+  std::size_t states = 0;
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) states += partitions_->states(m).size();
+  max_behaviour_bytes_ = max_cells_ * states * sizeof(LossIndex);
 }
 
 PolicyCellIndex Behaviours::locate(const Direction& weights) {
@@ -69,48 +113,90 @@ PolicyCellIndex Behaviours::locate(const Direction& weights) {
 
 std::optional<IntegerVector> Behaviours::answer(DemoIndex demo, PolicyCellIndex cell) {
   if (atlas_->is_tabulated()) return atlas_->answer(demo, cell);
-  const Plan& plan = plan_of(cell, atlas_->id(demo).mdp);
-  if (!plan.has_optimum) return std::nullopt;
-  return atlas_->feature_counts(demo) - losses_[static_cast<std::size_t>(loss_at(plan, demo))].counts;
-}
-
-Behaviours::LossIndex Behaviours::loss_at(const Plan& plan, DemoIndex demo) const {
-  const std::int32_t place = place_on_paths_[demo.value()];
+  make_room();
+  const MdpIndex m = atlas_->id(demo).mdp;
+  const auto b = behaviour_of(cell, m);
+  if (b == kNoOptimum) return std::nullopt;
+  const std::int32_t place = partitions_->place(demo);
   KITH_ASSERT(place >= 0);
-  return plan.losses[static_cast<std::size_t>(place)];
+  const auto loss = worlds_[m.value()].behaviours[static_cast<std::size_t>(b)].losses[static_cast<std::size_t>(place)];
+  return atlas_->feature_counts(demo) - losses_[static_cast<std::size_t>(loss)].counts;
 }
 
-const Behaviours::Plan& Behaviours::plan_of(PolicyCellIndex cell, MdpIndex m) {
-  if (cells_[cell.value()].plans.empty()) remember(cell);
-  Plan& result = cells_[cell.value()].plans[m.value()];
-  if (!result.is_known) plan(cells_[cell.value()].weights, m, result);
-  return result;
+// Forgets the behaviours if they take too much; only between two calls, so that numbers stay valid within one.
+void Behaviours::make_room() {
+  if (behaviour_bytes_ <= max_behaviour_bytes_) return;
+  for (World& world : worlds_) world = {};
+  for (const PolicyCellIndex cell : remembered_) {
+    auto& behaviours = cells_[cell.value()].behaviours;
+    std::fill(behaviours.begin(), behaviours.end(), kUnknown);
+  }
+  sets_.clear();
+  set_index_.clear();
+  with_.clear();
+  unions_.clear();
+  behaviour_bytes_ = 0;
 }
 
-// Makes room for the cell's plans; the cell remembered for longest gives way.
+Behaviours::BehaviourIndex Behaviours::behaviour_of(PolicyCellIndex cell, MdpIndex m) {
+  if (cells_[cell.value()].behaviours.empty()) remember(cell);
+  auto& behaviour = cells_[cell.value()].behaviours[m.value()];
+  if (behaviour == kUnknown) behaviour = find_behaviour(cells_[cell.value()].weights, m);
+  return behaviour;
+}
+
+// Makes room for what the cell's behaviours are; the cell remembered for longest gives way.
 void Behaviours::remember(PolicyCellIndex cell) {
   if (remembered_.size() < max_cells_) {
     remembered_.push_back(cell);
   } else {
-    auto& forgotten = cells_[remembered_[oldest_].value()].plans;
+    auto& forgotten = cells_[remembered_[oldest_].value()].behaviours;
     forgotten.clear();
     forgotten.shrink_to_fit();
     remembered_[oldest_] = cell;
     oldest_ = (oldest_ + 1) % max_cells_;
   }
-  cells_[cell.value()].plans.resize(atlas_->domain().num_mdps());
+  cells_[cell.value()].behaviours.assign(atlas_->domain().num_mdps(), kUnknown);
 }
 
-void Behaviours::plan(const Direction& weights, MdpIndex m, Plan& result) {
-  const Domain& domain = atlas_->domain();
-  const auto behaviour = behave_in_favour(domain.mdp(m), {weights.data(), static_cast<std::size_t>(weights.size())},
-                                          robot_weights_, {.scale = domain.count_scale()});
-  result.is_known = true;
-  result.has_optimum = behaviour.has_value();
-  if (!behaviour) return;
-  for (const StateIndex s : states_on_paths_[m.value()]) {
-    result.losses.push_back(number_of(atlas_->feature_counts(atlas_->index({m, s})) - behaviour->counts[s.value()]));
+Behaviours::BehaviourIndex Behaviours::find_behaviour(const Direction& weights, MdpIndex m) {
+  World& world = worlds_[m.value()];
+  const auto states = partitions_->states(m);
+  std::vector<LossIndex> losses;
+  losses.reserve(states.size());
+  const auto lost = [&](StateIndex s, const IntegerVector& counts) {
+    return number_of(atlas_->feature_counts(atlas_->index({m, s})) - counts);
+  };
+  if (const auto located = partitions_->locate(m, weights)) {
+    if (!located->has_optimum) return kNoOptimum;
+    const auto key = located->partition->key();
+    BehaviourIndex* known = nullptr;
+    if (!key.empty()) {
+      known = &world.by_key.try_emplace({key.begin(), key.end()}, kUnknown).first->second;
+      if (*known != kUnknown) return *known;
+      behaviour_bytes_ += (key.size() + 12) * sizeof(std::uint32_t);
+    }
+    for (std::size_t i = 0; i < states.size(); ++i) losses.push_back(lost(states[i], located->partition->counts(i)));
+    const auto behaviour = number_of(world, losses);
+    if (known != nullptr) *known = behaviour;
+    return behaviour;
   }
+  const auto behaviour =
+      behave_in_favour(atlas_->domain().mdp(m), {weights.data(), static_cast<std::size_t>(weights.size())},
+                       robot_weights_, {.scale = atlas_->domain().count_scale()});
+  if (!behaviour) return kNoOptimum;
+  for (const StateIndex s : states) losses.push_back(lost(s, behaviour->counts[s.value()]));
+  return number_of(world, losses);
+}
+
+Behaviours::BehaviourIndex Behaviours::number_of(World& world, const std::vector<LossIndex>& losses) {
+  const auto [place, is_new] =
+      world.by_losses.try_emplace({losses.begin(), losses.end()}, static_cast<BehaviourIndex>(world.behaviours.size()));
+  if (is_new) {
+    world.behaviours.push_back({losses, {}});
+    behaviour_bytes_ += 2 * losses.size() * sizeof(LossIndex) + 100;
+  }
+  return place->second;
 }
 
 Behaviours::LossIndex Behaviours::number_of(const IntegerVector& loss) {
@@ -176,9 +262,7 @@ std::size_t Behaviours::memory() const noexcept {
   std::size_t bytes = constraints_.size() * per_constraint + cells_with_rows_.size() * row;
   bytes += cells_.size() * (sizeof(Cell) + sizeof(Direction) + kNode);
   bytes += losses_.size() * (2 * sizeof(Loss) + kNode);
-  std::size_t states = 0;
-  for (const auto& list : states_on_paths_) states += list.size();
-  return bytes + remembered_.size() * (states * sizeof(LossIndex) + states_on_paths_.size() * sizeof(Plan));
+  return bytes + remembered_.size() * worlds_.size() * sizeof(BehaviourIndex) + behaviour_bytes_;
 }
 
 // Each cell's rows are computed once; several are their union.
@@ -194,31 +278,115 @@ Behaviours::Conveyed Behaviours::tabulated(std::span<const PolicyCellIndex> cell
   return {atlas_->words_per_set(), rows_, {}};
 }
 
-void Behaviours::add_conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells,
-                              std::vector<ConstraintIndex>& constraints) {
-  const MdpIndex m = atlas_->id(demo).mdp;
-  const auto path = atlas_->path(demo);
-  for (const PolicyCellIndex cell : cells) {
-    const Plan& plan = plan_of(cell, m);
-    if (!plan.has_optimum) continue;
-    for (const DemoIndex at : path) {
-      const auto c = losses_[static_cast<std::size_t>(loss_at(plan, at))].constraint;
-      if (c >= 0) constraints.emplace_back(static_cast<std::size_t>(c));
+Behaviours::SetIndex Behaviours::number_of_set(std::vector<std::uint32_t> set) {
+  const std::size_t bytes = set.size() * sizeof(std::uint32_t) + 64;
+  const auto [place, is_new] = set_index_.try_emplace(std::move(set), static_cast<SetIndex>(sets_.size()));
+  if (is_new) {
+    sets_.push_back(&place->first);
+    behaviour_bytes_ += bytes;
+  }
+  return place->second;
+}
+
+// The set with one constraint more, or the same if that tells nothing.
+Behaviours::SetIndex Behaviours::with(SetIndex set, std::int32_t constraint) {
+  if (constraint < 0) return set;
+  const auto c = static_cast<std::uint32_t>(constraint);
+  const auto [place, is_new] = with_.try_emplace((std::uint64_t{set} << 32u) | c, kNoSet);
+  if (!is_new) return place->second;
+  behaviour_bytes_ += 4 * sizeof(std::uint64_t);
+  auto members = *sets_[set];
+  const auto at = std::lower_bound(members.begin(), members.end(), c);
+  if (at == members.end() || *at != c) members.insert(at, c);
+  return place->second = number_of_set(std::move(members));
+}
+
+// What a behaviour conveys from every state on candidates' paths: what follows, and the loss there.
+void Behaviours::find_sets(MdpIndex m, Kept& behaviour) {
+  const auto states = partitions_->states(m);
+  const SetIndex nothing = number_of_set({});
+  behaviour.sets.assign(states.size(), kNoSet);
+  behaviour_bytes_ += states.size() * sizeof(SetIndex);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    SetIndex set = nothing;
+    open.clear();
+    for (std::optional<DemoIndex> at = atlas_->index({m, states[i]}); at; at = atlas_->next(*at)) {
+      const auto place = static_cast<std::size_t>(partitions_->place(*at));
+      if (behaviour.sets[place] != kNoSet) {
+        set = behaviour.sets[place];
+        break;
+      }
+      open.push_back(place);
+    }
+    for (auto place = open.rbegin(); place != open.rend(); ++place) {
+      set = with(set, losses_[static_cast<std::size_t>(behaviour.losses[*place])].constraint);
+      behaviour.sets[*place] = set;
     }
   }
-  std::sort(constraints.begin(), constraints.end());
-  constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+}
+
+Behaviours::SetIndex Behaviours::union_of(std::vector<SetIndex>& sets) {
+  std::sort(sets.begin(), sets.end());
+  sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+  if (sets.empty()) return number_of_set({});
+  if (sets.size() == 1) return sets.front();
+  const auto [place, is_new] = unions_.try_emplace(sets, kNoSet);
+  if (!is_new) return place->second;
+  behaviour_bytes_ += (sets.size() + 16) * sizeof(SetIndex);
+  std::vector<std::uint32_t> members;
+  for (const SetIndex set : sets) members.insert(members.end(), sets_[set]->begin(), sets_[set]->end());
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+  return place->second = number_of_set(std::move(members));
+}
+
+// What people of these cells do in an MDP, each behaviour once; not that there is no optimum.
+std::vector<Behaviours::BehaviourIndex> Behaviours::behaviours_of(std::span<const PolicyCellIndex> cells, MdpIndex m) {
+  std::vector<BehaviourIndex> found;
+  for (const PolicyCellIndex cell : cells) {
+    const auto behaviour = behaviour_of(cell, m);
+    if (behaviour != kNoOptimum) found.push_back(behaviour);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  for (const auto behaviour : found) {
+    auto& kept = worlds_[m.value()].behaviours[static_cast<std::size_t>(behaviour)];
+    if (kept.sets.empty()) find_sets(m, kept);
+  }
+  return found;
+}
+
+Behaviours::SetIndex Behaviours::conveyed_by(DemoIndex demo, std::span<const BehaviourIndex> behaviours) {
+  const World& world = worlds_[atlas_->id(demo).mdp.value()];
+  const auto place = static_cast<std::size_t>(partitions_->place(demo));
+  std::vector<SetIndex> sets;
+  for (const auto behaviour : behaviours) {
+    sets.push_back(world.behaviours[static_cast<std::size_t>(behaviour)].sets[place]);
+  }
+  return union_of(sets);
 }
 
 // Rows over the constraints that occur here, which are few of all.
 Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells) {
-  std::vector<std::vector<ConstraintIndex>> by_class(atlas_->num_demo_classes());
-  numbering_.clear();
+  make_room();
+  std::vector<SetIndex> by_class(atlas_->num_demo_classes(), kNoSet);
+  std::vector<std::vector<BehaviourIndex>> by_mdp(worlds_.size());
+  for (std::size_t m = 0; m < worlds_.size(); ++m) {
+    if (component.uses_mdp[m]) by_mdp[m] = behaviours_of(cells, MdpIndex{m});
+  }
+  std::vector<SetIndex> distinct;
   for (DemoClassIndex c{0}; c.value() < by_class.size(); ++c) {
     if (!atlas_->belongs_to(c, component)) continue;
-    auto& constraints = by_class[c.value()];
-    add_conveyed(atlas_->members(c).front(), cells, constraints);
-    numbering_.insert(numbering_.end(), constraints.begin(), constraints.end());
+    const DemoIndex demo = atlas_->members(c).front();
+    by_class[c.value()] = conveyed_by(demo, by_mdp[atlas_->id(demo).mdp.value()]);
+    distinct.push_back(by_class[c.value()]);
+  }
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  numbering_.clear();
+  for (const SetIndex set : distinct) {
+    for (const std::uint32_t c : *sets_[set]) numbering_.emplace_back(c);
   }
   std::sort(numbering_.begin(), numbering_.end());
   numbering_.erase(std::unique(numbering_.begin(), numbering_.end()), numbering_.end());
@@ -234,8 +402,9 @@ Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, st
   }
   rows_.assign(by_class.size() * words, 0);
   for (std::size_t c = 0; c < by_class.size(); ++c) {
-    for (const ConstraintIndex constraint : by_class[c]) {
-      const std::size_t bit = bit_of_[constraint.value()];
+    if (by_class[c] == kNoSet) continue;
+    for (const std::uint32_t constraint : *sets_[by_class[c]]) {
+      const std::size_t bit = bit_of_[constraint];
       rows_[c * words + bit / kBits] |= std::uint64_t{1} << (bit % kBits);
     }
   }
@@ -244,10 +413,10 @@ Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, st
 
 ConstraintSet Behaviours::conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells) {
   if (atlas_->is_tabulated()) return atlas_->conveyed(demo, cells);
-  std::vector<ConstraintIndex> constraints;
-  add_conveyed(demo, cells, constraints);
+  make_room();
   ConstraintSet result;
-  for (const ConstraintIndex c : constraints) result.insert(c);
+  const auto behaviours = behaviours_of(cells, atlas_->id(demo).mdp);
+  for (const std::uint32_t c : *sets_[conveyed_by(demo, behaviours)]) result.insert(ConstraintIndex{c});
   return result;
 }
 

@@ -9,6 +9,8 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kCloudPoints = 4096;
+// Lessons of a component start from the same region again and again.
+constexpr std::size_t kComparisons = 8;
 
 std::size_t num_common(std::span<const Cloud::Mask* const> masks, const Cloud::Mask& everything,
                        std::optional<std::size_t> without = std::nullopt) {
@@ -30,7 +32,9 @@ std::size_t Regions::memory() const noexcept {
   const std::size_t words = (table_->size() / 64 + 1) * sizeof(std::uint64_t);
   const std::size_t per_region = sizeof(ConstraintSet) + sizeof(Region) + 2 * words + 8 * sizeof(void*);
   std::size_t bytes = (known_.size() + minimal_.size()) * per_region;
-  if (comparison_) bytes += comparison_->masks.size() * kCloudPoints / 8;
+  for (const auto& one : comparisons_) {
+    bytes += kCloudPoints * (table_->dimension() * sizeof(double) + one.masks.size() / 8);
+  }
   return bytes;
 }
 
@@ -72,23 +76,32 @@ RegionEffect Regions::effect(const ConstraintSet& taught, const ConstraintSet& a
   return {of(taught).area_sr / after.area_sr, after.minimal.without(taught).count()};
 }
 
-RegionEffect Regions::compare(const ConstraintSet& taught, const ConstraintSet& added) {
-  if (!comparison_ || !(comparison_->taught == taught)) {
-    const auto cone = cone_of(taught);
-    KITH_ASSERT(cone.has_value());
-    comparison_.emplace(taught, Cloud{ConeSampler{*cone}, kCloudPoints});
+Regions::Comparison& Regions::comparison_with(const ConstraintSet& taught) {
+  const auto known = std::find_if(comparisons_.begin(), comparisons_.end(),
+                                  [&](const Comparison& one) { return one.taught == taught; });
+  if (known != comparisons_.end()) {
+    comparisons_.splice(comparisons_.begin(), comparisons_, known);
+    return comparisons_.front();
   }
-  const std::size_t n = comparison_->cloud.size();
-  const Cloud::Mask everything = comparison_->cloud.mask(std::span<const HalfSpace>{});
+  const auto cone = cone_of(taught);
+  KITH_ASSERT(cone.has_value());
+  if (comparisons_.size() == kComparisons) comparisons_.pop_back();
+  return comparisons_.emplace_front(taught, Cloud{ConeSampler{*cone}, kCloudPoints});
+}
+
+RegionEffect Regions::compare(const ConstraintSet& taught, const ConstraintSet& added) {
+  auto& [region, cloud, known_masks] = comparison_with(taught);
+  const std::size_t n = cloud.size();
+  const Cloud::Mask everything = cloud.mask(std::span<const HalfSpace>{});
   // In an order that does not depend on the numbering; those that cut nothing off are left out.
   std::vector<ConstraintIndex> order = added.without(taught).members();
   std::sort(order.begin(), order.end(),
             [&](ConstraintIndex a, ConstraintIndex b) { return (*table_)[a] < (*table_)[b]; });
   std::vector<const Cloud::Mask*> masks;
   for (const ConstraintIndex c : order) {
-    auto place = comparison_->masks.find(c);
-    if (place == comparison_->masks.end()) {
-      place = comparison_->masks.emplace(c, comparison_->cloud.mask((*table_)[c])).first;
+    auto place = known_masks.find(c);
+    if (place == known_masks.end()) {
+      place = known_masks.emplace(c, cloud.mask((*table_)[c])).first;
     }
     if (place->second != everything) masks.push_back(&place->second);
   }

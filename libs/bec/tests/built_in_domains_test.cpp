@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -137,6 +138,31 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& domain) {
 const auto kOthers = ::testing::Values("colored-tiles", "skateboard", "two-goals", "cookie-crumb");
 INSTANTIATE_TEST_SUITE_P(All, BuiltInDomain, kOthers, test_name);
 INSTANTIATE_TEST_SUITE_P(All, BuiltInDomainSlow, kOthers, test_name);
+
+// Each feature, each pair and all of them would be 22.
+TEST(Navigation, IsTaughtInFewPartsThatFollowFromThePolicy) {
+  const auto& atlas = atlas_of("navigation");
+  const auto& components = atlas.knowledge_components();
+  EXPECT_GE(components.size(), 4u);
+  EXPECT_LE(components.size(), 9u);  // d + 2
+  EXPECT_EQ(components.back().features.size(), 6u);
+  EXPECT_EQ(components.back().constraints, atlas.policy_bec());
+  Regions regions{atlas.constraints()};
+  auto taught = atlas.prior();
+  for (const auto& component : components) {
+    const auto after = regions.minimal(taught | component.constraints);
+    EXPECT_FALSE(after == taught) << component.name << " has nothing to teach";
+    taught = after;
+    const auto& domain = atlas.domain();
+    bool has_world = false;
+    for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+      has_world = has_world || (component.uses_mdp[m.value()] &&
+                                std::all_of(component.features.begin(), component.features.end(),
+                                            [&](std::size_t k) { return domain.has_feature(m, k); }));
+    }
+    EXPECT_TRUE(has_world) << component.name;
+  }
+}
 
 }  // namespace
 }  // namespace kith

@@ -10,6 +10,7 @@
 #include "kith/core/error.hpp"
 #include "kith/random/distributions.hpp"
 #include "scratch.hpp"
+#include "slice_moves.hpp"
 #include "systematic.hpp"
 
 namespace kith {
@@ -27,6 +28,11 @@ FilterOptions checked(const FilterOptions& options) {
 }
 
 constexpr std::size_t kSpace = 3;  // the dimension with kernels of its own
+// Observing what hardly any point satisfies, the points may be too few where the belief now is.
+constexpr double kSurprise = 0.05;
+constexpr std::size_t kSweepsInSurprise = 3;
+constexpr std::size_t kSweeps = 2;     // after a resampling
+constexpr std::size_t kMostStill = 4;  // observations without a move
 
 // The axes of points in space.
 detail::MutablePoints in_space(std::vector<double>& points) {
@@ -94,7 +100,64 @@ void ParticleBelief::observe(std::span<const HalfSpace> half_spaces, const HalfS
   if (half_spaces.empty() || is_constant(likelihood)) return;
   detail::ParticleScratch<double> factors{size()};
   weigh(half_spaces, likelihood, factors.values());
-  reweigh(factors.values(), random);
+  if (!keeps_product()) {
+    reweigh(factors.values(), random);
+    return;
+  }
+  const bool is_surprised = mass_in(half_spaces) < kSurprise;
+  const auto before = observed_;
+  remember(half_spaces, likelihood);
+  try {
+    reweigh(factors.values(), random);
+  } catch (...) {
+    observed_ = before;
+    throw;
+  }
+  ++num_still_;
+  if (is_surprised || num_still_ >= kMostStill) {
+    auto more = random.split("moves");
+    move_in_product(is_surprised ? kSweepsInSurprise : 1, more);
+  }
+}
+
+bool ParticleBelief::keeps_product() const noexcept {
+  return dimension_ > kSpace && is_product_ && options_.process_noise > 0.0;
+}
+
+// What happened is no product of likelihoods any more; that of space is never asked for.
+void ParticleBelief::lose_product() {
+  if (dimension_ <= kSpace) return;
+  is_product_ = false;
+  observed_.clear();
+}
+
+void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) {
+  std::vector<HalfSpace> sorted{half_spaces.begin(), half_spaces.end()};
+  std::sort(sorted.begin(), sorted.end());
+  for (const HalfSpace& half_space : sorted) {
+    auto place = std::lower_bound(observed_.begin(), observed_.end(), half_space,
+                                  [](const Observed& one, const HalfSpace& h) { return one.half_space < h; });
+    if (place == observed_.end() || !(place->half_space == half_space)) {
+      place = observed_.insert(place, {half_space, 0.0, 0.0});
+    }
+    place->far += likelihood.log_far();
+    place->slope += likelihood.concentration();
+  }
+}
+
+void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
+  detail::FallingDensity density;
+  density.dimension = dimension_;
+  for (const Direction& normal : prior_normals_)
+    density.prior.insert(density.prior.end(), normal.begin(), normal.end());
+  for (const Observed& one : observed_) {
+    const Direction normal = one.half_space.unit();
+    density.normals.insert(density.normals.end(), normal.begin(), normal.end());
+    density.far.push_back(one.far);
+    density.slope.push_back(one.slope);
+  }
+  detail::move_in_density(density, sweeps, points_, random);
+  num_still_ = 0;
 }
 
 void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alternatives,
@@ -103,6 +166,7 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
   const bool fits_everywhere =
       std::any_of(alternatives.begin(), alternatives.end(), [](const auto& list) { return list.empty(); });
   if (alternatives.empty() || fits_everywhere || is_constant(likelihood)) return;
+  lose_product();
   detail::ParticleScratch<double> best{size()};
   detail::ParticleScratch<double> factors{size()};
   weigh(alternatives[0], likelihood, best.values());
@@ -132,7 +196,7 @@ void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
 
 // The weights are not divided by their sum, which is `sum`, the largest of them is 1.
 void ParticleBelief::resample(double sum, RandomStream& random) {
-  const double angle = options_.process_noise > 0.0 ? kernel_angle(sum) : 0.0;
+  const double angle = options_.process_noise > 0.0 && !keeps_product() ? kernel_angle(sum) : 0.0;
   detail::Scratch<std::uint32_t, detail::kUsualParticles + detail::kIndexRoom> index{size() + detail::kIndexRoom};
   detail::systematic_indices(weights_, uniform01(random), index.values());
   draw_and_move(index.values().first(size()), angle, random);
@@ -160,7 +224,11 @@ void ParticleBelief::draw_and_move(std::span<const std::uint32_t> index, double 
     std::vector<double> drawn(points_.size());
     detail::gather(detail::AxisPoints{points_, dimension_}, index, drawn);
     points_ = std::move(drawn);
-    if (angle > 0.0) move(angle, random);
+    if (keeps_product()) {
+      move_in_product(kSweeps, random);
+    } else if (angle > 0.0) {
+      move(angle, random);
+    }
     return;
   }
   detail::ParticleScratch<double> x{size()};
@@ -182,7 +250,9 @@ void ParticleBelief::diffuse(double angle, RandomStream random) {
   if (!(angle >= 0.0 && std::isfinite(angle))) {
     throw std::invalid_argument("ParticleBelief::diffuse: the angle must be finite and not negative");
   }
-  if (angle > 0.0) move(angle, random);
+  if (!(angle > 0.0)) return;
+  lose_product();
+  move(angle, random);
 }
 
 void ParticleBelief::move(double angle, RandomStream& random) {

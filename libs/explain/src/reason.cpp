@@ -38,6 +38,8 @@ class Comparison {
   }
 
   [[nodiscard]] std::string sentence() const {
+    if (taken_.gains.empty() && spared_.empty()) return for_nothing(taken_.costs);
+    if (spared_.costs.empty() && taken_.empty()) return "it would do without " + nouns(spared_.gains) + " for nothing";
     if (is_tie_) return "it may as well " + infinitive(taken_) + " as " + infinitive(spared_);
     return has_verbs_ ? in_verbs() : in_nouns();
   }
@@ -76,6 +78,11 @@ class Comparison {
              nouns(spared_.gains);
     }
     return "it prefers " + joined_nouns(taken_, " with ") + " to " + joined_nouns(spared_, " for ");
+  }
+
+  // What nobody does who gets nothing for it.
+  [[nodiscard]] std::string for_nothing(const std::vector<Surplus>& costs) const {
+    return "it would " + (has_verbs_ ? verbs(costs) : "accept " + nouns(costs)) + " for nothing";
   }
 
   // "not cross mud", "neither cross mud nor take 2 more steps": "not cross mud and take 2 more steps" could also mean
@@ -145,6 +152,11 @@ void check(const Domain& domain, const IntegerVector& robot, const IntegerVector
 std::string choice_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative) {
   check(domain, robot, alternative);
   return Comparison{domain, robot, alternative}.sentence();
+}
+
+std::string prediction_in_words(const Domain& domain, const IntegerVector& predicted, const IntegerVector& robot) {
+  check(domain, robot, predicted);
+  return Comparison{domain, predicted, robot}.sentence();
 }
 
 HalfSpace constraint_of(const IntegerVector& robot, const IntegerVector& alternative) {

@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 
 #include "kith/explain/statement.hpp"
+#include "side.hpp"
 
 namespace kith {
 namespace {
+
+using detail::Number;
+using detail::Side;
+using detail::thing;
 
 constexpr const char* kNumber = "{n}";
 
@@ -44,67 +48,6 @@ std::string one_more(const std::string& once) {
   }
   return once + " once more";
 }
-
-enum class Number { kSingular, kPlural, kUnknown };
-
-// One thing of the robot's reward, several times: "crossing rubble", "2 steps".
-struct Thing {
-  std::string words;
-  Number number = Number::kUnknown;
-};
-
-bool is_gerund(const std::string& word) {
-  const auto letters = word.substr(0, word.find(','));
-  return letters.size() > 4 && letters.ends_with("ing");
-}
-
-// "a step", "the charger" and "crossing rubble" are singular, "2 steps" is plural; of other words nobody knows.
-Thing thing(const Wording& wording, std::int64_t n) {
-  Thing result{times(wording, n)};
-  const auto first = wording.one.substr(0, wording.one.find(' '));
-  if (!result.words.empty() && std::isdigit(static_cast<unsigned char>(result.words.front())) != 0) {
-    result.number = Number::kPlural;
-  } else if (is_gerund(first) || first == "a" || first == "an" || first == "one" || first == "the") {
-    result.number = Number::kSingular;
-  }
-  return result;
-}
-
-// What stands on one side of the inequality: costs and gains of the robot.
-struct Side {
-  std::vector<Thing> costs, gains;
-
-  void add(Thing what, bool is_cost) { (is_cost ? costs : gains).push_back(std::move(what)); }
-  [[nodiscard]] bool empty() const { return costs.empty() && gains.empty(); }
-  [[nodiscard]] bool mixed() const { return !costs.empty() && !gains.empty(); }
-  [[nodiscard]] Side only_costs() const { return {costs, {}}; }
-  [[nodiscard]] Side only_gains() const { return {{}, gains}; }
-  // Whether the numbers of all verbs are known once costs and gains are told apart.
-  [[nodiscard]] bool parts_can_be_said() const { return only_costs().can_be_said() && only_gains().can_be_said(); }
-  [[nodiscard]] const std::vector<Thing>& things() const { return costs.empty() ? gains : costs; }
-  [[nodiscard]] std::string words() const {
-    std::vector<std::string> words;
-    for (const auto& one : things()) words.push_back(one.words);
-    return listed(words);
-  }
-  // What a verb behind words() agrees with. Only for a side that is not mixed.
-  [[nodiscard]] Number number() const { return things().size() > 1 ? Number::kPlural : things().front().number; }
-  [[nodiscard]] bool can_be_said() const { return empty() || (!mixed() && number() != Number::kUnknown); }
-  // "costs" or "is worth".
-  [[nodiscard]] std::string verb() const {
-    const bool plural = number() == Number::kPlural;
-    return costs.empty() ? (plural ? "are worth" : "is worth") : (plural ? "cost" : "costs");
-  }
-  // "the cost of 2 steps", "the gain of stopping at the charger", or both.
-  [[nodiscard]] std::string amount() const {
-    std::vector<std::string> parts;
-    if (!costs.empty()) parts.push_back("the cost of " + Side{costs, {}}.words());
-    if (!gains.empty()) parts.push_back("the gain of " + Side{{}, gains}.words());
-    return listed(parts);
-  }
-  // The verb of amount().
-  [[nodiscard]] std::string is() const { return mixed() ? " together are " : " is "; }
-};
 
 // One side is of one kind, the other mixed: "crossing rubble costs less than 2 steps plus what stopping at the charger
 // is worth", "reaching the far goal is worth more than reaching the near goal plus what a step costs".

@@ -171,6 +171,12 @@ TEST(RunImport, RefusesRecordsOfTeamsOnlyAndCounterfactualsOfPeoplesOwn) {
   EXPECT_EQ(import_fault(folder.path() / "own"), "E0706 study.toml:0");
 }
 
+TEST(RunImport, RefusesPeopleWhoWereNotTaughtAllTheTime) {
+  const testing::ScratchFolder folder;
+  testing::run_into(folder.path() / "released", testing::study_text("NN", 2, kTypes + "release = \"all-right\"\n"));
+  EXPECT_EQ(import_fault(folder.path() / "released"), "E0713 study.toml:0");
+}
+
 // The same people under another name: which parameters another model has is not known here.
 TEST(RunImport, RefusesLearnersOfOtherModels) {
   LearnerModel other = bayesian_model();

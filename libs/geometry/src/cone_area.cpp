@@ -4,18 +4,16 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "exact.hpp"
 #include "kith/geometry/cone_sampler.hpp"
 #include "nearest_point.hpp"
-#include "sobol.hpp"
+#include "simplex_points.hpp"
 
 namespace kith {
 namespace {
-
-constexpr std::size_t kEstimates = 16;
-constexpr std::uint64_t kShiftSeed = 4;  // any will do
 
 // The angle between two boundaries, inside. The components of a ^ b, whose length is the sine, are exact integers
 // before they are rounded, so thin cones keep their digits.
@@ -84,26 +82,24 @@ std::vector<double> ConeSampler::shares(std::size_t points) const {
   double sum = 0.0;
   for (const Part& part : parts_) cumulative.push_back(sum += likely(part) / all_likely + most(part) / all_most);
 
+  const auto contribution = [&](double which, std::span<const double> lambda) {
+    const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, which * sum);
+    const auto i = static_cast<std::size_t>(found - cumulative.begin());
+    const Part& part = parts_[i];
+    Direction x = Direction::Zero(static_cast<Eigen::Index>(rank_));
+    for (std::size_t k = 0; k < rank_; ++k) x += lambda[k] * rays_.col(static_cast<Eigen::Index>(part.rays[k]));
+    const double chance = (cumulative[i] - (i == 0 ? 0.0 : cumulative[i - 1])) / sum;
+    return part.content * std::pow(x.squaredNorm(), -power) / chance;
+  };
+  std::optional<detail::SimplexPoints> own;
+  if (points > detail::kAreaPoints) own.emplace(rank_, detail::area_shifts(), points);
+  const auto& list = own ? *own : detail::area_points(rank_);
+  const std::size_t stride = list.size() / detail::kAreaEstimates;
   std::vector<double> estimates;
-  RandomStream random{kShiftSeed};
-  for (std::size_t e = 0; e < kEstimates; ++e) {
-    detail::Sobol::Shift shift{};
-    for (std::uint32_t& bits : shift) bits = random();
-    detail::Sobol sobol{shift};
+  for (std::size_t e = 0; e < detail::kAreaEstimates; ++e) {
     double estimate = 0.0;
-    for (std::size_t n = 0; n < points; ++n) {
-      sobol.next();
-      const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, sobol[0] * sum);
-      const auto i = static_cast<std::size_t>(found - cumulative.begin());
-      const Part& part = parts_[i];
-      std::array<double, IntegerVector::kMaxDimension> cube{};
-      for (std::size_t k = 1; k < rank_; ++k) cube[k] = sobol[k];
-      detail::SimplexMap lambda{std::span{cube}.subspan(1, rank_ - 1)};
-      Direction x = Direction::Zero(static_cast<Eigen::Index>(rank_));
-      for (std::size_t k = 0; k < rank_; ++k) x += lambda.next() * rays_.col(static_cast<Eigen::Index>(part.rays[k]));
-      const double chance = (cumulative[i] - (i == 0 ? 0.0 : cumulative[i - 1])) / sum;
-      estimate += part.content * std::pow(x.squaredNorm(), -power) / chance;
-    }
+    for (std::size_t n = e * stride; n < e * stride + points; ++n)
+      estimate += contribution(list.which(n), list.lambda(n));
     estimates.push_back(estimate / static_cast<double>(points) / factorial(rank_ - 1) / sphere_area(rank_));
   }
   return estimates;
@@ -116,10 +112,11 @@ SolidAngle ConeSampler::solid_angle(std::size_t points) const {
   if (rank_ <= 3) return {whole * closed_form_share(), 0.0};
   const std::vector<double> estimates = shares(points);
   double mean = 0.0;
-  for (const double x : estimates) mean += x / static_cast<double>(kEstimates);
+  for (const double x : estimates) mean += x / static_cast<double>(detail::kAreaEstimates);
   double squares = 0.0;
   for (const double x : estimates) squares += (x - mean) * (x - mean);
-  return {whole * mean, whole * std::sqrt(squares / static_cast<double>(kEstimates * (kEstimates - 1)))};
+  return {whole * mean,
+          whole * std::sqrt(squares / static_cast<double>(detail::kAreaEstimates * (detail::kAreaEstimates - 1)))};
 }
 
 }  // namespace kith

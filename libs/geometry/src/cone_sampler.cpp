@@ -14,6 +14,7 @@
 
 #include "kith/geometry/cover.hpp"
 #include "nearest_point.hpp"
+#include "simplex_points.hpp"
 #include "simplicial_fan.hpp"
 #include "sobol.hpp"
 
@@ -164,9 +165,9 @@ void ConeSampler::halve(std::size_t part) {
   parts_.push_back(other);
 }
 
-// Coordinates of the cube: which part and which side of each line; lambda.
-ConeSampler::Proposal ConeSampler::propose(std::span<const double> cube) const {
-  const double target = cube[0] * envelope_.back();
+// `which` part and which side of each line, in [0, 1); `lambda`, shape [d].
+ConeSampler::Proposal ConeSampler::propose(double which, std::span<const double> lambda) const {
+  const double target = which * envelope_.back();
   const auto found = std::upper_bound(envelope_.begin(), envelope_.end() - 1, target);
   const auto i = static_cast<std::size_t>(found - envelope_.begin());
   const Part& part = parts_[i];
@@ -178,12 +179,11 @@ ConeSampler::Proposal ConeSampler::propose(std::span<const double> cube) const {
 
   Direction point = Direction::Zero(static_cast<Eigen::Index>(dimension()));
   Direction beside = Direction::Zero(static_cast<Eigen::Index>(rank_));
-  detail::SimplexMap lambda{cube.subspan(1, dimension() - 1)};
-  for (std::size_t k = 0; k < rank_; ++k) beside += lambda.next() * rays_.col(static_cast<Eigen::Index>(part.rays[k]));
+  for (std::size_t k = 0; k < rank_; ++k) beside += lambda[k] * rays_.col(static_cast<Eigen::Index>(part.rays[k]));
   if (rank_ > 0) point = frame_ * beside;
   for (std::size_t k = 0; k < num_lines; ++k) {
     const double side = ((sides >> k) & 1) != 0 ? -1.0 : 1.0;
-    point += side * lambda.next() * axes_.col(static_cast<Eigen::Index>(k));
+    point += side * lambda[rank_ + k] * axes_.col(static_cast<Eigen::Index>(k));
   }
   const double square = point.squaredNorm();
   const double peak = part.peak + static_cast<double>(num_lines);
@@ -197,7 +197,10 @@ Direction ConeSampler::sample(RandomStream& random) const {
   for (;;) {
     std::array<double, IntegerVector::kMaxDimension> cube{};
     for (std::size_t k = 0; k < dimension(); ++k) cube[k] = uniform01(random);
-    const Proposal proposal = propose(std::span{cube}.first(dimension()));
+    detail::SimplexMap map{std::span{cube}.subspan(1, dimension() - 1)};
+    std::array<double, IntegerVector::kMaxDimension> lambda{};
+    for (std::size_t k = 0; k < dimension(); ++k) lambda[k] = map.next();
+    const Proposal proposal = propose(cube[0], std::span{lambda}.first(dimension()));
     if (uniform01(random) < proposal.acceptance) return proposal.point;
   }
 }
@@ -206,18 +209,28 @@ Eigen::MatrixXd ConeSampler::cover(std::size_t n) const {
   if (n == 0) throw std::invalid_argument{"ConeSampler: a cover needs at least one point"};
   if (dimension() == 3) return fibonacci_cover(cone_, n);
   Eigen::MatrixXd points(static_cast<Eigen::Index>(dimension()), static_cast<Eigen::Index>(n));
-  detail::Sobol sobol{detail::Sobol::Shift{}};
-  std::array<double, IntegerVector::kMaxDimension> cube{};
-  for (Eigen::Index i = 0; i < points.cols();) {
-    if (dimension() == 2) {
+  if (dimension() == 2) {
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
       points.col(i) = arc_point((static_cast<double>(i) + 0.5) / static_cast<double>(n));
-      ++i;
-      continue;
     }
+    return points;
+  }
+  Eigen::Index found = 0;
+  const auto take = [&](double which, std::span<const double> lambda, double last) {
+    const Proposal proposal = propose(which, lambda);
+    if (last < proposal.acceptance) points.col(found++) = proposal.point;
+  };
+  const auto& first = detail::cover_points(dimension());
+  for (std::size_t i = 0; i < first.size() && found < points.cols(); ++i) {
+    take(first.which(i), first.lambda(i), first.last(i));
+  }
+  if (found == points.cols()) return points;
+  detail::Sobol sobol{detail::Sobol::Shift{}};
+  for (std::size_t i = 0; i < first.size(); ++i) sobol.next();
+  for (std::vector<double> numbers; found < points.cols(); numbers.clear()) {
     sobol.next();
-    for (std::size_t k = 0; k < dimension(); ++k) cube[k] = sobol[k];
-    const Proposal proposal = propose(std::span{cube}.first(dimension()));
-    if (sobol[dimension()] < proposal.acceptance) points.col(i++) = proposal.point;
+    detail::SimplexPoints::append(sobol, dimension(), numbers);
+    take(numbers.front(), std::span{numbers}.subspan(1, dimension()), numbers.back());
   }
   return points;
 }

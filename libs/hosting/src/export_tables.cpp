@@ -65,7 +65,8 @@ TableDescription participants_table(const SessionExportOptions& options) {
       .columns = {session_column(), seat_column(),
                   integer("member", "Place in the group, from 1; missing for people who waited in reserve.", false),
                   text("type", "Letter of the learner type of that place.", false),
-                  text("strategy", "Strategy of the room."), text("composition", "Types of the members of the room."),
+                  text("strategy", "Strategy of the room; missing for people who stayed on the waiting list.", false),
+                  text("composition", "Types of the members of the room; missing like the strategy.", false),
                   boolean("simulated", "Whether this is a simulated stand-in."),
                   integer("joined_ms", "When the person took the seat.", false, "ms since 1970"),
                   text("consent", "Version of the consent text that was agreed to.", false),
@@ -74,7 +75,11 @@ TableDescription participants_table(const SessionExportOptions& options) {
                   real("seconds_away", "How long in total.", true, "s"),
                   count("tests", "Tests answered in completed periods."), count("right", "Of them, answered rightly."),
                   real("share_right", "right / tests; missing without tests.", false),
-                  real("p_bec", "The teacher's final belief that the member knows the robot's policy.", false)}};
+                  real("p_bec", "The teacher's final belief that the member knows the robot's policy.", false),
+                  real("estimate",
+                       "Estimate of ability from the screening, the expected share of right answers; missing without a "
+                       "finished screening.",
+                       false)}};
   if (options.with_names) {
     table.columns.push_back(text("name", "Name that the person gave.", false));
     table.columns.push_back(text("query", "Parameters of the recruitment platform, as JSON.", false));
@@ -151,6 +156,18 @@ TableDescription trials_table() {
                       text("mdp_parameters", "JSON with the constraints, normals of half-spaces.")}};
 }
 
+TableDescription beliefs_table() {
+  return {
+      .file = kBeliefsFile,
+      .description = "What the teacher believed at the end of a period.",
+      .columns = {session_column(), period_column(),
+                  text("belief", "Whom the belief is about: member N, or how beliefs were combined, such as common."),
+                  integer("member", "Place in the group, from 1; missing for combined beliefs.", false),
+                  real("p_bec",
+                       "Share of the belief in the set of rewards that lead to the robot's policy: the teacher's "
+                       "estimate of what the member knows.")}};
+}
+
 TableDescription events_table() {
   return {.file = kEventsFile,
           .description = "One event of a room: everything that happened, in order.",
@@ -167,7 +184,8 @@ TableDescription events_table() {
 
 std::vector<TableDescription> export_tables(const SessionExportOptions& options) {
   return {sessions_table(), participants_table(options), periods_table(), tests_table(),
-          keys_table(),     questions_table(options),    trials_table(),  events_table()};
+          keys_table(),     questions_table(options),    trials_table(),  beliefs_table(),
+          events_table()};
 }
 
 }  // namespace kith

@@ -17,7 +17,10 @@ inline constexpr const char* kTestsFile = "tests.csv";
 inline constexpr const char* kKeysFile = "keypresses.csv";
 inline constexpr const char* kQuestionsFile = "questions.csv";
 inline constexpr const char* kTrialsFile = "trials.csv";
+inline constexpr const char* kBeliefsFile = "beliefs.csv";
 inline constexpr const char* kEventsFile = "events.csv";
+// What was taught, and to whom: for `kith report`.
+inline constexpr const char* kAboutFile = "study.json";
 
 [[nodiscard]] TableDescription sessions_table();
 [[nodiscard]] TableDescription participants_table(const SessionExportOptions& options);
@@ -26,6 +29,7 @@ inline constexpr const char* kEventsFile = "events.csv";
 [[nodiscard]] TableDescription keys_table();
 [[nodiscard]] TableDescription questions_table(const SessionExportOptions& options);
 [[nodiscard]] TableDescription trials_table();
+[[nodiscard]] TableDescription beliefs_table();
 [[nodiscard]] TableDescription events_table();
 
 }  // namespace kith

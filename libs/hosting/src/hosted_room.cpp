@@ -13,6 +13,14 @@ namespace {
 
 constexpr std::size_t kMostLessons = 4;  // kept for a room: each holds two sessions
 
+// Whether other lessons may be likely after such an event.
+bool changes_lessons(const RoomEvent& event) {
+  constexpr std::string_view kWithout[] = {"draft", "named", "message", "extend", "checked", "consented", "questions"};
+  return std::find(std::begin(kWithout), std::end(kWithout), event.type) == std::end(kWithout);
+}
+
+}  // namespace
+
 StoredEvent to_stored(std::int64_t room, const RoomEvent& event) {
   return {.room = room,
           .seq = event.seq,
@@ -22,14 +30,6 @@ StoredEvent to_stored(std::int64_t room, const RoomEvent& event) {
           .json = event.body.dump(),
           .message = {}};
 }
-
-// Whether other lessons may be likely after such an event.
-bool changes_lessons(const RoomEvent& event) {
-  constexpr std::string_view kWithout[] = {"draft", "named", "message", "extend", "checked", "consented", "questions"};
-  return std::find(std::begin(kWithout), std::end(kWithout), event.type) == std::end(kWithout);
-}
-
-}  // namespace
 
 std::uint64_t HostedRoom::mark_of(const std::string& actor, const std::string& message) {
   Sha256 hash;
@@ -93,8 +93,8 @@ void HostedRoom::finish_rebuild(std::optional<Room> room, std::vector<std::uint6
   advance();
 }
 
-void HostedRoom::ask(RoomCommand command, Done done) {
-  asked_.push_back({std::move(command), std::move(done)});
+void HostedRoom::ask(RoomCommand command, Done done, StoreBatch with) {
+  asked_.push_back({std::move(command), std::move(done), std::move(with)});
   advance();
 }
 
@@ -126,6 +126,11 @@ void HostedRoom::advance() {
   while (!saving_ && begin_next()) {
   }
   if (saving_) return;
+  if (setup_.is_waiting_list) {
+    constexpr auto kNever = std::numeric_limits<std::int64_t>::max();
+    next_due_us_ = std::min(room_->next_due().value_or(kNever), room_->last_call().value_or(kNever));
+    return host_.on_waiting(*this);
+  }
   seek_lesson();
   if (saving_) return;
   if (std::exchange(has_changed_, false)) look_ahead();
@@ -151,7 +156,11 @@ bool HostedRoom::begin_next() {
     asked.done({.events = {}, .refusal = std::move(decision.refusal)});
     return true;
   }
-  save({.events = std::move(decision.events), .message = id, .done = std::move(asked.done), .lesson = nullptr});
+  save({.events = std::move(decision.events),
+        .message = id,
+        .done = std::move(asked.done),
+        .lesson = nullptr,
+        .with = std::move(asked.with)});
   return true;
 }
 
@@ -164,6 +173,11 @@ void HostedRoom::hand_in() {
   StoreBatch batch;
   for (const auto& event : saving_->events) batch.events.push_back(to_stored(number(), event));
   if (!saving_->message.empty()) batch.events.front().message = saving_->message;
+  const auto& with = saving_->with;
+  batch.rooms = with.rooms;
+  batch.tokens = with.tokens;
+  batch.revoked = with.revoked;
+  batch.events.insert(batch.events.end(), with.events.begin(), with.events.end());
   host_.save(std::move(batch), [self = shared_from_this()](bool saved) {
     self->host_.post(self->number(), [self, saved](TeachingCache& cache) { self->on_saved(saved, cache); });
   });

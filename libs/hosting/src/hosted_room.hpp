@@ -26,6 +26,9 @@ struct CommandOutcome {
   std::optional<Refusal> refusal;
 };
 
+// As it is kept.
+[[nodiscard]] StoredEvent to_stored(std::int64_t room, const RoomEvent& event);
+
 // A room on the server. Decides one command at a time, has its events saved, applies them, and only then tells anybody;
 // has lessons chosen. All functions but those marked are called on the room's strand.
 class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
@@ -44,6 +47,8 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
     virtual void on_applied(HostedRoom& room, std::span<const RoomEvent> events) = 0;
     // Something is wrong that people should hear of; empty: no longer.
     virtual void on_trouble(std::int64_t room, const std::string& what) = 0;
+    // The room, a waiting list, has nothing to do at the moment: on its strand. A group may be formed.
+    virtual void on_waiting(HostedRoom& room) = 0;
   };
   using Done = std::function<void(const CommandOutcome& outcome)>;
 
@@ -67,8 +72,11 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
 
   // Nothing while it is being rebuilt, or if it could not be.
   [[nodiscard]] const Room* room() const noexcept { return room_ ? &*room_ : nullptr; }
-  // Has a command decided. `id` of the command may be empty.
-  void ask(RoomCommand command, Done done);
+  // Has a command decided. `id` of the command may be empty. What is in the batch is saved together with the events
+  // that the command leads to, or not at all.
+  void ask(RoomCommand command, Done done, StoreBatch with = {});
+  // The time of what happens now: never before that of the last event.
+  [[nodiscard]] std::int64_t now() const;
   // Something may be due by the clock, or could not be saved and is to be tried again.
   void wake();
   // The service has stopped: drops commands that wait, unanswered. Their answers may hold this room.
@@ -78,6 +86,7 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   struct Asked {
     RoomCommand command;
     Done done;
+    StoreBatch with;
   };
   // Events on their way to the disk.
   struct Saving {
@@ -85,10 +94,10 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
     std::string message;
     Done done;
     std::shared_ptr<const TaughtLesson> lesson;
+    StoreBatch with{};
     bool has_failed = false;
   };
 
-  [[nodiscard]] std::int64_t now() const;
   void finish_rebuild(std::optional<Room> room, std::vector<std::uint64_t> messages, const std::string& problem);
   void advance();
   [[nodiscard]] bool begin_next();

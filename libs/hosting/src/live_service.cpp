@@ -54,6 +54,7 @@ LiveService::State::State(std::shared_ptr<const LiveStudy> live_study, LiveServi
   teachers = std::make_unique<TeachingPool>(study->atlas, options.teaching_workers, options.cache_bytes, busy);
   strands = std::make_unique<Strands>(study->atlas, kStrandThreads, kStrandCacheBytes, busy);
   load_rooms();
+  make_waiting_list();
 }
 
 void LiveService::State::post(std::int64_t room, Strands::Job job) {
@@ -162,7 +163,7 @@ LiveService::~LiveService() { stop(); }
 
 std::size_t LiveService::num_rooms() const {
   const std::lock_guard lock{state_->mutex};
-  return state_->rooms.size();
+  return state_->num_groups();
 }
 
 void LiveService::set_base_url(std::string url) {

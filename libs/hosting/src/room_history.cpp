@@ -25,9 +25,16 @@ class Collector {
       if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
         row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
     } else if (event.type == "consented") {
+      note_consent(history_.seats[seat], body);
+    } else if (event.type == "screened") {
+      history_.seats[seat].screened.push_back(body.value("right", false));
+    } else if (event.type == "seated") {
       auto& row = history_.seats[seat];
-      row.consent = text_at(body, "version");
-      if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
+      row.joined_us = event.at_us;
+      row.member = count_at(body, "member") + 1;  // counted from 0 in events
+      row.name = text_at(body, "name");
+      row.screened = body.value("screened", std::vector<bool>{});
+      note_consent(row, body);
     } else if (event.type == "named") {
       history_.seats[seat].name = text_at(body, "name");
     } else if (event.type == "started") {
@@ -50,6 +57,11 @@ class Collector {
   }
 
  private:
+  static void note_consent(SeatRow& row, const Json& body) {
+    row.consent = text_at(body, "version");
+    if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
+  }
+
   static void note_presence(SeatRow& row, bool is_away, std::int64_t at_us) {
     if (is_away && row.away_since_us == 0) {
       ++row.times_away;

@@ -29,6 +29,7 @@ struct SeatRow {
   bool simulated = false;
   std::int64_t joined_us = 0;
   std::string consent;
+  std::vector<bool> screened;  // whether each answer to the screening was right
   std::string name;
   Json query = Json::object();
   Json answers = Json::object();  // to the questions

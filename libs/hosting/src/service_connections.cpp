@@ -75,7 +75,7 @@ void LiveService::closed(ConnectionId id) {
     if (selected != state.selected.end()) state.selected.erase(selected);
     return;
   }
-  const auto contact = state.contacts.find({identity.room, identity.seat});
+  const auto contact = state.contacts.find(state.place_of(identity));
   if (contact != state.contacts.end() && contact->second.connection == id) contact->second.connection = 0;
 }
 
@@ -110,11 +110,12 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
     const std::lock_guard lock{mutex};
     const auto now = now_us();
     auto identity = is_stopping ? Identity{} : tokens->identify(text_at(frame, "token"), now);
-    const bool has_room = identity.role != Role::kParticipant || rooms.find(identity.room) != rooms.end();
+    const auto place = place_of(identity);
+    const bool has_room = identity.role != Role::kParticipant || rooms.find(place.first) != rooms.end();
     if (identity.role == Role::kNobody || !has_room) identity = {};
     connection->identity = identity;
     if (identity.role == Role::kParticipant) {
-      auto& contact = contacts[{identity.room, identity.seat}];
+      auto& contact = contacts[place];
       const auto found = connections.find(std::exchange(contact.connection, connection->id));
       if (found != connections.end() && found->second != connection) former = found->second;
       contact.last_seen_us = now;
@@ -136,15 +137,16 @@ void LiveService::State::hello(const std::shared_ptr<Connection>& connection, co
 
 // Somebody opened the page of a seat: takes the seat if it was kept free for this link, and shows the page.
 void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
-  const auto number = connection->identity.room;
-  const auto seat = connection->identity.seat;
-  post(number, [this, connection, number, seat](TeachingCache&) {
+  const auto place = current_place(*connection);
+  const auto [number, seat] = place;
+  post(number, [this, connection, place, number = number, seat = seat](TeachingCache&) {
+    if (current_place(*connection) != place) return attend(connection);  // seated in a group meanwhile
     const auto room = room_of(number);
-    const auto show = [this, connection, room](const CommandOutcome& outcome) {
+    const auto show = [this, connection, room, place](const CommandOutcome& outcome) {
       if (outcome.refusal && !room->room()) return connection->dismiss("removed", kPolicy);
       if (room->room() == nullptr) return;
-      const Viewer viewer{.role = Viewer::Role::kParticipant,
-                          .seat = static_cast<std::size_t>(connection->identity.seat)};
+      if (current_place(*connection) != place) return attend(connection);
+      const Viewer viewer{.role = Viewer::Role::kParticipant, .seat = static_cast<std::size_t>(place.second)};
       if (viewer.seat > room->room()->num_seats()) return connection->dismiss("removed", kPolicy);
       push_view(*connection, room->room()->view(viewer, now_us()));
     };
@@ -162,13 +164,15 @@ void LiveService::State::attend(const std::shared_ptr<Connection>& connection) {
 void LiveService::State::beat(const Connection& connection) {
   if (connection.identity.role != Role::kParticipant) return;
   bool is_back = false;
+  Place place;
   {
     const std::lock_guard lock{mutex};
-    auto& contact = contacts[{connection.identity.room, connection.identity.seat}];
+    place = place_of(connection.identity);
+    auto& contact = contacts[place];
     contact.last_seen_us = now_us();
     is_back = std::exchange(contact.is_away, false);
   }
-  if (is_back) tell_presence(connection.identity.room, connection.identity.seat, "present");
+  if (is_back) tell_presence(place.first, place.second, "present");
 }
 
 void LiveService::State::tell_presence(std::int64_t number, std::int64_t seat, const char* type) {
@@ -191,14 +195,15 @@ void LiveService::State::message(const std::shared_ptr<Connection>& connection, 
   Json body = found == frame.end() ? Json::object() : *found;
   if (!body.is_object()) return connection->send(nak_frame(id, {"bad-body", "The body must be an object."}));
   if (identity.role != Role::kParticipant) return facilitate(connection, type, id, body);
+  const auto place = current_place(*connection);
   if (type == "consent") {
     const std::lock_guard lock{mutex};
-    const auto query = queries.find({identity.room, identity.seat});
+    const auto query = queries.find(place);
     body["query"] = query == queries.end() ? Json::object() : query->second;
   }
-  post(identity.room, [this, connection, type, id, body](TeachingCache&) {
-    const auto seat = static_cast<std::size_t>(connection->identity.seat);
-    room_of(connection->identity.room)
+  post(place.first, [this, connection, place, type, id, body](TeachingCache&) {
+    const auto seat = static_cast<std::size_t>(place.second);
+    room_of(place.first)
         ->ask({.actor = seat_actor(seat), .type = type, .body = body, .id = id},
               [connection, id](const CommandOutcome& outcome) {
                 connection->send(outcome.refusal ? nak_frame(id, *outcome.refusal) : ack_frame(id));
@@ -261,16 +266,18 @@ void LiveService::State::revoke_link(const std::shared_ptr<Connection>& connecti
   const auto mark = link.rfind("#t=");
   if (mark != std::string::npos) link.erase(0, mark + 3);
   Identity whose;
+  Place place;
   {
     const std::lock_guard lock{mutex};
     whose = tokens->identify(link, now_us());
+    place = place_of(whose);
   }
   if (whose.role == Role::kNobody) return connection->send(nak_frame(id, {"no-link", "There is no such link."}));
   StoreBatch batch;
   batch.revoked.push_back(whose.hash);
   const Json what{{"role", name_of(whose.role)},
-                  {"room", room_id(whose.room)},
-                  {"seat", whose.seat},
+                  {"room", room_id(place.first)},
+                  {"seat", place.second},
                   {"reason", text_at(body, "reason")}};
   record(std::move(batch), "facilitator", "link-revoke", what, id, [this, connection, id, whose](bool saved) {
     if (!saved) return connection->send(nak_frame(id, {"not-saved", "This could not be saved; try again."}));
@@ -279,7 +286,7 @@ void LiveService::State::revoke_link(const std::shared_ptr<Connection>& connecti
       const std::lock_guard lock{mutex};
       tokens->revoke(whose.hash);
       has_news = true;
-      if (whose.role == Role::kParticipant) changed_rooms.insert(whose.room);
+      if (whose.role == Role::kParticipant) changed_rooms.insert(place_of(whose).first);
       for (const auto& [number, other] : connections) {
         if (other->is_known && other->identity.hash == whose.hash) users.push_back(other);
       }
@@ -306,18 +313,17 @@ void LiveService::State::push_view(Connection& connection, Json view) const {
 void LiveService::State::push_room(HostedRoom& hosted) {
   const auto* room = hosted.room();
   if (room == nullptr) return;
-  std::vector<std::shared_ptr<Connection>> people;
+  std::vector<std::pair<std::size_t, std::shared_ptr<Connection>>> people;
   {
     const std::lock_guard lock{mutex};
     for (auto at = contacts.lower_bound({hosted.number(), 0});
          at != contacts.end() && at->first.first == hosted.number(); ++at) {
       const auto found = connections.find(at->second.connection);
-      if (found != connections.end()) people.push_back(found->second);
+      if (found != connections.end()) people.emplace_back(static_cast<std::size_t>(at->first.second), found->second);
     }
   }
   const auto now = now_us();
-  for (const auto& person : people) {
-    const auto seat = static_cast<std::size_t>(person->identity.seat);
+  for (const auto& [seat, person] : people) {
     if (seat <= room->num_seats() && room->is_person(seat))
       push_view(*person, room->view({.role = Viewer::Role::kParticipant, .seat = seat}, now));
   }

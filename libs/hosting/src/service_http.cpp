@@ -137,9 +137,6 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   const auto code = body.find("code");
   if (code == body.end() || !code->is_string()) return error_reply(400, "bad-body", "The request needs a code.");
   const auto query = collected_query(*study, body.value("query", Json{}));
-  std::vector<std::shared_ptr<HostedRoom>> open;
-  bool is_study = false;
-  bool is_known = false;  // that it is the code of a room
   {
     const std::lock_guard lock{mutex};
     const auto now = now_us();
@@ -153,10 +150,20 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
         at = at->second.empty() || now - at->second.back() > 60 * kSecond ? joins.erase(at) : std::next(at);
     }
     if (free_space < kNoSpace) return error_reply(503, "no-space", "Nobody new can join at the moment.");
+  }
+  std::unique_lock one_at_a_time{joining};
+  std::vector<std::shared_ptr<HostedRoom>> open;
+  bool is_study = false;
+  bool is_known = false;  // that it is the code of a room
+  {
+    const std::lock_guard lock{mutex};
     is_study = *code == join_code;
     for (const auto& [number, room] : rooms) {
-      is_known = is_known || room->setup().code == *code;
-      if ((is_study || room->setup().code == *code) && room->may_have_free_seat()) open.push_back(room);
+      const bool is_own = room->setup().code == *code;
+      is_known = is_known || is_own;
+      // Who comes to be screened is not given a seat beforehand.
+      const bool is_for_all = is_study && (waiting_list == 0 || number == waiting_list);
+      if ((is_for_all || is_own) && room->may_have_free_seat()) open.push_back(room);
     }
   }
   if (!is_known && !is_study) return error_reply(404, "no-room", "There is no group with this code.");
@@ -178,6 +185,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     return wait_for(std::move(seat));
   };
   const auto give_link = [&](const std::shared_ptr<HostedRoom>& room, std::int64_t seat) {
+    one_at_a_time.unlock();
     // Links that were made for the seat beforehand are void: two people must not share it.
     std::vector<std::string> former;
     {
@@ -205,7 +213,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     if (!seat) return error_reply(503, "not-saved", "The server could not save this; try again.");
     if (*seat > 0) return give_link(room, *seat);
   }
-  if (is_study) {
+  if (is_study && waiting_list == 0) {
     auto promise = std::make_shared<std::promise<RoomsMade>>();
     auto answer = promise->get_future();
     post(0, [this, promise](TeachingCache&) {
@@ -219,6 +227,7 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
       if (seat && *seat > 0) return give_link(room, *seat);
     }
   }
+  one_at_a_time.unlock();
   // Nobody must be able to guess such a code, and whoever pays has to find it in the log.
   const bool pays = study->group().completion.pay_full;
   const auto paid = pays ? completion_code(*study, random_token(), "full", 0) : std::string{};

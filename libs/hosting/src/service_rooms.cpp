@@ -81,17 +81,15 @@ RoomSetup setup_of(const LiveStudy& study, const Wish& wish, const std::map<std:
       setup.composition[i] = wish.seats[i].size() == 1 ? wish.seats[i].front() : '?';
     }
   }
-  const auto found = rooms_of.find(setup.strategy + "/" + setup.composition);
-  setup.replicate = found == rooms_of.end() ? 1 : found->second + 1;
   return setup;
 }
 
 }  // namespace
 
 bool is_logged(std::string_view actor, std::string_view type) {
-  constexpr std::string_view kTypes[] = {"joined",      "declined",  "left",    "away", "present",
-                                         "dropped",     "released",  "started", "time", "ended",
-                                         "turned-away", "room-make", "redacted"};
+  constexpr std::string_view kTypes[] = {"joined",  "declined",    "left",      "away",    "present",
+                                         "dropped", "released",    "started",   "time",    "ended",
+                                         "grouped", "turned-away", "room-make", "redacted"};
   return actor == "facilitator" || std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
 }
 
@@ -137,28 +135,41 @@ void LiveService::State::load_rooms() {
   tokens.emplace(file.tokens());
   std::map<std::int64_t, std::vector<StoredEvent>> events;
   std::vector<LogEntry> entries;
+  std::vector<std::pair<Place, Place>> seated;  // from the waiting list, to a group
   const auto now = now_us();
   file.for_each_event([&](const StoredEvent& event) {
     if (is_logged(event.actor, event.type)) entries.push_back(entry_of(event));
     if (event.room == 0) next_service_seq = event.seq + 1;
-    if (event.room != 0 && event.type == "joined") {
+    if (event.room != 0 && (event.type == "joined" || event.type == "seated")) {
       const auto body = Json::parse(event.json);
-      const auto seat = body.value("seat", std::int64_t{0});
-      joined.insert({event.room, seat});
-      contacts[{event.room, seat}].last_seen_us = now;
+      const Place place{event.room, body.value("seat", std::int64_t{0})};
+      joined.insert(place);
+      contacts[place].last_seen_us = now;
+      if (event.type == "seated") seated.emplace_back(origin_of(body), place);
     }
     events[event.room].push_back(event);
   });
+  for (const auto& [from, to] : seated) move_person(from, to);
   std::stable_sort(entries.begin(), entries.end(),
                    [](const LogEntry& a, const LogEntry& b) { return a.at_us < b.at_us; });
   for (auto& entry : entries) write_log(std::move(entry));
   for (auto& stored : file.rooms()) {
     auto setup = room_setup(Json::parse(stored.setup));
     const auto number = stored.number;
+    next_room = std::max(next_room, number + 1);
+    ++rooms_of[setup.strategy + "/" + setup.composition];
+    if (setup.is_waiting_list) waiting_list = number;
     rooms.emplace(number, std::make_shared<HostedRoom>(*this, study, std::move(stored), std::move(setup)));
     changed_rooms.insert(number);
   }
   for (const auto& [number, room] : rooms) room->rebuild(std::move(events[number]));
+}
+
+std::size_t LiveService::State::num_groups() const { return rooms.size() - (waiting_list != 0 ? 1u : 0u); }
+
+void LiveService::State::enrol(RoomSetup& setup) {
+  setup.id = room_id(next_room++);
+  setup.replicate = ++rooms_of[setup.strategy + "/" + setup.composition];
 }
 
 void LiveService::State::write_log(LogEntry entry) {
@@ -208,17 +219,11 @@ void LiveService::State::make_rooms(const Json& body, const std::string& actor, 
   };
   const auto wish = wish_of(body);
   if (!wish) return refuse("bad-body", "A room needs a strategy, up to 30 seats and a count from 1 to 200.");
-  std::map<std::string, std::size_t> rooms_of;
-  std::int64_t next = 1;
   {
     const std::lock_guard lock{mutex};
-    if (rooms.size() + wish->count > options.max_rooms)
+    if (num_groups() + wish->count > options.max_rooms)
       return refuse("full", "This server is limited to " + std::to_string(options.max_rooms) + " rooms.");
     if (free_space < kNoSpace) return refuse("no-space", "The disk is almost full: no new rooms can be made.");
-    for (const auto& [number, room] : rooms) {
-      ++rooms_of[room->setup().strategy + "/" + room->setup().composition];
-      next = number + 1;
-    }
   }
   StoreBatch batch;
   RoomsMade result;
@@ -226,12 +231,15 @@ void LiveService::State::make_rooms(const Json& body, const std::string& actor, 
   std::vector<Tokens::Issued> links;
   TeachingCache cache{study->atlas};
   for (std::size_t i = 0; i < wish->count; ++i) {
-    auto setup = setup_of(*study, *wish, rooms_of);
-    const auto number = next + static_cast<std::int64_t>(i);
-    setup.id = room_id(number);
+    RoomSetup setup;
+    {
+      const std::lock_guard lock{mutex};
+      setup = setup_of(*study, *wish, rooms_of);
+      enrol(setup);
+    }
+    const auto number = room_number(setup.id);
     setup.code = random_code(kCodeLength);
     setup.salt = random_token();
-    ++rooms_of[setup.strategy + "/" + setup.composition];
     std::size_t seats = 0;
     try {
       const Room room{study, setup, cache};

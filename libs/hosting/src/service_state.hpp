@@ -73,6 +73,9 @@ struct LogEntry {
   std::string reason;
 };
 
+// A seat of a room.
+using Place = std::pair<std::int64_t, std::int64_t>;
+
 // The service's own strand is 0; that of room n is n.
 struct LiveService::State final : HostedRoom::Host {
   State(std::shared_ptr<const LiveStudy> live_study, LiveServiceOptions service_options);
@@ -91,9 +94,13 @@ struct LiveService::State final : HostedRoom::Host {
   std::optional<Tokens> tokens;
   std::map<ConnectionId, std::shared_ptr<Connection>> connections;
   ConnectionId next_connection = 1;
-  std::map<std::pair<std::int64_t, std::int64_t>, SeatContact> contacts;  // by room and seat, of people
-  std::set<std::pair<std::int64_t, std::int64_t>> joined;                 // seats that were taken at least once
+  std::map<Place, SeatContact> contacts;  // of people
+  std::set<Place> joined;                 // seats that were taken at least once
+  std::map<Place, Place> moved;           // from the waiting list to a group: whose links lead there now
+  std::map<Place, Place> came_from;       // the reverse
   std::map<std::int64_t, std::shared_ptr<HostedRoom>> rooms;
+  std::int64_t next_room = 1;
+  std::map<std::string, std::size_t> rooms_of;  // how many were made, by "strategy/composition"
   std::map<std::int64_t, RoomPicture> pictures;
   std::set<std::int64_t> changed_rooms;  // whose picture is old
   bool has_news = false;                 // for facilitators
@@ -102,13 +109,22 @@ struct LiveService::State final : HostedRoom::Host {
   std::map<std::int64_t, std::string> troubles;           // by room
   std::map<std::string, std::deque<std::int64_t>> joins;  // by address, when
   // By room and seat: query parameters of people who have not consented yet. They are stored with the consent.
-  std::map<std::pair<std::int64_t, std::int64_t>, Json> queries;
+  std::map<Place, Json> queries;
   std::map<std::string, std::shared_ptr<const std::string>> worlds;
   std::string facilitator_token, observer_token;
   std::size_t num_facilitators = 0;
   std::uint64_t free_space = 0;
   std::int64_t looked_at_space_us = 0;
   bool is_stopping = false;
+
+  // Held while a seat is looked for, before the other one: people who come at the same moment share rooms.
+  std::mutex joining;
+
+  // --- set by the constructor -----------------------------------------------------------
+  std::int64_t waiting_list = 0;  // its number; 0: there is none
+
+  // --- touched on the strand of the waiting list --------------------------------------
+  bool is_forming = false;  // a group
 
   // --- touched on the service's strand -------------------------------------------
   std::uint64_t next_service_seq = 1;
@@ -134,6 +150,18 @@ struct LiveService::State final : HostedRoom::Host {
   [[nodiscard]] std::size_t num_runners_up(std::int64_t room) const override;
   void on_applied(HostedRoom& room, std::span<const RoomEvent> events) override;
   void on_trouble(std::int64_t room, const std::string& what) override;
+  void on_waiting(HostedRoom& list) override;
+
+  // service_waiting.cpp
+  // Makes the waiting list if the study has one and it is not there yet.
+  void make_waiting_list();
+  // People of the waiting list have places in a new room, which is saved.
+  void seat_group(const StoredRoom& stored, const std::vector<StoredEvent>& events);
+  // Somebody's link leads to another seat from now on. The mutex is held.
+  void move_person(const Place& from, const Place& to);
+  // Where the holder of a link is now. The mutex is held.
+  [[nodiscard]] Place place_of(const Identity& identity) const;
+  [[nodiscard]] Place current_place(const Connection& connection) const;
 
   // service_rooms.cpp
   void load_rooms();
@@ -149,6 +177,10 @@ struct LiveService::State final : HostedRoom::Host {
   void make_rooms(const Json& body, const std::string& actor, const std::string& message,
                   std::function<void(const RoomsMade&)> made);
   [[nodiscard]] std::shared_ptr<HostedRoom> room_of(std::int64_t number) const;
+  // All rooms but the waiting list. The mutex is held.
+  [[nodiscard]] std::size_t num_groups() const;
+  // Numbers a new room and its replicate. The mutex is held.
+  void enrol(RoomSetup& setup);
   // By id or code; null if there is none.
   [[nodiscard]] std::shared_ptr<HostedRoom> room_named(const std::string& name) const;
   // A new link for a seat, once it is on the disk; empty if it cannot be saved.
@@ -199,6 +231,8 @@ struct LiveService::State final : HostedRoom::Host {
 // "r12" for room 12, and back; 0 for anything else.
 [[nodiscard]] std::string room_id(std::int64_t number);
 [[nodiscard]] std::int64_t room_number(const std::string& id);
+// The seat that somebody had on the waiting list, of the body of an event "seated".
+[[nodiscard]] Place origin_of(const Json& body);
 
 inline constexpr std::int64_t kSecond = 1'000'000;  // in microseconds
 inline constexpr std::size_t kLongestId = 64;

@@ -70,12 +70,15 @@ Json LiveService::State::facilitator_view(const Connection& connection) const {
     auto row = or_null(is_facilitator ? picture.row : picture.observer_row);
     if (row.is_null()) continue;
     for (auto& seat : row["seats"]) {
-      const std::pair place{number, seat["seat"].get<std::int64_t>()};
+      const Place place{number, seat["seat"].get<std::int64_t>()};
       const auto contact = contacts.find(place);
       const auto person = contact == contacts.end() ? connections.end() : connections.find(contact->second.connection);
       if (person != connections.end() && person->second->round_trip)
         seat["latency_ms"] = static_cast<double>(person->second->round_trip->count()) / 1000.0;
-      const auto token = is_facilitator ? tokens->known(place.first, place.second) : std::nullopt;
+      auto token = is_facilitator ? tokens->known(place.first, place.second) : std::nullopt;
+      if (const auto from = came_from.find(place); is_facilitator && !token && from != came_from.end()) {
+        token = tokens->known(from->second.first, from->second.second);
+      }
       if (token) seat["link"] = base_url + "/j#t=" + *token;
     }
     view["rooms"].push_back(std::move(row));

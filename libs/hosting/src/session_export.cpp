@@ -9,6 +9,7 @@
 #include "kith/files/published_run.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/hosting/session_review.hpp"
+#include "kith/live/screening.hpp"
 #include "kith/present/json.hpp"
 #include "kith/table/csv_writer.hpp"
 #include "room_history.hpp"
@@ -54,13 +55,14 @@ class Tables {
     sink_(file, piece);
   }
 
-  ExportReport finish(const std::vector<TableDescription>& tables, const std::string& run) {
+  ExportReport finish(const std::vector<TableDescription>& tables, const std::string& run, const Json& about) {
     ExportReport report;
     for (auto& [file, writer] : writers_) {
       writer.flush();
       report.rows[file] = writer.num_rows();
     }
     put("codebook.json", codebook(tables, run));
+    put(kAboutFile, about.dump(2) + "\n");
     std::string sums;
     for (auto& [file, hash] : hashes_) {
       report.hashes[file] = std::move(hash).hex();
@@ -83,23 +85,33 @@ class Exporter {
 
   void add(const RoomHistory& history) {
     history_ = &history;
-    write_session();
-    for (const auto& [seat, row] : history.seats) write_participant(seat, row);
+    const bool is_waiting_list = setup().is_waiting_list;
+    if (!is_waiting_list) write_session();
+    for (const auto& [seat, row] : history.seats) {
+      if (!is_waiting_list || stage_of(seat) != "moved") write_participant(seat, row);
+    }
     for (const auto& lesson : history.lessons) {
       if (!lesson.is_replaced) write_period(lesson);
     }
     write_tests();
     write_questions();
     write_trials();
+    write_beliefs();
     for (const auto& event : history.events) write_event(event);
   }
 
-  ExportReport finish(const std::string& run) { return tables_.finish(export_tables(options_), run); }
+  ExportReport finish(const EventFile& file) {
+    return tables_.finish(export_tables(options_), file.identity().study, about(file));
+  }
 
  private:
   [[nodiscard]] const std::string& id() const { return history_->replayed.id; }
   [[nodiscard]] const RoomSetup& setup() const { return history_->room->setup(); }
   [[nodiscard]] const Session& session() const { return history_->room->session(); }
+
+  [[nodiscard]] std::string stage_of(std::size_t seat) const {
+    return seat <= history_->room->num_seats() ? history_->room->stage_of(seat) : std::string{};
+  }
 
   // Whether another lesson was taught in place of the one that the answer belongs to.
   [[nodiscard]] bool is_void(const AnswerRow& answer) const { return history_->lessons[answer.lesson].is_replaced; }
@@ -179,14 +191,22 @@ class Exporter {
     } else {
       row.missing();
     }
-    row.text_or_missing(type_of(person.member)).text(setup().strategy).text(setup().composition);
-    row.boolean(person.simulated).integer(ms_if_any(person.joined_us)).text_or_missing(if_any(person.consent));
-    const auto stage = seat <= history_->room->num_seats() ? history_->room->stage_of(seat) : std::string{};
+    const auto group = setup().is_waiting_list ? RoomSetup{} : setup();
+    row.text_or_missing(type_of(person.member)).text_or_missing(if_any(group.strategy));
+    row.text_or_missing(if_any(group.composition))
+        .boolean(person.simulated)
+        .integer(ms_if_any(person.joined_us))
+        .text_or_missing(if_any(person.consent));
+    const auto stage = stage_of(seat);
     row.text_or_missing(if_any(stage)).integer(person.times_away).real(static_cast<double>(person.away_us) / 1e6);
     row.integer(tests).integer(right);
     row.real(tests == 0 ? std::nullopt : std::optional{static_cast<double>(right) / static_cast<double>(tests)});
     const bool is_last = person.member && history_->seat_of(*person.member) == seat;
     row.real(is_last ? belief_in(*person.member) : std::nullopt);
+    const auto& screened = person.screened;
+    const auto passed = static_cast<std::size_t>(std::count(screened.begin(), screened.end(), true));
+    const bool is_screened = !screened.empty() && screened.size() == study_->screening.size();
+    row.real(is_screened ? std::optional{screening_estimate(passed, screened.size())} : std::nullopt);
     if (options_.with_names) {
       row.text_or_missing(if_any(printable(person.name)));
       row.text_or_missing(person.query.empty() ? std::nullopt : std::optional{printable(person.query.dump())});
@@ -356,11 +376,51 @@ class Exporter {
     row.end_row();
   }
 
+  void write_beliefs() {
+    const auto detail = history_->room->view({.role = Viewer::Role::kObserver, .seat = 0}, 0)["room"];
+    for (const auto& point : detail["curves"]) {
+      for (const auto& [name, mass] : point["p_bec"].items()) {
+        constexpr std::string_view kMember{"member "};
+        auto& row = tables_[kBeliefsFile];
+        row.text(id()).integer(point["period"].get<std::size_t>()).text(name);
+        if (name.compare(0, kMember.size(), kMember) == 0) {
+          row.integer(static_cast<std::size_t>(std::stoul(name.substr(kMember.size()))));
+        } else {
+          row.missing();
+        }
+        row.real(mass.get<double>());
+        row.end_row();
+      }
+    }
+  }
+
+  // What was taught, and to whom.
+  [[nodiscard]] Json about(const EventFile& file) const {
+    const auto facts = live_study_json(*study_);
+    Json strategies = Json::array();
+    for (const auto& strategy : facts["strategies"]) strategies.push_back(strategy["name"]);
+    return {{"schema", "kith.session-tables/1"},
+            {"session", file.id()},
+            {"study", study_->spec.id},
+            {"title", study_->spec.title},
+            {"domain", facts["domain"]},
+            {"program", file.identity().program},
+            {"created_ms", ms_of(file.created_us())},
+            {"strategies", strategies},
+            {"compositions", facts["compositions"]},
+            {"types", facts["types"]},
+            {"inputs", file.identity().inputs}};
+  }
+
   void write_event(const StoredEvent& event) {
     auto body = room_event_of(event).body;
     if (!options_.with_names && body.is_object()) {
       if (event.type == "named") body.erase("name");
       if (event.type == "consented") body.erase("query");
+      if (event.type == "seated") {
+        body.erase("name");
+        body.erase("query");
+      }
     }
     if (!options_.with_text && body.is_object()) {
       for (const auto* name : {"text", "reason"}) {
@@ -405,7 +465,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
   for (const auto& stored : file.rooms()) {
     if (options.room && stored.number != *options.room) continue;
     is_there = true;
-    ++rooms;
+    rooms += room_setup(Json::parse(stored.setup)).is_waiting_list ? 0u : 1u;
     exporter.add(read_history(file, stored, study, cache));
     events += file.count_events(stored.number);
   }
@@ -413,7 +473,7 @@ ExportReport export_session(EventFile& file, const std::shared_ptr<const LiveStu
     refuse_run(ErrorKind::kInvalidInput, "E1618", file.path(), "there is no such room in this session",
                "list the rooms with 'kith session list'");
   }
-  const auto report = exporter.finish(file.identity().study);
+  const auto report = exporter.finish(file);
   reconcile(file.path(), kSessionsFile, report.rows.at(kSessionsFile), rooms);
   reconcile(file.path(), kEventsFile, report.rows.at(kEventsFile), events);
   return report;

@@ -48,6 +48,11 @@ bool erase_person(const std::string& type, Json& body, const std::optional<std::
   };
   if (!body.is_object()) return false;
   if (type == "named") return blank("name", kErased);
+  if (type == "seated") {
+    const auto name = body.find("name");
+    const bool has_name = name != body.end() && *name != "" && blank("name", kErased);
+    return blank("query", Json::object()) || has_name;
+  }
   if (type == "consented" || type == "turned-away") return blank("query", Json::object());
   if (type == "message") return blank("text", kErased);
   if (type != "questions") return false;
@@ -92,7 +97,7 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
     if (at == rooms.end() || at->number != event.room) return;
     ++at->events;
     at->last_us = event.at_us;
-    at->joined += event.type == "joined" ? 1u : 0u;
+    at->joined += event.type == "joined" || event.type == "seated" ? 1u : 0u;
     at->lessons += event.type == "lesson" ? 1u : 0u;
     at->answers += event.type == "answered" ? 1u : 0u;
     at->has_started = at->has_started || event.type == "started";

@@ -156,6 +156,22 @@ TEST(DamagedSession, IsNoticedIfTheLogIsAnotherOne) {
   EXPECT_FALSE(read_or_refuse(scratch.path() / "one", "swapped").has_value());
 }
 
+// SQLite takes such a frame for one of an earlier log, where this one ends.
+TEST(DamagedSession, IsNoticedIfTheSaltOfTheLastFrameIsWrong) {
+  constexpr std::uintmax_t kHeader = 32, kFrame = 24 + 4096;
+  const ScratchFolder scratch;
+  make_session(scratch.path() / "whole");
+  const auto size = fs::file_size(scratch.path() / "whole" / "session.sqlite-wal");
+  ASSERT_EQ((size - kHeader) % kFrame, 0u);
+  for (const std::uintmax_t byte : {8u, 11u, 12u, 15u}) {
+    const auto folder = scratch.path() / ("case-" + std::to_string(byte));
+    fs::copy(scratch.path() / "whole", folder);
+    flip_bit(folder / "session.sqlite-wal", size - kFrame + byte, 6);
+    EXPECT_FALSE(read_or_refuse(folder, "salt").has_value()) << byte;
+    check_salvage(folder, folder / "salvaged", "salt");
+  }
+}
+
 TEST(DamagedSession, IsRecoveredWithoutTheFileBesideIt) {
   const ScratchFolder scratch;
   make_session(scratch.path() / "session");

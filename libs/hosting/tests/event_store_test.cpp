@@ -131,8 +131,8 @@ void check_after(const std::filesystem::path& folder, const Attempt& outcome, co
     EXPECT_EQ(stored.count({room, seq % 2 == 1 ? seq + 1 : seq - 1}), 1u) << story << ": half of a batch";
 }
 
-// Cases number `first` to `last`, from 0.
-void fail_every_nth(std::size_t first, std::size_t last) {
+// Cases number `first` to `last`, from 0. @param fewest  in how many of them an operation must have failed.
+void fail_every_nth(std::size_t first, std::size_t last, std::size_t fewest) {
   const FaultyDisk disk;
   std::size_t struck = 0;
   for (std::size_t i = first; i <= last; ++i) {
@@ -150,15 +150,16 @@ void fail_every_nth(std::size_t first, std::size_t last) {
     check_after(scratch.path() / "session", outcome, story);
     if (::testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_GT(struck, (last - first) / 2) << "the failures must hit something";
+  EXPECT_GE(struck, fewest) << "the failures must hit something";
 }
 
 class FailingDisk : public ::testing::TestWithParam<std::size_t> {};
-TEST_P(FailingDisk, NeverHasWhatWasNotSavedAcknowledged) { fail_every_nth(GetParam(), GetParam() + 49); }
+TEST_P(FailingDisk, NeverHasWhatWasNotSavedAcknowledged) { fail_every_nth(GetParam(), GetParam() + 49, 25); }
 INSTANTIATE_TEST_SUITE_P(Cases, FailingDisk, ::testing::Values(0u, 50u, 100u, 150u));
 
-// Up to the last operation of the scenario.
-TEST(SlowFailingDisk, NeverHasWhatWasNotSavedAcknowledged) { fail_every_nth(200, 399); }
+// Beyond the last operation of the scenario. How many there are depends on how many batches are saved together, so on a
+// busy machine most of these cases may not fail at all.
+TEST(SlowFailingDisk, NeverHasWhatWasNotSavedAcknowledged) { fail_every_nth(200, 399, 1); }
 
 }  // namespace
 }  // namespace kith

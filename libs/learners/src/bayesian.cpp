@@ -8,6 +8,7 @@
 #include "kith/learners/bayesian_learner.hpp"
 #include "kith/learners/learner_model.hpp"
 #include "kith/random/distributions.hpp"
+#include "kith/teaching/learner_hypothesis.hpp"
 
 namespace kith {
 namespace {
@@ -233,11 +234,31 @@ BayesianPerson person_of(const ParameterValues& values, std::span<const double> 
           .forgetting = values.real("forgetting")};
 }
 
+// What somebody knows who knows each component with this probability; every constraint once.
+std::vector<HalfSpace> known_by_chance(double probability, const std::vector<std::vector<HalfSpace>>& components,
+                                       RandomStream random) {
+  std::vector<HalfSpace> known;
+  for (std::size_t k = 0; k < num_known_by_chance(components.size()); ++k) {
+    auto draw = random.split(k);
+    if (!(uniform01(draw) < probability)) continue;
+    for (const auto& half_space : components[k]) {
+      if (std::find(known.begin(), known.end(), half_space) == known.end()) known.push_back(half_space);
+    }
+  }
+  return known;
+}
+
 std::unique_ptr<Learner> make_bayesian(const ParameterValues& values, std::span<const double> traits,
                                        const LearnerStart& start, RandomStream random) {
   const FilterOptions filter{.particles = num_particles(values), .process_noise = values.real("process_noise")};
-  return std::make_unique<BayesianLearner>(ParticleBelief{start.cover(filter.particles), filter},
-                                           person_of(values, traits), start.likelihood, random);
+  const auto person = person_of(values, traits);
+  ParticleBelief belief{start.cover(filter.particles), filter};
+  if (values.real("known") > 0.0 && start.components) {
+    const double ability = std::min(scaled_ability(person.ability_max, person.ability_scale), kSurest);
+    belief.observe(known_by_chance(values.real("known"), start.components(), random.split("known")),
+                   HalfSpaceLikelihood{ability, start.likelihood, belief.dimension()}, random.split("knows"));
+  }
+  return std::make_unique<BayesianLearner>(std::move(belief), person, start.likelihood, random);
 }
 
 std::string describe_bayesian(const ParameterValues& values, std::span<const double> traits) {
@@ -310,6 +331,10 @@ std::vector<Parameter> bayesian_parameters() {
        .default_value = 0.0,
        .description = "angle in radians by which a belief is blurred between two periods",
        .max = 3.0},
+      {.name = "known",
+       .default_value = 0.0,
+       .description =
+           "probability with which a person knows each knowledge component but the last beforehand, with ability_max"},
       particles_parameter(),
       process_noise_parameter(),
   };

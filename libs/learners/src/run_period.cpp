@@ -60,9 +60,11 @@ PeriodOfLearners run_period(Session& session, TeachingCache& cache, Learners& le
     session.answer(i, period.responses[i].answers);
   }
   session.close_tests();
+  std::vector<bool> hears;  // also who is released after this period
+  for (std::size_t i = 0; i < learners.size(); ++i) hears.push_back(session.takes_part(i));
   const auto& feedback = session.give_feedback();
   for (std::size_t i = 0; i < learners.size(); ++i) {
-    if (!session.takes_part(i)) continue;
+    if (!hears[i]) continue;
     learners[i]->hear_feedback(feedback.all_correct[i], feedback.half_spaces, session.history().back().lesson.period);
   }
   return period;

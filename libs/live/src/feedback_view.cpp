@@ -9,11 +9,11 @@
 namespace kith {
 namespace {
 
-// One feature of which one way has more than the other.
+// A feature that one path has more of than the other.
 struct Excess {
   std::size_t feature = 0;
   std::int64_t n = 0;
-  bool more = false;  // the other way has some, too
+  bool more = false;  // the other path has some, too
 };
 
 std::string as_verbs(const Domain& domain, const std::vector<Excess>& all) {
@@ -31,18 +31,18 @@ std::string as_nouns(const Domain& domain, const std::vector<Excess>& all) {
   return listed(words);
 }
 
-// A way that is worse in every respect.
+// A path that is worse in every respect.
 std::string detour_in_words(const Domain& domain, const std::vector<Excess>& costs, const std::vector<Excess>& lost) {
   std::string text;
   if (!costs.empty()) {
     const bool has_verbs = std::none_of(costs.begin(), costs.end(),
                                         [&](const Excess& one) { return domain.wording(one.feature).do_one.empty(); });
     const bool all_more = std::all_of(costs.begin(), costs.end(), [](const Excess& one) { return one.more; });
-    text = has_verbs ? "Your way makes the robot " + as_verbs(domain, costs) + (all_more ? " than needed" : "")
-                     : "Your way costs the robot " + as_nouns(domain, costs);
+    text = has_verbs ? "Your path makes the robot " + as_verbs(domain, costs) + (all_more ? " than needed" : "")
+                     : "Your path costs the robot " + as_nouns(domain, costs);
   }
   if (!lost.empty()) {
-    text += (text.empty() ? "Your way leaves out " : ", and leaves out ") + as_nouns(domain, lost);
+    text += (text.empty() ? "Your path leaves out " : ", and leaves out ") + as_nouns(domain, lost);
   }
   return text + '.';
 }
@@ -61,7 +61,7 @@ Json first_difference(const Trajectory& mine, const Trajectory& robot) {
 std::string cost_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& mine) {
   if (robot == mine || sign_of_dot(domain.weights().integer, robot - mine) <= 0) return {};
   if (domain.count_scale() != 1) return sentence(on_average_in_words(domain, robot - mine));
-  std::vector<Excess> costs, lost;  // what the own way has more of, and what it has less of
+  std::vector<Excess> costs, lost;  // what the participant's path has more of, and less of
   bool is_trade = false;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const auto n = mine[k] - robot[k];
@@ -76,7 +76,7 @@ std::string cost_in_words(const Domain& domain, const IntegerVector& robot, cons
       is_trade = true;
     }
   }
-  if (is_trade) return "The robot likes its own way better: " + choice_in_words(domain, robot, mine) + ".";
+  if (is_trade) return "The robot takes another path: " + choice_in_words(domain, robot, mine) + ".";
   return detour_in_words(domain, costs, lost);
 }
 
@@ -105,11 +105,9 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
       entry["mine"] = frames_json(domain, world, mine);
       entry["differs_at"] = first_difference(mine, robot);
     }
-    if (!right) {
-      std::string cost = "You gave no answer in time.";
-      if (path && !path->is_finished) cost = "Your way stops before the end.";
-      if (path && path->counts) cost = cost_in_words(domain, atlas.feature_counts(test.demo), *path->counts);
-      entry["cost"] = cost;
+    entry["unfinished"] = path && !path->is_finished;
+    if (!right && path && path->counts) {
+      entry["cost"] = cost_in_words(domain, atlas.feature_counts(test.demo), *path->counts);
     }
     tests.push_back(std::move(entry));
   }

@@ -11,8 +11,10 @@
 #include "kith/files/sha256.hpp"
 #include "kith/live/world_json.hpp"
 #include "kith/random/distributions.hpp"
+#include "kith/study/session_forecasts.hpp"
 #include "live_texts.hpp"
 #include "room_body.hpp"
+#include "room_state.hpp"
 
 namespace kith {
 namespace {
@@ -63,6 +65,16 @@ void require_teachable(const std::vector<StrategyChoice>& strategies) {
                                               "' reads what simulated people believe, so it cannot teach real ones: "
                                               "remove it from [design]"};
   }
+}
+
+// What sessions of people cannot do.
+void require_whole_group(const StudySpec& spec) {
+  std::string key;
+  if (spec.teaching.release != ReleaseRule::kNone) key = "stop.release";
+  if (spec.grouping != Grouping::kTogether) key = "teacher.grouping";
+  if (spec.teaching.placement_tests > 0) key = "teacher.placement_tests";
+  if (key.empty()) return;
+  throw Error{ErrorKind::kInvalidInput, "'" + key + "' works in simulated studies only: remove it to teach people"};
 }
 
 void require_small_worlds(const Domain& domain) {
@@ -140,6 +152,20 @@ std::vector<DemoIndex> draw_screening(const Atlas& atlas, std::size_t n, RandomS
   return chosen;
 }
 
+// Nobody must wait for a place that cannot exist.
+void require_places(const LiveStudy& study) {
+  if (!study.seats_by_ability()) return;
+  const auto cells = live_cells(study);
+  for (const bool high : {false, true}) {
+    if (std::any_of(cells.begin(), cells.end(), [&](const LiveCell& cell) { return has_place_for(study, cell, high); }))
+      continue;
+    throw Error{ErrorKind::kInvalidInput,
+                std::string{"people whose estimate of ability is "} + (high ? "high" : "low") +
+                    " would wait for nothing: no composition has a place for them. Change the compositions, or "
+                    "'high' of group.screening"};
+  }
+}
+
 std::string filled_up(std::string composition, std::size_t size) {
   if (composition.size() < size) composition.append(size - composition.size(), composition.back());
   return composition;
@@ -156,6 +182,7 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   auto live = std::make_shared<LiveStudy>();
   live->spec = study.variants.front();
   require_teachable(live->spec.strategies);
+  require_whole_group(live->spec);
   auto& group = live->spec.group;
   require_small_worlds(atlas->domain());
   atlas = with_answerable_tests(std::move(atlas));
@@ -183,6 +210,14 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
   }
   live->key = sha256(identity).substr(0, 8);
   live->atlas = std::move(atlas);
+  require_places(*live);
+  if (live->spec.forecast_sessions > 0) {
+    TeachingCache cache{live->atlas};
+    for (const auto& [strategy, composition] : live_cells(*live)) {
+      live->imagined[{strategy, composition}] =
+          imagine_sessions(*live->atlas, cache, live->spec, strategy, composition, live->spec.forecast_sessions);
+    }
+  }
   return live;
 }
 

@@ -5,9 +5,8 @@ namespace kith {
 void fill_in_texts(GroupOptions& group) {
   if (group.story.empty()) {
     group.story = {
-        "A robot works in a small world. It has likes and dislikes of its own, and it always does what is best for it.",
-        "You watch the robot at work. Then you show what you think it would do in a new place, and see whether you "
-        "were right."};
+        "A robot has a job to do and decides by itself how to do it. Some things cost it effort, others are worth a "
+        "detour. It always takes the path that is best for it."};
   }
   if (group.goal.empty()) group.goal = "Find out how the robot decides what to do.";
   if (group.consent_text.empty() && group.consent_file.empty()) {

@@ -20,6 +20,7 @@ std::string end_text(const LiveSeat& seat, const std::string& group_text) {
   }
   if (seat.why == "left") return "You left the session. Thank you for taking part.";
   if (seat.why == "not-ready") return "It took too long to get ready, so your place was given away.";
+  if (seat.why == "lobby-time") return "Not enough people came in time.";
   return group_text;
 }
 
@@ -37,7 +38,7 @@ class ParticipantPage {
               {"dir", study.language.direction},
               {"study", study_texts_json(study)},
               {"me", {{"seat", number_ + 1}, {"label", label()}}},
-              {"group", {{"size", state_.members.size()}, {"active", num_active()}}},
+              {"group", {{"size", size()}, {"active", num_active()}}},
               {"notices", notices()}};
     if (is_running(state_) && seat_.status != SeatStatus::kGone && seat_.member) {
       if (auto waiting = pause(); !waiting.is_null()) view["pause"] = std::move(waiting);
@@ -51,6 +52,13 @@ class ParticipantPage {
  private:
   [[nodiscard]] std::string label() const {
     return seat_.member ? member_label(*seat_.member) : std::string{"Learner"};
+  }
+  // Of the group; on the waiting list of the largest that somebody may be seated in.
+  [[nodiscard]] std::size_t size() const {
+    if (!room_.setup.is_waiting_list) return state_.members.size();
+    std::size_t largest = 0;
+    for (const auto& cell : live_cells(room_.study)) largest = std::max(largest, cell.composition.size());
+    return largest;
   }
   // People and stand-ins alike: which is which is none of the page's business.
   [[nodiscard]] std::size_t num_active() const {
@@ -94,10 +102,21 @@ class ParticipantPage {
     const bool between = state_.phase == RoomPhase::kFeedback || state_.phase == RoomPhase::kTeaching;
     // While feedback is read the next lesson may be there already: it must not show.
     return {
-        {"part", std::min(static_cast<std::size_t>(shown_over(over)) + 1, components.size())},
+        {"part", part(over, components.size())},
         {"round", rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u)},
         {"done",
          components.empty() ? 0.0 : static_cast<double>(shown_over(over)) / static_cast<double>(components.size())}};
+  }
+  // That of the lesson that is being taught. Feedback belongs to it, too, also if the part is finished now.
+  [[nodiscard]] std::size_t part(std::ptrdiff_t over, std::size_t parts) const {
+    const auto& session = *state_.session;
+    if (state_.phase == RoomPhase::kFeedback && !session.history().empty()) {
+      return session.history().back().lesson.component + 1;
+    }
+    if (state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting) {
+      return session.lesson().component + 1;
+    }
+    return std::min(static_cast<std::size_t>(over) + 1, parts);
   }
   [[nodiscard]] std::ptrdiff_t shown_over(std::ptrdiff_t over) const {
     if (state_.phase != RoomPhase::kFeedback || !state_.before) return over;
@@ -114,8 +133,7 @@ class ParticipantPage {
       view["check"] = {{"board", live_board(room_.study, room_.study.sandbox)},
                        {"world", world_key(room_.study, room_.study.atlas->id(room_.study.sandbox).mdp)},
                        {"start", start_number(room_.study.sandbox)},
-                       {"ask_name", room_.study.group().ask_name},
-                       {"task", "Try to move the robot around. Nothing on this page counts."}};
+                       {"ask_name", room_.study.group().ask_name}};
     } else if (stage == "screening") {
       view["predict"] =
           task(room_.study.screening[seat_.screened.size()], seat_.screened.size(), room_.study.screening.size(), {});
@@ -168,20 +186,37 @@ class ParticipantPage {
             {"frames", robot_frames(room_.study, demo)}};
   }
 
+  // How many others wait is shown, but not for whom they wait: that would tell people how able they are.
+  [[nodiscard]] Json waiting_list() const {
+    const auto waiting =
+        static_cast<std::size_t>(std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
+          return seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here;
+        }));
+    auto json = lobby_of(std::min(waiting, size() - 1), size());
+    const auto lobby_s = room_.study.group().time.lobby_s;
+    if (lobby_s > 0 && room_.study.group().auto_start) json["until_ms"] = in_ms(seat_.ready_us + lobby_s * kSecond);
+    return json;
+  }
+
+  [[nodiscard]] Json lobby_of(std::size_t present, std::size_t size) const {
+    const auto leave_us = seat_.ready_us + room_.study.group().time.leave_after_s * kSecond;
+    return {{"present", present},
+            {"size", size},
+            {"since_ms", in_ms(seat_.ready_us)},
+            {"leave_after_ms", in_ms(leave_us)},
+            {"can_leave", now_us_ >= leave_us},
+            {"reserve", !seat_.member && !room_.setup.is_waiting_list}};
+  }
+
   [[nodiscard]] Json lobby() const {
+    if (room_.setup.is_waiting_list) return waiting_list();
     const auto present = std::count_if(state_.members.begin(), state_.members.end(), [&](const LiveMember& member) {
       if (!member.seat) return false;
       const auto& seat = state_.seats[*member.seat];
       return !seat.is_person ||
              (seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here);
     });
-    const auto leave_us = seat_.ready_us + room_.study.group().time.leave_after_s * kSecond;
-    Json json{{"present", present},
-              {"size", state_.members.size()},
-              {"since_ms", in_ms(seat_.ready_us)},
-              {"leave_after_ms", in_ms(leave_us)},
-              {"can_leave", now_us_ >= leave_us},
-              {"reserve", !seat_.member}};
+    auto json = lobby_of(static_cast<std::size_t>(present), state_.members.size());
     const auto lobby_s = room_.study.group().time.lobby_s;
     if (state_.phase == RoomPhase::kLobby && state_.lobby_us && lobby_s > 0 && room_.study.group().auto_start) {
       json["until_ms"] = in_ms(*state_.lobby_us + lobby_s * kSecond);

@@ -20,16 +20,15 @@ namespace {
 
 std::vector<bool> simulated_members(const LiveStudy& study, const RoomSetup& setup) {
   const auto members = setup.composition.size();
-  if (!setup.simulated.empty()) {
-    if (setup.simulated.size() != members) refuse_setup("a room says for other seats than it has who takes them");
-    return setup.simulated;
-  }
-  const auto& people = study.group().people;
-  std::vector<bool> simulated(members, !people.empty());
-  for (const auto seat : people) {
-    if (seat <= members) simulated[seat - 1] = false;
-  }
-  return simulated;
+  if (setup.simulated.empty()) return simulated_members(study, members);
+  if (setup.simulated.size() != members) refuse_setup("a room says for other seats than it has who takes them");
+  return setup.simulated;
+}
+
+// What the session of a waiting list, which never begins, is made of.
+RoomSetup waiting_list_session(const LiveStudy& study) {
+  const auto cell = live_cells(study).front();
+  return {.strategy = cell.strategy, .composition = cell.composition};
 }
 
 std::shared_ptr<const Session> make_session(const LiveStudy& study, const RoomSetup& setup, TeachingCache& cache) {
@@ -70,7 +69,8 @@ std::optional<RoomCommand> command_of(const RoomEvent& event) {
       {"draft", "draft"},       {"answered", "answer"},  {"continued", "continue"}, {"left", "leave"},
       {"away", "away"},         {"present", "present"},  {"pause", "pause"},        {"resume", "resume"},
       {"extend", "extend"},     {"readmit", "readmit"},  {"simulate", "simulate"},  {"strategy", "strategy"},
-      {"consented", "consent"}, {"declined", "consent"}, {"started", "start"},      {"ended", "end"}};
+      {"consented", "consent"}, {"declined", "consent"}, {"started", "start"},      {"ended", "end"},
+      {"grouped", "group"},     {"seated", "seat"}};
   const auto name =
       std::find_if(kNames.begin(), kNames.end(), [&](const auto& pair) { return pair.first == event.type; });
   if (name == kNames.end()) return std::nullopt;
@@ -102,6 +102,14 @@ bool fits_without_text(const RoomParts& room, const RoomEvent& event) {
 }  // namespace
 
 Room::Room(std::shared_ptr<const LiveStudy> study, RoomSetup setup, TeachingCache& cache) : study_{std::move(study)} {
+  if (setup.is_waiting_list) {
+    if (!study_->seats_by_ability()) refuse_setup("this study seats nobody by the estimate of a screening");
+    auto state = std::make_shared<State>();
+    state->session = make_session(*study_, waiting_list_session(*study_), cache);
+    setup_ = std::make_shared<const RoomSetup>(std::move(setup));
+    state_ = std::move(state);
+    return;
+  }
   check_setup(*study_, setup);
   setup.simulated = simulated_members(*study_, setup);
   setup_ = std::make_shared<const RoomSetup>(std::move(setup));
@@ -160,7 +168,7 @@ std::string Room::stage_of(std::size_t seat) const {
 
 bool Room::is_done(std::size_t seat) const {
   const auto stage = stage_of(seat);
-  for (const char* last : {"debrief", "declined", "ended", "replaced", "full"}) {
+  for (const char* last : {"debrief", "declined", "ended", "replaced", "full", "moved"}) {
     if (stage == last) return true;
   }
   return false;
@@ -214,6 +222,7 @@ std::optional<TeachingTask> Room::teaching() const {
 std::vector<TeachingTask> Room::likely_teaching() const {
   const auto& state = *state_;
   std::vector<TeachingTask> tasks;
+  if (setup_->is_waiting_list) return tasks;
   if (state.phase == RoomPhase::kLobby) {
     tasks.push_back(*next_task(study_, *setup_, state, {}));
   } else if (state.phase == RoomPhase::kTesting) {

@@ -34,6 +34,7 @@ class RoomChange {
         {"resume", &RoomChange::resume},       {"extend", &RoomChange::extend},
         {"message", &RoomChange::message},     {"readmit", &RoomChange::readmit},
         {"simulate", &RoomChange::simulate},   {"strategy", &RoomChange::strategy},
+        {"grouped", &RoomChange::grouped},     {"seated", &RoomChange::seated},
         {"ended", &RoomChange::ended}};
     const auto rule = kRules.find(event_.type);
     if (rule == kRules.end()) {
@@ -92,9 +93,35 @@ class RoomChange {
   }
   void released() {
     const bool away = event_.body.at("why") == "away";
+    const bool in_vain = event_.body.at("why") == "lobby-time";
     const auto& seat = state_.seats[subject()];
     step_.dismiss(subject(), away ? "replaced" : "ended", event_.body.at("why").get<std::string>(),
-                  seat.readiness == Readiness::kReady && state_.started_us.has_value());
+                  in_vain || (seat.readiness == Readiness::kReady && state_.started_us.has_value()));
+  }
+
+  // --- from the waiting list to a group ---
+  void grouped() {
+    const auto& body = event_.body;
+    ++state_.groups[body.at("strategy").get<std::string>() + "/" + body.at("composition").get<std::string>()];
+    for (const auto& number : body.at("seats")) {
+      if (number.is_null()) continue;
+      const auto seat = number.get<std::size_t>() - 1;
+      step_.dismiss(seat, "moved", "grouped", false);
+      state_.seats[seat].name.clear();
+      state_.seats[seat].query = Json{};
+    }
+  }
+  void seated() {
+    auto& person = state_.seats[subject()];
+    person.status = SeatStatus::kActive;
+    person.readiness = Readiness::kReady;
+    person.is_here = true;
+    person.presence_us = person.joined_us = person.since_us = event_.at_us;
+    person.ready_us = event_.body.at("ready_us").get<std::int64_t>();
+    person.name = event_.body.at("name").get<std::string>();
+    person.query = event_.body.at("query");
+    person.screened = event_.body.at("screened").get<std::vector<bool>>();
+    if (!state_.lobby_us) state_.lobby_us = event_.at_us;
   }
 
   void started() {

@@ -12,7 +12,9 @@ class RoomClock {
       : room_{room}, state_{room.state}, group_{room.study.group()}, grace_{group_.dropout.grace_s * kSecond} {}
 
   std::vector<ClockEvent> events() && {
-    if (state_.phase == RoomPhase::kLobby) {
+    if (room_.setup.is_waiting_list) {
+      if (state_.phase == RoomPhase::kLobby) waiting_list();
+    } else if (state_.phase == RoomPhase::kLobby) {
       lobby();
     } else if (state_.phase != RoomPhase::kEnded && !state_.paused_us) {
       absences();
@@ -37,14 +39,7 @@ class RoomClock {
              (seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here);
     });
     if (is_complete && group_.auto_start) add(state_.last_us, "started", {{"by", "server"}, {"fill", false}});
-    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
-      const auto& seat = state_.seats[i];
-      if (!seat.is_person || seat.status != SeatStatus::kActive) continue;
-      if (!seat.is_here) add(seat.presence_us + grace_, "released", {{"seat", i + 1}, {"why", "away"}});
-      if (group_.time.lobby_s > 0 && seat.readiness != Readiness::kReady) {
-        add(seat.joined_us + group_.time.lobby_s * kSecond, "released", {{"seat", i + 1}, {"why", "not-ready"}});
-      }
-    }
+    release();
     if (!state_.lobby_us || group_.time.lobby_s == 0 || !group_.auto_start) return;
     const auto limit = *state_.lobby_us + group_.time.lobby_s * kSecond;
     const auto ready = std::count_if(state_.members.begin(), state_.members.end(), [&](const auto& member) {
@@ -55,6 +50,30 @@ class RoomClock {
       add(limit, "started", {{"by", "server"}, {"fill", true}});
     } else {
       add(limit, "ended", {{"reason", "lobby-time"}, {"text", "Not enough people came in time."}});
+    }
+  }
+
+  // Seats of people who are away or do not get ready.
+  void release() {
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+      const auto& seat = state_.seats[i];
+      if (!seat.is_person || seat.status != SeatStatus::kActive) continue;
+      if (!seat.is_here) add(seat.presence_us + grace_, "released", {{"seat", i + 1}, {"why", "away"}});
+      if (group_.time.lobby_s > 0 && seat.readiness != Readiness::kReady) {
+        add(seat.joined_us + group_.time.lobby_s * kSecond, "released", {{"seat", i + 1}, {"why", "not-ready"}});
+      }
+    }
+  }
+
+  // As in the lobby of a group, but everybody's time begins when they are ready themselves.
+  void waiting_list() {
+    release();
+    const auto wait_us = longest_wait_us(room_);
+    if (wait_us == 0) return;
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+      const auto& seat = state_.seats[i];
+      if (seat.status != SeatStatus::kActive || seat.readiness != Readiness::kReady) continue;
+      add(seat.ready_us + wait_us, "released", {{"seat", i + 1}, {"why", "lobby-time"}});
     }
   }
 

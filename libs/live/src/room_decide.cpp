@@ -224,6 +224,8 @@ class ServerDecider {
     if (!command_.body.is_object()) return refused("bad-body", "the body is not an object");
     if (command_.type == "join") return join();
     if (command_.type == "away" || command_.type == "present") return presence();
+    if (command_.type == "group") return group();
+    if (command_.type == "seat") return seat();
     return refused("unknown-type", "the server has no command '" + command_.type + "'");
   }
 
@@ -243,6 +245,7 @@ class ServerDecider {
       if (!member.seat) return joined(state_.seats.size(), m);
       if (state_.seats[*member.seat].status == SeatStatus::kEmpty) return joined(*member.seat, m);
     }
+    if (room_.setup.is_waiting_list) return joined(state_.seats.size(), std::nullopt);
     const auto waiting = std::count_if(state_.seats.begin(), state_.seats.end(), [](const LiveSeat& seat) {
       return !seat.member && seat.status == SeatStatus::kActive;
     });
@@ -263,6 +266,55 @@ class ServerDecider {
 
   [[nodiscard]] Decision joined(std::size_t seat, std::optional<std::size_t> member) const {
     return accepted("joined", {{"seat", seat + 1}, {"member", member ? Json(*member) : Json{}}});
+  }
+
+  [[nodiscard]] Decision group() const {
+    const auto room = text_in(command_.body, "room", 100);
+    const auto planned = next_group_in(room_, now_us_);
+    if (!room || !planned) return refused("not-now", "No group can be formed at the moment.");
+    auto body = to_json(*planned);
+    body["room"] = *room;
+    if (body != command_.body) return refused("not-now", "Somebody has come or gone since this group was planned.");
+    return accepted("grouped", std::move(body));
+  }
+
+  [[nodiscard]] Decision seat() const {
+    if (room_.setup.is_waiting_list || state_.phase != RoomPhase::kLobby) {
+      return refused("started", "This group has already started.");
+    }
+    const auto member = integer_in(command_.body, "member", 0, static_cast<std::int64_t>(state_.members.size()) - 1);
+    const auto version = text_in(command_.body, "version", 100);
+    const auto name = text_in(command_.body, "name", kMostNameBytes);
+    const auto ready = integer_in(command_.body, "ready_us", 0, now_us_);
+    const auto from = command_.body.find("from");
+    const auto screened = screening_in(command_.body);
+    if (!member || !version || !name || !ready || from == command_.body.end() || !from->is_object() || !screened) {
+      return refused("bad-body", "this says nothing about a person");
+    }
+    const auto number = static_cast<std::size_t>(*member);
+    if (!state_.seats[number].is_person || state_.seats[number].status != SeatStatus::kEmpty) {
+      return refused("full", "The place is taken.");
+    }
+    return accepted("seated", {{"seat", number + 1},
+                               {"member", number},
+                               {"from", *from},
+                               {"version", *version},
+                               {"query", collected_query(room_.study, command_.body.value("query", Json{}))},
+                               {"name", *name},
+                               {"screened", *screened},
+                               {"ready_us", *ready}});
+  }
+
+  // Whether each answer to the tests of the screening was right.
+  [[nodiscard]] std::optional<std::vector<bool>> screening_in(const Json& body) const {
+    const auto found = body.find("screened");
+    if (found == body.end() || !found->is_array() || found->size() != room_.study.screening.size()) return {};
+    std::vector<bool> screened;
+    for (const auto& right : *found) {
+      if (!right.is_boolean()) return {};
+      screened.push_back(right.get<bool>());
+    }
+    return screened;
   }
 
   [[nodiscard]] Decision presence() const {

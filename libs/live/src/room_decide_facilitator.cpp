@@ -33,6 +33,10 @@ class FacilitatorDecider {
     if (!reason) return refused("no-reason", "State a reason; it is kept with the data.");
     reason_ = *reason;
     if (state_.phase == RoomPhase::kEnded) return refused("not-now", "This session has ended.");
+    const bool is_for_groups = command_.type != "message" && command_.type != "end";
+    if (room_.setup.is_waiting_list && is_for_groups) {
+      return not_now("This is the waiting list: it forms groups by itself, and each gets a room of its own.");
+    }
     return (this->*rule->second)();
   }
 

@@ -98,7 +98,7 @@ class RoomDetailPage {
     if (!lesson.demonstrations.empty() && lesson.demonstrations.front().gain > 1.0) {
       const double share = 1.0 - 1.0 / lesson.demonstrations.front().gain;
       text += " The first demonstration rules out " + std::to_string(std::lround(100.0 * share)) +
-              " % of the rewards that fitted what was taught before.";
+              " % of the rewards that are consistent with the earlier lessons.";
     }
     return text;
   }
@@ -163,7 +163,7 @@ class RoomDetailPage {
 
   [[nodiscard]] Json beliefs() const {
     Json list = Json::array();
-    if (domain_.num_features() != 3) return list;
+    if (domain_.num_features() != 3 || room_.setup.is_waiting_list) return list;
     const auto& session = *state_.session;
     for (std::size_t m = 0; m < session.num_members(); ++m) {
       list.push_back(

@@ -29,6 +29,10 @@ class RoomBytes {
       bytes_.flag(member.learner != nullptr);
       add(member.response.answers);
     }
+    for (const auto& [cell, count] : state_.groups) {
+      bytes_.text(cell);
+      bytes_.count(count);
+    }
     bytes_.text(digest_of(*state_.session));
     bytes_.text(state_.before ? digest_of(*state_.before) : "");
     bytes_.count(state_.answers.size());

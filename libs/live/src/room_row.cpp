@@ -15,13 +15,17 @@ class RoomRowPage {
 
   [[nodiscard]] Json json() const {
     Json seats = Json::array();
-    for (std::size_t i = 0; i < state_.seats.size(); ++i) seats.push_back(seat_row(i));
+    for (std::size_t i = 0; i < state_.seats.size(); ++i) {
+      if (state_.seats[i].last_page != "moved") seats.push_back(seat_row(i));
+    }
     const auto& session = *state_.session;
+    const bool is_list = room_.setup.is_waiting_list;
     Json row{{"id", room_.setup.id}};
     if (is_facilitator_) row["code"] = room_.setup.code;
     row["stage"] = stage_word();
-    row["strategy"] = session.strategy().name;
+    row["strategy"] = is_list ? "waiting list" : session.strategy().name;
     row["composition"] = room_.setup.composition;
+    if (is_list) row["waiting_list"] = true;
     row["replicate"] = room_.setup.replicate;
     row["seats"] = std::move(seats);
     row["period"] = session.periods() + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
@@ -61,7 +65,8 @@ class RoomRowPage {
     const char* presence = seat.is_here ? "here" : "away";
     if (seat.status == SeatStatus::kGone) presence = "left";
     if (seat.status == SeatStatus::kEmpty) presence = "empty";
-    Json row{{"seat", i + 1}, {"label", seat.member ? member_label(*seat.member) : std::string{"Reserve"}}};
+    const auto* waits = room_.setup.is_waiting_list ? "Waiting" : "Reserve";
+    Json row{{"seat", i + 1}, {"label", seat.member ? member_label(*seat.member) : std::string{waits}}};
     if (is_facilitator_ && !seat.name.empty()) row["name"] = seat.name;
     row["kind"] = seat.is_person ? "person" : "simulated";
     row["type"] = std::string{seat.type};
@@ -80,7 +85,7 @@ class RoomRowPage {
       const auto right = static_cast<std::size_t>(std::count(seat.screened.begin(), seat.screened.end(), true));
       const double estimate = screening_estimate(right, seat.screened.size());
       row["estimate"] = estimate;
-      row["estimate_is_high"] = estimate >= room_.study.group().screening.cut;
+      row["estimate_is_high"] = has_high_estimate(room_, seat);
     }
     const bool has_code = seat.gets_code || (seat.is_person && stage_of_seat(room_, seat) == "debrief");
     if (is_facilitator_ && has_code) {
@@ -95,23 +100,48 @@ class RoomRowPage {
     return moves_with_group ? std::max(seat.since_us, state_.phase_us) : seat.since_us;
   }
 
-  // Periods: as many per open component as the components before took on average. Minutes: the shortest and the
-  // longest period so far times that.
+  // From imagined sessions at the pace of this one so far, where the study has them; else from its own periods.
   [[nodiscard]] Json forecast() const {
     if (!is_running(state_) || state_.durations_us.empty()) return {};
-    const auto components = state_.session->components();
+    const auto& session = *state_.session;
+    const auto imagined = room_.study.imagined.find({session.strategy().name, room_.setup.composition});
+    if (imagined != room_.study.imagined.end()) return forecast_from(imagined->second);
+    const auto components = session.components();
     const auto count = [&](ComponentStatus status) {
-      return static_cast<double>(std::count(components.begin(), components.end(), status));
+      return static_cast<std::size_t>(std::count(components.begin(), components.end(), status));
     };
-    const double learned = std::max(1.0, count(ComponentStatus::kLearned));
-    const double done = static_cast<double>(state_.session->periods());
-    const double most = static_cast<double>(state_.session->options().max_periods) - done;
-    const double periods = std::min(most, std::ceil(count(ComponentStatus::kOpen) * std::max(1.0, done / learned)));
-    const auto [shortest, longest] = std::minmax_element(state_.durations_us.begin(), state_.durations_us.end());
-    const auto minutes = [&](std::int64_t us) {
-      return std::ceil(periods * static_cast<double>(us) / (60.0 * static_cast<double>(kSecond)));
-    };
-    return {{"periods", periods}, {"minutes_low", minutes(*shortest)}, {"minutes_high", minutes(*longest)}};
+    std::vector<double> minutes;
+    for (const auto us : state_.durations_us) minutes.push_back(in_minutes(us));
+    const auto left =
+        extrapolate_remaining(count(ComponentStatus::kOpen), count(ComponentStatus::kLearned), session.periods(),
+                              session.options().max_periods - session.periods(), minutes);
+    return {{"periods", left.mean_periods()},
+            {"minutes_low", std::ceil(left.minutes_quantile(0.0))},
+            {"minutes_high", std::ceil(left.minutes_quantile(1.0))}};
+  }
+
+  [[nodiscard]] Json forecast_from(const std::vector<PastSession>& sessions) const {
+    const auto& session = *state_.session;
+    const auto components = session.components();
+    SessionPlace place;
+    place.stage = static_cast<std::size_t>(std::find(components.begin(), components.end(), ComponentStatus::kOpen) -
+                                           components.begin());
+    double assumed = 0.0, took = 0.0;  // minutes of the periods so far
+    for (const auto& past : session.history()) {
+      place.periods += past.lesson.component == place.stage ? 1u : 0u;
+      assumed += minutes_of(room_.study.spec.pace, past.lesson.demonstrations.size(), past.lesson.tests.size());
+    }
+    for (const auto us : state_.durations_us) took += in_minutes(us);
+    const auto left = forecast_remaining(sessions, place).at_pace(assumed > 0.0 ? took / assumed : 1.0);
+    constexpr double kLow = 0.1, kHigh = 0.9;
+    return {{"periods", left.mean_periods()},
+            {"minutes_low", std::ceil(left.minutes_quantile(kLow))},
+            {"minutes_high", std::ceil(left.minutes_quantile(kHigh))},
+            {"done_within", {left.done_within(1), left.done_within(2), left.done_within(3)}}};
+  }
+
+  [[nodiscard]] static double in_minutes(std::int64_t us) {
+    return static_cast<double>(us) / (60.0 * static_cast<double>(kSecond));
   }
 
   const RoomParts& room_;

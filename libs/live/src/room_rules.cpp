@@ -79,6 +79,15 @@ bool is_as_good(const Atlas& atlas, DemoIndex test, const Answer& counts) {
   return weights.return_of(loss) / scale <= kTolerance * std::max(1.0, std::abs(weights.return_of(robot)) / scale);
 }
 
+std::vector<bool> simulated_members(const LiveStudy& study, std::size_t members) {
+  const auto& people = study.group().people;
+  std::vector<bool> simulated(members, !people.empty());
+  for (const auto seat : people) {
+    if (seat <= members) simulated[seat - 1] = false;
+  }
+  return simulated;
+}
+
 TeamAddress address_of(const RoomSetup& setup) {
   TeamAddress address;
   address.strategy = setup.strategy;

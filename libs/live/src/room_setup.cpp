@@ -6,13 +6,15 @@
 namespace kith {
 
 Json to_json(const RoomSetup& setup) {
-  return {{"id", setup.id},
-          {"code", setup.code},
-          {"strategy", setup.strategy},
-          {"composition", setup.composition},
-          {"simulated", setup.simulated},
-          {"replicate", setup.replicate},
-          {"salt", setup.salt}};
+  Json json{{"id", setup.id},
+            {"code", setup.code},
+            {"strategy", setup.strategy},
+            {"composition", setup.composition},
+            {"simulated", setup.simulated},
+            {"replicate", setup.replicate},
+            {"salt", setup.salt}};
+  if (setup.is_waiting_list) json["waiting_list"] = true;
+  return json;
 }
 
 RoomSetup room_setup(const Json& json) {
@@ -25,6 +27,7 @@ RoomSetup room_setup(const Json& json) {
     setup.simulated = json.at("simulated").get<std::vector<bool>>();
     setup.replicate = json.at("replicate").get<std::size_t>();
     setup.salt = json.at("salt").get<std::string>();
+    setup.is_waiting_list = json.value("waiting_list", false);
     return setup;
   } catch (const Json::exception& error) {
     throw Error{ErrorKind::kInvalidInput, std::string{"this is not the set-up of a room: "} + error.what()};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -122,7 +123,8 @@ struct Room::State {
   std::vector<std::int64_t> durations_us;  ///< Of the periods so far.
   std::string end_reason;  ///< Once teaching is over: complete, max-periods, time-limit, or why it ended early.
   std::string end_text;
-  bool has_extra = false;  ///< Whether a time limit was extended.
+  bool has_extra = false;                     ///< Whether a time limit was extended.
+  std::map<std::string, std::size_t> groups;  ///< Of a waiting list, how many were formed: by "strategy/composition".
 
   std::vector<LiveNotice> notices;
   std::vector<LiveAnswer> answers;
@@ -160,6 +162,22 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] bool is_as_good(const Atlas& atlas, DemoIndex test, const Answer& counts);
 /// The address of the room's streams.
 [[nodiscard]] TeamAddress address_of(const RoomSetup& setup);
+/// Which members of a group of that size are simulated, as `group.people` says.
+[[nodiscard]] std::vector<bool> simulated_members(const LiveStudy& study, std::size_t members);
+
+// --- the waiting list ------------------------------------------------------------------------------------------------
+
+/// Whether the estimate of a person's ability is high. @pre they have finished the screening.
+[[nodiscard]] bool has_high_estimate(const RoomParts& room, const LiveSeat& seat);
+/// Whether groups of a cell have a place for people of high or of low ability.
+[[nodiscard]] bool has_place_for(const LiveStudy& study, const LiveCell& cell, bool high);
+/// See Room::next_group().
+[[nodiscard]] std::optional<PlannedGroup> next_group_in(const RoomParts& room, std::int64_t now_us);
+/// When the time of whoever has waited for longest is over: more groups are possible from then on. Nothing if waiting
+/// has no limit.
+[[nodiscard]] std::optional<std::int64_t> last_call_in(const RoomParts& room);
+/// For how long anybody waits on the list, in microseconds; 0: without limit.
+[[nodiscard]] std::int64_t longest_wait_us(const RoomParts& room);
 
 // --- what may happen -------------------------------------------------------------------------------------------------
 

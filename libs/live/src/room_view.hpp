@@ -28,7 +28,8 @@ namespace kith {
 
 /// `feedback` of a participant.
 [[nodiscard]] Json feedback_json(const RoomParts& room, const LiveSeat& seat);
-/// What the robot's way has over another one, in words: "Your way makes the robot take 2 more steps than needed."
+/// Why the robot's path is better than another one, in words: "Your path makes the robot take 2 more steps than
+/// needed."
 [[nodiscard]] std::string cost_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& mine);
 
 /// RoomRow.

@@ -12,7 +12,7 @@ using testing::Play;
 // The lessons and the beliefs of a simulated team.
 class TeamLog final : public TeamObserver {
  public:
-  void on_session(const Session&, std::size_t) override {}
+  void on_session(const Session&, std::span<const std::size_t>) override {}
   void on_lesson(const Session&, const Lesson&, const Learners&) override {}
   void on_feedback(const Session&, const Lesson&, const std::vector<Learner::Response>&, const Feedback&,
                    const Learners&) override {}

@@ -8,6 +8,7 @@
 #include "checks.hpp"
 #include "component_paths.hpp"
 #include "kith/core/error.hpp"
+#include "path_follower.hpp"
 #include "policy_evaluation.hpp"
 #include "policy_solver.hpp"
 
@@ -17,14 +18,13 @@ namespace {
 using detail::ChoiceMask;
 using detail::ComponentPaths;
 using detail::is_tight;
+using detail::PathFollower;
 using detail::PathsFound;
 using detail::PolicySolver;
 using detail::require;
+using detail::RobotWeights;
 
 constexpr double kMostUnits = 9007199254740992.0;  // 2^53, up to which doubles count exactly
-
-// What the robot, if it has a say, weighs among equally good choices; no weights: it has none.
-using RobotWeights = std::optional<std::span<const double>>;
 
 bool can_go_on_everywhere(const Mdp& mdp) {
   if (mdp.discount() == 1.0) return mdp.by_distance().size() == mdp.num_states();
@@ -33,81 +33,6 @@ bool can_go_on_everywhere(const Mdp& mdp) {
   }
   return true;
 }
-
-// Follows the best paths of an exact process.
-class PathFollower {
- public:
-  PathFollower(const Mdp& mdp, std::span<const double> rewards, std::span<const double> values, double tolerance)
-      : mdp_{mdp}, rewards_{rewards}, values_{values}, tolerance_{tolerance} {}
-
-  // Choices and counts, states in the order of the best paths. Where no robot has a say the first optimal choice.
-  void follow(std::span<const std::uint32_t> order, const RobotWeights& robot, Behaviour& behaviour) {
-    find_steps();
-    behaviour.choice.resize(mdp_.num_states());
-    behaviour.counts.assign(values_.size(), IntegerVector(mdp_.num_features()));
-    for (const std::uint32_t s : order) {
-      if (robot && steps_[s].has_equals) prefer(s, *robot, behaviour.counts);
-      const Step& step = steps_[s];
-      behaviour.choice[s] = step.choice;
-      behaviour.counts[s] = mdp_.integer_feature_row(step.feature_row);
-      behaviour.counts[s] += behaviour.counts[step.next];
-    }
-  }
-
- private:
-  struct Step {
-    std::uint32_t choice = 0;
-    std::uint32_t next = 0;
-    std::uint32_t feature_row = 0;
-    bool has_equals = false;  // later choices are optimal, too
-  };
-
-  [[nodiscard]] bool is_optimal(std::size_t s, const Outcome& outcome) const {
-    const double candidate = rewards_[outcome.feature_row] + values_[outcome.next.value()];
-    return is_tight(values_[s], candidate, tolerance_);
-  }
-
-  // The first optimal choices, in the order in which states are stored: far fewer cache misses than along the paths.
-  void find_steps() {
-    steps_.resize(mdp_.num_states());
-    for (std::size_t s = 0; s < steps_.size(); ++s) {
-      const auto choices = mdp_.choices(StateIndex{s});
-      bool found = false;
-      for (std::uint32_t c = 0; c < choices.size() && !steps_[s].has_equals; ++c) {
-        const Outcome& outcome = mdp_.outcomes(choices[c]).front();
-        if (!is_optimal(s, outcome)) continue;
-        if (found) {
-          steps_[s].has_equals = true;
-        } else {
-          steps_[s] = {c, static_cast<std::uint32_t>(outcome.next.value()), outcome.feature_row, false};
-          found = true;
-        }
-      }
-    }
-  }
-
-  void prefer(std::size_t s, std::span<const double> robot, std::span<const IntegerVector> counts) {
-    const auto choices = mdp_.choices(StateIndex{s});
-    const auto earned = [&](std::size_t row, std::size_t next) {
-      return dot(mdp_.integer_feature_row(row) + counts[next], robot);
-    };
-    double best = earned(steps_[s].feature_row, steps_[s].next);
-    for (std::uint32_t c = steps_[s].choice + 1; c < choices.size(); ++c) {
-      const Outcome& outcome = mdp_.outcomes(choices[c]).front();
-      if (!is_optimal(s, outcome)) continue;
-      const double candidate = earned(outcome.feature_row, outcome.next.value());
-      if (candidate <= best + tolerance_ * std::max(1.0, std::abs(best))) continue;
-      best = candidate;
-      steps_[s] = {c, static_cast<std::uint32_t>(outcome.next.value()), outcome.feature_row, true};
-    }
-  }
-
-  const Mdp& mdp_;
-  std::span<const double> rewards_;
-  std::span<const double> values_;
-  double tolerance_;
-  std::vector<Step> steps_;  // shape [num_states]
-};
 
 void count_in_units(std::int64_t scale, std::vector<IntegerVector>& counts) {
   if (scale == 1) return;
@@ -179,7 +104,12 @@ std::optional<Behaviour> behave_as(const Mdp& mdp, std::span<const double> weigh
   ComponentPaths paths{mdp, rewards, options.tolerance};
   if (paths.solve() != PathsFound::kAll) return std::nullopt;
   Behaviour behaviour;
-  PathFollower{mdp, rewards, paths.values(), options.tolerance}.follow(paths.order(), robot, behaviour);
+  behaviour.choice.resize(mdp.num_states());
+  behaviour.counts.assign(paths.values().size(), IntegerVector(mdp.num_features()));
+  PathFollower follower{mdp, rewards, paths.values(), options.tolerance};
+  // In the order in which states are stored: far fewer cache misses than along the paths.
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) follower.find_step(s);
+  for (const std::uint32_t s : paths.order()) behaviour.choice[s] = follower.follow(s, robot, behaviour.counts).choice;
   count_in_units(options.scale, behaviour.counts);
   behaviour.values = std::move(paths.values());
   return behaviour;

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "kith/core/assert.hpp"
+
 namespace kith::detail {
 namespace {
 
@@ -12,36 +14,63 @@ std::uint32_t number(StateIndex s) { return static_cast<std::uint32_t>(s.value()
 
 }  // namespace
 
-PathsFound ComponentPaths::solve() {
+void ComponentPaths::begin(Stage stage) {
   const std::size_t n = mdp_.num_states();
   values_.assign(n + mdp_.num_terminals(), 0.0);
   stage_.assign(n + mdp_.num_terminals(), Stage::kFinal);
-  std::fill_n(stage_.begin(), n, Stage::kLater);
+  std::fill_n(stage_.begin(), n, stage);
   largest_value_ = 0.0;
   order_.clear();
   order_.reserve(n);
+}
 
-  PathsFound found = PathsFound::kAll;
+ComponentPaths::States ComponentPaths::component(std::size_t c) const {
   const auto starts = mdp_.component_starts();
-  for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
-    const States component = mdp_.by_component().subspan(starts[c], starts[c + 1] - starts[c]);
-    const std::size_t first = order_.size();
-    const double largest_reward = enter(component);
-    if (component.size() == 1) {
-      order_.push_back(number(component.front()));
-    } else if (largest_reward <= 0.0) {
-      set_labels(component);
-    } else if (!correct_labels(component)) {
-      return PathsFound::kPositiveCycle;
-    }
-    for (const StateIndex s : component) largest_value_ = std::max(largest_value_, std::abs(values_[s.value()]));
-    // Where every step loses more than the tolerance, optimal choices lead to labels that were set before.
-    if (component.size() > 1 && largest_reward >= -2.0 * tolerance_ * std::max(1.0, largest_value_)) {
-      order_.resize(first);
-      if (!order_tight(component)) found = PathsFound::kTightCycle;
-    }
-    for (const StateIndex s : component) stage_[s.value()] = Stage::kFinal;
+  return mdp_.by_component().subspan(starts[c], starts[c + 1] - starts[c]);
+}
+
+PathsFound ComponentPaths::solve() {
+  begin(Stage::kLater);
+  PathsFound found = PathsFound::kAll;
+  for (std::size_t c = 0; c + 1 < mdp_.component_starts().size(); ++c) {
+    const auto here = solve(component(c));
+    if (here == PathsFound::kPositiveCycle) return here;
+    if (here == PathsFound::kTightCycle) found = here;
   }
+  return found;
+}
+
+void ComponentPaths::set_value(StateIndex s, double value) {
+  if (stage_.empty()) begin(Stage::kFinal);
+  values_[s.value()] = value;
+}
+
+PathsFound ComponentPaths::solve_component(std::size_t c) {
+  if (stage_.empty()) begin(Stage::kFinal);
+  for (const StateIndex s : component(c)) stage_[s.value()] = Stage::kLater;
+  order_.clear();
+  largest_value_ = 0.0;
+  return solve(component(c));
+}
+
+PathsFound ComponentPaths::solve(States component) {
+  const std::size_t first = order_.size();
+  PathsFound found = PathsFound::kAll;
+  const double largest_reward = enter(component);
+  if (component.size() == 1) {
+    order_.push_back(number(component.front()));
+  } else if (largest_reward <= 0.0) {
+    set_labels(component);
+  } else if (!correct_labels(component)) {
+    return PathsFound::kPositiveCycle;
+  }
+  for (const StateIndex s : component) largest_value_ = std::max(largest_value_, std::abs(values_[s.value()]));
+  // Where every step loses more than the tolerance, optimal choices lead to labels that were set before.
+  if (component.size() > 1 && largest_reward >= -2.0 * tolerance_ * std::max(1.0, largest_value_)) {
+    order_.resize(first);
+    if (!order_tight(component)) found = PathsFound::kTightCycle;
+  }
+  for (const StateIndex s : component) stage_[s.value()] = Stage::kFinal;
   return found;
 }
 
@@ -141,9 +170,34 @@ bool ComponentPaths::has_cycle(States component) {
       mark_[s] = walk;
       s = origin_[s];
     }
-    if (s != kNone && mark_[s] == walk) return true;
+    if (s == kNone || mark_[s] != walk) continue;
+    on_cycle_ = s;
+    return true;
   }
   return false;
+}
+
+// The transition by which the label of `from` was corrected: the best of those to its origin.
+const Outcome& ComponentPaths::best_step(std::uint32_t from, std::uint32_t next) const {
+  const Outcome* best = nullptr;
+  for (const Choice& choice : mdp_.choices(StateIndex{from})) {
+    const Outcome& outcome = mdp_.outcomes(choice).front();
+    if (outcome.next.value() != next) continue;
+    if (best == nullptr || rewards_[outcome.feature_row] > rewards_[best->feature_row]) best = &outcome;
+  }
+  KITH_ASSERT(best != nullptr);
+  return *best;
+}
+
+// @pre the last component has a positive cycle.
+IntegerVector ComponentPaths::cycle_features() const {
+  IntegerVector sum(mdp_.num_features());
+  std::uint32_t s = on_cycle_;
+  do {
+    sum += mdp_.integer_features(best_step(s, origin_[s]));
+    s = origin_[s];
+  } while (s != on_cycle_);
+  return sum;
 }
 
 // Lists a state when all states that its optimal choices lead to are listed (Kahn's algorithm). False if some never

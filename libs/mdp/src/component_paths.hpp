@@ -34,6 +34,12 @@ class ComponentPaths {
 
   [[nodiscard]] PathsFound solve();
 
+  // Solves one component alone, given the values of the states outside it that its choices lead to: set_value(). On
+  // success order() lists its states; after kPositiveCycle, cycle_features() sums up a cycle that earns.
+  [[nodiscard]] PathsFound solve_component(std::size_t c);
+  void set_value(StateIndex s, double value);
+  [[nodiscard]] IntegerVector cycle_features() const;
+
   [[nodiscard]] std::vector<double>& values() noexcept { return values_; }
   // Every choice that is optimal within the tolerance leads to a state listed before, or a terminal one.
   // @pre solve() found all.
@@ -51,10 +57,14 @@ class ComponentPaths {
     std::uint32_t state;
   };
 
+  void begin(Stage stage);
+  [[nodiscard]] States component(std::size_t c) const;
+  [[nodiscard]] PathsFound solve(States component);
   double enter(States component);
   void set_labels(States component);
   bool correct_labels(States component);
   [[nodiscard]] bool has_cycle(States component);
+  [[nodiscard]] const Outcome& best_step(std::uint32_t from, std::uint32_t next) const;
   bool order_tight(States component);
   [[nodiscard]] bool is_tight_into(const Arrival& arrival, double next_value) const {
     return is_tight(values_[arrival.from.value()], rewards_[arrival.feature_row] + next_value, tolerance_);
@@ -71,6 +81,7 @@ class ComponentPaths {
   std::vector<std::uint32_t> origin_;  // the state that a corrected label came from
   std::vector<std::uint32_t> queue_;
   std::vector<unsigned char> queued_;
+  std::uint32_t on_cycle_ = 0;       // a state of the cycle that was found
   std::vector<std::uint32_t> mark_;  // the walk that passed, or tight transitions to states not yet listed
 };
 

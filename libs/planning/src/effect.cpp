@@ -35,6 +35,12 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
+std::string known_quantities() {
+  std::string list;
+  for (const auto name : quantity_names()) list += (list.empty() ? "" : ", ") + std::string{name};
+  return list;
+}
+
 bool is_product(const std::string& word) { return word == "x" || word == "*" || word == ":"; }
 
 // The number of group strategies and of compositions decides what can be tested.
@@ -113,8 +119,7 @@ EffectReading parse_effect(std::string_view text, const StudySpec& spec) {
   const auto quantity_words = words_of(text.substr(0, colon));
   const auto quantity = quantity_words.size() == 1 ? find_quantity(quantity_words.front()) : std::nullopt;
   if (!quantity) {
-    return refuse("there is no quantity '" + std::string{text.substr(0, colon)} + "'",
-                  "known: periods, knowledge, completed, area_sr");
+    return refuse("there is no quantity '" + std::string{text.substr(0, colon)} + "'", "known: " + known_quantities());
   }
   Effect effect;
   effect.quantity = *quantity;

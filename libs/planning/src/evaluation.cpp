@@ -146,9 +146,8 @@ Laboratory::Laboratory(const Atlas& atlas, const StudyMaker& make_study, const T
   // The largest batch, which may be the last: refuse it now and not after hours.
   const auto largest = std::max({cost(options_.points, options_.teams), cost(3, options_.confirm_teams),
                                  cost(options_.frontier_points, options_.confirm_teams / 2)});
-  Study study{{spec}};
-  study.variants.front().record = RecordLevel::kTeam;
-  require_pool_memory(study, options_.threads, largest);
+  for (const auto& target : set_.targets) quantities_.push_back(target.quantity);
+  require_pool_memory(Study{{recording(spec, quantities_)}}, options_.threads, largest);
 }
 
 std::optional<std::vector<Evaluation>> Laboratory::run(const std::vector<std::vector<double>>& settings,
@@ -157,10 +156,9 @@ std::optional<std::vector<Evaluation>> Laboratory::run(const std::vector<std::ve
   for (const auto& values : settings) {
     const auto reading = make_study_(overrides_of(set_.parameters, values));
     if (!reading.study) throw Error{reading.diagnostics};
-    auto spec = reading.study->variants.front();
+    auto spec = recording(reading.study->variants.front(), quantities_);
     spec.replicates = teams;
     spec.seed = seed;
-    spec.record = RecordLevel::kTeam;
     study.variants.push_back(std::move(spec));
   }
   RunOptions run{.threads = options_.threads, .on_progress = {}};

@@ -48,6 +48,7 @@ class Laboratory {
   StudyMaker make_study_;
   const TargetSet& set_;
   const CalibrationOptions& options_;
+  std::vector<Quantity> quantities_;  // of the targets
   std::size_t cells_ = 0;
   std::size_t done_ = 0;
   std::size_t total_ = 0;

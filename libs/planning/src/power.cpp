@@ -265,10 +265,11 @@ std::optional<Replication> replicate_findings(const Atlas& atlas, const StudySpe
   if (options.studies < 1) throw std::invalid_argument{"replicate_findings: no study to run"};
   Study study;
   const auto seeds = RandomStream{options.seed}.split("replication");
+  std::vector<Quantity> quantities;
+  for (const auto& finding : findings) quantities.push_back(finding.effect.quantity);
   for (std::size_t k = 0; k < options.studies; ++k) {
-    auto variant = spec;
+    auto variant = recording(spec, quantities);
     variant.seed = seeds.split(k).address();
-    variant.record = RecordLevel::kTeam;
     study.variants.push_back(std::move(variant));
   }
   const auto pools = simulate_pools(atlas, study, {.threads = options.threads, .on_progress = options.on_progress});

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 namespace kith {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"periods", "knowledge", "completed", "area_sr"};
+constexpr std::array<std::string_view, kNumQuantities> kNames{
+    "periods", "knowledge", "completed", "area_sr", "exam_share_right", "exam_regret", "exam_worst_share_right"};
+
+const TeamExam& exam_of(const TeamRecord& team) {
+  if (!team.exam) throw std::invalid_argument{"value_of: the team was not examined"};
+  return *team.exam;
+}
 
 }  // namespace
 
@@ -18,7 +25,9 @@ std::optional<Quantity> find_quantity(std::string_view name) noexcept {
   return static_cast<Quantity>(found - kNames.begin());
 }
 
-double value_of(const TeamRecord& team, Quantity quantity) noexcept {
+std::span<const std::string_view> quantity_names() noexcept { return kNames; }
+
+double value_of(const TeamRecord& team, Quantity quantity) {
   switch (quantity) {
     case Quantity::kPeriods:
       return static_cast<double>(team.periods);
@@ -28,8 +37,21 @@ double value_of(const TeamRecord& team, Quantity quantity) noexcept {
       return team.completed ? 1.0 : 0.0;
     case Quantity::kAreaSr:
       return team.area_sr;
+    case Quantity::kExamShareRight:
+      return exam_of(team).share_right;
+    case Quantity::kExamRegret:
+      return exam_of(team).regret;
+    case Quantity::kExamWorstShareRight:
+      return exam_of(team).worst_share_right;
   }
   return 0.0;
+}
+
+StudySpec recording(StudySpec spec, std::span<const Quantity> quantities) {
+  spec.record = RecordLevel::kTeam;
+  spec.exam = std::any_of(quantities.begin(), quantities.end(), is_of_exam) ? ExamLevel::kEnd : ExamLevel::kNone;
+  spec.exam_questions = 0;
+  return spec;
 }
 
 bool TeamSelection::contains(const TeamAddress& address) const {

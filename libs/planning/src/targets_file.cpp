@@ -18,7 +18,7 @@ constexpr double kSmallestError = 1e-100;
 constexpr double kLargestDf1 = 1e6;
 
 const std::vector<std::string>& quantity_words() {
-  static const std::vector<std::string> kWords{"periods", "knowledge", "completed", "area_sr"};
+  static const std::vector<std::string> kWords{quantity_names().begin(), quantity_names().end()};
   return kWords;
 }
 

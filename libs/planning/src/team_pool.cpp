@@ -5,7 +5,10 @@
 namespace kith {
 namespace {
 
-constexpr std::size_t kNumQuantities = 4;
+// Those of exams come last.
+std::size_t num_quantities(const StudySpec& spec) {
+  return spec.exam == ExamLevel::kNone ? static_cast<std::size_t>(Quantity::kExamShareRight) : kNumQuantities;
+}
 
 }  // namespace
 
@@ -15,12 +18,12 @@ TeamPool TeamPool::empty(const StudySpec& spec) {
   pool.compositions_ = spec.compositions;
   pool.replicates_ = spec.replicates;
   const auto teams = pool.strategies_.size() * pool.compositions_.size() * pool.replicates_;
-  pool.values_.assign(kNumQuantities, std::vector<double>(teams));
+  pool.values_.assign(num_quantities(spec), std::vector<double>(teams));
   return pool;
 }
 
 void TeamPool::set(std::size_t position, const TeamRecord& team) {
-  for (std::size_t q = 0; q < kNumQuantities; ++q) values_[q].at(position) = value_of(team, static_cast<Quantity>(q));
+  for (std::size_t q = 0; q < values_.size(); ++q) values_[q].at(position) = value_of(team, static_cast<Quantity>(q));
 }
 
 TeamPool::TeamPool(std::vector<std::string> strategies, std::vector<std::string> compositions,
@@ -47,12 +50,13 @@ TeamPool TeamPool::joined(std::span<const TeamPool> pools) {
   all.strategies_ = pools.front().strategies_;
   all.compositions_ = pools.front().compositions_;
   for (const auto& pool : pools) {
-    if (pool.strategies_ != all.strategies_ || pool.compositions_ != all.compositions_)
+    if (pool.strategies_ != all.strategies_ || pool.compositions_ != all.compositions_ ||
+        pool.values_.size() != pools.front().values_.size())
       throw std::invalid_argument{"TeamPool: pools of different designs"};
     all.replicates_ += pool.replicates_;
   }
-  all.values_.assign(kNumQuantities, {});
-  for (std::size_t q = 0; q < kNumQuantities; ++q) {
+  all.values_.assign(pools.front().values_.size(), {});
+  for (std::size_t q = 0; q < all.values_.size(); ++q) {
     for (std::size_t s = 0; s < all.strategies_.size(); ++s) {
       for (std::size_t c = 0; c < all.compositions_.size(); ++c) {
         for (const auto& pool : pools) {
@@ -66,6 +70,8 @@ TeamPool TeamPool::joined(std::span<const TeamPool> pools) {
 }
 
 std::span<const double> TeamPool::cell(Quantity quantity, std::size_t strategy, std::size_t composition) const {
+  if (static_cast<std::size_t>(quantity) >= values_.size())
+    throw std::invalid_argument{"TeamPool: the teams were not examined"};
   const auto& all = values_[static_cast<std::size_t>(quantity)];
   return std::span{all}.subspan((strategy * compositions_.size() + composition) * replicates_, replicates_);
 }

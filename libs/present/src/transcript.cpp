@@ -3,19 +3,17 @@
 #include <array>
 
 #include "kith/mdp/planner.hpp"
+#include "kith/study/session_forecasts.hpp"
 
 namespace kith {
 namespace {
 
 class Recorder : public TeamObserver {
  public:
-  Recorder(const Atlas& atlas, std::size_t team_size, std::vector<TranscriptSession>& sessions)
-      : atlas_{atlas}, team_size_{team_size}, sessions_{sessions} {}
+  Recorder(const Atlas& atlas, std::vector<TranscriptSession>& sessions) : atlas_{atlas}, sessions_{sessions} {}
 
-  void on_session(const Session&, std::size_t member) override {
-    auto& session = sessions_.emplace_back();
-    for (std::size_t i = 1; i <= (member == 0 ? team_size_ : 1); ++i)
-      session.members.push_back(member == 0 ? i : member);
+  void on_session(const Session&, std::span<const std::size_t> members) override {
+    sessions_.emplace_back().members.assign(members.begin(), members.end());
   }
 
   void on_lesson(const Session& session, const Lesson& lesson, const Learners& learners) override {
@@ -66,17 +64,26 @@ class Recorder : public TeamObserver {
   }
 
   const Atlas& atlas_;
-  std::size_t team_size_;
   std::vector<TranscriptSession>& sessions_;
 };
 
 }  // namespace
 
 Transcript transcribe(const Atlas& atlas, const StudySpec& spec, const TeamAddress& address) {
-  Transcript transcript{spec, address, {}, {}};
+  Transcript transcript{spec, address, {}, {}, {}};
   TeachingCache cache{atlas};
-  Recorder recorder{atlas, address.composition.size(), transcript.sessions};
-  transcript.record = run_team(atlas, cache, spec, address, &recorder);
+  Recorder recorder{atlas, transcript.sessions};
+  SessionForecasts forecasts;
+  transcript.record = run_team(atlas, cache, spec, address, &recorder, &forecasts);
+  if (spec.forecast_sessions > 0) transcript.imagined = forecasts.like(atlas, cache, spec, address);
+  std::size_t number = 0;
+  for (auto& session : transcript.sessions) {
+    for (auto& period : session.periods) {
+      if (number < transcript.record.period_records.size())
+        period.forecast = transcript.record.period_records[number].forecast;
+      ++number;
+    }
+  }
   return transcript;
 }
 

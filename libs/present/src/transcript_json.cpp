@@ -4,6 +4,7 @@
 
 #include "kith/explain/words.hpp"
 #include "kith/present/json.hpp"
+#include "kith/study/session_forecasts.hpp"
 
 namespace kith {
 namespace {
@@ -19,21 +20,23 @@ class Converter {
     for (const auto& learner : record.learners) learners.push_back(to_json(learner));
     Json sessions = Json::array();
     for (const auto& session : transcript_.sessions) sessions.push_back(to_json(session));
-    return {{"schema", "kith.teach/1"},
-            {"domain", domain_.id()},
-            {"study", transcript_.spec.id},
-            {"strategy", transcript_.address.strategy},
-            {"composition", transcript_.address.composition},
-            {"replicate", transcript_.address.replicate},
-            {"seed_address", record.seed_address},
-            {"learners", learners},
-            {"sessions", sessions},
-            {"completed", record.completed},
-            {"periods", record.periods},
-            {"demonstrations", record.demonstrations},
-            {"tests", record.tests},
-            {"knowledge", record.knowledge},
-            {"knowledge_min", record.knowledge_min}};
+    Json document{{"schema", "kith.teach/1"},
+                  {"domain", domain_.id()},
+                  {"study", transcript_.spec.id},
+                  {"strategy", transcript_.address.strategy},
+                  {"composition", transcript_.address.composition},
+                  {"replicate", transcript_.address.replicate},
+                  {"seed_address", record.seed_address},
+                  {"learners", learners},
+                  {"sessions", sessions},
+                  {"completed", record.completed},
+                  {"periods", record.periods},
+                  {"demonstrations", record.demonstrations},
+                  {"tests", record.tests},
+                  {"knowledge", record.knowledge},
+                  {"knowledge_min", record.knowledge_min}};
+    if (!transcript_.imagined.empty()) document["forecast"] = forecast();
+    return document;
   }
 
  private:
@@ -103,30 +106,55 @@ class Converter {
       test["covers"] = kith::to_json(lesson.tests[t].covered, d_);
       test["exact"] = lesson.tests[t].exact;
       Json answers = Json::array();
-      for (std::size_t i = 0; i < members_.size(); ++i) answers.push_back(answer_to_json(period, t, i));
+      for (std::size_t i = 0; i < members_.size(); ++i) {
+        if (!period.feedback.verdicts[i].empty()) answers.push_back(answer_to_json(period, t, i));
+      }
       test["answers"] = std::move(answers);
       tests.push_back(std::move(test));
     }
     Json excluded = Json::array();
     for (const auto member : period.feedback.excluded) excluded.push_back(members_[member]);
     const auto& component = atlas_.knowledge_components()[lesson.component];
-    return {{"period", lesson.period},
-            {"kc", lesson.component + 1},
-            {"kc_name", component.name},
-            {"source", source_name(lesson.source)},
-            {"counterfactuals", lesson.demonstrations.front().counterfactuals.size()},
-            {"repeats", lesson.repeats},
-            {"demonstrations", demonstrations},
-            {"taught", kith::to_json(lesson.taught, d_)},
-            {"area_sr", lesson.area_sr},
-            {"running_area_sr", lesson.running_area_sr},
-            {"gain", lesson.gain},
-            {"untested", lesson.untested},
-            {"tests", tests},
-            {"before", to_json(period.before)},
-            {"after", to_json(period.after)},
-            {"excluded", excluded},
-            {"learned", period.feedback.component_learned}};
+    Json json{{"period", lesson.period},
+              {"kc", lesson.component + 1},
+              {"kc_name", component.name},
+              {"source", source_name(lesson.source)},
+              {"counterfactuals", lesson.demonstrations.front().counterfactuals.size()},
+              {"repeats", lesson.repeats},
+              {"demonstrations", demonstrations},
+              {"taught", kith::to_json(lesson.taught, d_)},
+              {"area_sr", lesson.area_sr},
+              {"running_area_sr", lesson.running_area_sr},
+              {"gain", lesson.gain},
+              {"untested", lesson.untested},
+              {"tests", tests},
+              {"before", to_json(period.before)},
+              {"after", to_json(period.after)},
+              {"excluded", excluded},
+              {"learned", period.feedback.component_learned}};
+    if (!period.feedback.released.empty()) {
+      Json released = Json::array();
+      for (const auto member : period.feedback.released) released.push_back(members_[member]);
+      json["released"] = std::move(released);
+    }
+    if (period.forecast) {
+      json["forecast"] = {{"periods_left", period.forecast->periods_left},
+                          {"done_within", period.forecast->done_within}};
+    }
+    return json;
+  }
+
+  // Before the first lesson; done_after[k] is the probability that everything is learned after k periods.
+  [[nodiscard]] Json forecast() const {
+    const auto all = forecast_remaining(transcript_.imagined, {});
+    const auto ahead = forecast_of(all);
+    Json done = Json::array();
+    const auto most = static_cast<std::size_t>(all.periods_quantile(1.0));
+    for (std::size_t k = 0; k <= most; ++k) done.push_back(all.done_within(k));
+    return {{"sessions", transcript_.imagined.size()},
+            {"periods", {{"mean", ahead.periods}, {"low", ahead.periods_low}, {"high", ahead.periods_high}}},
+            {"minutes", {{"mean", ahead.minutes}, {"low", ahead.minutes_low}, {"high", ahead.minutes_high}}},
+            {"done_after", done}};
   }
 
   [[nodiscard]] Json path_to_json(DemoIndex demo) const {

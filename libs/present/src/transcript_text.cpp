@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -6,6 +7,7 @@
 #include "kith/present/picture.hpp"
 #include "kith/present/transcript.hpp"
 #include "kith/present/wrapped.hpp"
+#include "kith/study/session_forecasts.hpp"
 
 namespace kith {
 namespace {
@@ -18,6 +20,7 @@ class TranscriptWriter {
 
   std::string text() {
     out_ = transcript_header(atlas_, transcript_);
+    if (!transcript_.imagined.empty()) forecast();
     for (const auto& session : transcript_.sessions) write(session);
     ending();
     return std::move(out_);
@@ -31,7 +34,8 @@ class TranscriptWriter {
     if (transcript_.sessions.size() > 1) {
       line();
       line(std::string(kTextWidth, '#'));
-      line(fmt::format("Session of member {} alone", session.members.front()));
+      line(session.members.size() == 1 ? fmt::format("Session of member {} alone", session.members.front())
+                                       : fmt::format("Session of members {}", fmt::join(session.members, ", ")));
     }
     skipped_until(session, 0,
                   session.periods.empty() ? session.components.size() : session.periods.front().lesson.component);
@@ -182,6 +186,7 @@ class TranscriptWriter {
   }
 
   void answer(const TranscriptPeriod& period, std::size_t t, std::size_t i) {
+    if (period.feedback.verdicts[i].empty()) return;  // was not there
     const auto& verdict = period.feedback.verdicts[i][t];
     const auto& response = period.responses[i];
     if (t >= response.answers.size() || !response.answers[t]) {
@@ -225,6 +230,10 @@ class TranscriptWriter {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       const auto& before = period.before.abilities[i];
       const auto& after = period.after.abilities[i];
+      if (is_away(period, i)) {
+        line(fmt::format("  Member {}: released from this component", members_[i]));
+        continue;
+      }
       const auto* verdict = period.feedback.all_correct[i] ? "all answers correct" : "corrected";
       line(before && after
                ? fmt::format("  Member {}: ability {:.4f} -> {:.4f} ({})", members_[i], *before, *after, verdict)
@@ -234,15 +243,46 @@ class TranscriptWriter {
       line(fmt::format("  Member {} is left out of the common belief in this period: the answers conflict",
                        members_[member]));
     }
+    for (const auto member : period.feedback.released) {
+      line(fmt::format("  Member {} is done with this component and returns with the next one", members_[member]));
+    }
     const bool all = std::all_of(period.feedback.all_correct.begin(), period.feedback.all_correct.end(),
                                  [](bool right) { return right; });
     const auto& name = atlas_.knowledge_components()[period.lesson.component].name;
     if (period.feedback.component_learned) {
-      line("  Learned: " + name + " (all members answered all tests correctly)");
+      line("  Learned: " + name + (all ? " (all members answered all tests correctly)" : ""));
     } else {
       line("  " + name + " is not learned yet" +
            (all ? ": more periods in a row with all answers correct are required" : ""));
     }
+    if (period.forecast) {
+      const auto& ahead = *period.forecast;
+      line(
+          fmt::format("  Forecast: {:.1f} more periods; everything is learned after one more with probability {:.2f}, "
+                      "after two {:.2f}, after three {:.2f}",
+                      ahead.periods_left, ahead.done_within[0], ahead.done_within[1], ahead.done_within[2]));
+    }
+  }
+
+  [[nodiscard]] static bool is_away(const TranscriptPeriod& period, std::size_t i) {
+    return !period.lesson.tests.empty() && period.feedback.verdicts[i].empty();
+  }
+
+  // Before the first lesson.
+  void forecast() {
+    const auto all = forecast_remaining(transcript_.imagined, {});
+    const auto ahead = forecast_of(all);
+    line();
+    line(fmt::format("Forecast from {} imagined teams of the same kind (in brackets the central 80 %):",
+                     transcript_.imagined.size()));
+    line(fmt::format("  {:.1f} periods ({:.0f} to {:.0f}), {:.0f} minutes ({:.0f} to {:.0f}) by the study's pace",
+                     ahead.periods, ahead.periods_low, ahead.periods_high, ahead.minutes, ahead.minutes_low,
+                     ahead.minutes_high));
+    const auto first = static_cast<std::size_t>(ahead.periods_low), last = static_cast<std::size_t>(ahead.periods_high);
+    std::string done;
+    for (auto k = first; k <= last; ++k)
+      done += fmt::format("{}{} periods {:.2f}", done.empty() ? "" : ", ", k, all.done_within(k));
+    line("  probability that everything is learned after " + done);
   }
 
   void ending() {

@@ -29,10 +29,10 @@ class Camera : public TeamObserver {
   Camera(const Atlas& atlas, std::size_t team_size, std::size_t particles, RandomStream random)
       : atlas_{atlas}, team_size_{team_size}, particles_{particles}, random_{random} {}
 
-  void on_session(const Session& session, std::size_t member) override {
-    alone_ = member;
-    const std::size_t slots =
-        team_size_ + (member == 0 && team_size_ > 1 ? session.belief().options().rules.size() : 0);
+  void on_session(const Session& session, std::span<const std::size_t> members) override {
+    members_.assign(members.begin(), members.end());
+    const bool is_whole = members.size() == team_size_ && team_size_ > 1;
+    const std::size_t slots = team_size_ + (is_whole ? session.belief().options().rules.size() : 0);
     if (frames_.empty()) frames_.emplace_back(slots, kUnknown);
   }
   void on_lesson(const Session& session, const Lesson&, const Learners& learners) override {
@@ -75,7 +75,7 @@ class Camera : public TeamObserver {
   template <typename Action>
   void for_each_belief(const Session& session, const Learners& learners, Action action) {
     for (std::size_t i = 0; i < learners.size(); ++i) {
-      if (const auto* own = learners[i]->belief()) action(alone_ == 0 ? i : alone_ - 1, *own);
+      if (const auto* own = learners[i]->belief()) action(members_[i] - 1, *own);
     }
     if (num_slots() == team_size_) return;
     const auto& rules = session.belief().options().rules;
@@ -113,7 +113,7 @@ class Camera : public TeamObserver {
   std::size_t team_size_;
   std::size_t particles_;
   RandomStream random_;
-  std::size_t alone_ = 0;
+  std::vector<std::size_t> members_;  // in the seats of the session, from 1
   std::vector<Picture> pictures_;
   std::vector<std::vector<std::size_t>> frames_;  // which picture, shape [frames, slots]
   std::vector<std::size_t> components_;

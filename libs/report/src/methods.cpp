@@ -271,6 +271,19 @@ class Paragraph {
         (options.duplicate_sets == 1 ? ""
                                      : ", with " + std::to_string(options.duplicate_sets) + " sets of tests each") +
         "; teaching ended after at most " + counted(options.max_periods, "period") + ".");
+    if (options.release != ReleaseRule::kNone) {
+      say(std::string{"Members who "} +
+          (options.release == ReleaseRule::kAllRight
+               ? "had answered all tests correctly"
+               : "were estimated to answer a random test correctly with a probability of at least " +
+                     shortest(options.probability)) +
+          " had no part in the remaining periods of a component.");
+    }
+    if (spec_.grouping == Grouping::kByType) say("The members of each learner type had a session of their own.");
+    if (options.placement_tests > 0) {
+      say("Before the first lesson everybody answered up to " + counted(options.placement_tests, "test") +
+          ", without feedback, which were chosen to tell which components they knew.");
+    }
     const auto missed = static_cast<std::size_t>(
         std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed; }));
     say(missed == 0 ? "All teams learned every component."
@@ -285,6 +298,20 @@ class Paragraph {
         std::string{baseline ? ", for the baseline summed over its members" : ""} +
         "; knowledge is the probability mass that a person's final belief gives to the behaviour equivalence class of "
         "the policy, averaged over the team.");
+    if (spec_.exam != ExamLevel::kNone) {
+      say("In addition, everybody was examined on all start states: the share right is the expected share of starts "
+          "where a person's prediction is as good as the robot's path, and regret is what predictions lose, in the "
+          "units "
+          "of the reward weights above.");
+    }
+    if (data_.has_costs) {
+      say("Minutes assume " + shortest(spec_.pace.demonstration_s) + " s per demonstration, " +
+          shortest(spec_.pace.test_s) + " s per test and " + shortest(spec_.pace.feedback_s) + " s for its feedback.");
+    }
+    if (spec_.forecast_sessions > 0) {
+      say("Forecasts are distributions over " + counted(spec_.forecast_sessions, "imagined session") +
+          " of the same strategy and composition, taught to other people.");
+    }
   }
 
   void statistics() {

@@ -50,6 +50,14 @@ constexpr std::array kMeanings{
     Meaning{"teacher.scaffold", "'features': components one after the other; 'none': the last one alone"},
     Meaning{"teacher.max_demonstrations", "demonstrations per lesson at most; 0: as many as the strategy wants"},
     Meaning{"teacher.objective", "what strategies that look ahead maximise"},
+    Meaning{"teacher.hypotheses",
+            "what the teacher's hypotheses about a member differ in: 'ability' or 'known-components'"},
+    Meaning{"teacher.placement_tests", "tests before the first lesson that tell these hypotheses apart, at most"},
+    Meaning{"teacher.grouping", "'together': one session for the whole team; 'by-type': one for each learner type"},
+    Meaning{"stop.release", "who leaves a component before the team does: 'none', 'all-right' or 'posterior'"},
+    Meaning{"pace.demonstration_s", "seconds that a demonstration is assumed to take"},
+    Meaning{"pace.test_s", "seconds that a test is assumed to take"},
+    Meaning{"pace.feedback_s", "seconds that the feedback about a test is assumed to take"},
     Meaning{"stop.mastery", "when a component has been taught enough: 'all-right', 'fixed' or 'posterior'"},
     Meaning{"stop.periods_per_component", "periods of every component, with mastery 'fixed'"},
     Meaning{"stop.probability",
@@ -60,6 +68,7 @@ constexpr std::array kMeanings{
     Meaning{"stop.duplicate_sets", "different sets of tests in a period"},
     Meaning{"record.exam", "when simulated people are examined over all starts: 'none', 'end' or 'period'"},
     Meaning{"record.exam_questions", "questions of the exam that everybody answers at the end"},
+    Meaning{"record.forecast", "imagined sessions of each cell, for forecasts"},
     Meaning{"record.level", "how much is recorded about every team"},
 };
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 
 #include "beliefs.hpp"
+#include "exam_tables.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "methods.hpp"
 #include "parameters.hpp"
 #include "people_tables.hpp"
 #include "plain_summary.hpp"
+#include "session_report.hpp"
+#include "session_tables.hpp"
 #include "team_tables.hpp"
 
 namespace kith {
@@ -46,6 +49,48 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
                      {"knowledge_sd", "Knowledge, sd"},
                      {"knowledge_low", "Knowledge, 95 % low"},
                      {"knowledge_high", "Knowledge, 95 % high"},
+                     {"exam_share_right", "Share right in the exam"},
+                     {"exam_share_right_mean", "Share right, mean"},
+                     {"exam_share_right_sd", "Share right, sd"},
+                     {"exam_share_right_low", "Share right, 95 % low"},
+                     {"exam_share_right_high", "Share right, 95 % high"},
+                     {"exam_regret", "Regret in the exam"},
+                     {"exam_regret_mean", "Regret, mean"},
+                     {"exam_regret_sd", "Regret, sd"},
+                     {"exam_regret_low", "Regret, 95 % low"},
+                     {"exam_regret_high", "Regret, 95 % high"},
+                     {"exam_worst_share_right", "Worst member's share right"},
+                     {"exam_worst_share_right_mean", "Worst member's share right, mean"},
+                     {"exam_worst_share_right_sd", "Worst member's share right, sd"},
+                     {"exam_worst_share_right_low", "Worst member's share right, 95 % low"},
+                     {"exam_worst_share_right_high", "Worst member's share right, 95 % high"},
+                     {"share_right", "Share right"},
+                     {"share_right_low", "Share right, 95 % low"},
+                     {"share_right_high", "Share right, 95 % high"},
+                     {"worst_share_right", "Worst member's share right"},
+                     {"worst_share_right_low", "Worst member's share right, 95 % low"},
+                     {"worst_share_right_high", "Worst member's share right, 95 % high"},
+                     {"regret", "Regret"},
+                     {"regret_low", "Regret, 95 % low"},
+                     {"regret_high", "Regret, 95 % high"},
+                     {"items", "Items shown"},
+                     {"items_low", "Items, 95 % low"},
+                     {"items_high", "Items, 95 % high"},
+                     {"minutes", "Teaching minutes"},
+                     {"minutes_low", "Teaching minutes, 95 % low"},
+                     {"minutes_high", "Teaching minutes, 95 % high"},
+                     {"person_minutes", "Person minutes"},
+                     {"person_minutes_low", "Person minutes, 95 % low"},
+                     {"person_minutes_high", "Person minutes, 95 % high"},
+                     {"on_front", "On the front"},
+                     {"front_share", "On the front, share of bootstrap samples"},
+                     {"forecast", "Forecast"},
+                     {"forecast_mean", "Forecast, mean"},
+                     {"forecast_low", "Forecast, 80 % low"},
+                     {"forecast_high", "Forecast, 80 % high"},
+                     {"within", "Within"},
+                     {"within_low", "Within, 95 % low"},
+                     {"within_high", "Within, 95 % high"},
                      {"area_mean", "Area (sr), mean"},
                      {"area_sd", "Area (sr), sd"},
                      {"area_low", "Area (sr), 95 % low"},
@@ -135,6 +180,12 @@ Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& d
     tables["correct_by_period"] = correct_by_period_table(run, design, data);
     tables["periods_by_component"] = periods_by_component_table(design, data);
   }
+  if (data.has_exam && data.has_costs) tables["efficiency"] = efficiency_table(run, design, data);
+  if (!data.exam_paths.empty()) tables["exam_by_period"] = exam_by_period_table(design, data);
+  if (data.has_forecasts) {
+    tables["forecasts"] = forecasts_table(design, data);
+    if (data.has_periods) tables["forecast_calibration"] = forecast_calibration_table(data);
+  }
   if (auto timings = timings_table(run, notes)) tables["timings"] = *std::move(timings);
   tables["parameters"] = parameters_table(run);
   return tables;
@@ -200,6 +251,15 @@ Json reproduction_of(const RunFiles& run) {
           {"hashes", std::move(hashes)}};
 }
 
+// Answers in an event store are no tables yet.
+void refuse_live_sessions(const std::filesystem::path& folder) {
+  std::error_code failure;
+  if (!std::filesystem::exists(folder / "session.sqlite", failure)) return;
+  refuse_run(ErrorKind::kInvalidInput, "E0602", folder,
+             "the folder holds live sessions, from which tables are exported",
+             "run 'kith session export " + folder.string() + " -o TABLES', then 'kith report TABLES'");
+}
+
 Json document_of(const std::filesystem::path& folder, const ReportOptions& options) {
   const auto step = [&](std::string_view text) {
     if (options.on_step) options.on_step(text);
@@ -240,7 +300,10 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
 }  // namespace detail
 
 std::string build_report(const std::filesystem::path& run_folder, const ReportOptions& options) {
-  return detail::document_of(run_folder, options).dump(-1, ' ', true, detail::Json::error_handler_t::replace);
+  detail::refuse_live_sessions(run_folder);
+  const auto document = detail::is_session_export(run_folder) ? detail::session_report(run_folder, options)
+                                                              : detail::document_of(run_folder, options);
+  return document.dump(-1, ' ', true, detail::Json::error_handler_t::replace);
 }
 
 }  // namespace kith

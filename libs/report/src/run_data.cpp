@@ -1,5 +1,6 @@
 #include "run_data.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,7 @@ class DataReader {
       read_periods();
       read_progress();
       read_responses();
+      if (run_.spec().exam == ExamLevel::kPeriod) read_exams();
     }
     return std::move(data_);
   }
@@ -48,13 +50,43 @@ class DataReader {
     const auto num_teams = run_.teams.addresses.size();
     data_.teams.resize(num_teams);
     std::size_t last = kNoTeam;
-    const auto rows = read_table("teams.csv", {"completed", "periods", "knowledge", "area_sr"}, [&](const auto& row) {
+    data_.has_exam = run_.spec().exam != ExamLevel::kNone;
+    const auto& variants = run_.study.variants;
+    data_.has_costs = std::any_of(variants.begin(), variants.end(), has_costs);
+    data_.has_forecasts =
+        std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.forecast_sessions > 0; });
+    Names wanted{"completed", "periods", "knowledge", "area_sr", "demonstrations", "tests"};
+    const auto costs = wanted.size();
+    if (data_.has_costs) wanted.insert(wanted.end(), {"minutes", "person_minutes"});
+    const auto exam = wanted.size();
+    if (data_.has_exam) wanted.insert(wanted.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
+    const auto ahead = wanted.size();
+    if (data_.has_forecasts)
+      wanted.insert(wanted.end(), {"forecast_periods", "forecast_periods_low", "forecast_periods_high"});
+    const auto rows = read_table("teams.csv", wanted, [&](const auto& row) {
       if (row.team() == last) {
         row.refuse("E0606", "team " + std::to_string(last + 1) + " occurs twice", "remove the second row");
       }
       last = row.team();
       const auto most = max_period(row) * row.address().composition.size();
-      data_.teams[last] = {row.boolean(0), static_cast<double>(row.count(1, 0, most)), fraction(row, 2), row.real(3)};
+      auto& team = data_.teams[last];
+      team.completed = row.boolean(0);
+      team.periods = static_cast<double>(row.count(1, 0, most));
+      team.knowledge = fraction(row, 2);
+      team.area_sr = row.real(3);
+      team.items = static_cast<double>(row.count(4, 0, kMax) + row.count(5, 0, kMax));
+      if (data_.has_costs) {
+        team.minutes = row.real(costs);
+        team.person_minutes = row.real(costs + 1);
+      }
+      if (data_.has_exam) {
+        team.exam_share_right = fraction(row, exam);
+        team.exam_regret = row.real(exam + 1);
+        team.exam_worst_share_right = fraction(row, exam + 2);
+      }
+      if (data_.has_forecasts && row.has(ahead)) {
+        team.forecast = TeamValues::Forecast{row.real(ahead), row.real(ahead + 1), row.real(ahead + 2)};
+      }
     });
     if (rows == num_teams) return;
     refuse_run(ErrorKind::kInvalidInput, "E0606", run_.folder / "tables" / "teams.csv",
@@ -65,7 +97,23 @@ class DataReader {
   void read_periods() {
     data_.components.resize(data_.teams.size() * data_.num_components);
     std::size_t team = kNoTeam, component = 0, last_period = 0;
-    read_table("periods.csv", {"period", "kc", "area_sr"}, [&](const StudyRow& row) {
+    Names wanted{"period", "kc", "area_sr", "demonstrations", "tests"};
+    if (data_.has_costs) wanted.emplace_back("members");
+    if (data_.has_forecasts) wanted.insert(wanted.end(), {"forecast_done_1", "forecast_done_2", "forecast_done_3"});
+    const bool keeps_costs = run_.spec().exam == ExamLevel::kPeriod;
+    if (keeps_costs) costs_.resize(data_.teams.size());
+    std::size_t taught = 0;  // periods of the team, over all its sessions
+    read_table("periods.csv", wanted, [&](const StudyRow& row) {
+      if (row.team() != team) taught = 0;
+      ++taught;
+      if (keeps_costs) {
+        const auto& pace = run_.study.variants[row.address().variant].pace;
+        const auto demonstrations = row.count(3, 0, kMax), tests = row.count(4, 0, kMax);
+        costs_[row.team()].push_back({static_cast<double>(demonstrations + tests),
+                                      minutes_of(pace, demonstrations, tests),
+                                      static_cast<double>(row.count(5, 0, row.address().composition.size()))});
+      }
+      if (data_.has_forecasts && row.has(6)) calibrate(row, taught);
       const auto period = period_of(row, 0);
       const auto kc = component_of(row, 1);
       // In the baseline the periods of the next member begin at 1 again.
@@ -82,6 +130,98 @@ class DataReader {
       values.log_area_sum += std::log(area);
       values.area_sum += area;
     });
+  }
+
+  // Compares forecasts after a period with what happened.
+  void calibrate(const StudyRow& row, std::size_t taught) {
+    const auto& team = data_.teams[row.team()];
+    const auto left = static_cast<std::size_t>(team.periods) - std::min(taught, static_cast<std::size_t>(team.periods));
+    if (left == 0) return;  // nothing was left to forecast
+    for (std::size_t k = 0; k < data_.calibration.size(); ++k) {
+      auto& bins = data_.calibration[k];
+      const double probability = fraction(row, 6 + k);
+      const auto tenth = static_cast<std::size_t>(probability * static_cast<double>(bins.size()));
+      auto& bin = bins[std::min(tenth, bins.size() - 1)];
+      bin.predicted += probability;
+      ++bin.n;
+      bin.done += team.completed && left <= k + 1 ? 1u : 0u;
+    }
+  }
+
+  void read_exams() {
+    data_.exam_paths.resize(data_.teams.size());
+    std::size_t team = kNoTeam;
+    std::vector<ExamRow> rows;  // of the team, over all starts
+    const auto finish = [&] {
+      if (team != kNoTeam) data_.exam_paths[team] = path_of(team, rows);
+      rows.clear();
+    };
+    read_table("exam.csv", {"period", "kc", "member", "share_right", "regret", "p_bec"}, [&](const StudyRow& row) {
+      if (row.team() != team) finish();
+      team = row.team();
+      if (row.has(1) || !row.has(5)) return;
+      rows.push_back(
+          {row.count(0, 0, max_period(row)), member_of(row, 2), fraction(row, 3), row.real(4), fraction(row, 5)});
+    });
+    finish();
+  }
+
+  struct ExamRow {
+    std::size_t period, member;
+    double share_right, regret, p_bec;
+  };
+  struct PeriodCost {
+    double items, minutes, members;
+  };
+
+  [[nodiscard]] static ExamPoint mean_state(const std::vector<ExamRow>& members, const ExamPoint& cost) {
+    auto point = cost;
+    point.regret = point.share_right = point.knowledge = 0.0;
+    point.worst_share_right = 1.0;
+    const auto n = static_cast<double>(members.size());
+    for (const auto& one : members) {
+      point.regret += one.regret / n;
+      point.share_right += one.share_right / n;
+      point.knowledge += one.p_bec / n;
+      point.worst_share_right = std::min(point.worst_share_right, one.share_right);
+    }
+    return point;
+  }
+
+  // Sessions of a team come one after the other; who is not in a session stays as they are.
+  [[nodiscard]] std::vector<ExamPoint> path_of(std::size_t team, const std::vector<ExamRow>& rows) const {
+    const auto& costs = costs_[team];
+    std::vector<ExamRow> state(run_.teams.addresses[team].composition.size(), ExamRow{});
+    for (const auto& row : rows) {
+      if (row.period == 0) state[row.member] = row;
+    }
+    ExamPoint cost;
+    for (const auto& one : costs) {
+      cost.items -= one.items;
+      cost.minutes -= one.minutes;
+      cost.person_minutes -= one.minutes * one.members;
+    }
+    // What was asked before the first period.
+    cost.items = std::max(0.0, cost.items + data_.teams[team].items);
+    cost.minutes = std::max(0.0, cost.minutes + data_.teams[team].minutes);
+    cost.person_minutes = std::max(0.0, cost.person_minutes + data_.teams[team].person_minutes);
+    std::vector<ExamPoint> path{mean_state(state, cost)};
+    std::size_t taught = 0;
+    for (std::size_t i = 0; i < rows.size();) {
+      std::size_t end = i;
+      for (; end < rows.size() && rows[end].period == rows[i].period; ++end) {
+        if (rows[i].period > 0) state[rows[end].member] = rows[end];
+      }
+      if (rows[i].period > 0 && taught < costs.size()) {
+        const auto& one = costs[taught++];
+        cost.items += one.items;
+        cost.minutes += one.minutes;
+        cost.person_minutes += one.minutes * one.members;
+        path.push_back(mean_state(state, cost));
+      }
+      i = end;
+    }
+    return path;
   }
 
   void read_progress() {
@@ -102,6 +242,7 @@ class DataReader {
 
   void read_responses() {
     read_table("responses.csv", {"period", "test", "member", "correct"}, [&](const StudyRow& row) {
+      if (row.count(0, 0, max_period(row)) == 0) return;  // a placement test
       const auto period = period_of(row, 0);
       const auto [series, type] = place(row, member_of(row, 2));
       auto& values = data_.answers[{series, type, 0, period}];
@@ -142,6 +283,8 @@ class DataReader {
     while (run_.types()[type].letter != letter) ++type;
     return {design_.cells[design_.cell_of_team[row.team()]].series, type};
   }
+
+  std::vector<std::vector<PeriodCost>> costs_;  // by team, in the order in which periods were taught
 
   static constexpr std::size_t kMax = std::numeric_limits<std::int64_t>::max();
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,35 @@ struct TeamValues {
   double periods = 0.0;
   double knowledge = 0.0;
   double area_sr = 0.0;
+  // What it took, and the exam at the end; 0 where the tables do not have it.
+  double items = 0.0;  // demonstrations and tests
+  double minutes = 0.0;
+  double person_minutes = 0.0;
+  double exam_share_right = 0.0;
+  double exam_regret = 0.0;
+  double exam_worst_share_right = 0.0;
+  struct Forecast {
+    double mean = 0.0, low = 0.0, high = 0.0;
+  };
+  std::optional<Forecast> forecast{};  // of the periods, before the first lesson
+};
+
+// A team when so many periods were taught: means over its members, and what teaching had taken by then.
+struct ExamPoint {
+  double regret = 0.0;
+  double share_right = 0.0;
+  double worst_share_right = 0.0;
+  double knowledge = 0.0;
+  double items = 0.0;
+  double minutes = 0.0;
+  double person_minutes = 0.0;
+};
+
+// Forecasts of about the same probability, and how many of them came true.
+struct ForecastBin {
+  double predicted = 0.0;  // sum
+  std::size_t n = 0;
+  std::size_t done = 0;
 };
 
 // What periods.csv says of one component of one team.
@@ -48,6 +78,11 @@ struct RunData {
   PeopleValues knowledge;                   // component 0
   PeopleValues ability;
   std::map<PeopleKey, Answers> answers;
+  bool has_exam = false;
+  bool has_costs = false;
+  bool has_forecasts = false;
+  std::vector<std::vector<ExamPoint>> exam_paths;  // by team: before teaching, after each period; may be empty
+  std::array<std::array<ForecastBin, 10>, 3> calibration{};  // done after 1, 2, 3 more periods, by tenths
   std::vector<std::string> notes;
 };
 

@@ -79,12 +79,18 @@ Json headlines(const ReportDesign& design, const RunData& data) {
   };
   for (const bool baseline : {false, true}) add("Periods", &TeamValues::periods, baseline);
   for (const bool baseline : {false, true}) add("Knowledge", &TeamValues::knowledge, baseline);
+  if (data.has_exam) {
+    for (const bool baseline : {false, true}) add("Regret in the exam", &TeamValues::exam_regret, baseline);
+  }
   return result;
 }
 
 Json cells_table(const ReportDesign& design, const RunData& data) {
   std::vector<std::string> columns{"strategy", "composition", "teams", "completed"};
-  for (const std::string quantity : {"periods", "knowledge", "area"}) {
+  std::vector<std::string> quantities_shown{"periods", "knowledge", "area"};
+  if (data.has_exam)
+    quantities_shown.insert(quantities_shown.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
+  for (const auto& quantity : quantities_shown) {
     for (const auto* statistic : {"_mean", "_sd", "_low", "_high"}) columns.push_back(quantity + statistic);
   }
   JsonTable table{columns};
@@ -92,9 +98,14 @@ Json cells_table(const ReportDesign& design, const RunData& data) {
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
     if (data.teams[i].completed) ++completed[design.cell_of_team[i]];
   }
-  const std::vector<std::vector<Values>> quantities{by_cell(design, data, &TeamValues::periods),
-                                                    by_cell(design, data, &TeamValues::knowledge),
-                                                    by_cell(design, data, &TeamValues::area_sr)};
+  std::vector<std::vector<Values>> quantities{by_cell(design, data, &TeamValues::periods),
+                                              by_cell(design, data, &TeamValues::knowledge),
+                                              by_cell(design, data, &TeamValues::area_sr)};
+  if (data.has_exam) {
+    for (const auto quantity :
+         {&TeamValues::exam_share_right, &TeamValues::exam_regret, &TeamValues::exam_worst_share_right})
+      quantities.push_back(by_cell(design, data, quantity));
+  }
   for (std::size_t cell = 0; cell < design.cells.size(); ++cell) {
     auto row = cell_keys(design, cell);
     row.push_back(design.cells[cell].teams);
@@ -111,7 +122,9 @@ Json cells_table(const ReportDesign& design, const RunData& data) {
 }
 
 Json teams_table(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points) {
-  JsonTable table{{"strategy", "composition", "replicate", "team", "periods", "knowledge", "completed"}};
+  std::vector<std::string> columns{"strategy", "composition", "replicate", "team", "periods", "knowledge", "completed"};
+  if (data.has_exam) columns.insert(columns.end(), {"exam_share_right", "exam_regret", "exam_worst_share_right"});
+  JsonTable table{columns};
   for (std::size_t i = 0; i < data.teams.size(); ++i) {
     const auto& address = run.teams.addresses[i];
     if (address.replicate > points) continue;  // replicates are exchangeable: the first ones are as good as any
@@ -121,6 +134,11 @@ Json teams_table(const RunFiles& run, const ReportDesign& design, const RunData&
     row.push_back(static_cast<std::size_t>(data.teams[i].periods));
     row.push_back(number(data.teams[i].knowledge));
     row.push_back(data.teams[i].completed);
+    if (data.has_exam) {
+      for (const auto quantity :
+           {&TeamValues::exam_share_right, &TeamValues::exam_regret, &TeamValues::exam_worst_share_right})
+        row.push_back(number(data.teams[i].*quantity));
+    }
     table.add(std::move(row));
   }
   return std::move(table).take();

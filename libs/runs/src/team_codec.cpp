@@ -11,7 +11,7 @@
 namespace kith {
 namespace {
 
-constexpr char kVersion = 4;  // of the layout; another layout gets another number
+constexpr char kVersion = 5;  // of the layout; another layout gets another number
 constexpr std::size_t kChecksumSize = 8;
 
 std::string checksum(std::size_t team, std::string_view content, std::string_view key) {
@@ -52,12 +52,38 @@ void code(Coder& coder, X& x) {
   coder.letter(x.type);
   coder.real(x.share_right);
   coder.real(x.regret);
+  coder.optional_real(x.p_bec);
+}
+
+template <typename Coder, Is<TeamExam> X>
+void code(Coder& coder, X& x) {
+  coder.real(x.share_right);
+  coder.real(x.regret);
+  coder.real(x.worst_share_right);
+}
+
+template <typename Coder, Is<PeriodForecast> X>
+void code(Coder& coder, X& x) {
+  coder.real(x.periods_left);
+  for (auto& probability : x.done_within) coder.real(probability);
+}
+
+template <typename Coder, Is<TeamForecast> X>
+void code(Coder& coder, X& x) {
+  coder.real(x.periods);
+  coder.real(x.periods_low);
+  coder.real(x.periods_high);
+  coder.real(x.minutes);
+  coder.real(x.minutes_low);
+  coder.real(x.minutes_high);
 }
 
 template <typename Coder, Is<PeriodRecord> X>
 void code(Coder& coder, X& x) {
   coder.count(x.period);
   coder.count(x.member);
+  coder.count(x.session);
+  coder.count(x.members);
   coder.count(x.component);
   coder.text(x.source);
   coder.count(x.demonstrations);
@@ -68,6 +94,7 @@ void code(Coder& coder, X& x) {
   coder.count(x.excluded);
   coder.count(x.untested);
   coder.real(x.gain);
+  coder.optional_part(x.forecast);
   coder.reals(x.p_bec);
 }
 
@@ -128,6 +155,10 @@ void code(Coder& coder, X& x) {
   coder.count(x.components_learned);
   coder.count(x.components_skipped);
   coder.real(x.area_sr);
+  coder.count(x.cost.person_periods);
+  coder.real(x.cost.minutes);
+  coder.real(x.cost.person_minutes);
+  coder.optional_part(x.forecast);
   coder.list(x.learners);
   coder.list(x.period_records);
   coder.list(x.beliefs);
@@ -135,7 +166,7 @@ void code(Coder& coder, X& x) {
   coder.list(x.responses);
   coder.list(x.progress);
   coder.list(x.exams);
-  coder.optional_exam(x.exam);
+  coder.optional_part(x.exam);
 }
 
 class Encoder {
@@ -150,12 +181,10 @@ class Encoder {
     flag(x.has_value());
     if (x) real(*x);
   }
-  void optional_exam(const std::optional<TeamExam>& x) {
+  template <typename Part>
+  void optional_part(const std::optional<Part>& x) {
     flag(x.has_value());
-    if (!x) return;
-    real(x->share_right);
-    real(x->regret);
-    real(x->worst_share_right);
+    if (x) code(*this, *x);
   }
   void optional_vector(const std::optional<IntegerVector>& x) {
     flag(x.has_value());
@@ -188,10 +217,9 @@ class Decoder {
   void optional_real(std::optional<double>& x) {
     if (reader_.flag()) x = reader_.real();
   }
-  void optional_exam(std::optional<TeamExam>& x) {
-    if (!reader_.flag()) return;
-    const double share_right = reader_.real(), regret = reader_.real();
-    x = TeamExam{share_right, regret, reader_.real()};
+  template <typename Part>
+  void optional_part(std::optional<Part>& x) {
+    if (reader_.flag()) code(*this, x.emplace());
   }
   void optional_vector(std::optional<IntegerVector>& x) {
     if (reader_.flag()) x = reader_.vector();

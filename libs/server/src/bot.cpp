@@ -56,6 +56,7 @@ milliseconds Bot::time_for(double pace) {
 
 void Bot::connect() {
   if (is_finished_) return;
+  is_welcome_ = false;
   const std::weak_ptr<Bot> weak = weak_from_this();
   const auto with_self = [weak](auto what) {
     return [weak, what](auto... arguments) {
@@ -77,10 +78,8 @@ void Bot::on_text(std::string_view text) {
   const auto type = frame.value("t", "");
   if (type == "welcome") {
     attempts_ = 0;
-    if (pending_) {
-      pending_->is_resent = true;
-      socket_->send(pending_->frame);
-    }
+    is_welcome_ = true;
+    transmit();
   } else if (type == "view" && frame.contains("view")) {
     on_view(frame["view"]);
   } else if (type == "ack" || type == "nak") {
@@ -129,6 +128,7 @@ void Bot::on_reply(const Json& frame, bool is_accepted) {
 }
 
 void Bot::on_lost() {
+  is_welcome_ = false;
   ++record_.connections_lost;
   const int doublings = std::min(attempts_++, 4);
   reconnect_in(milliseconds{static_cast<int>(500.0 * static_cast<double>(1 << doublings) * (0.5 + uniform()))});
@@ -136,6 +136,7 @@ void Bot::on_lost() {
 
 void Bot::lose_connection() {
   if (!socket_) return;
+  is_welcome_ = false;
   socket_->cut();
   ++record_.num_reconnects;
   reconnect_in(milliseconds{100 + static_cast<int>(900.0 * uniform())});
@@ -197,19 +198,27 @@ void Bot::send(BotAct act) {
   message.frame = Json{{"t", act.type}, {"id", message.id}, {"body", std::move(act.body)}}.dump();
   message.key = act.key;
   message.is_answer = act.type == "answer";
-  message.sent = Clock::now();
-  if (act.type == "continue") {
-    has_continued_ = true;
-    group_->last_continue_ns = message.sent.time_since_epoch().count();
-  }
-  if (socket_) socket_->send(message.frame);
+  message.is_continue = act.type == "continue";
   pending_ = std::move(message);
+  transmit();
+}
+
+// Sends the message that waits for an answer, again if need be. Until the bot is connected, it waits.
+void Bot::transmit() {
+  if (!pending_ || !is_welcome_) return;
+  pending_->is_resent = pending_->sent != Clock::time_point{};
+  if (!pending_->is_resent) pending_->sent = Clock::now();
+  if (pending_->is_continue && !pending_->is_resent) {
+    has_continued_ = true;
+    group_->last_continue_ns = pending_->sent.time_since_epoch().count();
+  }
+  socket_->send(pending_->frame);
 }
 
 void Bot::tick() {
   if (is_finished_) return;
   ++ticks_;
-  if (ticks_ % kTicksPerBeat == 0 && socket_) socket_->send(R"({"t":"beat"})");
+  if (ticks_ % kTicksPerBeat == 0 && is_welcome_) socket_->send(R"({"t":"beat"})");
   if (uniform() < world_.options.reconnects) lose_connection();
   if (!pending_ && !is_thinking_ && !done_key_.empty() && Clock::now() - done_at_ > kAgain) {
     done_key_.clear();

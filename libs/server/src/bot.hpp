@@ -64,8 +64,9 @@ class Bot : public std::enable_shared_from_this<Bot> {
     std::string frame;
     std::string key;
     bool is_answer = false;
+    bool is_continue = false;
     bool is_resent = false;
-    Clock::time_point sent{};
+    Clock::time_point sent{};  // for the first time; before that zero
   };
 
   void connect();
@@ -80,6 +81,7 @@ class Bot : public std::enable_shared_from_this<Bot> {
   void consider();
   void act();
   void send(BotAct act);
+  void transmit();
   void tick();
   void finish();
   [[nodiscard]] std::optional<std::vector<int>> path_for(const BotAct& act);
@@ -106,6 +108,7 @@ class Bot : public std::enable_shared_from_this<Bot> {
   std::uint64_t next_id_ = 0;
   int attempts_ = 0;
   int ticks_ = 0;
+  bool is_welcome_ = false;  // the server has answered the hello: before that it accepts nothing else
   bool is_thinking_ = false;
   bool has_continued_ = false;
   bool is_finished_ = false;

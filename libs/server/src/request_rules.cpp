@@ -149,7 +149,7 @@ std::optional<ServerReply> RequestRules::judge(const HttpMessage& head, bool has
   }
   destination.kind = Destination::Kind::kAsset;
   destination.asset = assets_.find(path);
-  if (destination.asset == nullptr) return refusal(404, "there is nothing here");
+  if (destination.asset == nullptr) return refusal(404, "there is no page at this address");
   if (!reads) return refusal(405, "use GET", {{"Allow", "GET, HEAD"}});
   return std::nullopt;
 }

@@ -30,6 +30,10 @@ class FakeLesson final : public LiveApplication {
     const auto frame = Json::parse(text);
     auto& from = connections_.at(connection);
     const auto type = frame.value("t", "");
+    if (from.who.empty() && type != "hello") {
+      ++early_frames;
+      return from.socket->close(1008, "the first message must be a hello");
+    }
     if (type == "beat") return;
     if (type == "hello") {
       from.who = frame.value("token", "");
@@ -74,6 +78,7 @@ class FakeLesson final : public LiveApplication {
   std::set<std::string> paths;
   std::set<std::string> seen;
   int worlds_fetched = 0;
+  int early_frames = 0;  ///< Before the hello of their connection.
 
  private:
   using Json = nlohmann::json;

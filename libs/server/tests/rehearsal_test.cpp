@@ -57,6 +57,7 @@ TEST(Rehearsal, LosesAndRepeatsNothingWhenConnectionsBreak) {
   const auto result = rehearse(options);
   EXPECT_THAT(result.stages, ElementsAre(Pair("debrief", 12)));
   EXPECT_GE(result.connections_lost + result.reconnects, 1U);
+  EXPECT_EQ(lesson.early_frames, 0);
   EXPECT_THAT(lesson.answers, SizeIs(36));
   const std::set<std::string> stored{lesson.answers.begin(), lesson.answers.end()};
   for (const auto& id : result.answers) EXPECT_EQ(stored.count(id), 1U) << id;

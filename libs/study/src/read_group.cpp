@@ -39,7 +39,13 @@ class GroupReader {
     if (auto screening = group_.table("screening", Presence::kOptional)) {
       take(options_.screening.tests, screening->integer("tests", Presence::kOptional, {0, 20}));
       take(options_.screening.cut, screening->real("cut", Presence::kOptional, {0.0, 1.0, true, true}));
+      take(options_.high_types, screening->string("high", Presence::kOptional));
       screening->finish();
+      if (!options_.high_types.empty() && options_.screening.tests == 0) {
+        report_.error("E0422", place_of_key(*screening, "high"),
+                      "'high' seats people by their estimate of ability, but the screening has no tests",
+                      "write tests = 6, or remove 'high'");
+      }
     }
     read_questions();
     if (auto completion = group_.table("completion", Presence::kOptional)) read_completion(*completion);

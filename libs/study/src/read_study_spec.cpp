@@ -34,6 +34,8 @@ class SpecReader {
     if (domain_ != nullptr) {
       spec_.num_features = domain_->num_features();
       spec_.count_scale = domain_->count_scale();
+      // The mass in the policy's class is 0 for everybody there.
+      if (spec_.num_features > 3) spec_.exam = ExamLevel::kEnd;
     }
     read_top();
     read_learner_types();
@@ -41,6 +43,7 @@ class SpecReader {
     if (auto design = root_.table("design", Presence::kRequired)) read_design(*design);
     if (auto teacher = root_.table("teacher", Presence::kOptional)) read_teacher(*teacher);
     if (auto stop = root_.table("stop", Presence::kOptional)) read_stop(*stop);
+    if (auto pace = root_.table("pace", Presence::kOptional)) read_pace(*pace);
     if (auto record = root_.table("record", Presence::kOptional)) read_record(*record);
     if (auto group = root_.table("group", Presence::kOptional)) read_group_table(*group);
     if (const auto* contrasts = root_.array("contrast", Presence::kOptional)) read_contrasts(*contrasts);
@@ -331,6 +334,14 @@ class SpecReader {
     set_if(options.scaffold, teacher.word("scaffold", Presence::kOptional, kScaffoldWords));
     set_if(options.max_demonstrations, teacher.integer("max_demonstrations", Presence::kOptional, {0, 1000}));
     set_if(options.objective, teacher.word("objective", Presence::kOptional, kObjectiveWords));
+    set_if(options.hypotheses_about, teacher.word("hypotheses", Presence::kOptional, kHypothesesWords));
+    set_if(options.placement_tests, teacher.integer("placement_tests", Presence::kOptional, {0, 100}));
+    if (options.placement_tests > 0 && options.hypotheses_about == HypothesesAbout::kAbility) {
+      report_.error("E0423", teacher.value("placement_tests", Presence::kOptional)->place(),
+                    "before the first lesson no test can tell how well people learn",
+                    "write hypotheses = \"known-components\" under [teacher], or remove placement_tests");
+    }
+    set_if(spec_.grouping, teacher.word("grouping", Presence::kOptional, kGroupingWords));
     read_beliefs(teacher);
     teacher.finish();
   }
@@ -343,13 +354,23 @@ class SpecReader {
     set_if(options.min_periods, stop.integer("min_periods", Presence::kOptional, {1, 100'000}));
     set_if(options.max_periods, stop.integer("max_periods", Presence::kOptional, {1, 100'000}));
     set_if(options.consecutive_correct, stop.integer("consecutive_correct", Presence::kOptional, {1, 1000}));
+    set_if(options.release, stop.word("release", Presence::kOptional, kReleaseWords));
     set_if(options.duplicate_sets, stop.integer("duplicate_sets", Presence::kOptional, {1, 1000}));
     stop.finish();
+  }
+
+  void read_pace(TomlReader& pace) {
+    constexpr double kHour = 3600.0;
+    set_if(spec_.pace.demonstration_s, pace.real("demonstration_s", Presence::kOptional, {0.0, kHour}));
+    set_if(spec_.pace.test_s, pace.real("test_s", Presence::kOptional, {0.0, kHour}));
+    set_if(spec_.pace.feedback_s, pace.real("feedback_s", Presence::kOptional, {0.0, kHour}));
+    pace.finish();
   }
 
   void read_record(TomlReader& record) {
     set_if(spec_.record, record.word("level", Presence::kOptional, kRecordWords));
     set_if(spec_.exam, record.word("exam", Presence::kOptional, kExamWords));
+    set_if(spec_.forecast_sessions, record.integer("forecast", Presence::kOptional, {0, 100'000}));
     set_if(spec_.exam_questions, record.integer("exam_questions", Presence::kOptional, {0, 1000}));
     record.finish();
   }
@@ -364,6 +385,13 @@ class SpecReader {
       report_.error("E0422", place_of_group_key(group, "dropout"),
                     "'min_active' is " + std::to_string(dropout.min_active) + ", but the largest group has " +
                         std::to_string(largest) + " seats: every session would end at once");
+    }
+    for (const char letter : spec_.group.high_types) {
+      const bool is_used = std::any_of(spec_.compositions.begin(), spec_.compositions.end(),
+                                       [&](const std::string& one) { return one.find(letter) != std::string::npos; });
+      if (spec_.compositions.empty() || is_used) continue;
+      report_.error("E0422", place_of_group_key(group, "screening"),
+                    std::string{"'high' names the learner type '"} + letter + "', which is in no composition");
     }
     for (const auto seat : spec_.group.people) {
       if (spec_.compositions.empty() || seat <= largest) continue;
@@ -391,6 +419,11 @@ class SpecReader {
         contrast.factor = kContrastFactorWords[*factor];
       if (const auto response = table.word("response", Presence::kOptional, kContrastResponseWords))
         contrast.response = kContrastResponseWords[*response];
+      if (contrast.response.rfind("exam_", 0) == 0 && spec_.exam == ExamLevel::kNone) {
+        report_.error("E0420", element.place(),
+                      "contrast '" + contrast.name + "' is about an exam, but nobody is examined",
+                      "write exam = \"end\" under [record]");
+      }
       contrast.weights = read_weights(table);
       table.finish();
       const auto same = [&](const auto& other) { return other.name == contrast.name; };

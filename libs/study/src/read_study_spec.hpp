@@ -13,11 +13,15 @@ inline const std::vector<std::string> kExamWords{"none", "end", "period"};
 inline const std::vector<std::string> kScaffoldWords{"features", "none"};
 inline const std::vector<std::string> kObjectiveWords{"right", "regret", "worst-member"};
 inline const std::vector<std::string> kMasteryWords{"all-right", "fixed", "posterior"};
+inline const std::vector<std::string> kReleaseWords{"none", "all-right", "posterior"};
+inline const std::vector<std::string> kGroupingWords{"together", "by-type"};
+inline const std::vector<std::string> kHypothesesWords{"ability", "known-components"};
 inline const std::vector<std::string> kSamplingWords{"systematic", "spread"};
 inline const std::vector<std::string> kLikelihoodWords{"discontinuous", "continuous"};
 inline const std::vector<std::string> kCounterfactualWords{"teacher", "self"};
 inline const std::vector<std::string> kContrastFactorWords{"strategy", "composition"};
-inline const std::vector<std::string> kContrastResponseWords{"periods", "knowledge"};
+inline const std::vector<std::string> kContrastResponseWords{"periods", "knowledge", "exam_share_right", "exam_regret",
+                                                             "exam_worst_share_right"};
 inline constexpr const char* kStudySchema = "kith.study/1";
 
 /// Reads every key of a study document into a specification; what is wrong goes

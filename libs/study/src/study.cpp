@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kith/core/parallel_loop.hpp"
+#include "kith/study/session_forecasts.hpp"
 #include "kith/study/study_memory.hpp"
 #include "kith/study/team_run.hpp"
 
@@ -95,11 +96,12 @@ RunResult run_teams(const Atlas& atlas, const Study& study, std::span<const Team
   std::size_t done = 0;
   std::atomic<bool> stopped{false};
   std::mutex progress;
+  SessionForecasts forecasts;
   StreamOptions stream;
   stream.threads = options.threads;
   stream.stopped = [&] { return stopped.load(); };
   share_work(atlas, addresses.size(), stream, [&](TeachingCache& cache, std::size_t i) {
-    slots[i] = run_team(atlas, cache, study.variants[addresses[i].variant], addresses[i]);
+    slots[i] = run_team_unless({}, atlas, cache, study.variants[addresses[i].variant], addresses[i], &forecasts);
     if (!options.on_progress) return;
     const std::lock_guard lock{progress};
     if (!options.on_progress(++done, addresses.size())) stopped = true;
@@ -116,11 +118,12 @@ RunResult run_teams(const Atlas& atlas, const Study& study, std::span<const Team
 void stream_teams(const Atlas& atlas, const Study& study, std::span<const std::uint32_t> teams,
                   const StreamOptions& options, const std::function<void(TeamOutcome outcome)>& sink) {
   require_study_memory(study, options.threads);
+  SessionForecasts forecasts;
   share_work(atlas, teams.size(), options, [&](TeachingCache& cache, std::size_t i) {
     TeamOutcome outcome{i, team_address(study, teams[i]), {}, {}};
     try {
-      outcome.record =
-          run_team_unless(options.stopped, atlas, cache, study.variants[outcome.address.variant], outcome.address);
+      outcome.record = run_team_unless(options.stopped, atlas, cache, study.variants[outcome.address.variant],
+                                       outcome.address, &forecasts);
       if (!outcome.record) return;
     } catch (...) {
       outcome.failure = std::current_exception();

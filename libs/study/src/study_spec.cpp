@@ -5,6 +5,18 @@
 
 namespace kith {
 
+double minutes_of(const Pace& pace, std::size_t demonstrations, std::size_t tests) noexcept {
+  constexpr double kMinute = 60.0;
+  return (static_cast<double>(demonstrations) * pace.demonstration_s +
+          static_cast<double>(tests) * (pace.test_s + pace.feedback_s)) /
+         kMinute;
+}
+
+bool has_costs(const StudySpec& spec) noexcept {
+  return spec.exam != ExamLevel::kNone || spec.grouping != Grouping::kTogether ||
+         spec.teaching.release != ReleaseRule::kNone || spec.teaching.placement_tests > 0 || spec.forecast_sessions > 0;
+}
+
 const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name) {
   const auto found = std::find_if(spec.strategies.begin(), spec.strategies.end(),
                                   [&](const StrategyChoice& candidate) { return candidate.name == name; });

@@ -10,6 +10,7 @@ namespace detail {
 struct GatheredTeams {
   CellSummary cell;
   std::vector<double> periods, knowledge, area_sr;
+  std::vector<double> person_periods, minutes, person_minutes;
   std::vector<double> share_right, regret, worst_share_right;  // of those that were examined
 
   void add(const TeamRecord& team) {
@@ -18,6 +19,10 @@ struct GatheredTeams {
     periods.push_back(static_cast<double>(team.periods));
     knowledge.push_back(team.knowledge);
     area_sr.push_back(team.area_sr);
+    person_periods.push_back(static_cast<double>(team.cost.person_periods));
+    minutes.push_back(team.cost.minutes);
+    person_minutes.push_back(team.cost.person_minutes);
+    cell.forecast = team.forecast;
     if (!team.exam) return;
     share_right.push_back(team.exam->share_right);
     regret.push_back(team.exam->regret);
@@ -63,6 +68,9 @@ std::optional<CellSummary> pooled(const Cells& cells) {
   summary.periods = mean_sd(cells, summary.teams, &GatheredTeams::periods);
   summary.knowledge = mean_sd(cells, summary.teams, &GatheredTeams::knowledge);
   summary.area_sr = mean_sd(cells, summary.teams, &GatheredTeams::area_sr);
+  summary.person_periods = mean_sd(cells, summary.teams, &GatheredTeams::person_periods);
+  summary.minutes = mean_sd(cells, summary.teams, &GatheredTeams::minutes);
+  summary.person_minutes = mean_sd(cells, summary.teams, &GatheredTeams::person_minutes);
   std::size_t examined = 0;
   for (const auto* cell : cells) examined += cell->share_right.size();
   if (examined == summary.teams) {
@@ -103,6 +111,7 @@ StudySummary StudySummarizer::summary() const {
     one.variant = cell.cell.variant;
     one.strategy = cell.cell.strategy;
     one.composition = cell.cell.composition;
+    one.forecast = cell.cell.forecast;
     summary.cells.push_back(std::move(one));
     (cell.cell.strategy == kBaseline ? baseline : group).push_back(&cell);
   }

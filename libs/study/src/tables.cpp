@@ -22,9 +22,28 @@ Column optional_column(std::string name, ColumnType type, std::string descriptio
   return {std::move(name), type, std::move(description), "", false};
 }
 
+// A real number that is measured, whatever its values look like.
+Column measure(std::string name, std::string description, std::string unit = "") {
+  auto result = column(std::move(name), kReal, std::move(description), std::move(unit));
+  result.kind = ColumnKind::kNumber;
+  return result;
+}
+
 using Columns = std::vector<Column>;
 
 bool has_exam(const Study& study) { return study.variants.front().exam != ExamLevel::kNone; }
+
+template <typename Holds>
+bool any_variant(const Study& study, Holds holds) {
+  return std::any_of(study.variants.begin(), study.variants.end(), holds);
+}
+bool writes_costs(const Study& study) { return any_variant(study, has_costs); }
+bool has_forecasts(const Study& study) {
+  return any_variant(study, [](const StudySpec& spec) { return spec.forecast_sessions > 0; });
+}
+bool has_subgroups(const Study& study) {
+  return any_variant(study, [](const StudySpec& spec) { return spec.grouping != Grouping::kTogether; });
+}
 
 // What every table begins with: where a team stands in the design.
 Columns team_keys(const Study& study) {
@@ -43,6 +62,19 @@ Columns operator+(Columns keys, const Columns& rest) {
   return keys;
 }
 
+// What imagined sessions of the cell say before the first lesson.
+Columns forecast_columns() {
+  Columns columns;
+  for (const std::string what : {"periods", "minutes"}) {
+    const std::string unit = what == "minutes" ? "min" : "";
+    columns.push_back(measure("forecast_" + what, "Expected " + what + ", before the first lesson: mean.", unit));
+    columns.push_back(measure("forecast_" + what + "_low", "Lower limit of the central 80 % of the forecast.", unit));
+    columns.push_back(measure("forecast_" + what + "_high", "Upper limit of the central 80 % of the forecast.", unit));
+  }
+  for (auto& one : columns) one.required = false;
+  return columns;
+}
+
 Columns team_columns(const Study& study) {
   Columns columns{
       column("seed_address", kText, "Address of the team's random numbers: seed/composition/replicate."),
@@ -57,15 +89,23 @@ Columns team_columns(const Study& study) {
       column("kcs_learned", kInteger, "Knowledge components learned; for the baseline the sum over members."),
       column("kcs_skipped", kInteger, "Knowledge components in which nothing was left to teach."),
       column("area_sr", kReal, "Mean over periods of the area in periods.csv.", "sr")};
+  if (writes_costs(study)) {
+    columns =
+        columns + Columns{column("person_periods", kInteger, "Periods that members took part in, summed over members."),
+                          measure("minutes", "Teaching time by the study's pace, summed over sessions.", "min"),
+                          measure("person_minutes", "Time of the members, summed over members.", "min")};
+  }
+  if (has_forecasts(study)) columns = columns + forecast_columns();
   if (!has_exam(study)) return columns;
   return columns +
-         Columns{column("exam_share_right", kReal,
-                        "Share of all starts of the domain where members predict the robot, under their final beliefs; "
-                        "mean over members."),
-                 column("exam_regret", kReal,
-                        "What the members' predictions lose against the robot's paths, over all starts; mean over "
-                        "members, in the units of the domain file's weights."),
-                 column("exam_worst_share_right", kReal, "The smallest share_right of a member.")};
+         Columns{
+             measure("exam_share_right",
+                     "Share of all starts of the domain where members predict the robot, under their final beliefs; "
+                     "mean over members."),
+             measure("exam_regret",
+                     "What the members' predictions lose against the robot's paths, over all starts; mean over "
+                     "members, in the units of the domain file's weights."),
+             measure("exam_worst_share_right", "The smallest share_right of a member.")};
 }
 
 // The learner types of all variants, as they have the model that a variant gives them, by letter.
@@ -100,15 +140,18 @@ Columns trait_columns(const Study& study) {
 }
 
 Columns exam_columns() {
-  return {column("period", kInteger, "Number of the period after which the exam took place."),
+  return {column("period", kInteger, "Number of the period after which the exam took place; 0 before the first."),
           optional_column("kc", kInteger,
                           "Number of the knowledge component whose starts the exam is about; missing for all starts."),
           column("member", kInteger, "Number of the member, from 1."),
           column("type", kText, "Letter of the learner type."),
-          column("share_right", kReal, "Expected share of the starts where the member predicts the robot."),
-          column("regret", kReal,
-                 "Expected loss of the member's predictions against the robot's paths, in the units of the domain "
-                 "file's weights.")};
+          measure("share_right", "Expected share of the starts where the member predicts the robot."),
+          measure("regret",
+                  "Expected loss of the member's predictions against the robot's paths, in the units of the domain "
+                  "file's weights."),
+          optional_column("p_bec", kReal,
+                          "Mass of the member's belief in the policy's behaviour equivalence class; for all starts "
+                          "only.")};
 }
 
 Columns learner_columns(const Study& study) {
@@ -120,8 +163,8 @@ Columns learner_columns(const Study& study) {
                      column("correct", kInteger, "Tests answered correctly.")};
   if (has_exam(study)) {
     const Columns exam{
-        column("exam_share_right", kReal, "Share of all starts where the member predicts the robot, at the end."),
-        column("exam_regret", kReal, "What these predictions lose, in the units of the domain file's weights."),
+        measure("exam_share_right", "Share of all starts where the member predicts the robot, at the end."),
+        measure("exam_regret", "What these predictions lose, in the units of the domain file's weights."),
         column("exam_questions", kInteger, "Questions of the exam about starts that were neither shown nor tested."),
         column("exam_correct", kInteger, "Of these, answered correctly.")};
     return first + trait_columns(study) + last + exam;
@@ -148,6 +191,19 @@ Columns period_columns(const Study& study) {
              "Logarithm of the area of what was learned before (the prior and the components learned) over "
              "running_area_sr; 0 if a lesson is shown again."),
   };
+  if (has_subgroups(study)) {
+    columns.insert(columns.begin(), column("session", kInteger, "Number of the team's session, from 1."));
+  }
+  if (writes_costs(study)) columns.push_back(column("members", kInteger, "Members who took part."));
+  if (has_forecasts(study)) {
+    columns.push_back(measure("forecast_periods_left", "Periods left, as expected after this one: mean."));
+    columns.back().required = false;
+    for (const auto* k : {"1", "2", "3"}) {
+      columns.push_back(optional_column("forecast_done_" + std::string{k}, kReal,
+                                        "Probability that the team is done after at most " + std::string{k} +
+                                            " more, as expected after this period."));
+    }
+  }
   for (const auto& rule : study.variants.front().teaching.rules) {
     const std::string name{rule.name};
     columns.push_back(
@@ -254,7 +310,9 @@ std::vector<TableDescription> study_tables(const Study& study) {
                       keys + exam_columns()});
   }
   for (auto& table : tables) {
-    for (auto& one : table.columns) one.kind = kind_of(one.name);
+    for (auto& one : table.columns) {
+      if (one.kind == ColumnKind::kUnspecified) one.kind = kind_of(one.name);
+    }
   }
   return tables;
 }
@@ -290,7 +348,11 @@ std::string text_of(const std::vector<HalfSpace>& half_spaces) {
 
 class Tables {
  public:
-  Tables(const Study& study, const TableSink& sink) : study_{study} {
+  Tables(const Study& study, const TableSink& sink)
+      : study_{study},
+        writes_costs_{writes_costs(study)},
+        has_forecasts_{has_forecasts(study)},
+        has_subgroups_{has_subgroups(study)} {
     for (const auto& one : trait_columns(study)) trait_names_.push_back(one.name);
     for (auto& table : study_tables(study)) {
       writers_.emplace_back(std::move(table.columns),
@@ -334,10 +396,21 @@ class Tables {
         .integer(count(team.components_learned))
         .integer(count(team.components_skipped))
         .real(team.area_sr);
+    if (writes_costs_) {
+      row.integer(count(team.cost.person_periods)).real(team.cost.minutes).real(team.cost.person_minutes);
+    }
+    if (has_forecasts_) add_forecast(row, team.forecast);
     if (team.exam) {
       row.real(team.exam->share_right).real(team.exam->regret).real(team.exam->worst_share_right);
     }
     row.end_row();
+  }
+
+  static void add_forecast(CsvWriter& row, const std::optional<TeamForecast>& forecast) {
+    for (const auto value : {&TeamForecast::periods, &TeamForecast::periods_low, &TeamForecast::periods_high,
+                             &TeamForecast::minutes, &TeamForecast::minutes_low, &TeamForecast::minutes_high}) {
+      row.real(forecast ? std::optional{(*forecast).*value} : std::nullopt);
+    }
   }
 
   void add_learner(const TeamRecord& team, const LearnerRecord& learner) {
@@ -366,6 +439,7 @@ class Tables {
 
   void add_period(const TeamRecord& team, const PeriodRecord& period) {
     auto& writer = begin_row(2, team.address);
+    if (has_subgroups_) writer.integer(count(period.session));
     writer.integer(count(period.period))
         .integer(count(period.component))
         .text(std::string_view{period.source})
@@ -377,6 +451,12 @@ class Tables {
         .integer(count(period.excluded))
         .integer(count(period.untested))
         .real(period.gain);
+    if (writes_costs_) writer.integer(count(period.members));
+    if (has_forecasts_) {
+      const auto& ahead = period.forecast;
+      writer.real(ahead ? std::optional{ahead->periods_left} : std::nullopt);
+      for (std::size_t k = 0; k < 3; ++k) writer.real(ahead ? std::optional{ahead->done_within.at(k)} : std::nullopt);
+    }
     for (const double p_bec : period.p_bec) writer.real(p_bec);
     writer.end_row();
   }
@@ -443,10 +523,14 @@ class Tables {
         .text(std::string_view{&exam.type, 1})
         .real(exam.share_right)
         .real(exam.regret)
+        .real(exam.p_bec)
         .end_row();
   }
 
   const Study& study_;
+  bool writes_costs_;
+  bool has_forecasts_;
+  bool has_subgroups_;
   std::vector<std::string> trait_names_;  // columns of learners.csv
   std::vector<CsvWriter> writers_;        // in the order of study_tables()
 };

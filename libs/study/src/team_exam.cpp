@@ -34,22 +34,25 @@ ExamGrades TeamExaminer::grades_of(const Learner& learner, std::size_t period) c
   return grades;
 }
 
-void TeamExaminer::write(std::size_t period, const LearnerRecord& row, const ExamGrades& grades) {
-  const auto add = [&](std::size_t component, const Grade& grade) {
+void TeamExaminer::write(std::size_t period, const Learner& learner, const LearnerRecord& row,
+                         const ExamGrades& grades) {
+  const auto add = [&](std::size_t component, const Grade& grade, std::optional<double> p_bec) {
     record_.exams.push_back({.period = period,
                              .component = component,
                              .member = row.member,
                              .type = row.type,
                              .share_right = grade.share_right,
-                             .regret = grade.regret});
+                             .regret = grade.regret,
+                             .p_bec = p_bec});
   };
-  add(0, grades.all);
-  for (std::size_t k = 0; k < grades.components.size(); ++k) add(k + 1, grades.components[k]);
+  add(0, grades.all, learner.mass_in(cache_.atlas().policy_bec_half_spaces()));
+  for (std::size_t k = 0; k < grades.components.size(); ++k) add(k + 1, grades.components[k], std::nullopt);
 }
 
 void TeamExaminer::after_period(std::size_t period, const Learners& learners, const std::vector<LearnerRecord>& rows) {
   if (spec_.exam != ExamLevel::kPeriod) return;
-  for (std::size_t i = 0; i < rows.size(); ++i) write(period, rows[i], grades_of(*learners[i], period + 1));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    write(period, *learners[i], rows[i], grades_of(*learners[i], period + 1));
 }
 
 void TeamExaminer::at_end(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows,
@@ -59,7 +62,7 @@ void TeamExaminer::at_end(const Session& session, const Learners& learners, std:
     const auto grades = grades_of(*learners[i], session.periods() + 1);
     rows[i].exam_share_right = grades.all.share_right;
     rows[i].exam_regret = grades.all.regret;
-    if (spec_.exam == ExamLevel::kEnd) write(session.periods(), rows[i], grades);
+    if (spec_.exam == ExamLevel::kEnd) write(session.periods(), *learners[i], rows[i], grades);
   }
   if (spec_.exam_questions > 0) ask(session, learners, rows, member);
 }
@@ -68,6 +71,7 @@ void TeamExaminer::at_end(const Session& session, const Learners& learners, std:
 void TeamExaminer::ask(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows,
                        std::size_t member) {
   std::vector<DemoIndex> seen;
+  for (const auto& test : session.placement()) seen.push_back(test.demo);
   for (const auto& period : session.history()) {
     for (const auto& shown : period.lesson.demonstrations) seen.push_back(shown.demo);
     for (const auto& test : period.lesson.tests) seen.push_back(test.demo);

@@ -14,7 +14,8 @@ class TeamExaminer {
   TeamExaminer(TeachingCache& cache, const StudySpec& spec, TeamRecord& record)
       : cache_{cache}, spec_{spec}, record_{record} {}
 
-  // @param rows  of the same people as `learners`.
+  // Before the first period. @param rows  of the same people as `learners`.
+  void at_start(const Learners& learners, const std::vector<LearnerRecord>& rows) { after_period(0, learners, rows); }
   void after_period(std::size_t period, const Learners& learners, const std::vector<LearnerRecord>& rows);
   // Also fills in what the rows have about exams.
   // @param member  who is taught alone, 1-based; 0: the whole team.
@@ -22,7 +23,7 @@ class TeamExaminer {
 
  private:
   [[nodiscard]] ExamGrades grades_of(const Learner& learner, std::size_t period) const;
-  void write(std::size_t period, const LearnerRecord& row, const ExamGrades& grades);
+  void write(std::size_t period, const Learner& learner, const LearnerRecord& row, const ExamGrades& grades);
   void ask(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member);
 
   TeachingCache& cache_;

@@ -1,9 +1,12 @@
 #include "kith/study/team_run.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 #include <string>
 
 #include "kith/learners/run_period.hpp"
+#include "kith/study/session_forecasts.hpp"
 #include "kith/study/team_streams.hpp"
 #include "team_exam.hpp"
 
@@ -18,10 +21,13 @@ struct Person {
   std::size_t member = 0;  // 1-based
 };
 
+// Who takes part in a period: seats of the session.
+using Present = std::vector<std::size_t>;
+
 class TeamRun {
  public:
   TeamRun(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
-          TeamObserver* observer, std::function<bool()> stopped)
+          TeamObserver* observer, std::function<bool()> stopped, SessionForecasts* forecasts)
       : stopped_{std::move(stopped)},
         atlas_{atlas},
         cache_{cache},
@@ -36,6 +42,9 @@ class TeamRun {
     options_.keep_members |= everything;
     options_.keep_rules |= periods;
     draw_people();
+    if (forecasts == nullptr || spec.forecast_sessions == 0) return;
+    like_ = &forecasts->like(atlas, cache, spec, address);
+    record_.forecast = forecast_of(forecast_remaining(*like_, {}));
   }
 
   // Nothing if it was stopped.
@@ -43,6 +52,8 @@ class TeamRun {
     record_.completed = true;
     if (record_.address.strategy == kBaseline) {
       for (const auto& person : people_) run_session({person}, lone_teacher_stream(person.stream), person.member);
+    } else if (spec_.grouping == Grouping::kByType) {
+      run_sessions_by_type();
     } else {
       run_session(people_, teacher_stream(stream_), 0);
     }
@@ -60,7 +71,23 @@ class TeamRun {
     }
   }
 
+  // In the order of the first member of each type.
+  void run_sessions_by_type() {
+    std::string types;
+    for (const auto& person : people_) {
+      if (types.find(person.type) == std::string::npos) types += person.type;
+    }
+    for (const char type : types) {
+      std::vector<Person> people;
+      std::copy_if(people_.begin(), people_.end(), std::back_inserter(people),
+                   [&](const Person& person) { return person.type == type; });
+      run_session(people, teacher_stream(stream_).split(std::string_view{&type, 1}), 0);
+    }
+  }
+
   void run_session(const std::vector<Person>& people, const RandomStream& teacher, std::size_t member) {
+    if (was_stopped_) return;
+    ++session_;
     std::vector<RandomStream> streams;
     Learners learners;
     for (const auto& person : people) {
@@ -73,12 +100,18 @@ class TeamRun {
     for (const auto& person : people) {
       rows.push_back({.member = person.member, .type = person.type, .traits = person.traits});
     }
-    if (observer_ != nullptr) observer_->on_session(session, member);
+    if (observer_ != nullptr) {
+      std::vector<std::size_t> members;
+      for (const auto& person : people) members.push_back(person.member);
+      observer_->on_session(session, members);
+    }
     const auto propose = [&] {
       if (!session.strategy().kind.needs_truth) return session.propose(cache_);
       return session.propose(cache_, truth_about(session, learners));
     };
+    if (session.awaits_placement()) take_placement(session, learners, rows);
     TeamExaminer exam{cache_, spec_, record_};
+    exam.at_start(learners, rows);
     while (propose()) {
       was_stopped_ = was_stopped_ || (stopped_ && stopped_());
       if (was_stopped_) return;
@@ -88,7 +121,6 @@ class TeamRun {
     exam.at_end(session, learners, rows, member);
     if (observer_ != nullptr) observer_->on_end(session, learners);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i].periods = session.periods();
       rows[i].p_bec = learners[i]->mass_in(atlas_.policy_bec_half_spaces());
       record_.learners.push_back(rows[i]);
     }
@@ -100,34 +132,68 @@ class TeamRun {
     }
   }
 
+  void take_placement(Session& session, const Learners& learners, std::vector<LearnerRecord>& rows) {
+    const auto tests = session.placement();
+    std::vector<DemoIndex> starts;
+    for (const auto& test : tests) starts.push_back(test.demo);
+    std::vector<std::vector<Answer>> answers;
+    for (const auto& learner : learners) answers.push_back(learner->answer(cache_.behaviours(), starts, 0).answers);
+    session.take_placement(answers);
+    const auto verdicts = session.placement_verdicts();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].tests += tests.size();
+      for (const auto& verdict : verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
+    }
+    constexpr double kMinute = 60.0;  // there is no feedback
+    const double minutes = static_cast<double>(tests.size()) * spec_.pace.test_s / kMinute;
+    record_.tests += tests.size();
+    record_.cost.minutes += minutes;
+    record_.cost.person_minutes += minutes * static_cast<double>(rows.size());
+    if (spec_.record == RecordLevel::kTeam) return;
+    const auto component = session.components().size();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      write_answers(answer_record(0, component, rows[i]), tests, answers[i], verdicts[i]);
+    }
+  }
+
   void teach_period(Session& session, Learners& learners, std::vector<LearnerRecord>& rows, std::size_t member) {
     if (observer_ != nullptr) observer_->on_lesson(session, session.lesson(), learners);
+    Present present;
+    for (std::size_t i = 0; i < learners.size(); ++i) {
+      if (session.takes_part(i)) present.push_back(i);
+    }
     const auto period =
         run_period(session, cache_, learners,
                    {.own_counterfactuals = spec_.learner_counterfactuals_self ? spec_.teaching.counterfactuals : 0});
     const auto& [lesson, answers, feedback] = session.history().back();
-    for (std::size_t i = 0; i < learners.size(); ++i) {
+    for (const auto i : present) {
+      ++rows[i].periods;
       rows[i].tests += lesson.tests.size();
       for (const auto& verdict : feedback.verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
     }
-    add_up(lesson);
+    add_up(lesson, present.size());
     if (spec_.record != RecordLevel::kTeam) {
-      write_period(session, lesson, feedback, member);
-      write_demonstrations(lesson, member);
-      write_responses(lesson, answers, feedback, rows);
-      write_progress(lesson, learners, period.abilities, feedback, rows);
+      write_period(session, lesson, feedback, rows, present, member);
+      write_demonstrations(lesson, rows, present);
+      write_responses(lesson, answers, feedback, rows, present);
+      write_progress(lesson, learners, period.abilities, feedback, rows, present);
     }
     if (spec_.record == RecordLevel::kParticles) write_beliefs(session, lesson.period, learners, rows);
     if (observer_ != nullptr) observer_->on_feedback(session, lesson, period.responses, feedback, learners);
   }
 
-  void add_up(const Lesson& lesson) {
+  void add_up(const Lesson& lesson, std::size_t members) {
     record_.demonstrations += lesson.demonstrations.size();
     record_.tests += lesson.tests.size();
+    const double minutes = minutes_of(spec_.pace, lesson.demonstrations.size(), lesson.tests.size());
+    record_.cost.person_periods += members;
+    record_.cost.minutes += minutes;
+    record_.cost.person_minutes += minutes * static_cast<double>(members);
     area_sum_ += lesson.area_sr;
   }
 
-  void write_period(const Session& session, const Lesson& lesson, const Feedback& feedback, std::size_t member) {
+  void write_period(const Session& session, const Lesson& lesson, const Feedback& feedback,
+                    const std::vector<LearnerRecord>& rows, const Present& present, std::size_t member) {
     std::vector<double> p_bec;
     for (const auto& rule : spec_.teaching.rules) {
       p_bec.push_back(session.belief().aggregate(rule.name).mass_in(atlas_.policy_bec_half_spaces()));
@@ -135,59 +201,102 @@ class TeamRun {
     record_.period_records.push_back(
         {.period = lesson.period,
          .member = member,
+         .session = session_,
+         .members = present.size(),
          .component = lesson.component + 1,
-         .source = source_name(lesson.source, member),
+         .source = source_name(lesson.source, rows),
          .demonstrations = lesson.demonstrations.size(),
          .area_sr = lesson.area_sr,
          .running_area_sr = lesson.running_area_sr,
          .tests = lesson.tests.size(),
          .all_correct =
-             std::all_of(feedback.all_correct.begin(), feedback.all_correct.end(), [](bool all) { return all; }),
+             std::all_of(present.begin(), present.end(), [&](auto i) -> bool { return feedback.all_correct[i]; }),
          .excluded = feedback.excluded.size(),
          .untested = lesson.untested,
          .gain = lesson.gain,
+         .forecast = what_is_left(session),
          .p_bec = std::move(p_bec)});
   }
 
-  void write_demonstrations(const Lesson& lesson, std::size_t member) {
+  // As expected after the last period; sessions that follow count, too.
+  [[nodiscard]] std::optional<PeriodForecast> what_is_left(const Session& session) const {
+    if (like_ == nullptr) return std::nullopt;
+    const auto& last = session.history().back();
+    const auto component = last.lesson.component;
+    SessionPlace place{.stage = (session_ - 1) * session.components().size() + component, .periods = 0};
+    if (last.feedback.component_learned) {
+      ++place.stage;
+    } else {
+      place.periods = static_cast<std::size_t>(
+          std::count_if(session.history().begin(), session.history().end(),
+                        [&](const PastPeriod& period) { return period.lesson.component == component; }));
+    }
+    const auto left = forecast_remaining(*like_, place);
+    return PeriodForecast{.periods_left = left.mean_periods(),
+                          .done_within = {left.done_within(1), left.done_within(2), left.done_within(3)}};
+  }
+
+  // Once for the whole team, or for everybody who watched.
+  void write_demonstrations(const Lesson& lesson, const std::vector<LearnerRecord>& rows, const Present& present) {
+    std::vector<std::size_t> watched;
+    const bool everybody = present.size() == people_.size() && record_.address.strategy != kBaseline;
+    for (const auto i : present) watched.push_back(rows[i].member);
+    if (everybody) watched = {0};
     std::size_t number = 0;
     for (const auto& shown : lesson.demonstrations) {
       const auto id = atlas_.id(shown.demo);
-      record_.demonstration_records.push_back({.period = lesson.period,
-                                               .member = member,
-                                               .component = lesson.component + 1,
-                                               .demonstration = ++number,
-                                               .mdp = id.mdp.value(),
-                                               .start = id.start.value(),
-                                               .constraints = shown.half_spaces});
+      ++number;
+      for (const auto member : watched) {
+        record_.demonstration_records.push_back({.period = lesson.period,
+                                                 .member = member,
+                                                 .component = lesson.component + 1,
+                                                 .demonstration = number,
+                                                 .mdp = id.mdp.value(),
+                                                 .start = id.start.value(),
+                                                 .constraints = shown.half_spaces});
+      }
     }
   }
 
   void write_responses(const Lesson& lesson, const std::vector<std::vector<Answer>>& answers, const Feedback& feedback,
-                       const std::vector<LearnerRecord>& rows) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (std::size_t t = 0; t < lesson.tests.size(); ++t) {
-        const auto& verdict = feedback.verdicts[i][t];
-        const auto id = atlas_.id(lesson.tests[t].demo);
-        record_.responses.push_back({.period = lesson.period,
-                                     .component = lesson.component + 1,
-                                     .test = t + 1,
-                                     .member = rows[i].member,
-                                     .mdp = id.mdp.value(),
-                                     .start = id.start.value(),
-                                     .correct = verdict.correct,
-                                     .regret = verdict.answered ? std::optional{verdict.regret} : std::nullopt,
-                                     .answer = answers[i][t],
-                                     .constraints = verdict.half_spaces,
-                                     .covered = lesson.tests[t].covered});
-      }
+                       const std::vector<LearnerRecord>& rows, const Present& present) {
+    for (const auto i : present) {
+      write_answers(answer_record(lesson.period, lesson.component + 1, rows[i]), lesson.tests, answers[i],
+                    feedback.verdicts[i]);
+    }
+  }
+
+  // What all answers of a member in a period have in common.
+  [[nodiscard]] static ResponseRecord answer_record(std::size_t period, std::size_t component,
+                                                    const LearnerRecord& row) {
+    ResponseRecord record;
+    record.period = period;
+    record.component = component;
+    record.member = row.member;
+    return record;
+  }
+
+  // What one member answered. @param record  with what all answers have in common.
+  void write_answers(ResponseRecord record, std::span<const Test> tests, const std::vector<Answer>& answers,
+                     const std::vector<Verdict>& verdicts) {
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      const auto id = atlas_.id(tests[t].demo);
+      record.test = t + 1;
+      record.mdp = id.mdp.value();
+      record.start = id.start.value();
+      record.correct = verdicts[t].correct;
+      record.regret = verdicts[t].answered ? std::optional{verdicts[t].regret} : std::nullopt;
+      record.answer = answers[t];
+      record.constraints = verdicts[t].half_spaces;
+      record.covered = tests[t].covered;
+      record_.responses.push_back(record);
     }
   }
 
   void write_progress(const Lesson& lesson, const Learners& learners,
                       const std::vector<std::optional<double>>& abilities, const Feedback& feedback,
-                      const std::vector<LearnerRecord>& rows) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+                      const std::vector<LearnerRecord>& rows, const Present& present) {
+    for (const auto i : present) {
       record_.progress.push_back({.period = lesson.period,
                                   .component = lesson.component + 1,
                                   .member = rows[i].member,
@@ -216,10 +325,10 @@ class TeamRun {
     for (const auto& rule : spec_.teaching.rules) keep(std::string{rule.name}, session.belief().aggregate(rule.name));
   }
 
-  // In the baseline the only member's seat is 0, whoever sits there.
-  [[nodiscard]] static std::string source_name(const SourceBelief& source, std::size_t alone) {
+  // Seats are those of the session, members those of the team.
+  [[nodiscard]] static std::string source_name(const SourceBelief& source, const std::vector<LearnerRecord>& rows) {
     if (!source.is_member()) return source.rule;
-    return "member " + std::to_string(alone != 0 ? alone : source.member + 1);
+    return "member " + std::to_string(rows[source.member].member);
   }
 
   void summarize() {
@@ -245,21 +354,24 @@ class TeamRun {
   TeachingOptions options_;
   std::vector<Person> people_;
   TeamRecord record_;
+  std::size_t session_ = 0;                         // of the team, from 1
+  const std::vector<PastSession>* like_ = nullptr;  // sessions of the same cell, for forecasts
   double area_sum_ = 0.0;
 };
 
 }  // namespace
 
 TeamRecord run_team(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
-                    TeamObserver* observer) {
+                    TeamObserver* observer, SessionForecasts* forecasts) {
   cache.trim();
-  return TeamRun{atlas, cache, spec, address, observer, {}}.run().value();
+  return TeamRun{atlas, cache, spec, address, observer, {}, forecasts}.run().value();
 }
 
 std::optional<TeamRecord> run_team_unless(const std::function<bool()>& stopped, const Atlas& atlas,
-                                          TeachingCache& cache, const StudySpec& spec, const TeamAddress& address) {
+                                          TeachingCache& cache, const StudySpec& spec, const TeamAddress& address,
+                                          SessionForecasts* forecasts) {
   cache.trim();
-  return TeamRun{atlas, cache, spec, address, nullptr, stopped}.run();
+  return TeamRun{atlas, cache, spec, address, nullptr, stopped, forecasts}.run();
 }
 
 }  // namespace kith

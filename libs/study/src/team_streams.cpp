@@ -1,6 +1,7 @@
 #include "kith/study/team_streams.hpp"
 
 #include "kith/core/assert.hpp"
+#include "kith/teaching/placement.hpp"
 
 namespace kith {
 
@@ -39,7 +40,8 @@ std::unique_ptr<Learner> make_learner(const StudySpec& spec, const LearnerType& 
   }
   const LearnerStart start{
       .cover = [&](std::size_t num_points) -> const PriorCover& { return cache.cover(prior, num_points); },
-      .likelihood = spec.teaching.likelihood};
+      .likelihood = spec.teaching.likelihood,
+      .components = [&] { return constraints_of_components(atlas); }};
   return type.model->make(type.parameters, traits, start, person.split("learner"));
 }
 

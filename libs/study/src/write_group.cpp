@@ -78,6 +78,7 @@ TomlTable group_table(const GroupOptions& group) {
   table.add("time", time.take());
   screening.count("tests", group.screening.tests);
   screening.add("cut", group.screening.cut);
+  screening.text("high", group.high_types);
   table.add("screening", screening.take());
   completion.add("prefix", group.completion.prefix);
   completion.text("redirect", group.completion.redirect);

@@ -131,6 +131,9 @@ TableWriter teacher(const StudySpec& spec) {
   table.add("scaffold", kScaffoldWords[static_cast<std::size_t>(options.scaffold)]);
   table.add_count("max_demonstrations", options.max_demonstrations);
   table.add("objective", kObjectiveWords[static_cast<std::size_t>(options.objective)]);
+  table.add("hypotheses", kHypothesesWords[static_cast<std::size_t>(options.hypotheses_about)]);
+  table.add_count("placement_tests", options.placement_tests);
+  table.add("grouping", kGroupingWords[static_cast<std::size_t>(spec.grouping)]);
   std::vector<std::string> beliefs;
   for (const auto& rule : options.rules) beliefs.emplace_back(rule.name);
   table.add("beliefs", TomlValue{strings(beliefs)});
@@ -142,7 +145,7 @@ TableWriter teacher(const StudySpec& spec) {
 
 std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   const auto& spec = study.variants.at(0);
-  TableWriter root, learners, stop, record;
+  TableWriter root, learners, stop, pace, record;
   root.add("schema", std::string{kStudySchema});
   root.add("id", spec.id);
   root.add("title", spec.title);
@@ -163,10 +166,16 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   stop.add_count("max_periods", spec.teaching.max_periods);
   stop.add_count("consecutive_correct", spec.teaching.consecutive_correct);
   stop.add_count("duplicate_sets", spec.teaching.duplicate_sets);
+  stop.add("release", kReleaseWords[static_cast<std::size_t>(spec.teaching.release)]);
   root.add("stop", stop);
+  pace.add("demonstration_s", spec.pace.demonstration_s);
+  pace.add("test_s", spec.pace.test_s);
+  pace.add("feedback_s", spec.pace.feedback_s);
+  root.add("pace", pace);
   record.add("level", kRecordWords[static_cast<std::size_t>(spec.record)]);
   record.add("exam", kExamWords[static_cast<std::size_t>(spec.exam)]);
   record.add_count("exam_questions", spec.exam_questions);
+  record.add_count("forecast", spec.forecast_sessions);
   root.add("record", record);
   if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});
   if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});

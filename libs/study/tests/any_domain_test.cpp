@@ -121,12 +121,13 @@ void expect_taught(const Atlas& atlas) {
 
 TEST(AnyDomain, TwoFeaturesAreTaught) { expect_taught(Atlas{domain_from(kTwoFeatures)}); }
 
-TEST(AnyDomain, FourFeaturesAreTaughtOneByOneThenTogether) {
+TEST(AnyDomain, FourFeaturesAreTaughtInAFewPartsThenTogether) {
   const Atlas atlas{domain_from(kFourFeatures)};
   EXPECT_FALSE(atlas.is_tabulated());
   std::vector<std::string> names;
   for (const auto& component : atlas.knowledge_components()) names.push_back(component.name);
-  EXPECT_EQ(names.size(), 7u);  // three single ones, three pairs, all
+  EXPECT_GE(names.size(), 2u);
+  EXPECT_LE(names.size(), 6u);
   EXPECT_EQ(names.back(), "rubble+smoke+recharge");
   expect_taught(atlas);
 }

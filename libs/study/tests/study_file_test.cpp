@@ -75,6 +75,8 @@ TEST(StudyFile, RefusesContrastsThatCompareNothing) {
   EXPECT_THAT(ids_of("of = [\"common\"]\nagainst = [\"comon\"]\n"), ElementsAre("E0420"));
   EXPECT_THAT(ids_of("of = [\"common\"]\nagainst = [\"common\"]\n"), ElementsAre("E0420"));
   EXPECT_THAT(ids_of("weights = { common = 1 }\n"), ElementsAre("E0420"));
+  EXPECT_THAT(ids_of("response = \"exam_regret\"\nof = [\"common\"]\nagainst = [\"baseline\"]\n"),
+              ElementsAre("E0420"));
   EXPECT_THAT(ids_of("weights = { common = 0, baseline = 0 }\n"), ElementsAre("E0420"));
 }
 
@@ -100,6 +102,11 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.max_demonstrations, 0u);
   EXPECT_FALSE(spec.teaching.review);
   EXPECT_EQ(spec.exam, ExamLevel::kNone);
+  EXPECT_EQ(spec.grouping, Grouping::kTogether);
+  EXPECT_EQ(spec.teaching.release, ReleaseRule::kNone);
+  EXPECT_EQ(spec.teaching.placement_tests, 0u);
+  EXPECT_EQ(spec.forecast_sessions, 0u);
+  EXPECT_EQ(spec.pace, Pace{});
   const auto& novice = learner_type(spec, 'N');
   EXPECT_EQ(novice.parameters.real("ability.min"), 0.6);
   EXPECT_EQ(novice.parameters.real("ability_max"), 0.95);
@@ -132,6 +139,28 @@ TEST(StudyFile, ReadsHowLongAndWithWhatPeopleAreTaught) {
     EXPECT_EQ(spec.exam, ExamLevel::kPeriod);
     EXPECT_EQ(spec.exam_questions, 6u);
   }
+}
+
+TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
+  const auto text = study_with("[learner.N]",
+                               "[teacher]\ngrouping = \"by-type\"\nhypotheses = \"known-components\"\n"
+                               "placement_tests = 4\n[stop]\nrelease = \"posterior\"\n[pace]\ndemonstration_s = 8\n"
+                               "test_s = 12.5\nfeedback_s = 0\n[record]\nforecast = 50\n[learner.N]\nknown = 0.5");
+  const auto first = parse(text);
+  ASSERT_TRUE(first.study) << ::testing::PrintToString(ids(first));
+  for (const auto& reading : {parse(text), parse(to_toml(*first.study, *first.domain))}) {
+    ASSERT_TRUE(reading.study) << ::testing::PrintToString(ids(reading));
+    const auto& spec = reading.study->variants.front();
+    EXPECT_EQ(spec.grouping, Grouping::kByType);
+    EXPECT_EQ(spec.teaching.hypotheses_about, HypothesesAbout::kKnownComponents);
+    EXPECT_EQ(spec.teaching.placement_tests, 4u);
+    EXPECT_EQ(spec.teaching.release, ReleaseRule::kPosterior);
+    EXPECT_EQ(spec.pace, (Pace{8.0, 12.5, 0.0}));
+    EXPECT_EQ(spec.forecast_sessions, 50u);
+    EXPECT_EQ(learner_type(spec, 'N').parameters.real("known"), 0.5);
+    EXPECT_TRUE(has_costs(spec));
+  }
+  EXPECT_FALSE(has_costs(parse(kStudy).study->variants.front()));
 }
 
 TEST(StudyFile, ReadsTheBuiltInStudiesWithoutAComplaint) {
@@ -200,6 +229,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0422", "[design]", "group.dropout.reserves = 1\n[design]", 6},
         Mistake{"E0422", "[design]", "group.dropout.min_active = 3\n[design]", 6},
         Mistake{"E0422", "[design]", "group.people = [3]\n[design]", 6},
+        Mistake{"E0423", "[design]", "teacher.placement_tests = 2\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.screening = { high = \"N\" }\n[design]", 6},
+        Mistake{"E0422", "[design]", "group.screening = { tests = 2, high = \"Q\" }\n[design]", 6},
         Mistake{"E0422", "[design]", "group.completion.redirect = \"javascript:alert(1)\"\n[design]", 6},
         Mistake{"E0110", "[design]", "group.dropout.grace_s = -1\n[design]", 6},
         Mistake{"E0112", "[design]", "group.dropout.policy = \"wait\"\n[design]", 6},
@@ -372,7 +404,7 @@ size = 3
 people = [3, 1]
 dropout = { policy = "replace-from-pool", grace_s = 5, min_active = 2, reserves = 1 }
 time = { watch_s = 1, predict_s = 2, feedback_s = 3, lobby_s = 4, leave_after_s = 5, max_minutes = 6 }
-screening = { tests = 3, cut = 0.25 }
+screening = { tests = 3, cut = 0.25, high = "N" }
 completion = { prefix = "X", redirect = "https://example.org/?cc={code}", pay_full = false }
 ask_name = true
 collect_query = ["PROLIFIC_PID"]
@@ -402,6 +434,7 @@ TEST(StudyFile, ReadsAndWritesHowGroupsOfPeopleAreTaught) {
   EXPECT_EQ(group.dropout, (GroupDropout{DropoutPolicy::kReplaceFromPool, 5, 2, 1}));
   EXPECT_EQ(group.time, (GroupTime{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(group.screening, (GroupScreening{3, 0.25}));
+  EXPECT_EQ(group.high_types, "N");
   ASSERT_EQ(group.questions.size(), 2u);
   EXPECT_EQ(group.questions[1].kind, GroupQuestion::Kind::kChoice);
   EXPECT_TRUE(group.questions[0].required);

@@ -44,15 +44,19 @@ std::map<std::string, std::string> tables_of(const Study& study) {
   return tables;
 }
 
-TEST(TeamExam, IsTakenAfterEveryPeriodAndAtTheEnd) {
+TEST(TeamExam, IsTakenBeforeTheFirstPeriodAndAfterEvery) {
   const auto team = teams_of(examined_study(ExamLevel::kPeriod)).front();
   ASSERT_TRUE(team.exam);
   EXPECT_GT(team.exam->share_right, 0.5);
   EXPECT_LE(team.exam->worst_share_right, team.exam->share_right);
   EXPECT_GT(team.exam->regret, 0.0);
-  // 3 periods, 2 members; all starts and those of 3 components.
-  ASSERT_EQ(team.exams.size(), 3u * 2u * 4u);
-  const auto& last = team.exams[2 * 2 * 4];
+  // Before the first of 3 periods and after each, 2 members; all starts and those of 3 components.
+  ASSERT_EQ(team.exams.size(), 4u * 2u * 4u);
+  EXPECT_EQ(team.exams.front().period, 0u);
+  EXPECT_FALSE(team.exams[1].p_bec);
+  const auto& last = team.exams[3 * 2 * 4];
+  EXPECT_GT(last.share_right, team.exams.front().share_right);
+  EXPECT_EQ(last.p_bec, team.learners.front().p_bec);
   EXPECT_EQ(last.period, 3u);
   EXPECT_EQ(last.component, 0u);
   EXPECT_EQ(last.share_right, team.learners.front().exam_share_right);
@@ -84,10 +88,14 @@ TEST(TeamExam, HasColumnsOnlyIfItIsAskedFor) {
   EXPECT_THAT(without.at("teams.csv"), Not(HasSubstr("exam")));
   EXPECT_EQ(without.count("exam.csv"), 0u);
   const auto with = tables_of(examined_study(ExamLevel::kEnd));
-  EXPECT_THAT(with.at("teams.csv"), HasSubstr(",area_sr,exam_share_right,exam_regret,exam_worst_share_right\n"));
+  EXPECT_THAT(
+      with.at("teams.csv"),
+      HasSubstr(
+          ",area_sr,person_periods,minutes,person_minutes,exam_share_right,exam_regret,exam_worst_share_right\n"));
   EXPECT_THAT(with.at("learners.csv"),
               HasSubstr(",correct,exam_share_right,exam_regret,exam_questions,exam_correct\n"));
-  EXPECT_THAT(with.at("exam.csv"), HasSubstr(",period,kc,member,type,share_right,regret\n"));
+  EXPECT_THAT(with.at("exam.csv"), HasSubstr(",period,kc,member,type,share_right,regret,p_bec\n"));
+  EXPECT_THAT(with.at("periods.csv"), HasSubstr(",gain,members,"));
 }
 
 TEST(TeamExam, IsSummarized) {

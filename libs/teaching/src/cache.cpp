@@ -2,14 +2,18 @@
 
 #include <algorithm>
 
+#include "kith/teaching/placement.hpp"
+#include "kith/teaching/teaching_options.hpp"
+
 namespace kith {
 
 std::size_t TeachingCache::memory() const noexcept { return known_->behaviours.memory() + known_->regions.memory(); }
 
 void TeachingCache::trim() {
-  if (memory() <= max_bytes_) return;
+  if (memory() <= max_bytes_ && !partitions_->is_full()) return;
   known_.reset();  // first, so that both are never held
-  known_ = std::make_unique<Known>(*atlas_, max_bytes_);
+  if (partitions_->is_full()) partitions_->clear();
+  known_ = std::make_unique<Known>(*atlas_, max_bytes_, partitions_);
 }
 
 const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points) {
@@ -23,6 +27,21 @@ const std::shared_ptr<const Exam>& TeachingCache::shared_exam() {
   constexpr std::size_t kPriorPoints = 1000;  // to find out how difficult starts are
   if (!exam_) exam_ = std::make_shared<const Exam>(behaviours(), cover(atlas_->prior_cone(), kPriorPoints));
   return exam_;
+}
+
+const std::vector<Test>& TeachingCache::placement(const TeachingOptions& options) {
+  const auto& filter = options.filter;
+  const auto known = std::find_if(placements_.begin(), placements_.end(), [&](const Placement& one) {
+    return one.tests_wanted == options.placement_tests && one.particles == filter.particles &&
+           one.likelihood == options.likelihood && one.hypotheses == options.hypotheses;
+  });
+  if (known != placements_.end()) return known->tests;
+  auto tests = placement_tests(*atlas_, cover(atlas_->prior_cone(), filter.particles), options.likelihood,
+                               options.hypotheses, options.placement_tests);
+  return placements_
+      .emplace_back(Placement{options.hypotheses, filter.particles, options.placement_tests, options.likelihood,
+                              std::move(tests)})
+      .tests;
 }
 
 }  // namespace kith

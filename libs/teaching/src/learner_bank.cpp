@@ -5,16 +5,18 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "kith/teaching/placement.hpp"
+
 namespace kith {
 namespace {
 
 constexpr double kHighestAbility = 0.95;  // that gains lead to
 constexpr double kCertain = 1.0 - 1e-9;
-constexpr double kTrust = 0.99;
-constexpr double kSlip = 0.003;
 
-// Per policy cell: 0 if some test has no answer there, 2 if all answers are these, else 1.
-std::vector<char> fit_of_cells(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers) {
+// Per policy cell: 0 if some test has no answer there, 2 if all answers are these, else 1. Answers in `skipped` fit
+// everywhere.
+std::vector<char> fit_of_cells(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
+                               const std::vector<bool>& skipped) {
   std::vector<char> fit(atlas.cells().size(), 2);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const auto hull = atlas.hull(tests[t].demo);
@@ -25,12 +27,25 @@ std::vector<char> fit_of_cells(const Atlas& atlas, std::span<const Test> tests, 
       const auto choice = atlas.cells().choice(PolicyCellIndex{c}, hull);
       if (choice == PolicyCells::kNone) {
         fit[c] = 0;
-      } else if (fit[c] == 2 && !(loss && losses[choice] == *loss)) {
+      } else if (fit[c] == 2 && !skipped[t] && !(loss && losses[choice] == *loss)) {
         fit[c] = 1;
       }
     }
   }
   return fit;
+}
+
+bool holds(std::span<const HalfSpace> half_spaces, const ParticleBelief& belief, std::size_t i) {
+  if (half_spaces.empty()) return true;
+  const auto point = belief.point(i);
+  return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const auto& h) { return h.contains(point); });
+}
+
+// Whether the path is best for no weights, as only paths of people can be.
+bool is_nobodys(const Atlas& atlas, DemoIndex demo, const Answer& answer) {
+  if (!answer) return false;
+  const auto& losses = atlas.hull(atlas.hull(demo)).losses;
+  return std::find(losses.begin(), losses.end(), atlas.feature_counts(demo) - *answer) == losses.end();
 }
 
 }  // namespace
@@ -46,8 +61,35 @@ std::vector<LearnerHypothesis> grid_of_hypotheses() {
   return grid;
 }
 
+std::vector<LearnerHypothesis> grid_of_known_components(std::size_t num_components) {
+  constexpr std::size_t kAllCombinations = 4, kMostComponents = 31;
+  if (num_components > kMostComponents) throw std::invalid_argument{"grid_of_known_components: too many components"};
+  const auto n = num_known_by_chance(num_components);
+  std::vector<std::uint32_t> sets;
+  if (n <= kAllCombinations) {
+    for (std::uint32_t set = 0; set < 1u << n; ++set) sets.push_back(set);
+  } else {
+    sets.push_back(0);
+    for (std::size_t k = 0; k < n; ++k) sets.push_back(1u << k);
+    for (std::size_t k = 2; k <= n; ++k) sets.push_back((1u << k) - 1u);
+  }
+  std::vector<LearnerHypothesis> grid;
+  for (const auto set : sets) {
+    grid.emplace_back();
+    grid.back().known = set;
+  }
+  return grid;
+}
+
+double weight_of_answers(double likelihood) noexcept {
+  constexpr double kTrust = 0.99;
+  constexpr double kSlip = 0.003;
+  return kTrust * likelihood + kSlip;
+}
+
 LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
-                         std::vector<LearnerHypothesis> hypotheses, RandomStream random)
+                         std::vector<LearnerHypothesis> hypotheses, RandomStream random,
+                         std::span<const std::vector<HalfSpace>> components)
     : likelihood_{likelihood},
       hypotheses_{std::move(hypotheses)},
       random_{random},
@@ -64,6 +106,12 @@ LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, L
   for (const auto& one : hypotheses_) {
     weights_.push_back(one.probability / sum);
     abilities_.push_back(one.ability);
+  }
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    if (hypotheses_[h].known == 0) continue;
+    beliefs_[h].observe(known_half_spaces(components, hypotheses_[h].known),
+                        HalfSpaceLikelihood{kAbilityOfKnowing, likelihood_, beliefs_[h].dimension()},
+                        random_.split("known").split(h));
   }
 }
 
@@ -95,36 +143,49 @@ std::span<const std::uint32_t> LearnerBank::cells_of(const Atlas& atlas, std::si
   return known.cells;
 }
 
+std::vector<double> LearnerBank::likelihoods(const Atlas& atlas, std::span<const Test> tests,
+                                             std::span<const Answer> answers, std::span<const Verdict> verdicts) {
+  std::vector<char> fit;
+  std::vector<HalfSpace> shown;
+  std::vector<bool> by_verdict;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    by_verdict.push_back(!atlas.is_tabulated() || is_nobodys(atlas, tests[t].demo, answers[t]));
+    if (by_verdict[t]) shown.insert(shown.end(), verdicts[t].half_spaces.begin(), verdicts[t].half_spaces.end());
+  }
+  if (atlas.is_tabulated()) fit = fit_of_cells(atlas, tests, answers, by_verdict);
+  std::vector<double> result;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    if (!atlas.is_tabulated()) {
+      result.push_back(beliefs_[h].mass_in(shown));
+      continue;
+    }
+    double exact = 0.0, any = 0.0;
+    const auto cells = cells_of(atlas, h);
+    const auto masses = beliefs_[h].weights();
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      any += fit[cells[i]] > 0 ? masses[i] : 0.0;
+      exact += fit[cells[i]] == 2 && holds(shown, beliefs_[h], i) ? masses[i] : 0.0;
+    }
+    result.push_back(any > 0.0 ? exact / any : 0.0);  // who has no answer cannot have given one
+  }
+  return result;
+}
+
 void LearnerBank::see_answers(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
                               std::span<const Verdict> verdicts) {
   if (hypotheses_.size() < 2 || tests.empty()) return;  // there is nothing to tell apart
-  std::vector<char> fit;
-  std::vector<HalfSpace> shown;
-  if (atlas.is_tabulated()) {
-    fit = fit_of_cells(atlas, tests, answers);
-  } else {
-    for (const auto& verdict : verdicts)
-      shown.insert(shown.end(), verdict.half_spaces.begin(), verdict.half_spaces.end());
-  }
+  const auto shares = likelihoods(atlas, tests, answers, verdicts);
   double sum = 0.0;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    double exact = 0.0, any = 0.0;
-    if (atlas.is_tabulated()) {
-      const auto cells = cells_of(atlas, h);
-      const auto masses = beliefs_[h].weights();
-      for (std::size_t i = 0; i < masses.size(); ++i) {
-        any += fit[cells[i]] > 0 ? masses[i] : 0.0;
-        exact += fit[cells[i]] == 2 ? masses[i] : 0.0;
-      }
-    } else {
-      any = 1.0;
-      exact = beliefs_[h].mass_in(shown);
-    }
-    const double share = any > 0.0 ? exact / any : 1.0;
-    weights_[h] *= kTrust * share + kSlip;
+    weights_[h] *= weight_of_answers(shares[h]);
     sum += weights_[h];
   }
   for (double& weight : weights_) weight /= sum;
+}
+
+void LearnerBank::forget(double angle, const RandomStream& random) {
+  for (std::size_t h = 0; h < beliefs_.size(); ++h) beliefs_[h].diffuse(angle, random.split(h));
+  located_.assign(beliefs_.size(), {});
 }
 
 void LearnerBank::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) {
@@ -151,6 +212,14 @@ double LearnerBank::expected_ability() const {
   double mean = 0.0;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) mean += weights_[h] * hypotheses_[h].ability;
   return mean;
+}
+
+double LearnerBank::probability_of_knowing(std::size_t component) const {
+  double sum = 0.0;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    if ((hypotheses_[h].known >> component & 1u) != 0u) sum += weights_[h];
+  }
+  return sum;
 }
 
 // The abilities of the bank with the ranges they stand for, ascending.

@@ -92,8 +92,9 @@ std::string_view name_of(SessionPhase phase) {
 }  // namespace
 
 std::string_view name_of(const SessionEvent& event) noexcept {
-  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown", "tests-answered",  "tests-closed",
-                                         "feedback-given",  "member-left",  "member-returned", "strategy-changed"};
+  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",     "tests-answered",
+                                         "tests-closed",    "feedback-given",   "member-left",
+                                         "member-returned", "strategy-changed", "placement-taken"};
   static_assert(std::size(kNames) == std::variant_size_v<SessionEvent>);
   return kNames[event.index()];
 }
@@ -109,6 +110,7 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
       belief_{cache.cover(atlas_->prior_cone(), options_.filter.particles),
               belief_options(options_, choice_, atlas_->domain().num_features()), persons_,
               teacher.split("team belief")},
+      right_in_a_row_(persons_.size(), 0),
       components_(atlas_->knowledge_components().size(), ComponentStatus::kOpen),
       seats_(persons_.size(), Seat::kPresent),
       visited_{atlas_->num_demos()},
@@ -161,10 +163,13 @@ struct Session::Prepared {
 bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) {
   if (finished()) return false;
   require_phase(SessionPhase::kProposal, "choosing a lesson");
+  if (awaits_placement()) {
+    throw Error{ErrorKind::kUsage, "no lesson can be chosen: the placement tests have not been answered yet"};
+  }
   require(&cache.atlas() == atlas_.get(), "the cache is of another atlas");
   require(truth.empty() || truth.size() == num_members(), "the truth is that of another team");
   std::vector<bool> present;
-  for (const Seat seat : seats_) present.push_back(seat != Seat::kAway);
+  for (const Seat seat : seats_) present.push_back(seat == Seat::kPresent || seat == Seat::kReturning);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "no lesson can be chosen: everybody is away"};
   cache.trim();
 
@@ -361,8 +366,14 @@ const Feedback& Session::close_tests() {
   update_with(belief_, counts,
               [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
   inform_bank(feedback, counts);
-  feedback.component_learned = is_enough(everybody);
+  auto done = done_members(feedback, counts);
+  const auto num_counted = static_cast<std::size_t>(std::count(counts.begin(), counts.end(), true));
+  feedback.component_learned = is_enough(everybody) || done.size() == num_counted;
+  if (!feedback.component_learned) feedback.released = std::move(done);
   events_.emplace_back(TestsClosed{});
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    right_in_a_row_[i] = feedback.all_correct[i] ? right_in_a_row_[i] + 1 : 0;
+  }
   feedback_ = std::move(feedback);
   correct_in_a_row_ = everybody ? correct_in_a_row_ + 1 : 0;
   phase_ = SessionPhase::kFeedback;
@@ -392,16 +403,21 @@ const Feedback& Session::give_feedback() {
   lesson_ = {};
   feedback_ = {};
   for (auto& given : pending_) given.reset();
-  conclude_period(history_.back().feedback.component_learned);
+  conclude_period(history_.back().feedback);
   return history_.back().feedback;
 }
 
-void Session::conclude_period(bool learned) {
-  if (learned) {
+void Session::conclude_period(const Feedback& feedback) {
+  if (feedback.component_learned) {
     components_[component_] = ComponentStatus::kLearned;
     if (!options_.review) taught_before_ = taught_with_unit_;
     correct_in_a_row_ = 0;
+    std::fill(right_in_a_row_.begin(), right_in_a_row_.end(), 0);
     ++component_;
+    std::replace(seats_.begin(), seats_.end(), Seat::kReleased, Seat::kReturning);
+  }
+  for (const auto member : feedback.released) {
+    if (seats_[member] == Seat::kPresent) seats_[member] = Seat::kReleased;
   }
   const bool more = std::find(components_.begin(), components_.end(), ComponentStatus::kOpen) != components_.end();
   phase_ = SessionPhase::kProposal;
@@ -475,17 +491,18 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
     void operator()(const MemberLeft& e) const { session.leave(e.member); }
     void operator()(const MemberReturned& e) const { session.come_back(e.member); }
     void operator()(const StrategyChanged& e) const { session.change_strategy(e.strategy); }
+    void operator()(const PlacementTaken& e) const { session.take_placement(e.answers); }
   };
   std::visit(Visitor{*this, cache}, event);
 }
 
 bool operator==(const Session& a, const Session& b) {
   return a.status_ == b.status_ && a.phase_ == b.phase_ && a.component_ == b.component_ &&
-         a.correct_in_a_row_ == b.correct_in_a_row_ && a.components_ == b.components_ && a.seats_ == b.seats_ &&
-         a.visited_ == b.visited_ && a.taught_before_ == b.taught_before_ &&
-         a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ && a.pending_ == b.pending_ &&
-         a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ && a.belief_ == b.belief_ &&
-         a.bank_ == b.bank_;
+         a.correct_in_a_row_ == b.correct_in_a_row_ && a.right_in_a_row_ == b.right_in_a_row_ &&
+         a.components_ == b.components_ && a.seats_ == b.seats_ && a.visited_ == b.visited_ &&
+         a.taught_before_ == b.taught_before_ && a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ &&
+         a.pending_ == b.pending_ && a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ &&
+         a.belief_ == b.belief_ && a.bank_ == b.bank_ && a.placement_verdicts_ == b.placement_verdicts_;
 }
 
 }  // namespace kith

@@ -1,17 +1,66 @@
 // When a component has been taught enough, and who the members may be.
 
 #include <algorithm>
+#include <string>
 
+#include "kith/core/error.hpp"
+#include "kith/teaching/placement.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
+namespace {
+
+[[noreturn]] void refuse_placement(const std::string& message) { throw Error{ErrorKind::kInvalidInput, message}; }
+
+}  // namespace
 
 void Session::make_bank(TeachingCache& cache) {
-  const bool stops = options_.mastery == MasteryRule::kPosterior;
+  const bool stops = options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior;
   if (stops) exam_ = cache.shared_exam();
+  if (options_.hypotheses_about == HypothesesAbout::kKnownComponents) {
+    options_.hypotheses = grid_of_known_components(atlas_->knowledge_components().size());
+    if (options_.placement_tests > 0) placement_ = cache.placement(options_);
+  }
   if (!stops && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
   bank_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options_.filter, options_.likelihood,
-                options_.hypotheses, persons_);
+                options_.hypotheses, persons_, constraints_of_components(*atlas_));
+}
+
+void Session::take_placement(std::vector<std::vector<Answer>> answers) {
+  if (!awaits_placement()) throw Error{ErrorKind::kUsage, "there is no placement test to answer now"};
+  if (answers.size() != num_members()) {
+    refuse_placement("there are answers of " + std::to_string(answers.size()) + " members instead of " +
+                     std::to_string(num_members()));
+  }
+  std::vector<std::vector<Verdict>> verdicts(num_members());
+  std::vector<std::vector<HalfSpace>> shown(num_members());
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (answers[i].empty()) continue;
+    if (answers[i].size() != placement_.size()) {
+      refuse_placement("member " + std::to_string(i + 1) + " gave " + std::to_string(answers[i].size()) +
+                       " answers to " + std::to_string(placement_.size()) + " placement tests");
+    }
+    for (std::size_t t = 0; t < placement_.size(); ++t) {
+      verdicts[i].push_back(judge(placement_[t], answers[i][t]));
+      for (const auto& half_space : verdicts[i].back().half_spaces) {
+        if (std::find(shown[i].begin(), shown[i].end(), half_space) == shown[i].end()) shown[i].push_back(half_space);
+      }
+    }
+  }
+  events_.reserve(events_.size() + 1);
+  static_cast<void>(belief_.observe_responses(shown, 0));
+  if (bank_) bank_->see_placement(*atlas_, placement_, answers, verdicts);
+  placement_verdicts_ = std::move(verdicts);
+  events_.emplace_back(PlacementTaken{std::move(answers)});
+}
+
+// Periods of the present component, with this one.
+std::size_t Session::periods_of_component() const {
+  const auto before =
+      std::find_if(history_.rbegin(), history_.rend(),
+                   [&](const PastPeriod& period) { return period.lesson.component != lesson_.component; }) -
+      history_.rbegin();
+  return static_cast<std::size_t>(before) + 1;
 }
 
 // Whether the component is left after this period.
@@ -19,13 +68,28 @@ bool Session::is_enough(bool everybody_right) const {
   if (options_.mastery == MasteryRule::kAllRight) {
     return everybody_right && correct_in_a_row_ + 1 >= options_.consecutive_correct;
   }
-  const auto before =
-      std::find_if(history_.rbegin(), history_.rend(),
-                   [&](const PastPeriod& period) { return period.lesson.component != lesson_.component; }) -
-      history_.rbegin();
-  const auto periods = static_cast<std::size_t>(before) + 1;  // of this component
+  const auto periods = periods_of_component();
   if (options_.mastery == MasteryRule::kFixed) return periods >= options_.periods_per_component;
   return periods >= options_.min_periods && mastery_ >= options_.probability;
+}
+
+// The members present who are done with the component; nobody unless members are released.
+std::vector<std::size_t> Session::done_members(const Feedback& feedback, const std::vector<bool>& present) {
+  std::vector<std::size_t> done;
+  if (options_.release == ReleaseRule::kNone) return done;
+  if (options_.release == ReleaseRule::kPosterior && periods_of_component() < options_.min_periods) return done;
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (!present[i]) continue;
+    bool is_done = feedback.all_correct[i] && right_in_a_row_[i] + 1 >= options_.consecutive_correct;
+    if (options_.release == ReleaseRule::kPosterior) {
+      std::vector<bool> alone(num_members(), false);
+      alone[i] = true;
+      const double right = bank_->probability_of_mastery(*atlas_, *exam_, lesson_.component, alone);
+      is_done = right >= options_.probability;
+    }
+    if (is_done) done.push_back(i);
+  }
+  return done;
 }
 
 // The answers of everybody who gave any, and the feedback that follows.

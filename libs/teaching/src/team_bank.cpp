@@ -5,8 +5,18 @@
 namespace kith {
 
 TeamBank::TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
-                   const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons) {
-  for (const auto& person : persons) members_.emplace_back(cover, filter, likelihood, hypotheses, person.split("bank"));
+                   const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons,
+                   std::span<const std::vector<HalfSpace>> components) {
+  for (const auto& person : persons)
+    members_.emplace_back(cover, filter, likelihood, hypotheses, person.split("bank"), components);
+}
+
+void TeamBank::see_placement(const Atlas& atlas, std::span<const Test> tests,
+                             std::span<const std::vector<Answer>> answers,
+                             std::span<const std::vector<Verdict>> verdicts) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!answers[i].empty()) members_[i].see_answers(atlas, tests, answers[i], verdicts[i]);
+  }
 }
 
 void TeamBank::watch(const Lesson& lesson, const std::vector<bool>& present) {

@@ -86,6 +86,29 @@ TEST_F(LearnerBankTest, TakesPeopleWhoAnswerRightForAbleOnes) {
   EXPECT_LT(able.ability_quantile(0.1), able.ability_quantile(0.9));
 }
 
+TEST_F(LearnerBankTest, WeighsPathsThatAreBestForNobodyByTheirVerdicts) {
+  auto one = bank();
+  const auto asked = tests();
+  const auto shown = item_delivery().constraints().half_spaces(item_delivery().knowledge_components()[0].constraints);
+  one.begin_component();
+  one.watch(shown, 1);
+  // A long detour, and what a wrong answer of somebody else shows.
+  auto detour = item_delivery().feature_counts(asked.front().demo);
+  detour[2] += 40;
+  const HalfSpace verdict{-asked.front().covered.front().normal()};
+  const std::vector<kith::Test> test{asked.front()};
+  const std::vector<Answer> answers{detour};
+  const auto by_verdict =
+      one.likelihoods(item_delivery(), test, answers, std::vector{Verdict{.half_spaces = {verdict}}});
+  const auto silent = one.likelihoods(item_delivery(), test, answers, std::vector{Verdict{}});
+  for (std::size_t h = 0; h < by_verdict.size(); ++h) {
+    EXPECT_GT(by_verdict[h], 0.0);
+    EXPECT_LT(by_verdict[h], 0.9);
+    EXPECT_NEAR(silent[h], 1.0, 1e-12);
+  }
+  EXPECT_GT(by_verdict.front(), by_verdict.back()) << "who learns less is more often wrong";
+}
+
 TEST_F(LearnerBankTest, BelievesThatAblePeopleLearnMore) {
   const auto one = after(2, true);
   const auto region = item_delivery().constraints().half_spaces(item_delivery().knowledge_components()[0].constraints);

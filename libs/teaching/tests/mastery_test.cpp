@@ -1,6 +1,9 @@
 // How long a component is taught, and what it may show.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "item_delivery.hpp"
 #include "kith/teaching/session.hpp"
 
@@ -56,6 +59,63 @@ TEST(Mastery, MinPeriodsHoldsBackThePosterior) {
       session_of_two(cache, "joint", {.mastery = MasteryRule::kPosterior, .probability = 0.01, .min_periods = 2});
   while (session.propose(cache)) session.submit(answers_to(session, true));
   EXPECT_EQ(session.periods(), 6u);
+}
+
+// The first member is right at once, the second from the third period of a component on.
+std::vector<std::vector<Answer>> answers_of_two_speeds(const Session& session) {
+  auto answers = answers_to(session, true);
+  const auto of_component = std::count_if(session.history().begin(), session.history().end(), [&](const auto& past) {
+    return past.lesson.component == session.lesson().component;
+  });
+  if (of_component < 2) answers[1] = answers_to(session, false)[1];
+  return answers;
+}
+
+TEST(Release, SendsMembersAwayUntilTheNextComponent) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of_two(cache, "joint", {.release = ReleaseRule::kAllRight});
+  std::vector<std::size_t> present;
+  while (session.propose(cache)) {
+    present.push_back((session.takes_part(0) ? 1u : 0u) + (session.takes_part(1) ? 1u : 0u));
+    session.submit(answers_of_two_speeds(session));
+  }
+  EXPECT_EQ(session.status(), SessionStatus::kComplete);
+  EXPECT_EQ(present, (std::vector<std::size_t>{2, 1, 1, 2, 1, 1, 2, 1, 1}));
+  EXPECT_EQ(session.history()[0].feedback.released, std::vector<std::size_t>{0});
+  EXPECT_TRUE(session.history()[1].answers[0].empty());
+  // Repeating the events gives the same session: releasing is no event.
+  auto again = session_of_two(cache, "joint", {.release = ReleaseRule::kAllRight});
+  for (const auto& event : session.events()) again.apply(event, cache);
+  EXPECT_EQ(again, session);
+}
+
+// Those who are released do not have to be right again: everybody needs to be right once.
+TEST(Release, NeedsNoPeriodInWhichAllAreRight) {
+  TeachingCache cache{item_delivery()};
+  const auto periods = [&](ReleaseRule release) {
+    auto session = session_of_two(cache, "joint", {.max_periods = 30, .release = release});
+    while (session.propose(cache)) {
+      auto answers = answers_to(session, true);
+      const auto wrong = session.periods() % 2;  // never both right at the same time
+      answers[wrong] = answers_to(session, false)[wrong];
+      session.submit(answers);
+    }
+    return session.periods();
+  };
+  EXPECT_EQ(periods(ReleaseRule::kNone), 30u);
+  EXPECT_EQ(periods(ReleaseRule::kAllRight), 6u);
+}
+
+TEST(Release, ByThePosteriorEndsTheComponentOnceEverybodyIsDone) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of_two(cache, "joint",
+                                {.mastery = MasteryRule::kFixed,
+                                 .periods_per_component = 9,
+                                 .probability = 0.5,
+                                 .release = ReleaseRule::kPosterior});
+  while (session.propose(cache)) session.submit(answers_to(session, true));
+  EXPECT_LT(session.periods(), 27u);
+  EXPECT_EQ(session.status(), SessionStatus::kComplete);
 }
 
 TEST(Scaffold, NoneTeachesTheLastComponentAlone) {

@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { announce } from '../shared/dom';
-import type { LineState } from '../shared/line';
+import type { SocketState } from '../shared/reconnecting_socket';
 import { themeToggle } from '../shared/theme';
 import { Api } from './api';
 import { duration } from '../shared/duration';
@@ -36,13 +36,13 @@ interface Received {
 }
 
 export function App({ token }: { token: string }): JSX.Element {
-  const [line, setLine] = useState<LineState>({ phase: 'connecting', since: 0, bye: null });
+  const [socket, setSocket] = useState<SocketState>({ phase: 'connecting', since: 0, bye: null });
   const [received, setReceived] = useState<Received | null>(null);
   const connection = useRef<Connection | null>(null);
   const [api] = useState(() => new Api(token));
   useEffect(() => {
     const made = new Connection(token, {
-      line: setLine,
+      socket: setSocket,
       view: (view) => setReceived({ view, offset: view.server_ms - Date.now() }),
       welcome: () => {
         const room = remembered('room');
@@ -54,12 +54,12 @@ export function App({ token }: { token: string }): JSX.Element {
   const send = (command: string, body: object): Promise<void> =>
     connection.current?.send(command, body) ?? Promise.reject(new Error('not connected'));
 
-  if (line.phase === 'closed') return <Dismissed reason={line.bye} />;
-  if (!received) return <NoServer line={line} onRetry={() => connection.current?.retry()} />;
+  if (socket.phase === 'closed') return <Dismissed reason={socket.bye} />;
+  if (!received) return <NoServer socket={socket} onRetry={() => connection.current?.retry()} />;
   return (
     <ClockOffset.Provider value={received.offset}>
       <ApiContext.Provider value={api}>
-        <Shell view={received.view} line={line} send={send} onRetry={() => connection.current?.retry()} />
+        <Shell view={received.view} socket={socket} send={send} onRetry={() => connection.current?.retry()} />
       </ApiContext.Provider>
     </ClockOffset.Provider>
   );
@@ -67,7 +67,7 @@ export function App({ token }: { token: string }): JSX.Element {
 
 interface ShellProps {
   view: FacilitatorView;
-  line: LineState;
+  socket: SocketState;
   send: (command: string, body: object) => Promise<void>;
   onRetry: () => void;
 }
@@ -79,12 +79,12 @@ function firstTab(view: FacilitatorView): Tab {
   return view.rooms.length === 1 ? 'live' : 'rooms';
 }
 
-function Shell({ view, line, send, onRetry }: ShellProps): JSX.Element {
+function Shell({ view, socket, send, onRetry }: ShellProps): JSX.Element {
   const [tab, setTab] = useState<Tab>(() => firstTab(view));
   const [selected, setSelected] = useState<string | null>(remembered('room'));
   const [asked, setAsked] = useState<{ action: Action; room: string } | null>(null);
   const isFacilitator = view.role === 'facilitator';
-  const mayAct = isFacilitator && line.phase === 'open';
+  const mayAct = isFacilitator && socket.phase === 'open';
   const go = (to: Tab): void => {
     remember('tab', to);
     setTab(to);
@@ -114,11 +114,11 @@ function Shell({ view, line, send, onRetry }: ShellProps): JSX.Element {
         </nav>
         <span class="top-end">
           {!isFacilitator && <span class="badge observer">Observer</span>}
-          <LinkMark line={line} />
+          <ConnectionMark socket={socket} />
           <ThemeButton />
         </span>
       </header>
-      <Banners view={view} line={line} onRetry={onRetry} onData={() => go('data')} />
+      <Banners view={view} socket={socket} onRetry={onRetry} onData={() => go('data')} />
       <main id="main" tabIndex={-1}>
         {tab === 'setup' && <Setup view={view} mayAct={mayAct} send={send} />}
         {tab === 'rooms' && (
@@ -152,8 +152,8 @@ function Shell({ view, line, send, onRetry }: ShellProps): JSX.Element {
   );
 }
 
-function LinkMark({ line }: { line: LineState }): JSX.Element {
-  const isLive = line.phase === 'open';
+function ConnectionMark({ socket }: { socket: SocketState }): JSX.Element {
+  const isLive = socket.phase === 'open';
   return (
     <span class={isLive ? 'link-mark is-live' : 'link-mark is-lost'} role="status">
       <svg width="10" height="10" viewBox="-5 -5 10 10" aria-hidden="true">
@@ -172,25 +172,25 @@ function ThemeButton(): JSX.Element {
 
 interface BannersProps {
   view: FacilitatorView;
-  line: LineState;
+  socket: SocketState;
   onRetry: () => void;
   onData: () => void;
 }
 
-function Banners({ view, line, onRetry, onData }: BannersProps): JSX.Element {
+function Banners({ view, socket, onRetry, onData }: BannersProps): JSX.Element {
   const now = useNow();
   const problems = problemsOf(view.integrity, now);
   return (
     <>
-      {line.phase === 'lost' && (
+      {socket.phase === 'lost' && (
         <div class="banner" role="alert">
           <span>
-            {line.bye === 'server-stops'
+            {socket.bye === 'server-stops'
               ? 'The server has stopped. This page reconnects when the server restarts.'
               : 'The connection to the server was lost. Trying to reconnect.'}{' '}
             Until then, this page shows the last known state.
           </span>
-          <Elapsed since={line.since} />
+          <Elapsed since={socket.since} />
           <button type="button" onClick={onRetry}>
             Try now
           </button>

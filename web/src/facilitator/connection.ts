@@ -1,10 +1,10 @@
 // The facilitator's connection: views, and commands that are sent again until they are acknowledged.
-import { Line, type Frame, type LineState } from '../shared/line';
+import { ReconnectingSocket, type Frame, type SocketState } from '../shared/reconnecting_socket';
 import { uuid } from '../shared/uuid';
 import type { FacilitatorView } from './protocol';
 
 export interface Listener {
-  line: (state: LineState) => void;
+  socket: (state: SocketState) => void;
   view: (view: FacilitatorView) => void;
   welcome: () => void;
 }
@@ -18,7 +18,7 @@ interface Pending {
 }
 
 export class Connection {
-  private readonly line: Line;
+  private readonly socket: ReconnectingSocket;
   // Kept in memory only: a command from before a reload must not be carried out minutes later.
   private readonly pending = new Map<string, Pending>();
 
@@ -26,10 +26,10 @@ export class Connection {
     token: string,
     private readonly listener: Listener,
   ) {
-    this.line = new Line(token, (call) => setInterval(call, 1000), {
+    this.socket = new ReconnectingSocket(token, (call) => setInterval(call, 1000), {
       state: (state) => this.changed(state),
       welcome: () => {
-        for (const { frame } of this.pending.values()) this.line.send(frame);
+        for (const { frame } of this.pending.values()) this.socket.send(frame);
         this.listener.welcome();
       },
       frame: (frame) => this.receive(frame),
@@ -42,12 +42,12 @@ export class Connection {
     const frame = { t: type, id, body };
     return new Promise((done, failed) => {
       this.pending.set(id, { frame, done, failed });
-      this.line.send(frame);
+      this.socket.send(frame);
     });
   }
 
   retry(): void {
-    this.line.retry();
+    this.socket.reconnectNow();
   }
 
   private receive(frame: Frame): void {
@@ -63,11 +63,11 @@ export class Connection {
     else command?.done();
   }
 
-  private changed(state: LineState): void {
+  private changed(state: SocketState): void {
     if (state.phase === 'closed') {
       const why = new Refused('This link no longer gives access, so the command was not carried out.');
       for (const id of [...this.pending.keys()]) this.settle(id, why);
     }
-    this.listener.line(state);
+    this.listener.socket(state);
   }
 }

@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { clockText } from './clock';
 import type { FacilitatorView, LogEntry, RoomRow } from './protocol';
-import { loggedText, roomTitle, upperFirst } from './words';
+import { actorText, loggedText, roomTitle, upperFirst } from './words';
 
 interface LogTableProps {
   log: LogEntry[];
@@ -16,28 +16,30 @@ export function LogTable({ log, rooms, withRoom }: LogTableProps): JSX.Element {
   const titles = new Map(rooms.map((room) => [room.id, roomTitle(room)]));
   const newest = [...log].sort((a, b) => b.at_ms - a.at_ms);
   return (
-    <table class="log">
-      <thead>
-        <tr>
-          <th scope="col">Time</th>
-          {withRoom && <th scope="col">Room</th>}
-          <th scope="col">Who</th>
-          <th scope="col">What</th>
-          <th scope="col">Reason</th>
-        </tr>
-      </thead>
-      <tbody>
-        {newest.map(({ at_ms, room, actor, what, reason }) => (
+    <div class="scroller" role="region" aria-label="Log" tabIndex={0}>
+      <table class="log">
+        <thead>
           <tr>
-            <td class="time">{clockText(at_ms)}</td>
-            {withRoom && <td>{room ? (titles.get(room) ?? room) : ''}</td>}
-            <td>{upperFirst(actor.replace(/^seat:/, 'seat '))}</td>
-            <td>{upperFirst(loggedText(what))}</td>
-            <td>{reason}</td>
+            <th scope="col">Time</th>
+            {withRoom && <th scope="col">Room</th>}
+            <th scope="col">Who</th>
+            <th scope="col">What</th>
+            <th scope="col">Reason</th>
           </tr>
-        ))}
-      </tbody>
-    </table>
+        </thead>
+        <tbody>
+          {newest.map(({ at_ms, room, actor, what, reason }) => (
+            <tr>
+              <td class="time">{clockText(at_ms)}</td>
+              {withRoom && <td>{room ? (titles.get(room) ?? room) : ''}</td>}
+              <td>{upperFirst(actorText(actor, rooms.find(({ id }) => id === room)))}</td>
+              <td>{upperFirst(loggedText(what))}</td>
+              <td>{reason}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
   );
 }
 

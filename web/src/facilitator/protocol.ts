@@ -50,6 +50,7 @@ export interface Forecast {
   periods: number;
   minutes_low: number;
   minutes_high: number;
+  done_within?: number[]; // probability that everything is learned after 1, 2, 3 more periods
 }
 
 export interface RoomRow {

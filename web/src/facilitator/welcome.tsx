@@ -1,11 +1,11 @@
 // What is shown before there is anything to show, or when there is nothing any more.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import type { LineState } from '../shared/line';
+import type { SocketState } from '../shared/reconnecting_socket';
 import { forgetToken, tokenIn } from './session';
 
-export function NoServer({ line, onRetry }: { line: LineState; onRetry: () => void }): JSX.Element {
-  const isRetrying = line.phase === 'lost';
+export function NoServer({ socket, onRetry }: { socket: SocketState; onRetry: () => void }): JSX.Element {
+  const isRetrying = socket.phase === 'lost';
   return (
     <main id="main" class="plain-page" tabIndex={-1}>
       <h1>{isRetrying ? 'The server cannot be reached' : 'Connecting'}</h1>
@@ -35,7 +35,7 @@ const kDismissals: Record<string, { title: string; text: string }> = {
   },
 };
 
-export function Dismissed({ reason }: { reason: LineState['bye'] }): JSX.Element {
+export function Dismissed({ reason }: { reason: SocketState['bye'] }): JSX.Element {
   const { title, text } = kDismissals[reason ?? ''] ?? { title: 'Disconnected', text: `The server closed the connection (${reason}).` };
   return (
     <main id="main" class="plain-page" tabIndex={-1}>

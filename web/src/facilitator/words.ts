@@ -108,8 +108,9 @@ export const kTerms = {
   gain: 'Information gain: how much the demonstration shrinks the region of reward weights that are still possible under the belief being taught (ratio of the areas before and after; larger is better).',
   regret: 'Regret: by how much the answer\u2019s return is below that of the robot\u2019s own path. 0: as good as the robot\u2019s.',
   component: 'Knowledge component: a part of the reward that is taught and tested separately, for example one feature against the cost of a step.',
-  forecast: 'Forecast: assumes that each open component takes as many periods as the earlier ones did on average; the range is based on the shortest and the longest period so far.',
+  forecast: 'Forecast: if the study has imagined sessions (record.forecast), from those that had got as far, at the pace of this session so far, with the central 80\u00a0%. Otherwise it assumes that each open component takes as many periods as the earlier ones did on average; the range is then based on the shortest and the longest period so far.',
   latency: 'Latency: round-trip time of a message to the browser.',
+  composition: 'Composition: the type of learner that the teacher assumes for each member, one letter per member. Set-up lists the types.',
   estimate: 'Screening: the share of tests that this person is expected to answer correctly, estimated from the tests before the lobby.',
   grace: 'Grace period: how long a person may be away before the dropout policy applies.',
   simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. The consent form informs participants about it.',
@@ -148,5 +149,12 @@ export function attention(room: RoomRow): string | null {
 }
 
 export const seatTitle = (seat: SeatRow): string => (seat.name ? `${seat.label} (${seat.name})` : seat.label);
+
+// Who did something, in a log: "Learner A" for seat:1.
+export function actorText(actor: string, room: RoomRow | undefined): string {
+  const number = /^seat:(\d+)$/.exec(actor)?.[1];
+  const seat = room?.seats.find((one) => String(one.seat) === number);
+  return seat?.label ?? actor.replace(/^seat:/, 'seat ');
+}
 
 export const roomTitle = (room: RoomRow): string => `Room ${room.code ?? room.id}`;

@@ -2,7 +2,7 @@
 import { Component, type ComponentChildren, type JSX } from 'preact';
 import { useLayoutEffect, useState } from 'preact/hooks';
 import { duration } from '../shared/duration';
-import type { LineState } from '../shared/line';
+import type { SocketState } from '../shared/reconnecting_socket';
 import { useTick } from './clock';
 import { Connection, type Snapshot } from './connection';
 import { Bare, Shell } from './parts/shell';
@@ -72,12 +72,12 @@ function useConnection(token: string): { connection: Connection; snapshot: Snaps
 
 function Joined({ token, onLeave }: { token: string; onLeave: () => void }): JSX.Element {
   const { connection, snapshot } = useConnection(token);
-  const { view, line } = snapshot;
+  const { view, socket } = snapshot;
   useLanguage(view?.lang);
-  if (line.phase === 'closed') {
+  if (socket.phase === 'closed') {
     return (
       <Bare>
-        <Closed reason={line.bye ?? 'removed'} connection={connection} onLeave={onLeave} />
+        <Closed reason={socket.bye ?? 'removed'} connection={connection} onLeave={onLeave} />
       </Bare>
     );
   }
@@ -169,7 +169,7 @@ function Connecting({ snapshot }: { snapshot: Snapshot }): JSX.Element {
 }
 
 interface ClosedProps {
-  reason: NonNullable<LineState['bye']>;
+  reason: NonNullable<SocketState['bye']>;
   connection: Connection;
   onLeave: () => void;
 }

@@ -1,6 +1,6 @@
 // What the page knows from the server and what it has told it: every message is sent until it is acknowledged.
 // Everything that the page shows follows from `snapshot()`.
-import { Line, type Frame, type LineState } from '../shared/line';
+import { ReconnectingSocket, type Frame, type SocketState } from '../shared/reconnecting_socket';
 import { uuid } from '../shared/uuid';
 import { setServerTime } from './clock';
 import { everySecond } from './metronome';
@@ -15,7 +15,7 @@ export interface Refused {
 }
 
 export interface Snapshot {
-  line: LineState;
+  socket: SocketState;
   view: ParticipantView | null;
   pending: readonly Message[];
   refused: Refused | null;
@@ -23,7 +23,7 @@ export interface Snapshot {
 
 export class Connection {
   private readonly outbox: Outbox;
-  private readonly line: Line;
+  private readonly socket: ReconnectingSocket;
   private state: Snapshot;
   private readonly listeners = new Set<() => void>();
   private sent = new Map<string, number>(); // on this connection: when
@@ -33,12 +33,12 @@ export class Connection {
     const tick = (call: () => void): void =>
       everySecond(() => {
         call();
-        if ([...this.sent.values()].some((at) => performance.now() - at > kAckMs)) this.line.lose();
+        if ([...this.sent.values()].some((at) => performance.now() - at > kAckMs)) this.socket.reconnect();
       });
-    this.line = new Line(token, tick, {
-      state: (line) => {
+    this.socket = new ReconnectingSocket(token, tick, {
+      state: (socket) => {
         this.sent.clear();
-        this.change({ line });
+        this.change({ socket });
       },
       welcome: (role) => {
         if (role !== 'participant') onOtherRole(role);
@@ -46,7 +46,7 @@ export class Connection {
       },
       frame: (frame) => this.receive(frame),
     });
-    this.state = { line: this.line.state, view: null, pending: this.outbox.all(), refused: null };
+    this.state = { socket: this.socket.state, view: null, pending: this.outbox.all(), refused: null };
   }
 
   snapshot(): Snapshot {
@@ -68,7 +68,7 @@ export class Connection {
 
   // Lost if there is no connection: the next one replaces it.
   sendDraft(body: Commands['draft']): void {
-    this.line.send({ t: 'draft', id: uuid(), body });
+    this.socket.send({ t: 'draft', id: uuid(), body });
   }
 
   // Whether such a message waits for its acknowledgement.
@@ -83,8 +83,8 @@ export class Connection {
   // Take over from the tab that has opened this session elsewhere, or simply try again.
   reopen(): void {
     // After a long time elsewhere the last view is of no use; local input is kept beside it.
-    if (this.state.line.phase === 'closed') this.change({ view: null });
-    this.line.retry();
+    if (this.state.socket.phase === 'closed') this.change({ view: null });
+    this.socket.reconnectNow();
   }
 
   private change(part: Partial<Snapshot>): void {
@@ -93,9 +93,9 @@ export class Connection {
   }
 
   private post(message: Message): void {
-    if (this.line.state.phase !== 'open') return;
+    if (this.socket.state.phase !== 'open') return;
     this.sent.set(message.id, performance.now());
-    this.line.send(message);
+    this.socket.send(message);
   }
 
   private receive(frame: Frame): void {

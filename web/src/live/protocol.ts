@@ -43,6 +43,7 @@ export interface Judged {
   mine: Frame[] | null;
   robot: Frame[];
   differs_at: number | null;
+  unfinished: boolean; // the prediction ends before the robot has finished
   why: string[];
   cost?: string;
 }
@@ -75,7 +76,7 @@ export interface ParticipantView {
   notices: { text: string; at_ms: number }[];
   pause?: Pause;
   consent?: { version: string; paragraphs: string[] };
-  check?: { board: LiveBoard; task: string; world?: string; start?: number; ask_name?: boolean };
+  check?: { board: LiveBoard; world?: string; start?: number; ask_name?: boolean };
   screening?: Task; // or `predict` in the stage screening
   lobby?: {
     present: number;

@@ -39,6 +39,9 @@ export function rememberLabels(actions: readonly { name: string; label: string }
 // The label of an action: "up", "pick up".
 export const actionLabel = (name: string): string => lookUp(`action.${name}`) ?? labels.get(name) ?? name;
 
+// With a capital letter in front: "Pick up".
+export const capitalised = (text: string): string => text.charAt(0).toLocaleUpperCase(language) + text.slice(1);
+
 export const listed = (things: string[]): string => lists.format(things);
 
 // Sentences from the server name things, not cells.
@@ -51,7 +54,7 @@ export const withoutCells = (text: string): string =>
 export function sentence(text: string): string {
   const plain = withoutCells(text.trim());
   if (plain === '') return '';
-  const upper = plain.charAt(0).toLocaleUpperCase(language) + plain.slice(1);
+  const upper = capitalised(plain);
   return /[.!?:\u2026\u061f\u3002]$/.test(upper) ? upper : `${upper}.`;
 }
 

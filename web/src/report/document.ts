@@ -74,6 +74,7 @@ export interface Report {
     strategies?: Record<string, string>;
     types?: Record<string, string>;
     columns?: Record<string, string>;
+    figures?: Record<string, { title?: string; reading?: string }>; // in place of the page's own, by figure
   };
   overview: {
     teams?: number;

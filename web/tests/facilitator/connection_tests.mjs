@@ -1,4 +1,4 @@
-// The line to the server without a browser: sockets and the clock are made up.
+// The connection to the server without a browser: sockets and the clock are simulated.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -80,7 +80,7 @@ function connect(modules, answers) {
   };
   const lib = new Function(...Object.keys(own), `${outputFiles[0].text}; return lib;`)(...Object.values(own));
   seen.connection = new lib.Connection('token', {
-    line: ({ phase }) => seen.phases.push(phase),
+    socket: ({ phase }) => seen.phases.push(phase),
     view: () => undefined,
     welcome: () => undefined,
   });
@@ -105,7 +105,7 @@ export function connectionTests(modules) {
     assert.equal(seen.sockets.length, 1);
   });
 
-  it('notices a line that is dead without being closed, and makes a new one', () => {
+  it('notices a connection that is dead without being closed, and makes a new one', () => {
     const seen = connect(modules, polite);
     seen.sockets[0].open();
     seen.clock.run(20 * kSecond);
@@ -116,7 +116,7 @@ export function connectionTests(modules) {
     seen.answers = polite;
     last(seen.sockets).open();
     assert.equal(last(seen.phases), 'open');
-    assert.equal(seen.sockets[0].onmessage, null, 'a former line is still heard');
+    assert.equal(seen.sockets[0].onmessage, null, 'a former connection is still heard');
   });
 
   it('gives up an attempt that gets no answer, with growing pauses between attempts', () => {

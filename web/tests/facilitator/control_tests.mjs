@@ -39,16 +39,17 @@ export function controlTests({ withPage, shoot }) {
   it('sends every command with what it needs', async () => {
     await withPage({}, async (page, mock) => {
       await openRoom(page, 'Room A1');
-      const act = async (label, fill) => {
+      const act = async (label, fill, verb = label) => {
         await page.click(`.room-buttons button:text-is("${label}")`);
         await fill?.();
         await page.click('.suggestions button >> nth=0');
+        assert.equal(await page.textContent('dialog button[type=submit]'), verb);
         await page.click('dialog button[type=submit]');
         await page.waitForSelector('dialog', { state: 'detached' });
       };
       await act('Extend', () => page.fill('dialog input[type=number]', '90'));
-      await act('Message', () => page.fill('dialog textarea', 'Five more minutes'));
-      await act('Strategy', () => page.selectOption('dialog select', 'individual-low'));
+      await act('Message', () => page.fill('dialog textarea', 'Five more minutes'), 'Send');
+      await act('Strategy', () => page.selectOption('dialog select', 'individual-low'), 'Switch');
       assert.equal(received(mock, 'extend')[0].seconds, 90);
       assert.equal(received(mock, 'message')[0].text, 'Five more minutes');
       assert.equal(received(mock, 'strategy')[0].name, 'individual-low');

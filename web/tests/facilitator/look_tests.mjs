@@ -117,6 +117,22 @@ export function lookTests({ withPage, violations, shoot }) {
     });
   });
 
+  it('clips regions at the rim of the ball, and hides them behind it', async () => {
+    await withPage({ calm: true }, async (page) => {
+      await openRoom(page, 'Room A1');
+      await page.focus('.globes');
+      const seen = new Set();
+      for (let i = 0; i < 36; i += 1) {
+        const path = (await page.getAttribute('.globe .bec-region', 'd')) ?? '';
+        const places = [...path.matchAll(/(-?[\d.]+),(-?[\d.]+)/g)].map(([, x, y]) => Math.hypot(Number(x), Number(y)));
+        assert.ok(places.every((distance) => distance <= 100.2), path);
+        seen.add(path === '' ? 'behind' : places.some((distance) => distance > 99.5) ? 'at the rim' : 'in front');
+        await page.keyboard.press('ArrowRight');
+      }
+      assert.deepEqual([...seen].sort(), ['at the rim', 'behind', 'in front']);
+    });
+  });
+
   it('explains terms and answers on hover and focus; Escape hides the explanation', async () => {
     await withPage({ calm: true }, async (page) => {
       await openRoom(page, 'Room A1');

@@ -176,7 +176,7 @@ export function failureTests(setting) {
           mock.drop();
           await person.hasStatus('Reconnecting');
           await person.pass(500);
-          await person.hasStatus('Saved');
+          await person.page.waitForSelector('.status.saved', { state: 'attached' }); // says nothing before the consent
         }
         mock.holdsAcks = true;
         await person.consent();

@@ -204,7 +204,7 @@ export class Room {
       case 'consent':
         return { consent: { version: '3', paragraphs: this.options.texts.consent ?? ['This is a study about robots.', 'You may stop at any time.'] } };
       case 'check':
-        return { check: { ...drive(this.sandbox, 0, 1, []), task: '', ask_name: this.options.askName } };
+        return { check: { ...drive(this.sandbox, 0, 1, []), ask_name: this.options.askName } };
       case 'screening':
         return { predict: drive(this.screening[person.index], person.index, this.screening.length, []) };
       case 'lobby':
@@ -252,6 +252,7 @@ export class Room {
         mine,
         robot,
         differs_at: differs < 0 ? null : differs,
+        unfinished: answer !== undefined && !answer.isFinished,
         why: test.shown.covers.map(({ text }) => text),
         ...(right || !answer?.isFinished ? {} : { cost: `Your path costs ${(answer.cost - test.best.cost).toFixed(1)} steps more at (3,1)` }),
       };

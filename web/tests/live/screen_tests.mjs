@@ -14,6 +14,8 @@ const kLooks = [
   { name: 'dark-1280', width: 1280, height: 900, dark: true, rules: ['color-contrast'] },
   { name: 'light-320', width: 320, height: 640, rules: ['scrollable-region-focusable'] },
   { name: 'zoom-200', width: 640, height: 450, rules: [] }, // 1280 x 900 at 200 %
+  { name: 'rtl-320', width: 320, height: 640, rules: [], language: { lang: 'ar', dir: 'rtl', strings: { 'page.skip': 'Skip' } } },
+  { name: 'german-320', width: 320, height: 640, rules: [], language: { lang: 'de', dir: 'ltr', strings: {} } },
 ];
 
 // Buttons, links and fields that are smaller than a finger.
@@ -27,7 +29,7 @@ const smallTargets = () =>
 
 async function withViews(setting, body, look = {}) {
   const { views, room } = makeViews(lesson);
-  const mock = await setting.mock({}, room);
+  const mock = await setting.mock({ language: look.language }, room);
   mock.show(1, views.consent);
   const person = await openPerson(setting.browser, mock.link(1), { reducedMotion: true, ...look });
   try {
@@ -78,6 +80,13 @@ const playToTheEnd = ({ page }) =>
     }
   });
 
+// One in which the robot uses a station up.
+function demonstrationWithStation() {
+  const all = lesson.components.flatMap(({ demonstrations }) => demonstrations);
+  const { map, start, frames } = all.find((one) => one.start.stations.length > 0 && one.frames.at(-1).stations.length === 0);
+  return { board: { map, start }, frames };
+}
+
 export function screenTests(setting) {
   describe('every screen', () => {
     for (const look of kLooks) {
@@ -89,7 +98,7 @@ export function screenTests(setting) {
               await show({ mock, page }, view);
               if (name === 'check') {
                 await examine(setting, person, 'introduction', look);
-                await person.button('Continue').click();
+                await page.click('.intro [type=submit]');
               }
               if (view.predict || view.check) await page.waitForSelector('.pad-row');
               if (/^feedback|^mapless-(w|f)/.test(name)) await playToTheEnd(person);
@@ -101,7 +110,7 @@ export function screenTests(setting) {
       });
     }
 
-    for (const look of kLooks) {
+    for (const look of kLooks.filter(({ language }) => !language)) {
       it(`without a session, at ${look.name}`, async () => {
         await withViews(
           setting,
@@ -145,6 +154,67 @@ export function screenTests(setting) {
           assert.doesNotMatch(text, /\b(wait|predict|watch|feedback|lobby|say|thing|legend|common|end|pause)\.[a-z]/, name);
           assert.ok((await page.title()).startsWith(await page.textContent('h1')), name);
         }
+      });
+    });
+
+    it('keeps boards and arrows as they are where texts are written from right to left', async () => {
+      const look = kLooks.find(({ language }) => language?.dir === 'rtl');
+      await withViews(
+        setting,
+        async ({ views, mock, page }) => {
+          await show({ mock, page }, views.predict);
+          await page.waitForSelector('.pad-row');
+          const left = (selector) => page.$eval(selector, (element) => element.getBoundingClientRect().left);
+          assert.ok((await left('.pad .x1')) < (await left('.pad .x3')));
+          const before = await left('.mover');
+          await page.keyboard.press('ArrowRight');
+          await page.waitForFunction((x) => document.querySelector('.mover').getBoundingClientRect().left > x, before);
+        },
+        look,
+      );
+    });
+
+    it('calls nothing saved while nothing is stored', async () => {
+      await withViews(setting, async ({ views, mock, page }) => {
+        for (const name of ['consent', 'declined', 'full']) {
+          await show({ mock, page }, views[name]);
+          assert.equal(await page.textContent('.status'), '', name);
+        }
+        await show({ mock, page }, views.lobby);
+        assert.match(await page.textContent('.status'), /Saved/);
+      });
+    });
+
+    it('says that a prediction ends too early', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        for (const [name, isShort] of [['feedback-short', true], ['feedback-wrong', false]]) {
+          await show({ mock, page }, views[name]);
+          await playToTheEnd(person);
+          assert.equal((await page.textContent('main')).includes('Your path ends before the robot has finished its job.'), isShort, name);
+        }
+      });
+    });
+
+    it('shows a station that has been used up, but pale', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        const { board, frames } = demonstrationWithStation();
+        await show({ mock, page }, { ...views.watch, watch: { ...views.watch.watch, board: { ...views.watch.watch.board, ...board }, frames } });
+        assert.equal(await page.locator('.live-board .station').count(), 1);
+        assert.equal(await page.locator('.live-board .used-up').count(), 0);
+        assert.match(await page.textContent('.lead'), /guess where the robot will go/);
+        await playToTheEnd(person);
+        assert.equal(await page.locator('.live-board .used-up .station').count(), 1);
+        assert.match(await page.textContent('.lead'), /Why do you think/);
+      });
+    });
+
+    it('mentions no answer where there is only practice', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        await show({ mock, page }, views.check);
+        await page.click('.intro [type=submit]');
+        await person.drive(await person.best());
+        await person.said('The robot has finished its job.');
+        assert.doesNotMatch(await page.textContent('main'), /Submit|answer/i);
       });
     });
 

@@ -20,7 +20,7 @@ export function sessionTests(setting) {
         const wrong = ['right', 'down', 'right', 'pickup', 'left', 'left', 'left', 'dropoff'];
         await people[0].answer(wrong);
         await people[0].at('Waiting for the others');
-        assert.match(await people[0].page.textContent('main'), /2 people are still working.*Next, you will see what the robot/s);
+        assert.match(await people[0].page.textContent('main'), /2 people are still working.*You will see what the robot/s);
         await people[1].answer();
         await people[2].answer();
         await people[0].at('Not quite');
@@ -188,8 +188,8 @@ export function sessionTests(setting) {
         await person.counts('3 steps');
         await person.button('Start over').click();
         await person.counts('0 steps');
-        await person.button('up').click();
-        await person.button('up').click(); // the edge
+        await person.button('Up').click();
+        await person.button('Up').click(); // the edge
         await person.said('cannot do that here');
         await person.button('Submit').click();
         await person.counts('has not finished');

@@ -6,9 +6,10 @@ import { describe, it } from 'node:test';
 import { fileURLToPath } from 'node:url';
 
 const source = join(dirname(fileURLToPath(import.meta.url)), '../../src/live');
-const read = (name) => JSON.parse(readFileSync(join(source, 'texts', name), 'utf8'));
+const textOf = (name) => readFileSync(join(source, 'texts', name), 'utf8');
+const read = (name) => JSON.parse(textOf(name));
 const placeholders = (text) => [...text.matchAll(/\{(\w+)\}/g)].map(([, name]) => name).sort();
-const isNamed = (key) => key.startsWith('name.'); // what the domain names, which English needs no text for
+const isNamed = (key) => key.startsWith('name.'); // what the domain names: English has only names that do not read well
 
 function sources(folder) {
   return readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
@@ -44,7 +45,22 @@ export function textTests() {
       assert.deepEqual(Object.values(english).filter((text) => terms.test(text)), []);
     });
 
-    for (const name of readdirSync(join(source, 'texts')).filter((file) => file !== 'en.json')) {
+    const files = readdirSync(join(source, 'texts'));
+    for (const name of files) {
+      it(`of ${name} have one text for every key`, () => {
+        const keys = [...textOf(name).matchAll(/^ {2}"([^"]+)": /gm)].map(([, key]) => key);
+        assert.deepEqual(keys.filter((key, i) => keys.indexOf(key) !== i), []);
+        assert.deepEqual(keys, Object.keys(read(name)));
+        assert.deepEqual(Object.entries(read(name)).filter(([, text]) => text.trim() === ''), []);
+      });
+    }
+
+    it('in German address people formally', () => {
+      const informal = /\b(du|dich|dir|dein\w*|euch|eure?\w*)\b/i;
+      assert.deepEqual(Object.values(read('de.json')).filter((text) => informal.test(text)), []);
+    });
+
+    for (const name of files.filter((file) => file !== 'en.json')) {
       it(`of ${name} have the keys and placeholders of English`, () => {
         const own = read(name);
         assert.deepEqual(Object.keys(own).filter((key) => !(key in english) && !isNamed(key)), []);

@@ -106,7 +106,7 @@ export function makeViews(lesson, now = Date.now()) {
   views['mapless-feedback'] = {
     ...views['feedback-wrong'],
     feedback: {
-      tests: [{ board: mapless(0), right: false, mine: plain, robot: way, differs_at: 1, why: ['waiting is safer'], cost: 'One step too few' }],
+      tests: [{ board: mapless(0), right: false, mine: plain, robot: way, differs_at: 1, unfinished: false, why: ['waiting is safer'], cost: 'One step too few' }],
       all_right: false,
       learned: true,
     },

@@ -74,7 +74,7 @@ export function ActionDialog({ action, send, onClose }: ActionDialogProps): JSX.
             {isSent ? 'Close' : 'Cancel'}
           </button>
           <button type="submit" class={action.isDangerous ? 'danger' : 'primary'} aria-disabled={isSent}>
-            {isSent ? 'Sending\u2026' : action.label}
+            {isSent ? 'Sending\u2026' : (action.verb ?? action.label)}
           </button>
         </div>
       </form>

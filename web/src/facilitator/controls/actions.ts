@@ -15,7 +15,8 @@ export interface Field {
 // One command, ready to be asked about.
 export interface Action {
   command: CommandName;
-  label: string; // of the button: "Pause"
+  label: string; // of the button that opens the dialog: "Message"
+  verb?: string; // of the button that sends the command, if it is another one: "Send"
   title: string; // of the dialog: "Pause room A7"
   explains: string; // what happens to the participants
   fields: Field[];
@@ -87,6 +88,7 @@ export function roomActions(room: RoomRow, study: StudyInfo): Action[] {
       when: !is('ended'),
       command: 'message',
       label: 'Message',
+      verb: 'Send',
       title: `Write to ${lower(title)}`,
       explains: 'Everyone in the room sees the text at the top of their page. Do not reveal how the robot decides.',
       fields: [{ name: 'text', label: 'Message', kind: 'text', value: '' }],
@@ -98,6 +100,7 @@ export function roomActions(room: RoomRow, study: StudyInfo): Action[] {
       when: is('lobby', 'running', 'paused'),
       command: 'strategy',
       label: 'Strategy',
+      verb: 'Switch',
       title: `Switch the strategy of ${lower(title)}`,
       explains: 'The teacher uses the new strategy from the next component on. The tables record the switch; exclude this group from analyses by strategy.',
       fields: [
@@ -142,6 +145,7 @@ export function seatActions(room: RoomRow, seat: SeatRow, study: StudyInfo): Act
       when: isPerson && !isOver && seat.presence !== 'empty',
       command: 'message',
       label: 'Message',
+      verb: 'Send',
       title: `Write to ${who}`,
       explains: 'Only this person sees the text. Do not reveal how the robot decides.',
       fields: [{ name: 'text', label: 'Message', kind: 'text', value: '' }],

@@ -1,5 +1,6 @@
-// Orthographic drawing of the unit sphere: points, great-circle outlines and regions as SVG paths.
-import { middle, normalise, toLonLat, type Vector } from '../../shared/sphere';
+// Orthographic drawing of the unit sphere: lines, regions and points as SVG paths.
+import { geoArea, geoGraticule, geoOrthographic, geoPath, type GeoPermissibleObjects } from 'd3-geo';
+import { middle, normalise, toLonLat, type LonLat, type Vector } from '../../shared/sphere';
 
 // Longitude and latitude that face the viewer, degrees.
 export interface Turn {
@@ -8,9 +9,15 @@ export interface Turn {
 }
 
 export interface Placed {
-  x: number; // to the right, in radii
-  y: number; // downwards, in radii
+  x: number; // to the right
+  y: number; // downwards
   z: number; // towards the viewer: >= 0 is in front
+}
+
+// Draws what faces the viewer. Lengths are those of the radius.
+export interface Globe {
+  path: (shape: GeoPermissibleObjects) => string;
+  place: (v: Vector) => Placed;
 }
 
 const kRadians = Math.PI / 180;
@@ -33,70 +40,45 @@ export function firstTurn(truth: number[], prior: number[][]): Turn {
   return turnTo(asVector([kFromPrior * x + a, kFromPrior * y + b, kFromPrior * z + c]));
 }
 
-export function placer({ lambda, phi }: Turn): (v: Vector) => Placed {
+export function makeGlobe({ lambda, phi }: Turn, radius: number): Globe {
+  const projection = geoOrthographic().rotate([-lambda, -phi]).scale(radius).translate([0, 0]);
+  const path = geoPath(projection).digits(1);
   const [cl, sl] = [Math.cos(lambda * kRadians), Math.sin(lambda * kRadians)];
   const [cp, sp] = [Math.cos(phi * kRadians), Math.sin(phi * kRadians)];
-  return ([x, y, z]) => {
-    const ahead = cl * x + sl * y;
-    return { x: cl * y - sl * x, y: -(cp * z - sp * ahead), z: cp * ahead + sp * z };
+  return {
+    path: (shape) => path(shape) ?? '',
+    place: ([x, y, z]) => {
+      const ahead = cl * x + sl * y;
+      return { x: radius * (cl * y - sl * x), y: -radius * (cp * z - sp * ahead), z: radius * (cp * ahead + sp * z) };
+    },
   };
 }
 
-const kStep = 4 * kRadians; // longest piece of a great circle that is drawn as a straight line
+const closed = (corners: number[][]): LonLat[] =>
+  [...corners, ...corners.slice(0, 1)].map((corner) => toLonLat(asVector(corner)));
 
-// An outline with points between its corners, along great circles.
-export function refined(outline: number[][], closed = true): Vector[] {
-  const corners = outline.map(asVector);
-  const all: Vector[] = [];
-  corners.forEach((from, i) => {
-    const to = corners[i + 1] ?? (closed ? corners[0] : undefined);
-    all.push(from);
-    if (!to) return;
-    const angle = Math.acos(Math.max(-1, Math.min(1, from[0] * to[0] + from[1] * to[1] + from[2] * to[2])));
-    const pieces = Math.ceil(angle / kStep);
-    for (let k = 1; k < pieces; ++k) {
-      const [a, b] = [Math.sin(angle * (1 - k / pieces)), Math.sin(angle * (k / pieces))];
-      all.push(asVector([a * from[0] + b * to[0], a * from[1] + b * to[1], a * from[2] + b * to[2]]));
-    }
-  });
-  return all;
+// The closed line through the corners.
+export function outlineOf(corners: number[][]): GeoPermissibleObjects {
+  const line = { type: 'LineString' as const, coordinates: closed(corners) };
+  return line;
 }
 
-const at = ({ x, y }: { x: number; y: number }, radius: number): string =>
-  `${(x * radius).toFixed(1)} ${(y * radius).toFixed(1)}`;
-
-// The visible parts of a closed line.
-export function linePath(points: Vector[], place: (v: Vector) => Placed, radius: number): string {
-  const placed = points.map(place);
-  let path = '';
-  placed.forEach((from, i) => {
-    const to = placed[(i + 1) % placed.length];
-    if (!to || from.z < 0 || to.z < 0) return;
-    const before = placed[(i + placed.length - 1) % placed.length];
-    const goesOn = path !== '' && i > 0 && before !== undefined && before.z >= 0;
-    path += goesOn ? `L${at(to, radius)}` : `M${at(from, radius)}L${at(to, radius)}`;
-  });
-  return path;
+// What the corners enclose: the smaller of the two parts of the sphere.
+export function regionOf(corners: number[][]): GeoPermissibleObjects {
+  const region = { type: 'Polygon' as const, coordinates: [closed(corners)] };
+  if (geoArea(region) > 2 * Math.PI) region.coordinates[0]?.reverse();
+  return region;
 }
 
-// The visible part of a region. What is behind is moved to the rim, so that the shape closes along it.
-export function regionPath(points: Vector[], place: (v: Vector) => Placed, radius: number): string {
-  const placed = points.map(place);
-  if (!placed.some(({ z }) => z >= 0)) return '';
-  const shown = placed.map((p) => {
-    if (p.z >= 0) return p;
-    const length = Math.hypot(p.x, p.y) || 1;
-    return { x: p.x / length, y: p.y / length };
-  });
-  return `M${shown.map((p) => at(p, radius)).join('L')}Z`;
-}
+// Every 30 degrees: meridians and parallels, for the shape of the ball.
+export const kGraticule: GeoPermissibleObjects = geoGraticule().step([30, 30])();
 
 // Dots of the front or the back as lines without length; the stroke's round caps make them visible.
-export function dotsPath(points: Vector[], place: (v: Vector) => Placed, radius: number, front: boolean): string {
+export function dotsPath(points: Vector[], { place }: Globe, front: boolean): string {
   let path = '';
   for (const point of points) {
-    const placed = place(point);
-    if (placed.z >= 0 === front) path += `M${at(placed, radius)}h0`;
+    const { x, y, z } = place(point);
+    if (z >= 0 === front) path += `M${x.toFixed(1)} ${y.toFixed(1)}h0`;
   }
   return path;
 }
@@ -108,27 +90,6 @@ export function unpack(text: string): Vector[] {
   const count = Math.floor(bytes.byteLength / 6);
   const read = (place: number): number => view.getInt16(place, true) / 32767;
   return Array.from({ length: count }, (_, i) => [read(6 * i), read(6 * i + 2), read(6 * i + 4)]);
-}
-
-// Every 30 degrees: meridians and parallels, for the shape of the ball.
-export const kGraticule: Vector[][] = [
-  ...[-60, -30, 0, 30, 60].map((lat) =>
-    Array.from({ length: 72 }, (_, i): Vector => onBall(i * 5, lat)),
-  ),
-  ...[0, 30, 60, 90, 120, 150].map((lon) =>
-    Array.from({ length: 72 }, (_, i): Vector => {
-      const around = i * 5;
-      const [c, s] = [Math.cos(around * kRadians), Math.sin(around * kRadians)];
-      const [cl, sl] = [Math.cos(lon * kRadians), Math.sin(lon * kRadians)];
-      return [c * cl, c * sl, s];
-    }),
-  ),
-];
-
-function onBall(lon: number, lat: number): Vector {
-  const [cl, sl] = [Math.cos(lon * kRadians), Math.sin(lon * kRadians)];
-  const [cp, sp] = [Math.cos(lat * kRadians), Math.sin(lat * kRadians)];
-  return [cp * cl, cp * sl, sp];
 }
 
 export function turned(turn: Turn, dx: number, dy: number): Turn {

@@ -66,9 +66,17 @@ function RoomBar({ view, room, mayAct, onSelect, onAct }: RoomBarProps): JSX.Ele
       </select>
       <span class={`badge ${room.stage}`}>{kStages[room.stage]}</span>
       <span class="fact">
-        <b>{room.strategy}</b> {room.composition}
+        Strategy{' '}
+        <b class="term" tabIndex={0} data-tip={view.study.strategies.find(({ name }) => name === room.strategy)?.description}>
+          {room.strategy}
+        </b>
         {room.next_strategy && ` (${room.next_strategy} from the next component on)`}
       </span>
+      {room.composition && (
+        <span class="fact">
+          <Explained term="composition">Group</Explained> <b>{room.composition}</b>
+        </span>
+      )}
       {period > 0 && (
         <span class="fact">
           <Explained term="interactions">Period</Explained> <b>{period}</b>

@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { duration } from '../../shared/duration';
 import { minutesText, useNow } from '../clock';
-import type { RoomDetail, RoomRow, Timer } from '../protocol';
+import type { Forecast, RoomDetail, RoomRow, Timer } from '../protocol';
 import { Explained } from '../tip';
 import { upperFirst } from '../words';
 
@@ -33,12 +33,12 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
         })}
       </ol>
       <dl class="timers">
-        {room.stage !== 'ended' && (
+        {(room.stage === 'running' || room.stage === 'paused') && (
           <div>
             <dt>
               <Explained term="forecast">Time left</Explained>
             </dt>
-            <dd>{forecast ? `${minutesText(forecast.minutes_low, forecast.minutes_high)}, about ${periodsText(forecast.periods)}` : 'unknown'}</dd>
+            <dd>{forecast ? forecastText(forecast) : 'unknown'}</dd>
           </div>
         )}
         {detail.timers.filter(isShown).map((timer) => (
@@ -67,6 +67,12 @@ const isShown = ({ name, until_ms }: Timer): boolean => name !== 'session' || un
 
 const timerName = ({ name }: Timer, phase: string): string =>
   name === 'phase' ? (kPhases[phase] ?? upperFirst(phase)) : (kTimers[name] ?? upperFirst(name));
+
+function forecastText({ minutes_low, minutes_high, periods, done_within }: Forecast): string {
+  const next = done_within?.[0];
+  const done = next === undefined ? '' : `; done after the next period: ${Math.round(100 * next)} %`;
+  return `${minutesText(minutes_low, minutes_high)}, about ${periodsText(periods)}${done}`;
+}
 
 function periodsText(periods: number): string {
   const n = Math.round(periods);

@@ -2,12 +2,13 @@
 // by the arrow keys or with the sliders.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
+import type { GeoPermissibleObjects } from 'd3-geo';
 import type { Vector } from '../../shared/sphere';
 import type { Belief, RoomDetail, Truth } from '../protocol';
 import { Explained } from '../tip';
 import { upperFirst } from '../words';
-import { asVector, dotsPath, firstTurn, kGraticule, linePath, placer, refined, regionPath, turned, unpack } from './globe';
-import type { Placed, Turn } from './globe';
+import { asVector, dotsPath, firstTurn, kGraticule, makeGlobe, outlineOf, regionOf, turned, unpack } from './globe';
+import type { Globe, Turn } from './globe';
 import { beliefKind, memberOf, shortName } from './beliefs';
 import { useWidth } from './width';
 
@@ -15,6 +16,7 @@ const kRadius = 100; // in the drawing
 const kKeyTurn = 10; // degrees
 const kCaption = 19; // px below a sphere
 const kLargest = 190; // px
+const kSide = 0.55 * kRadius; // labels beyond it extend towards the middle
 
 interface Layout {
   columns: number;
@@ -51,7 +53,7 @@ export function Spheres({ detail, height, nameOf, marked, onMark }: SpheresProps
   const latest = detail.curves[detail.curves.length - 1]?.p_bec ?? {};
 
   if (!truth || truth.weights.length !== 3 || beliefs.length === 0) return <NoSpheres detail={detail} nameOf={nameOf} />;
-  const outlines = { bec: refined(truth.bec), prior: refined(truth.prior), truth: asVector(truth.weights) };
+  const shapes = { bec: regionOf(truth.bec), prior: outlineOf(truth.prior), truth: asVector(truth.weights) };
   const key = (event: KeyboardEvent): void => {
     const moves: Record<string, [number, number]> = {
       ArrowLeft: [-kKeyTurn, 0],
@@ -65,7 +67,7 @@ export function Spheres({ detail, height, nameOf, marked, onMark }: SpheresProps
     else return;
     event.preventDefault();
   };
-  const place = placer(turn);
+  const globe = makeGlobe(turn, kRadius);
   return (
     <div class="spheres">
       <SphereKey turn={turn} onTurn={setTurn} onReset={() => setTurn(home)} />
@@ -92,13 +94,13 @@ export function Spheres({ detail, height, nameOf, marked, onMark }: SpheresProps
       >
         {width > 0 &&
           beliefs.map((belief) => (
-            <Globe
+            <BeliefGlobe
               key={belief.name}
               belief={belief}
               name={nameOf(belief.name)}
-              outlines={outlines}
+              shapes={shapes}
               truth={truth}
-              place={place}
+              globe={globe}
               size={size}
               mass={latest[belief.name]}
               isMarked={marked !== null && memberOf(belief.name) === marked}
@@ -153,12 +155,12 @@ function SphereKey({ turn, onTurn, onReset }: { turn: Turn; onTurn: (turn: Turn)
   );
 }
 
-interface GlobeProps {
+interface BeliefGlobeProps {
   belief: Belief;
   name: string;
-  outlines: { bec: Vector[]; prior: Vector[]; truth: Vector };
+  shapes: { bec: GeoPermissibleObjects; prior: GeoPermissibleObjects; truth: Vector };
   truth: Truth;
-  place: (v: Vector) => Placed;
+  globe: Globe;
   size: number;
   mass: number | undefined;
   isMarked: boolean;
@@ -166,9 +168,10 @@ interface GlobeProps {
   onMark: (member: number | null) => void;
 }
 
-function Globe({ belief, name, outlines, truth, place, size, mass, isMarked, labelled, onMark }: GlobeProps): JSX.Element {
+function BeliefGlobe({ belief, name, shapes, truth, globe, size, mass, isMarked, labelled, onMark }: BeliefGlobeProps): JSX.Element {
   const points = useMemo(() => unpack(belief.points), [belief.points]);
-  const star = place(outlines.truth);
+  const bec = globe.path(shapes.bec);
+  const star = globe.place(shapes.truth);
   const kind = beliefKind(belief.name);
   const share = mass === undefined ? '' : mass.toFixed(2);
   const said = mass === undefined ? '' : `, ${Math.round(100 * mass)} % of it in the BEC region`;
@@ -180,14 +183,14 @@ function Globe({ belief, name, outlines, truth, place, size, mass, isMarked, lab
     >
       <svg width={size} height={size} viewBox="-104 -104 208 208" role="img" aria-label={`Belief: ${name}${said}`}>
         <circle class="ball" r={kRadius} />
-        {labelled && <path class="graticule" d={kGraticule.map((line) => linePath(line, place, kRadius)).join('')} />}
-        <path class="dots behind" d={dotsPath(points, place, kRadius, false)} />
-        <path class="bec-region" d={regionPath(outlines.bec, place, kRadius)} />
-        <path class="prior-line" d={linePath(outlines.prior, place, kRadius)} />
-        <path class="dots" d={dotsPath(points, place, kRadius, true)} />
-        <path class="bec-line" d={regionPath(outlines.bec, place, kRadius)} />
-        {labelled && <Axes features={truth.features ?? []} place={place} />}
-        {star.z >= 0 && <path class="star" d={kStar} transform={`translate(${star.x * kRadius} ${star.y * kRadius})`} />}
+        {labelled && <path class="graticule" d={globe.path(kGraticule)} />}
+        <path class="dots behind" d={dotsPath(points, globe, false)} />
+        <path class="bec-region" d={bec} />
+        <path class="prior-line" d={globe.path(shapes.prior)} />
+        <path class="dots" d={dotsPath(points, globe, true)} />
+        <path class="bec-line" d={bec} />
+        {labelled && <Axes features={truth.features ?? []} globe={globe} />}
+        {star.z >= 0 && <path class="star" d={kStar} transform={`translate(${star.x} ${star.y})`} />}
       </svg>
       <figcaption>
         <span class="whose">{upperFirst(labelled ? name : shortName(name))}</span> <b>{share}</b>
@@ -202,21 +205,21 @@ const kStar = Array.from({ length: 10 }, (_, i) => {
 }).join('') + 'Z';
 
 // Where a feature's weight is all there is, positive or negative.
-function Axes({ features, place }: { features: string[]; place: (v: Vector) => Placed }): JSX.Element {
+function Axes({ features, globe }: { features: string[]; globe: Globe }): JSX.Element {
   const ends = features.slice(0, 3).flatMap((name, i) =>
     [1, -1].map((sign) => {
       const v: Vector = [i === 0 ? sign : 0, i === 1 ? sign : 0, i === 2 ? sign : 0];
-      return { label: `${name} ${sign > 0 ? '+' : '\u2212'}`, ...place(v) };
+      return { label: `${name} ${sign > 0 ? '+' : '\u2212'}`, ...globe.place(v) };
     }),
   );
   return (
     <g class="axes">
       {ends
-        .filter(({ z }) => z > 0.05)
+        .filter(({ z }) => z > 0.05 * kRadius)
         .map(({ label, x, y }) => (
-          <g transform={`translate(${(x * kRadius).toFixed(1)} ${(y * kRadius).toFixed(1)})`}>
+          <g transform={`translate(${x.toFixed(1)} ${y.toFixed(1)})`}>
             <circle r={2} />
-            <text y={-6} text-anchor={x > 0.55 ? 'end' : x < -0.55 ? 'start' : 'middle'}>
+            <text y={-6} text-anchor={x > kSide ? 'end' : x < -kSide ? 'start' : 'middle'}>
               {label}
             </text>
           </g>

@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import type { FacilitatorView, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
-import { counted, policyText } from '../words';
+import { policyText } from '../words';
 import { LinkBox } from './link_box';
 import { MakeRooms } from './make_rooms';
 import { RoomLinks } from './room_links';
@@ -81,9 +81,9 @@ function StudyFacts({ study }: { study: StudyInfo }): JSX.Element {
         {study.compositions && study.compositions.length > 0 && <dd>{study.compositions.join(', ')}</dd>}
         <dt>Learner types</dt>
         <dd>{study.types.map(({ letter, label }) => `${letter}: ${label}`).join(', ')}</dd>
-        <dt>If somebody is away</dt>
+        <dt>If someone is away</dt>
         <dd>
-          {policyText(study.dropout)} (<Explained term="grace">grace period</Explained> {study.grace_s} s)
+          {policyText(study.dropout)} (<Explained term="grace">grace period</Explained> {secondsText(study.grace_s)})
         </dd>
         <dt>Time limits</dt>
         <dd>{limits.length === 0 ? 'none' : limits.map(([name, value]) => limitText(name, value)).join(', ')}</dd>
@@ -93,16 +93,18 @@ function StudyFacts({ study }: { study: StudyInfo }): JSX.Element {
 }
 
 const kLimits: Record<string, string> = {
-  watch_s: 'watching',
-  predict_s: 'answering',
+  watch_s: 'demonstrations of a period',
+  predict_s: 'tests of a period',
   feedback_s: 'feedback',
   lobby_s: 'lobby',
-  leave_after_s: 'leaving the lobby with a code after',
+  leave_after_s: 'a waiting person may leave with a code after',
   max_minutes: 'whole session',
 };
 
+const secondsText = (seconds: number): string => (seconds % 60 === 0 ? `${seconds / 60} min` : `${seconds} s`);
+
 const limitText = (name: string, value: number): string =>
-  `${kLimits[name] ?? name} ${name === 'max_minutes' ? counted(value, 'minute') : `${value} s`}`;
+  `${kLimits[name] ?? name} ${name === 'max_minutes' ? `${value} min` : secondsText(value)}`;
 
 function Rehearsal({ study }: { study: StudyInfo }): JSX.Element {
   return (
@@ -110,9 +112,9 @@ function Rehearsal({ study }: { study: StudyInfo }): JSX.Element {
       <h2 id="rehearsal-title">Rehearsal</h2>
       <p>
         Before the first participants arrive, run the whole study with simulated participants. They connect as browsers do,
-        so this tests the server, the network settings and your study file. Run in a terminal:
+        so this tests the server, the network settings and your study file. Run this in a terminal, with the name of your file:
       </p>
-      <pre tabIndex={0}>{`kith serve ${study.id}.toml --rehearse 3`}</pre>
+      <pre tabIndex={0}>{`kith serve ${study.id === 'demo' ? '--demo' : `${study.id}.toml`} --rehearse 3`}</pre>
       <p>
         This creates three groups of simulated participants and prints a summary: periods, times, and whether anything was
         lost. Their results go into a separate folder. To watch a group of{' '}

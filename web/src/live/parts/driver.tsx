@@ -23,8 +23,9 @@ interface Props {
   world: World | null; // while it is being fetched, only the board is there
   drive: Drive | null;
   off: boolean;
-  children: ComponentChildren; // what stands below the pad
-  waiting: ComponentChildren; // what stands there until the world has come
+  end: string; // what is said when the robot has finished
+  children: ComponentChildren; // below the pad
+  waiting: ComponentChildren; // there until the world has loaded
 }
 
 export function Driver(props: Props): JSX.Element {
@@ -47,9 +48,9 @@ export function Driver(props: Props): JSX.Element {
   return <Driving {...props} world={world} drive={drive} />;
 }
 
-function Driving({ board, legend, world, drive, off, children }: Props & { world: World; drive: Drive }): JSX.Element {
+function Driving({ board, legend, world, drive, off, end, children }: Props & { world: World; drive: Drive }): JSX.Element {
   const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
-  const tell = useTelling(board, legend, drive, log);
+  const tell = useTelling({ board, legend, drive, log, end });
   const area = useRef<HTMLDivElement>(null);
   useKeys({ world, drive, off, tell, area });
   const frame = drive.frames.at(-1) ?? board.start;
@@ -126,19 +127,27 @@ function lastStep(board: LiveBoard, legend: Legend, frames: Frame[]): string {
 
 type Told = Outcome | 'none';
 
+interface TellingOptions {
+  board: LiveBoard;
+  legend: Legend;
+  drive: Drive;
+  log: Log;
+  end: string;
+}
+
 // Says what an action has done. The path is that of the next rendering.
-function useTelling(board: LiveBoard, legend: Legend, drive: Drive, log: Log): (outcome: Told) => void {
+function useTelling({ board, legend, drive, log, end }: TellingOptions): (outcome: Told) => void {
   const length = useRef(drive.actions.length);
   useLayoutEffect(() => {
     if (drive.actions.length > length.current) {
-      log.say(lastStep(board, legend, drive.frames) + (drive.isAtEnd ? ` ${t('predict.end')}` : ''));
+      log.say(lastStep(board, legend, drive.frames) + (drive.isAtEnd ? ` ${end}` : ''));
     }
     length.current = drive.actions.length;
   }, [drive.actions]);
   return (outcome) => {
     if (outcome === 'blocked') log.say(t('predict.blocked'));
     else if (outcome === 'none') log.say(t('predict.too_far'));
-    else if (outcome === 'end') log.say(t('predict.end'));
+    else if (outcome === 'end') log.say(end);
     else if (outcome === 'full') log.say(t('predict.longest'));
   };
 }

@@ -7,7 +7,7 @@ import { PartGlyph, Patterns, Robot } from '../../shared/board/glyphs';
 import { Legend } from '../../shared/board/legend';
 import type { Frame, MapDomain, Part, Place } from '../../shared/board/types';
 import type { LiveBoard } from '../protocol';
-import { named, t } from '../texts';
+import { capitalised, named, t } from '../texts';
 import { boardText, cellTexts } from '../words';
 
 // Views are new objects each time, and a legend is the same for a whole session.
@@ -65,8 +65,7 @@ function cellUnder(event: MouseEvent): Place | null {
 function legendName({ kind, name }: Part): string {
   if (kind === 'wall') return t('legend.wall');
   if (kind === 'destination') return t('legend.destination', { name: named(name.replace(/^destination of /, '')) });
-  const text = named(name);
-  return text.charAt(0).toUpperCase() + text.slice(1);
+  return capitalised(named(name));
 }
 
 // What is on this board, and nothing else.

@@ -1,6 +1,6 @@
 // Buttons for the robot's actions: arrows where they lie on a board, all others with their names.
 import type { JSX } from 'preact';
-import { actionLabel, t } from '../texts';
+import { actionLabel, capitalised, t } from '../texts';
 import type { Action } from '../world';
 import { Button } from './ui';
 
@@ -27,7 +27,7 @@ export function Pad({ actions, canDo, onAction, off }: Props): JSX.Element {
               onClick={() => onAction(action.index)}
             >
               <Arrow shift={action.shift ?? [0, 0]} />
-              <span class="visually-hidden">{actionLabel(action.name)}</span>
+              <span class="visually-hidden">{capitalised(actionLabel(action.name))}</span>
             </Button>
           ))}
         </div>
@@ -36,7 +36,7 @@ export function Pad({ actions, canDo, onAction, off }: Props): JSX.Element {
         <div class="other-actions" role="group" aria-label={t('predict.actions')}>
           {others.map((action) => (
             <Button class={canDo(action.index) ? '' : 'faint'} off={off} onClick={() => onAction(action.index)}>
-              {actionLabel(action.name)}
+              {capitalised(actionLabel(action.name))}
             </Button>
           ))}
         </div>

@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { duration } from '../../shared/duration';
 import { serverNow, useTick } from '../clock';
 import type { Connection, Snapshot } from '../connection';
-import type { ParticipantView, Pause } from '../protocol';
+import type { ParticipantView, Pause, Stage } from '../protocol';
 import { keep, recall } from '../storage';
 import { sentence, t } from '../texts';
 import { Button } from './ui';
@@ -21,7 +21,7 @@ export function Shell({ connection, snapshot, view, children }: Props): JSX.Elem
     <>
       <header class="top">
         <p class="study-title">{view.study.title}</p>
-        <Status snapshot={snapshot} />
+        <Status snapshot={snapshot} stage={view.stage} />
         {view.progress && <Progress {...view.progress} />}
       </header>
       <div class="messages">
@@ -37,13 +37,20 @@ export function Shell({ connection, snapshot, view, children }: Props): JSX.Elem
   );
 }
 
+// Nothing of these people is stored, so the page must not call it saved.
+const kUnstored: readonly Stage[] = ['consent', 'declined', 'full'];
+
 // A tick, an arrow or an exclamation mark, and always a word.
-function Status({ snapshot }: { snapshot: Snapshot }): JSX.Element {
-  const state = snapshot.line.phase !== 'open' ? 'reconnecting' : snapshot.pending.length > 0 ? 'saving' : 'saved';
+function Status({ snapshot, stage }: { snapshot: Snapshot; stage: Stage }): JSX.Element {
+  const state = snapshot.socket.phase !== 'open' ? 'reconnecting' : snapshot.pending.length > 0 ? 'saving' : 'saved';
   const signs = { saved: '\u2713', saving: '\u2191', reconnecting: '!' };
   return (
     <p class={`status ${state}`} role="status">
-      <span aria-hidden="true">{signs[state]}</span> {t(`status.${state}`)}
+      {!(state === 'saved' && kUnstored.includes(stage)) && (
+        <>
+          <span aria-hidden="true">{signs[state]}</span> {t(`status.${state}`)}
+        </>
+      )}
     </p>
   );
 }
@@ -62,7 +69,7 @@ const kPatience = 2000; // a short break needs no banner
 
 function Lost({ connection, snapshot }: { connection: Connection; snapshot: Snapshot }): JSX.Element | null {
   useTick();
-  const { phase, since, bye } = snapshot.line;
+  const { phase, since, bye } = snapshot.socket;
   const time = performance.now() - since;
   if (phase !== 'lost' || time < kPatience) return null;
   const isStopping = bye === 'server-stops';

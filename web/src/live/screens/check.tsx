@@ -7,7 +7,7 @@ import { useLegend } from '../parts/live_board';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
-import { isEnglish, sentence, t } from '../texts';
+import { t } from '../texts';
 import { plainWorld, useWorld, type World } from '../world';
 
 const kLongestName = 80; // bytes, as the server counts
@@ -34,6 +34,7 @@ export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
       <Paragraphs texts={story} />
       {goal && <p class="goal">{goal}</p>}
       <p>{t('intro.how')}</p>
+      {view.group.size > 1 && <p>{t('intro.group', { size: view.group.size })}</p>}
       {check.ask_name && (
         <div class="name">
           <label for="name">{t('person.label')}</label>
@@ -76,7 +77,7 @@ function Controls(props: ScreenProps & { check: Shown }): JSX.Element {
   return (
     <>
       <Heading>{t('check.title')}</Heading>
-      <p class="lead">{check.task && isEnglish() ? sentence(check.task) : t('check.intro')}</p>
+      <p class="lead">{t('check.intro')}</p>
       {world ? (
         <Trying {...props} world={world} start={check.start ?? plain?.start ?? 0} legend={legend} />
       ) : (
@@ -86,6 +87,7 @@ function Controls(props: ScreenProps & { check: Shown }): JSX.Element {
           world={null}
           drive={null}
           off
+          end=""
           waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
         >
           {null}
@@ -109,7 +111,7 @@ function Trying({ check, world, start, legend, connection }: TryingProps): JSX.E
   if (isReady && !wasReady) setReady(true);
   const off = connection.isPending('checked');
   return (
-    <Driver board={check.board} legend={legend} world={world} drive={drive} off={off} waiting={null}>
+    <Driver board={check.board} legend={legend} world={world} drive={drive} off={off} waiting={null} end={t('check.end')}>
       <div class="submit">
         <Button primary off={!isReady || off} describedBy="check-hint" onClick={() => connection.send('checked', {})}>
           {t('check.done')}

@@ -137,11 +137,12 @@ const cellOf = (frame: Frame | undefined): { cell?: [number, number] } => (frame
 // Shown when the robot has run: the reason first would spoil it.
 function Reasons({ test, at }: { test: Judged; at: number | null }): JSX.Element | null {
   const differs = at === null ? null : t(test.board.map ? 'feedback.differs' : 'feedback.differs_plain', { step: at + 1 });
-  if (test.why.length === 0 && !test.cost && !differs) return null;
+  const cost = test.cost ? sentence(test.cost) : test.unfinished && t('feedback.unfinished');
+  if (test.why.length === 0 && !cost && !differs) return null;
   return (
     <div class="reasons">
       {differs && <p>{differs}</p>}
-      {test.cost && <p class="cost">{sentence(test.cost)}</p>}
+      {cost && <p class="cost">{cost}</p>}
       {test.why.length > 0 && (
         <>
           <h2>{t('feedback.why')}</h2>

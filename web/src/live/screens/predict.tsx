@@ -36,6 +36,7 @@ export function Predict(props: Props): JSX.Element {
           world={null}
           drive={null}
           off
+          end=""
           waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
         >
           {null}
@@ -68,7 +69,7 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
     else connection.send('answer', { test: task.index, actions, keys: drive.keys(), ms: drive.ms() });
   };
   return (
-    <Driver board={task.board} legend={legend} world={world} drive={drive} off={off} waiting={null}>
+    <Driver board={task.board} legend={legend} world={world} drive={drive} off={off} waiting={null} end={t('predict.end')}>
       <Submit drive={drive} off={off} onSubmit={submit} />
     </Driver>
   );

@@ -39,7 +39,7 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
     <>
       <p class="kicker">{t('watch.count', { index: watch.index + 1, of: watch.of })}</p>
       <Heading>{t('watch.title')}</Heading>
-      <p class="lead">{t('watch.question')}</p>
+      <p class="lead">{t(`watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`)}</p>
       {view.study.goal && <p class="muted">{view.study.goal}</p>}
       <TimeLeft until={view.limit_ms} />
       <div class="board-screen">

@@ -7,9 +7,11 @@ import { type Place, extent, panels, roundTicks, yAxis } from '../panels';
 
 export interface CurvesOptions {
   looks: Look[];
-  panels: { title: string; rows: Row[] }[];
+  panels: { title: string; rows: Row[]; x?: string; xTitle?: string }[]; // some with an x of their own
   x: string;
   y: string;
+  low?: string; // columns of the band; 'low' and 'high' unless said otherwise
+  high?: string;
   xTitle: string;
   yTitle: string;
   yDomain?: [number, number];
@@ -18,26 +20,29 @@ export interface CurvesOptions {
   maxColumns?: number;
 }
 
+const xOf = (options: CurvesOptions, panel: CurvesOptions['panels'][number]): string => panel.x ?? options.x;
+
 function layers(
   options: CurvesOptions,
-  rows: Row[],
+  panel: CurvesOptions['panels'][number],
   place: Place,
   domains: { x: [number, number]; y: ReturnType<typeof roundTicks> },
 ): Spec {
   const labels = options.looks.map((look) => look.label);
-  const values = rows.map((row) => ({
+  const xTitle = panel.xTitle ?? options.xTitle;
+  const values = panel.rows.map((row) => ({
     strategy: options.strategyOf(row),
-    x: num(row[options.x]),
+    x: num(row[xOf(options, panel)]),
     y: num(row[options.y]),
-    low: num(row.low),
-    high: num(row.high),
+    low: num(row[options.low ?? 'low']),
+    high: num(row[options.high ?? 'high']),
   }));
   const x: Spec = {
     field: 'x',
     type: 'quantitative',
     scale: { domain: domains.x, nice: false },
     axis: {
-      title: place.lastRow ? options.xTitle : null,
+      title: place.lastRow || panel.xTitle ? xTitle : null,
       tickMinStep: 1,
       format: 'd',
       grid: false,
@@ -66,7 +71,7 @@ function layers(
   const interpolate = options.step ? 'step-after' : 'linear';
   const tooltip = [
     { field: 'strategy', title: 'Strategy' },
-    { field: 'x', title: options.xTitle },
+    { field: 'x', title: xTitle, format: '.3~r' },
     { field: 'y', title: options.yTitle, format: '.3~r' },
     { field: 'low', title: '95 % from', format: '.3~r' },
     { field: 'high', title: 'to', format: '.3~r' },
@@ -102,19 +107,25 @@ function layers(
 
 export function curves(options: CurvesOptions, width: number): Spec {
   const all = options.panels.flatMap((panel) => panel.rows);
-  const domains = {
-    x: extent(all.map((row) => num(row[options.x]))),
-    y: roundTicks(options.yDomain ?? extent(all.flatMap((row) => [num(row[options.y]), num(row.low), num(row.high)]))),
-  };
+  const shared = extent(all.map((row) => num(row[options.x])));
+  const y = roundTicks(
+    options.yDomain ??
+      extent(
+        all.flatMap((row) => [num(row[options.y]), num(row[options.low ?? 'low']), num(row[options.high ?? 'high'])]),
+      ),
+  );
+  const rowGap = options.panels.some((panel) => panel.xTitle) ? 76 : 54; // room for the titles of all x axes
   const legend = strategyLegend(options.looks, width - 60, options.step ? 'line' : 'mark');
   return {
     ...panels(
       options.panels.length,
       width,
-      { left: 52, min: 190, max: options.maxColumns ?? 3, gap: 22, rowGap: 54 },
+      { left: 52, min: 190, max: options.maxColumns ?? 3, gap: 22, rowGap },
       (i, place) => {
         const panel = options.panels[i];
-        return panel ? { title: panel.title, ...layers(options, panel.rows, place, domains) } : {};
+        if (!panel) return {};
+        const x = panel.x ? extent(panel.rows.map((row) => num(row[panel.x ?? '']))) : shared;
+        return { title: panel.title, ...layers(options, panel, place, { x, y }) };
       },
     ),
     usermeta: { legend },

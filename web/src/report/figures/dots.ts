@@ -13,6 +13,7 @@ export interface DotsOptions {
   high: string;
   point?: string;
   xTitle: string;
+  interval?: string; // what low and high are; '95 %' unless said otherwise
   zero: boolean;
   ownScales?: boolean; // panels that are not compared with each other
   strategyOf(row: Row): string; // its label
@@ -83,7 +84,7 @@ function layers(
   const tooltip = [
     { field: 'strategy', title: 'Strategy' },
     { field: 'mean', title: options.xTitle, format: '.3~r' },
-    { field: 'low', title: '95 % from', format: '.3~r' },
+    { field: 'low', title: `${options.interval ?? '95 %'} from`, format: '.3~r' },
     { field: 'high', title: 'to', format: '.3~r' },
   ];
   const raw: Spec = {

@@ -1,4 +1,4 @@
-// Periods and knowledge by strategy and composition: means, intervals and every team.
+// Outcomes by strategy and composition: means, intervals and every team.
 import type { Row } from '../document';
 import { type Study, rowsOf } from '../study';
 import { dots } from './dots';
@@ -7,7 +7,7 @@ import { range } from './gist';
 
 interface Outcome {
   id: string;
-  column: 'periods' | 'knowledge';
+  column: string; // of the table of teams; of that of cells with _mean, _low and _high
   title: string;
   xTitle: string;
   reading: string;
@@ -32,7 +32,37 @@ const kOutcomes: Outcome[] = [
   },
 ];
 
-export function outcomeFigures(study: Study): Figure[] {
+const kExamOutcomes: Outcome[] = [
+  {
+    id: 'exam-regret-cells',
+    column: 'exam_regret',
+    title: 'Regret in the exam by strategy and composition',
+    xTitle: 'Regret',
+    reading:
+      'Further left is better. Regret is what the members\u2019 predictions lose against the robot\u2019s paths over all starts. Large marks are means with 95\u00a0% intervals, small dots are individual teams.',
+  },
+  {
+    id: 'exam-share-cells',
+    column: 'exam_share_right',
+    title: 'Share right in the exam by strategy and composition',
+    xTitle: 'Share right',
+    reading:
+      'Further right is better: the share of all starts from which members predict the robot. Large marks are means with 95\u00a0% intervals, small dots are individual teams.',
+  },
+  {
+    id: 'exam-worst-cells',
+    column: 'exam_worst_share_right',
+    title: 'Share right of the worst member by strategy and composition',
+    xTitle: 'Share right of the worst member',
+    reading:
+      'Further right is better: the share right of the member who does worst in the exam. Large marks are means with 95\u00a0% intervals, small dots are individual teams.',
+  },
+];
+
+export const outcomeFigures = (study: Study): Figure[] => figuresOf(study, kOutcomes);
+export const examOutcomeFigures = (study: Study): Figure[] => figuresOf(study, kExamOutcomes);
+
+function figuresOf(study: Study, outcomes: Outcome[]): Figure[] {
   const cells = study.table('cells');
   if (!cells) return [];
   const means = rowsOf(cells);
@@ -41,7 +71,8 @@ export function outcomeFigures(study: Study): Figure[] {
   const looks = study.looks(means);
   const within = (rows: Row[], composition: string): Row[] => rows.filter((row) => row.composition === composition);
   const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
-  return kOutcomes.map(({ id, column, title, xTitle, reading }) => ({
+  const present = outcomes.filter(({ column }) => cells.columns.includes(`${column}_mean`));
+  return present.map(({ id, column, title, xTitle, reading }) => ({
     id,
     title,
     reading,
@@ -60,7 +91,7 @@ export function outcomeFigures(study: Study): Figure[] {
           high: `${column}_high`,
           point: column,
           xTitle,
-          zero: true,
+          zero: !column.includes('share_right'),
           strategyOf: (row) => study.words.strategy(row.strategy),
         },
         width,

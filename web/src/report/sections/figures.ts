@@ -2,8 +2,11 @@
 import { abilityFigures, completionFigures, correctFigures, knowledgeFigures } from '../figures/progress';
 import { areaFigures } from '../figures/area';
 import type { Figure } from '../figures/figure';
+import { examCurveFigures } from '../figures/exam';
+import { forecastFigures } from '../figures/forecasts';
+import { frontFigures } from '../figures/front';
 import { interactionFigures } from '../figures/interaction';
-import { outcomeFigures } from '../figures/outcomes';
+import { examOutcomeFigures, outcomeFigures } from '../figures/outcomes';
 import { timeFigures } from '../figures/time';
 import { figureView } from '../figure_view';
 import { spheresFigure } from '../spheres/spheres';
@@ -16,6 +19,11 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
     title: 'Periods and knowledge',
     figures: (study) => [...outcomeFigures(study), ...interactionFigures(study)],
   },
+  {
+    id: 'exam',
+    title: 'The exam outside the lessons',
+    figures: (study) => [...examOutcomeFigures(study), ...examCurveFigures(study), ...frontFigures(study)],
+  },
   { id: 'manipulation', title: 'Manipulation check', figures: areaFigures },
   {
     id: 'progress',
@@ -27,6 +35,7 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
       ...correctFigures(study),
     ],
   },
+  { id: 'forecasts', title: 'Forecasts', figures: forecastFigures },
   { id: 'time', title: 'Where time goes', figures: timeFigures },
 ];
 
@@ -34,7 +43,9 @@ export function figureSections(study: Study): Section[] {
   let number = 0;
   const sections: Section[] = [];
   for (const { id, title, figures } of kSections) {
-    const views = figures(study).map((figure) => figureView(figure, ++number, study.report.study, study.words));
+    const views = figures(study)
+      .map((figure) => ({ ...figure, ...study.report.labels?.figures?.[figure.id] }))
+      .map((figure) => figureView(figure, ++number, study.report.study, study.words));
     if (views.length > 0) sections.push({ id, title, content: views });
   }
   const { beliefs } = study.report;

@@ -84,14 +84,17 @@ function Parts({ board, legend, kinds }: { board: Board; legend: Legend; kinds: 
   return <g>{all}</g>;
 }
 
-// What stands on cells, may vanish, or be carried away. What lies where the robot stands is beside its feet.
+// What stands on cells, may be used up, or be carried away. A station that is used up stays visible, so that the path
+// to it can be understood. An item on the robot's cell is drawn beside the robot.
 function Things({ legend, board, frame }: BoardProps & { frame: Frame }): JSX.Element {
-  const isBelow = (cell: Place): boolean => cell[0] === frame.robot?.[0] && cell[1] === frame.robot?.[1];
+  const isSame = (a: Place, b: Place | undefined): boolean => a[0] === b?.[0] && a[1] === b[1];
+  const isBelow = (cell: Place): boolean => isSame(cell, frame.robot);
+  const isUsedUp = (station: Place): boolean => !(frame.stations ?? []).some((cell) => isSame(cell, station));
   return (
     <g>
       <Parts board={board} legend={legend} kinds={['goal', 'destination']} />
-      {(frame.stations ?? []).map((cell) => (
-        <At at={centre(cell)}>
+      {(board.start.stations ?? []).map((cell) => (
+        <At at={centre(cell)} class={isUsedUp(cell) ? 'used-up' : ''}>
           <Station letter={legend.letter(legend.stationAt(board.map ?? [], cell))} />
         </At>
       ))}

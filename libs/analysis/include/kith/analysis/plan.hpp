@@ -13,6 +13,7 @@ struct PlannedDesign {
   std::vector<std::string> compositions;     ///< None twice, as strategies.
   bool same_people = true;                   ///< Whether every strategy teaches the same people.
   std::vector<PlannedContrast> contrasts{};  ///< The [[contrast]]s of the study file.
+  bool has_exam = false;                     ///< Whether teams are examined outside the lessons.
 };
 
 /// One analysis of analyze_run() before there are data.

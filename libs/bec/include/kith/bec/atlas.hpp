@@ -71,6 +71,11 @@ class Atlas {
   [[nodiscard]] Trajectory trajectory(DemoIndex demo) const;
   /// The states of that path that are not terminal, as demonstrations of their own, in order.
   [[nodiscard]] std::vector<DemoIndex> path(DemoIndex demo) const;
+  /// The next state on that path, as a demonstration of its own; nothing where the path ends or breaks off.
+  [[nodiscard]] std::optional<DemoIndex> next(DemoIndex demo) const {
+    const auto at = demos_[demo.value()].next;
+    return at == kTerminal ? std::nullopt : std::optional{DemoIndex{at}};
+  }
   /// mu of the robot's path, or its expectation, shape [d].
   [[nodiscard]] const IntegerVector& feature_counts(DemoIndex demo) const { return demos_[demo.value()].counts; }
   /// mu(s, b): what one action at the start counts when the robot goes on from there, or its expectation, shape [d].

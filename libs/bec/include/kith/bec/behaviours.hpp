@@ -2,23 +2,66 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/mdp/policy_partition.hpp"
 
 namespace kith {
+
+/// The policy partitions of the MDPs of an atlas without tables: what is known about what people with any weights do.
+/// They say nothing about how Behaviours numbers its constraints, so they may outlive it.
+///
+/// Caches in front of pure functions. Not thread-safe. The atlas must outlive them.
+class PolicyPartitions {
+ public:
+  static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20u;
+
+  /// @param max_bytes  when they take so much, nothing is added until they are cleared.
+  explicit PolicyPartitions(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes);
+
+  /// The states of an MDP on candidates' paths, ascending: those whose counts are known.
+  [[nodiscard]] std::span<const StateIndex> states(MdpIndex m) const { return states_[m.value()]; }
+  /// A demonstration's position among those of its MDP, or -1.
+  [[nodiscard]] std::int32_t place(DemoIndex demo) const { return places_[demo.value()]; }
+
+  /// Finds out what people with these weights do in an MDP; nothing if it is not exact, else its partition after
+  /// PolicyPartition::locate(), and whether they have an optimum.
+  struct Located {
+    const PolicyPartition* partition = nullptr;
+    bool has_optimum = false;
+  };
+  [[nodiscard]] std::optional<Located> locate(MdpIndex m, const Direction& weights);
+
+  /// About how much is kept, in bytes.
+  [[nodiscard]] std::size_t memory() const noexcept { return bytes_; }
+  [[nodiscard]] bool is_full() const noexcept { return bytes_ >= max_bytes_; }
+  void clear();
+
+ private:
+  const Atlas* atlas_;
+  std::size_t max_bytes_;
+  std::size_t bytes_ = 0;
+  std::vector<double> robot_weights_;
+  std::vector<std::vector<StateIndex>> states_;             // per MDP
+  std::vector<std::int32_t> places_;                        // per demonstration
+  std::vector<std::optional<PolicyPartition>> partitions_;  // per MDP: made when first asked for
+};
 
 /// What people who hold given reward weights do, and what demonstrations tell
 /// them: a look-up where the Atlas has tables, planned and remembered where not.
 ///
 /// Without tables every weight that is met is a policy cell of its own, numbered in
-/// order. For a cell and an MDP the behaviour is planned when it is first asked for (behave_in_favour(): the benefit of
-/// the doubt), and of it only the losses on candidates' paths are kept, four bytes each. When more than
-/// `max_cells` cells are kept the oldest are forgotten and, if asked for again, planned again: memory stays below
-/// max_cells * 4 bytes * states on candidates' paths, plus the distinct losses.
+/// order. For a cell and an MDP the behaviour is found when it is first asked for (behave_in_favour(): the benefit of
+/// the doubt): in exact MDPs by their PolicyPartition, else by planning. Of it only the losses on candidates' paths are
+/// kept, four bytes each, once for all weights that behave alike in the MDP; they are shown to as one person. For at
+/// most `max_cells` cells it is known which behaviour is theirs; then the oldest are forgotten. When the behaviours
+/// take more than max_cells * 4 bytes * states on candidates' paths, all are forgotten. What is forgotten is found
+/// again when asked for.
 ///
 /// With tables, one row of what is conveyed is kept per policy cell and demonstration class; when they take more than
 /// `max_row_bytes` the oldest are forgotten and, if asked for again, computed again.
@@ -30,8 +73,10 @@ class Behaviours {
   static constexpr std::size_t kDefaultCells = 256;
   static constexpr std::size_t kDefaultRowBytes = std::size_t{32} << 20u;
 
+  /// @param partitions  of the same atlas; nothing: some of its own.
   explicit Behaviours(const Atlas& atlas, std::size_t max_cells = kDefaultCells,
-                      std::size_t max_row_bytes = kDefaultRowBytes);
+                      std::size_t max_row_bytes = kDefaultRowBytes,
+                      std::shared_ptr<PolicyPartitions> partitions = nullptr);
   Behaviours(const Behaviours&) = delete;
   Behaviours& operator=(const Behaviours&) = delete;
   ~Behaviours() = default;
@@ -78,19 +123,31 @@ class Behaviours {
 
  private:
   using LossIndex = std::int32_t;
-  static constexpr LossIndex kNoOptimum = -1;
+  using BehaviourIndex = std::int32_t;
+  using SetIndex = std::uint32_t;
+  static constexpr BehaviourIndex kUnknown = -1;
+  static constexpr BehaviourIndex kNoOptimum = -2;
+  static constexpr SetIndex kNoSet = 0xFFFFFFFF;
   struct Loss {
     IntegerVector counts;
     std::int32_t constraint = -1;  // -1: it tells nothing
   };
-  struct Plan {
-    bool is_known = false;
-    bool has_optimum = false;
+  // What people who act alike do in one MDP.
+  struct Kept {
     std::vector<LossIndex> losses;  // per state on candidates' paths
+    std::vector<SetIndex> sets;     // per such state: what going on from there conveys; empty where not asked for yet
+  };
+  struct WordsHash {
+    std::size_t operator()(const std::vector<std::uint32_t>& words) const noexcept;
+  };
+  struct World {
+    std::vector<Kept> behaviours;
+    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, WordsHash> by_key;  // of the partition
+    std::unordered_map<std::vector<std::uint32_t>, BehaviourIndex, WordsHash> by_losses;
   };
   struct Cell {
     Direction weights;
-    std::vector<Plan> plans;  // per MDP; empty where forgotten
+    std::vector<BehaviourIndex> behaviours;  // per MDP; empty where forgotten
   };
   struct DirectionHash {
     std::size_t operator()(const Direction& weights) const noexcept;
@@ -98,13 +155,19 @@ class Behaviours {
 
   Conveyed tabulated(std::span<const PolicyCellIndex> cells);
   Conveyed planned(const KnowledgeComponent& component, std::span<const PolicyCellIndex> cells);
-  const Plan& plan_of(PolicyCellIndex cell, MdpIndex m);
   const std::vector<std::uint64_t>& rows_of(PolicyCellIndex cell);
   void remember(PolicyCellIndex cell);
-  void plan(const Direction& weights, MdpIndex m, Plan& result);
+  void make_room();
+  BehaviourIndex behaviour_of(PolicyCellIndex cell, MdpIndex m);
+  BehaviourIndex find_behaviour(const Direction& weights, MdpIndex m);
+  BehaviourIndex number_of(World& world, const std::vector<LossIndex>& losses);
   LossIndex number_of(const IntegerVector& loss);
-  [[nodiscard]] LossIndex loss_at(const Plan& plan, DemoIndex demo) const;
-  void add_conveyed(DemoIndex demo, std::span<const PolicyCellIndex> cells, std::vector<ConstraintIndex>& constraints);
+  SetIndex number_of_set(std::vector<std::uint32_t> set);
+  SetIndex with(SetIndex set, std::int32_t constraint);
+  SetIndex union_of(std::vector<SetIndex>& sets);
+  void find_sets(MdpIndex m, Kept& behaviour);
+  std::vector<BehaviourIndex> behaviours_of(std::span<const PolicyCellIndex> cells, MdpIndex m);
+  SetIndex conveyed_by(DemoIndex demo, std::span<const BehaviourIndex> behaviours);
 
   const Atlas* atlas_;
   std::size_t max_cells_;
@@ -118,14 +181,20 @@ class Behaviours {
   std::vector<std::uint64_t> rows_;
 
   // On demand.
+  std::shared_ptr<PolicyPartitions> partitions_;
   std::unordered_map<Direction, PolicyCellIndex, DirectionHash> index_;
   std::vector<Cell> cells_;
   std::vector<PolicyCellIndex> remembered_;  // a ring of max_cells_
   std::size_t oldest_ = 0;
   std::vector<Loss> losses_;
   std::unordered_map<IntegerVector, LossIndex> loss_index_;
-  std::vector<std::vector<StateIndex>> states_on_paths_;  // per MDP, ascending
-  std::vector<std::int32_t> place_on_paths_;              // per demonstration: position in its MDP's list; -1: none
+  std::vector<World> worlds_;        // per MDP
+  std::size_t behaviour_bytes_ = 0;  // of worlds_ and sets
+  std::size_t max_behaviour_bytes_ = 0;
+  std::vector<const std::vector<std::uint32_t>*> sets_;  // constraints, ascending
+  std::unordered_map<std::vector<std::uint32_t>, SetIndex, WordsHash> set_index_;
+  std::unordered_map<std::uint64_t, SetIndex> with_;                            // set and constraint
+  std::unordered_map<std::vector<std::uint32_t>, SetIndex, WordsHash> unions_;  // several sets
   std::vector<double> robot_weights_;
   std::vector<ConstraintIndex> numbering_;
   std::vector<std::uint32_t> bit_of_;  // per constraint

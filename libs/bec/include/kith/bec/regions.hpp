@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <list>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -59,11 +60,12 @@ class Regions {
   };
   [[nodiscard]] std::optional<Cone> cone_of(const ConstraintSet& set) const;
   [[nodiscard]] RegionEffect compare(const ConstraintSet& taught, const ConstraintSet& added);
+  Comparison& comparison_with(const ConstraintSet& taught);
 
   const ConstraintTable* table_;
   std::unordered_map<ConstraintSet, Region> known_;
   std::unordered_map<ConstraintSet, ConstraintSet> minimal_;  // above three dimensions
-  std::optional<Comparison> comparison_;
+  std::list<Comparison> comparisons_;                         // the last few, the latest first
 };
 
 }  // namespace kith

@@ -33,6 +33,11 @@ struct FilterOptions {
 /// where s is the root mean square geodesic distance of the weighted points to
 /// their normalised mean, taken before resampling. A move that would leave the
 /// prior is drawn again, at most 20 times, else the point stays.
+///
+/// Above three dimensions such moves would lose regions that M points cannot keep. As long as the belief is a product
+/// of likelihoods (nothing but observe() happened) and process_noise > 0, points move instead by slice sampling along
+/// random great circles [habeck2023], which leaves the product as it is: twice after each resampling, three times when
+/// less than 5 % of the mass satisfied what was just observed, and once after four observations without a move.
 class ParticleBelief {
  public:
   /// Uniform over the prior: exactly M points of a regular cover, weights 1/M.
@@ -118,6 +123,18 @@ class ParticleBelief {
   [[nodiscard]] double kernel_angle(double sum) const;
   void draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random);
   void move(double angle, RandomStream& random);
+  void remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood);
+  [[nodiscard]] bool keeps_product() const noexcept;
+  void lose_product();
+  void move_in_product(std::size_t sweeps, RandomStream& random);
+
+  // All observations of one half-space; see detail::FallingDensity.
+  struct Observed {
+    HalfSpace half_space;
+    double far = 0.0;
+    double slope = 0.0;
+    friend bool operator==(const Observed&, const Observed&) = default;
+  };
 
   FilterOptions options_;
   std::size_t dimension_;
@@ -127,6 +144,9 @@ class ParticleBelief {
   std::vector<double> weights_;      // exp(log_weights_) / their sum
   double log_sum_ = 0.0;             // log of that sum
   std::size_t num_resamplings_ = 0;
+  std::vector<Observed> observed_;  // sorted; above three dimensions, as long as is_product_
+  bool is_product_ = true;          // of the prior and what was observed
+  std::size_t num_still_ = 0;       // observations since the points moved in it
 };
 
 /// Systematic resampling (Kitagawa 1996): counts of each index among n strata of

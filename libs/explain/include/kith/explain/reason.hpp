@@ -22,6 +22,12 @@ namespace kith {
 /// @throws std::invalid_argument as choice_in_words().
 [[nodiscard]] std::string reason(const Domain& domain, const IntegerVector& robot, const IntegerVector& alternative);
 
+/// What somebody predicts in place of the robot's path, in the same words: "it would rather cross rubble than take 2
+/// more steps", "it would take 2 more steps for nothing".
+/// @throws std::invalid_argument unless both have d entries, they differ, and the robot's is worth at least as much.
+[[nodiscard]] std::string prediction_in_words(const Domain& domain, const IntegerVector& predicted,
+                                              const IntegerVector& robot);
+
 /// The constraint of a comparison. @throws std::invalid_argument if the counts are the same.
 [[nodiscard]] HalfSpace constraint_of(const IntegerVector& robot, const IntegerVector& alternative);
 

@@ -60,7 +60,7 @@ class ConeSampler {
     double peak;     // the largest |R lambda|^-2
     double typical;  // one over the mean of |R lambda|^2
   };
-  // What a point of the unit cube becomes.
+  // What a point of the simplex becomes.
   struct Proposal {
     Direction point;
     double acceptance;
@@ -72,7 +72,7 @@ class ConeSampler {
   void halve_wide_parts();
   void halve(std::size_t part);
   [[nodiscard]] Direction arc_point(double t) const;
-  [[nodiscard]] Proposal propose(std::span<const double> cube) const;
+  [[nodiscard]] Proposal propose(double which, std::span<const double> lambda) const;
   [[nodiscard]] double closed_form_share() const;
   [[nodiscard]] std::vector<double> shares(std::size_t points) const;
 

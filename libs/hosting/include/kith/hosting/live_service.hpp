@@ -88,7 +88,7 @@ class LiveService {
 
   /// New tokens of a facilitator and an observer. Those given earlier stay valid until they expire or are revoked.
   [[nodiscard]] StartLinks start_links();
-  /// All rooms, also those that are being rebuilt and that views do not show yet.
+  /// All rooms but the waiting list, also those that are being rebuilt and that views do not show yet.
   [[nodiscard]] std::size_t num_rooms() const;
   /// How links begin, such as "http://127.0.0.1:8080"; views show them so.
   void set_base_url(std::string url);

@@ -32,12 +32,13 @@ struct ExportReport {
 /// Takes the next piece of the file of that name.
 using ExportSink = std::function<void(std::string_view file, std::string_view piece)>;
 
-/// The tables of an export, see docs/formats.md: sessions, participants, periods, tests, keypresses, questions, trials
-/// (for `kith fit`) and events.
+/// The tables of an export, see docs/live-sessions.md: sessions, participants, periods, tests, keypresses, questions,
+/// trials (for `kith fit`), beliefs and events.
 [[nodiscard]] std::vector<TableDescription> export_tables(const SessionExportOptions& options);
 
-/// Writes the tables, codebook.json and SHA256SUMS, room by room; all of it is of one instant. Every room is replayed:
-/// what was right is computed again, not read. The numbers of rows are compared with the store.
+/// Writes the tables, codebook.json, study.json (what was taught, for `kith report`) and SHA256SUMS, room by room; all
+/// of it is of one instant. Every room is replayed: what was right is computed again, not read. The numbers of rows are
+/// compared with the store.
 /// @param cache  of the study's atlas.
 /// @throws kith::Error  kIo E1615 if the numbers of rows differ from the store's; kMismatch E1612 (a damaged row),
 /// E1614 (a room does not replay to what it was); kInvalidInput E1618 (there is no such room).

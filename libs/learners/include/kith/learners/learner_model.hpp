@@ -36,6 +36,8 @@ struct LearnerStart {
   /// stays where it is until the person is made.
   std::function<const PriorCover&(std::size_t num_points)> cover;
   LikelihoodForm likelihood = LikelihoodForm::kDiscontinuous;  ///< As in `teacher.likelihood`.
+  /// The constraints of every knowledge component, for people who know some of them; may be empty.
+  std::function<std::vector<std::vector<HalfSpace>>()> components{};
 };
 
 /// A kind of simulated learner: a row of the registry. To add one, see docs/adding-a-learner.md.

@@ -5,11 +5,13 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kith/bec/atlas.hpp"
 #include "kith/present/json.hpp"
 #include "kith/study/study.hpp"
+#include "kith/teaching/forecast.hpp"
 
 namespace kith {
 
@@ -29,16 +31,22 @@ struct LiveStudy {
   DemoIndex sandbox;                 ///< Where people try the keyboard: a start that tests nothing.
   std::vector<DemoIndex> screening;  ///< The tests of `group.screening`.
   std::string key;                   ///< Identifies the domain in keys of worlds: 8 hexadecimal digits.
+  /// Imagined sessions by strategy and composition, for forecasts; empty unless StudySpec::forecast_sessions.
+  std::map<std::pair<std::string, std::string>, std::vector<PastSession>> imagined;
 
   [[nodiscard]] const GroupOptions& group() const noexcept { return spec.group; }
+  /// Whether people are screened on a waiting list before it is decided who sits with whom.
+  [[nodiscard]] bool seats_by_ability() const noexcept { return !screening.empty() && !group().high_types.empty(); }
 };
 
 /// What rooms of this study share. Tests of the screening are drawn from the study's seed. People are never asked about
 /// starts without an answerable_path(): the atlas of the result has no tests there.
 /// @param folder  where consent_file and language are looked for.
-/// @throws kith::Error (kInvalidInput) if the study varies keys, a strategy needs the truth about learners, or
-/// consent_file or language cannot be understood; (kInfeasible) if a world has more than kMaxLiveStates states or the
-/// domain cannot be taught or asked about; (kIo) if a file cannot be read.
+/// @throws kith::Error (kInvalidInput) if the study varies keys, a strategy needs the truth about learners, the study
+/// releases members, teaches types apart or asks placement tests, no group has a place for people of high or of low
+/// ability although the screening seats them, or consent_file or language cannot be understood; (kInfeasible) if a
+/// world has more than kMaxLiveStates states or the domain cannot be taught or asked about; (kIo) if a file cannot be
+/// read.
 [[nodiscard]] std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
                                                                const std::filesystem::path& folder = {});
 

@@ -24,6 +24,9 @@ struct RoomSetup {
   std::vector<bool> simulated{};  ///< Per member; empty: all are people, or as `group.people` says.
   std::size_t replicate = 1;      ///< Streams are those of this replicate of the cell, see team_streams.hpp.
   std::string salt{};             ///< Secret of the server, for completion codes.
+  /// Nobody is taught here: people are screened and wait until a group can be formed of them, see Room::next_group().
+  /// Strategy and composition say nothing then.
+  bool is_waiting_list = false;
 
   friend bool operator==(const RoomSetup&, const RoomSetup&) = default;
 };
@@ -31,6 +34,17 @@ struct RoomSetup {
 [[nodiscard]] Json to_json(const RoomSetup& setup);
 /// @throws kith::Error (kInvalidInput).
 [[nodiscard]] RoomSetup room_setup(const Json& json);
+
+/// A group that can be formed of people on a waiting list.
+struct PlannedGroup {
+  LiveCell cell;
+  std::vector<bool> simulated;                    ///< By member: whether a simulated learner takes the place.
+  std::vector<std::optional<std::size_t>> seats;  ///< By member: the seat of the person on the waiting list.
+  friend bool operator==(const PlannedGroup&, const PlannedGroup&) = default;
+};
+
+/// {strategy, composition, simulated, seats}.
+[[nodiscard]] Json to_json(const PlannedGroup& group);
 
 /// Who is looking at a room.
 struct Viewer {
@@ -101,6 +115,22 @@ class Room {
   /// @throws kith::Error (kMismatch) if the event is not one that this state can have led to: a wrong number, a time
   /// before the last event, an unknown type, a refused command, another digest.
   void apply(const RoomEvent& event, TeachingCache& cache, const TaughtLesson* lesson = nullptr);
+
+  /// The group that the waiting list forms next; nothing if this room is none, or none can be formed.
+  ///
+  /// A place of a type in `group.screening.high` is for people whose estimate of ability is at least
+  /// `group.screening.cut`, every other place for the others; of those who fit, whoever has waited for longest takes
+  /// it. Groups are of the cells of the design, live_cells(), that have the fewest groups so far. Once somebody has
+  /// waited for `group.time.lobby_s` they may be of any cell with a place for that person and, with the policy
+  /// "simulate", simulated learners take the places that nobody fits. Without a limit on waiting, groups may always be
+  /// of any cell, those with the fewest groups first.
+  [[nodiscard]] std::optional<PlannedGroup> next_group(std::int64_t now_us) const;
+  /// When more groups are possible on the waiting list because somebody has waited for too long; nothing if nobody
+  /// waits or waiting has no limit.
+  [[nodiscard]] std::optional<std::int64_t> last_call() const;
+  /// What a room has to know of a person on this waiting list who is given a place there: the body of a command "seat",
+  /// without the member. @param seat  from 1.
+  [[nodiscard]] Json person_for(std::size_t seat) const;
 
   /// What somebody sees. Participants: ParticipantView. Facilitators and observers: {"row": RoomRow, "room":
   /// RoomDetail}, without links, and for observers without names and codes.

@@ -27,6 +27,10 @@ namespace kith {
 ///   away {seat}, present {seat}                server
 ///   dropped {seat, policy, by|null, type|null} server: the grace period is over; `by` is who takes the seat
 ///   released {seat, why}                       server: a seat in the lobby is free again
+///   grouped {room, strategy, composition,      server, on a waiting list: people have a place in a new room; per
+///            simulated, seats}                 member whether it is simulated, and the seat on the list or null
+///   seated {seat, member, from, version,       server: somebody from the waiting list has the place; `from` is
+///           query, name, screened, ready_us}   {room, seat} there, the rest what the room has to know of them
 ///   time {what}                                server: a time limit is over: watch, predict, feedback, session
 ///   pause, resume {reason}                     facilitator
 ///   extend {seconds, reason}, message {text, seat|null, reason}, readmit {seat, reason},
@@ -43,6 +47,8 @@ struct RoomEvent {
 
 /// What somebody asks for. Types of seats and facilitators are those of docs/live-protocol.md; those of the server:
 ///   join {seat?}           takes a free seat: that one, or any; the event tells which
+///   group {room, ...}      on a waiting list: what Room::next_group() plans is done; the body is that of the event
+///   seat {member, ...}     gives the place of a member to somebody from a waiting list, see Room::person_for()
 ///   away {seat}, present {seat}
 struct RoomCommand {
   std::string actor;

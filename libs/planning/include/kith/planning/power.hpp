@@ -16,7 +16,7 @@ namespace kith {
 /// The outcomes of many teams in every cell of a design, one number per team and quantity: what studies are drawn from.
 class TeamPool {
  public:
-  /// A pool whose outcomes are all 0, spec.replicates in every cell.
+  /// A pool whose outcomes are all 0, spec.replicates in every cell; quantities of exams if the study has exams.
   [[nodiscard]] static TeamPool empty(const StudySpec& spec);
   /// Stores the outcomes of a team. @param position  0-based, in the order of the tables.
   void set(std::size_t position, const TeamRecord& team);
@@ -32,6 +32,7 @@ class TeamPool {
   [[nodiscard]] const std::vector<std::string>& compositions() const noexcept { return compositions_; }
   [[nodiscard]] std::size_t replicates() const noexcept { return replicates_; }
   /// Outcomes of one cell, shape [replicates].
+  /// @throws std::invalid_argument for a quantity of exams if the teams were not examined.
   [[nodiscard]] std::span<const double> cell(Quantity quantity, std::size_t strategy, std::size_t composition) const;
 
  private:
@@ -48,7 +49,7 @@ class TeamPool {
 /// @throws kith::Error (kInfeasible, E1201) if not.
 void require_pool_memory(const Study& study, std::size_t threads, std::size_t teams);
 
-/// Simulates all teams of a study and keeps their outcomes only: 32 bytes a team.
+/// Simulates all teams of a study and keeps their outcomes only: 32 bytes a team, 56 with exams.
 /// @return one pool per variant; nothing if on_progress stopped it.
 /// @throws kith::Error as require_pool_memory().
 [[nodiscard]] std::optional<std::vector<TeamPool>> simulate_pools(const Atlas& atlas, const Study& study,

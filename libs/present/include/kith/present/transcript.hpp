@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kith/study/team_run.hpp"
+#include "kith/teaching/forecast.hpp"
 
 namespace kith {
 
@@ -29,6 +30,7 @@ struct TranscriptPeriod {
   BeliefState before, after;
   std::vector<Learner::Response> responses;  ///< Per member.
   Feedback feedback;
+  std::optional<PeriodForecast> forecast{};  ///< What was expected of the rest, if StudySpec::forecast_sessions.
 };
 
 /// One session: the team's, or one member's in the baseline.
@@ -45,6 +47,7 @@ struct Transcript {
   TeamAddress address;
   TeamRecord record;
   std::vector<TranscriptSession> sessions;
+  std::vector<PastSession> imagined{};  ///< Of the same crew, for the forecast; empty without one.
 };
 
 /// Teaches the team and writes down all of it.

@@ -16,14 +16,18 @@ struct ReportOptions {
   std::function<void(std::string_view step)> on_step{};
 };
 
-/// The report of a finished run: one JSON document (schema kith.report/1, docs/formats.md) on one line, in ASCII. It
-/// holds the tables behind the figures with their intervals, the findings of the analysis, a methods paragraph with
-/// its references, every parameter, how to reproduce the run, and the beliefs of three teams, which are taught again
-/// from the frozen inputs. It depends on the files of the folder only: equal folders give equal bytes.
+/// The report of a finished run, or of the tables that were exported from live sessions: one JSON document (schema
+/// kith.report/1, docs/formats.md) on one line, in ASCII. It holds the tables behind the figures with their intervals,
+/// the findings of the analysis, a methods paragraph with its references, every parameter, how to reproduce the run,
+/// and the beliefs of three teams, which are taught again from the frozen inputs. It depends on the files of the folder
+/// only: equal folders give equal bytes.
+///
+/// A report of live sessions has what can be known of people: answers, periods, and the teacher's estimates of their
+/// knowledge.
 ///
 /// What the recording level does not give is left out. A team at the limit of periods counts as censored.
 /// @throws kith::Error kIo or kInvalidInput with diagnostics (E0601 to E0606, E0620 to E0622 and those of the files
-/// read) if the folder is no finished run, or a file in it is missing or damaged.
+/// read) if the folder is neither a finished run nor an export, or a file in it is missing or damaged.
 [[nodiscard]] std::string build_report(const std::filesystem::path& run_folder, const ReportOptions& options = {});
 
 /// The page that shows the document: `page` with the document in place of kDocumentPlaceholder, written so that no

@@ -88,6 +88,9 @@ struct GroupOptions {
   GroupDropout dropout{};
   GroupTime time{};
   GroupScreening screening{};
+  /// `group.screening.high`, letters of learner types: their places are for people with high estimates, the others for
+  /// people with low ones. Empty: the estimates are shown to the facilitator and decide nothing.
+  std::string high_types{};
   std::vector<GroupQuestion> questions{};
   GroupCompletion completion{};
   bool ask_name = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,7 +38,7 @@ struct ResponseRecord {
 /// A row of demonstrations.csv.
 struct DemonstrationRecord {
   std::size_t period = 0;
-  std::size_t member = 0;         ///< 1-based for the baseline; 0: everybody watched.
+  std::size_t member = 0;         ///< 1-based; 0: the whole team watched.
   std::size_t component = 0;      ///< 1-based
   std::size_t demonstration = 0;  ///< 1-based within the period
   std::size_t mdp = 0;
@@ -56,10 +57,26 @@ struct ProgressRecord {
   bool all_correct = false;       ///< This member answered every test of the period correctly.
 };
 
+/// What was expected of the rest of a session when a period had ended, from imagined sessions; see SessionForecasts.
+struct PeriodForecast {
+  double periods_left = 0.0;            ///< Mean.
+  std::array<double, 3> done_within{};  ///< Probability that everything is learned after 1, 2, 3 more periods.
+  friend bool operator==(const PeriodForecast&, const PeriodForecast&) = default;
+};
+
+/// What was expected of a team before its first lesson: means, and the limits of the central 80 %.
+struct TeamForecast {
+  double periods = 0.0, periods_low = 0.0, periods_high = 0.0;
+  double minutes = 0.0, minutes_low = 0.0, minutes_high = 0.0;
+  friend bool operator==(const TeamForecast&, const TeamForecast&) = default;
+};
+
 /// A row of periods.csv.
 struct PeriodRecord {
   std::size_t period = 0;
   std::size_t member = 0;     ///< 1-based for the baseline, whose periods are numbered within the member; else 0.
+  std::size_t session = 1;    ///< 1-based; periods are numbered within the session.
+  std::size_t members = 0;    ///< Who took part.
   std::size_t component = 0;  ///< 1-based
   std::string source;         ///< "common", "joint" or "member N" (1-based)
   std::size_t demonstrations = 0;
@@ -70,7 +87,8 @@ struct PeriodRecord {
   std::size_t excluded = 0;
   std::size_t untested = 0;
   double gain = 0.0;
-  std::vector<double> p_bec;  ///< Mass in the policy's BEC, in the order of StudySpec::teaching.rules.
+  std::optional<PeriodForecast> forecast{};  ///< If StudySpec::forecast_sessions.
+  std::vector<double> p_bec;                 ///< Mass in the policy's BEC, in the order of StudySpec::teaching.rules.
 };
 
 /// One belief at the end of a period: the rows of particles.csv.
@@ -88,7 +106,8 @@ struct ExamRecord {
   std::size_t member = 0;     ///< 1-based
   char type = 'N';
   double share_right = 0.0;
-  double regret = 0.0;  ///< In the units of the weights that the domain file states.
+  double regret = 0.0;            ///< In the units of the weights that the domain file states.
+  std::optional<double> p_bec{};  ///< Over all starts: mass of the belief in the policy's BEC.
 };
 
 /// The exam of a team at its end.
@@ -98,13 +117,21 @@ struct TeamExam {
   double worst_share_right = 0.0;  ///< The smallest of a member.
 };
 
+/// What teaching a team took. Minutes are those of StudySpec::pace.
+struct TeamCost {
+  std::size_t person_periods = 0;  ///< Periods that members took part in, summed over members.
+  double minutes = 0.0;            ///< Of the teacher, summed over sessions.
+  double person_minutes = 0.0;     ///< Of the members, summed.
+  friend bool operator==(const TeamCost&, const TeamCost&) = default;
+};
+
 /// A row of learners.csv.
 struct LearnerRecord {
   std::size_t member = 0;  ///< 1-based
   char type = 'N';
   std::vector<double> traits;  ///< As the model of the type declares them.
   double p_bec = 0.0;          ///< Mass of the final belief in the policy's BEC.
-  std::size_t periods = 0;
+  std::size_t periods = 0;     ///< That the member took part in.
   std::size_t tests = 0;
   std::size_t correct = 0;
   double exam_share_right = 0.0;   ///< 0 without an exam, and so are the others.
@@ -125,8 +152,10 @@ struct TeamRecord {
   double knowledge_min = 0.0;
   std::size_t components_learned = 0;  ///< Summed over members for the baseline.
   std::size_t components_skipped = 0;
-  double area_sr = 0.0;          ///< Mean over periods of PeriodRecord::area_sr; 0 without periods.
-  std::optional<TeamExam> exam;  ///< Unless ExamLevel::kNone.
+  double area_sr = 0.0;  ///< Mean over periods of PeriodRecord::area_sr; 0 without periods.
+  TeamCost cost{};
+  std::optional<TeamForecast> forecast{};  ///< If StudySpec::forecast_sessions.
+  std::optional<TeamExam> exam;            ///< Unless ExamLevel::kNone.
   std::vector<LearnerRecord> learners;
   std::vector<PeriodRecord> period_records;                ///< Empty at RecordLevel::kTeam.
   std::vector<BeliefSnapshot> beliefs;                     ///< Empty unless RecordLevel::kParticles.

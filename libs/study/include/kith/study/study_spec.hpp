@@ -43,6 +43,22 @@ enum class ExamLevel {
   kPeriod,  ///< Also after every period.
 };
 
+/// Who is taught together.
+enum class Grouping {
+  kTogether,  ///< The whole team [jayaraman2024].
+  kByType,    ///< A session for each learner type of the team, one after the other, by the same teacher.
+};
+
+/// How long people take, for times in minutes: assumptions, unless they were measured.
+struct Pace {
+  double demonstration_s = 10.0;  ///< Seconds to watch one.
+  double test_s = 15.0;           ///< Seconds to answer one, until the slowest of the group has.
+  double feedback_s = 10.0;       ///< Seconds of feedback about one.
+  friend bool operator==(const Pace&, const Pace&) = default;
+};
+/// Minutes of demonstrations and tests with feedback.
+[[nodiscard]] double minutes_of(const Pace& pace, std::size_t demonstrations, std::size_t tests) noexcept;
+
 /// One setting of the varied keys of a design, such as {"teacher.process_noise", "0.5"}.
 struct FactorSetting {
   std::string key;
@@ -56,7 +72,7 @@ struct StudyContrast {
   std::string name;
   std::string factor = "strategy";                        ///< Or "composition".
   std::vector<std::pair<std::string, double>> weights{};  ///< Levels, none twice, with weights that sum to 0.
-  std::string response{};                                 ///< "periods" or "knowledge"; empty: both.
+  std::string response{};                                 ///< An outcome, such as "knowledge"; empty: all outcomes.
   friend bool operator==(const StudyContrast&, const StudyContrast&) = default;
 };
 
@@ -84,14 +100,20 @@ struct StudySpec {
   std::vector<LearnerType> learner_types;
   TeachingOptions teaching;
   bool learner_counterfactuals_self = false;  ///< Learners imagine counterfactuals of their own.
+  Grouping grouping = Grouping::kTogether;    ///< Of every strategy but the baseline.
+  Pace pace{};
   RecordLevel record = RecordLevel::kPeriod;
-  ExamLevel exam = ExamLevel::kNone;
-  std::size_t exam_questions = 0;          ///< Questions that everybody answers at the end, as people would.
-  std::vector<FactorSetting> factors;      ///< Empty unless the design varies keys.
+  ExamLevel exam = ExamLevel::kNone;   ///< Study files of domains with more than three features: kEnd unless they say.
+  std::size_t exam_questions = 0;      ///< Questions that everybody answers at the end, as people would.
+  std::size_t forecast_sessions = 0;   ///< Imagined sessions of a cell, for forecasts; 0: none are made.
+  std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
   std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
   bool has_group = false;                  ///< Whether the file has `[group]`.
   GroupOptions group{};                    ///< For sessions with people; changes nothing in how the study is simulated.
 };
+
+/// Whether what teaching costs is written down: with exams, and where not everybody is taught all the time.
+[[nodiscard]] bool has_costs(const StudySpec& spec) noexcept;
 
 /// The strategy with this name. @throws std::invalid_argument if there is none.
 [[nodiscard]] const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name);

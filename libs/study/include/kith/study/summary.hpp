@@ -33,7 +33,11 @@ struct CellSummary {
   MeanSd periods;
   MeanSd knowledge;
   MeanSd area_sr;
-  std::optional<ExamSummary> exam;  ///< If all teams were examined.
+  MeanSd person_periods;
+  MeanSd minutes;  ///< By the study's pace, as TeamCost.
+  MeanSd person_minutes;
+  std::optional<TeamForecast> forecast;  ///< Of a cell, before the first lesson; missing when pooled.
+  std::optional<ExamSummary> exam;       ///< If all teams were examined.
 };
 
 /// Per cell in the order of the tables, and pooled over the group strategies and over the baseline.

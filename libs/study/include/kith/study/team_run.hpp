@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "kith/learners/learner.hpp"
 #include "kith/study/records.hpp"
@@ -10,13 +11,16 @@
 
 namespace kith {
 
+class SessionForecasts;
+
 /// Watches a team being taught, for transcripts. All calls come in the order of events, from the thread that runs the
 /// team.
 class TeamObserver {
  public:
   virtual ~TeamObserver() = default;
-  /// A session begins: the whole team's, or one member's (1-based) in the baseline; member is 0 for the whole team.
-  virtual void on_session(const Session& session, std::size_t member) = 0;
+  /// A session begins. @param members  who sits in its seats, 1-based: the whole team, or one member or those of one
+  /// type who are taught apart.
+  virtual void on_session(const Session& session, std::span<const std::size_t> members) = 0;
   /// The lesson of the coming period, before anybody saw it.
   virtual void on_lesson(const Session& session, const Lesson& lesson, const Learners& learners) = 0;
   /// Everybody watched, answered and heard the feedback; learners and session are as they are afterwards.
@@ -31,12 +35,14 @@ class TeamObserver {
 /// and the address only. The baseline is a sequence of one-person sessions of the same people.
 /// @param cache  of the calling thread; influences nothing.
 /// @param observer  may be null. With an observer, all beliefs are kept up to date.
+/// @param forecasts  of the study, for a record with forecasts if StudySpec::forecast_sessions; null: without.
 [[nodiscard]] TeamRecord run_team(const Atlas& atlas, TeachingCache& cache, const StudySpec& spec,
-                                  const TeamAddress& address, TeamObserver* observer = nullptr);
+                                  const TeamAddress& address, TeamObserver* observer = nullptr,
+                                  SessionForecasts* forecasts = nullptr);
 
 /// The same, given up as soon as `stopped` says so, which is asked before every period: then nothing. May be empty.
 [[nodiscard]] std::optional<TeamRecord> run_team_unless(const std::function<bool()>& stopped, const Atlas& atlas,
                                                         TeachingCache& cache, const StudySpec& spec,
-                                                        const TeamAddress& address);
+                                                        const TeamAddress& address, SessionForecasts* forecasts);
 
 }  // namespace kith

@@ -5,13 +5,19 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "kith/bec/behaviours.hpp"
+#include "kith/belief/likelihood.hpp"
 #include "kith/belief/prior_cover.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/exam.hpp"
+#include "kith/teaching/learner_hypothesis.hpp"
+#include "kith/teaching/lesson.hpp"
 
 namespace kith {
+
+struct TeachingOptions;
 
 /// What sessions over one domain compute again and again: regions of constraint sets, what people do and what
 /// demonstrations tell them, and the initial points of beliefs.
@@ -28,7 +34,10 @@ class TeachingCache {
 
   /// Keeps the atlas alive, and so do sessions that are made with this cache.
   explicit TeachingCache(std::shared_ptr<const Atlas> atlas, std::size_t max_bytes = kDefaultBytes)
-      : atlas_{std::move(atlas)}, max_bytes_{max_bytes}, known_{std::make_unique<Known>(*atlas_, max_bytes)} {}
+      : atlas_{std::move(atlas)},
+        max_bytes_{max_bytes},
+        partitions_{std::make_shared<PolicyPartitions>(*atlas_)},
+        known_{std::make_unique<Known>(*atlas_, max_bytes, partitions_)} {}
   /// For an atlas that outlives this cache and all sessions that are made with it.
   explicit TeachingCache(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes)
       : TeachingCache{std::shared_ptr<const Atlas>{std::shared_ptr<const Atlas>{}, &atlas}, max_bytes} {}
@@ -56,17 +65,30 @@ class TeachingCache {
   /// The same, for those that outlive this object.
   const std::shared_ptr<const Exam>& shared_exam();
 
+  /// The placement tests of sessions with these options; see placement_tests().
+  const std::vector<Test>& placement(const TeachingOptions& options);
+
  private:
   struct Known {
-    Known(const Atlas& atlas, std::size_t max_bytes)
-        : behaviours{atlas, Behaviours::kDefaultCells, max_bytes / 2}, regions{behaviours.constraints()} {}
+    Known(const Atlas& atlas, std::size_t max_bytes, std::shared_ptr<PolicyPartitions> partitions)
+        : behaviours{atlas, Behaviours::kDefaultCells, max_bytes / 2, std::move(partitions)},
+          regions{behaviours.constraints()} {}
     Behaviours behaviours;
     Regions regions;
   };
   std::shared_ptr<const Atlas> atlas_;
   std::size_t max_bytes_;
+  std::shared_ptr<PolicyPartitions> partitions_;
   std::unique_ptr<Known> known_;
   std::shared_ptr<const Exam> exam_;
+  // Placement tests by what they depend on; few.
+  struct Placement {
+    std::vector<LearnerHypothesis> hypotheses;
+    std::size_t particles, tests_wanted;
+    LikelihoodForm likelihood;
+    std::vector<Test> tests;
+  };
+  std::list<Placement> placements_;
   std::list<PriorCover> covers_;  // few: one per prior and filter size of a study
 };
 

@@ -10,6 +10,9 @@
 
 namespace kith {
 
+/// 0.99 P + 0.003: how much answers of probability P, in [0, 1], count for a hypothesis. People make slips.
+[[nodiscard]] double weight_of_answers(double likelihood) noexcept;
+
 /// Who is this? A bank of hypotheses about one member, with the belief that the person would have under each.
 ///
 /// The beliefs learn from demonstrations and feedback, never from the person's answers, as simulated people do. Answers
@@ -19,21 +22,32 @@ namespace kith {
 ///                                        / (mass of the weights that give any),
 ///
 /// under the belief of hypothesis h, and the weights are normalised; 0.003 stands for slips. Where behaviours are not
-/// tabulated, P_h is the mass of the weights that satisfy what the answers show. The ability of hypothesis h grows by
-/// its confirm_gain or correct_gain, as observed, and is reset when a component begins.
+/// tabulated, P_h is the mass of the weights that satisfy what the answers show; a path that is best for no weights, as
+/// people may take it, counts in the same way. The ability of hypothesis h grows by its confirm_gain or correct_gain,
+/// as observed, and is reset when a component begins. A hypothesis that somebody knows components begins with the
+/// belief after their constraints, taken in with kAbilityOfKnowing.
 class LearnerBank {
  public:
   /// @param random  the root of what moves the beliefs' points.
+  /// @param components  constraints_of_components(), for hypotheses that somebody knows some of them.
   /// @throws std::invalid_argument if there is no hypothesis or one is out of range.
   LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
-              std::vector<LearnerHypothesis> hypotheses, RandomStream random);
+              std::vector<LearnerHypothesis> hypotheses, RandomStream random,
+              std::span<const std::vector<HalfSpace>> components = {});
 
   void begin_component();
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period);
-  /// @param verdicts  those of the answers, for domains without tables.
+  /// @param verdicts  those of the answers, for domains without tables and for paths that are best for nobody.
   void see_answers(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
                    std::span<const Verdict> verdicts);
+  /// P_h for answers that were given to all of the tests, one per hypothesis.
+  [[nodiscard]] std::vector<double> likelihoods(const Atlas& atlas, std::span<const Test> tests,
+                                                std::span<const Answer> answers, std::span<const Verdict> verdicts);
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period);
+
+  /// Blurs all beliefs: every point is moved by N(0, angle^2) per axis of its tangent plane (radians), inside the
+  /// prior.
+  void forget(double angle, const RandomStream& random);
 
   [[nodiscard]] std::span<const LearnerHypothesis> hypotheses() const noexcept { return hypotheses_; }
   /// Posterior probabilities, one per hypothesis; sum to 1.
@@ -49,6 +63,8 @@ class LearnerBank {
   [[nodiscard]] double ability_quantile(double q) const;
   /// Posterior probability that the initial ability is at least this; with the same interpolation.
   [[nodiscard]] double probability_of_ability(double at_least) const;
+  /// Posterior probability that the member knew the component beforehand.
+  [[nodiscard]] double probability_of_knowing(std::size_t component) const;
   /// Mass of every policy cell under the mixture of the hypotheses. @pre behaviours are tabulated.
   [[nodiscard]] std::vector<double> cell_masses(const Atlas& atlas);
   /// Expected mass of the weights that satisfy the half-spaces.

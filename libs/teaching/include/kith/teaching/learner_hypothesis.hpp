@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "kith/belief/particle_belief.hpp"
@@ -12,6 +14,7 @@ struct LearnerHypothesis {
   double confirm_gain = 0.02;   ///< Added after a period with all answers right, >= 0.
   double correct_gain = 0.045;  ///< Added after a period with a wrong answer, >= 0.
   double probability = 1.0;     ///< Before anything was observed, > 0; those of a bank need not sum to 1.
+  std::uint32_t known = 0;      ///< Components that the person knows beforehand: bit k is component k.
   friend bool operator==(const LearnerHypothesis&, const LearnerHypothesis&) = default;
 };
 
@@ -19,6 +22,17 @@ struct LearnerHypothesis {
 [[nodiscard]] std::vector<LearnerHypothesis> one_hypothesis();
 /// Abilities 0.62, 0.68, ..., 0.92, each with the gains (0.01, 0.03) and (0.03, 0.055), all equally probable.
 [[nodiscard]] std::vector<LearnerHypothesis> grid_of_hypotheses();
+
+/// The components that people may know beforehand: all but the last, which has the constraints of all others, so that
+/// who knows it knows everything; that one if it is the only one.
+[[nodiscard]] constexpr std::size_t num_known_by_chance(std::size_t num_components) noexcept {
+  return num_components > 1 ? num_components - 1 : num_components;
+}
+
+/// People of average ability who know each of these components beforehand or not: all 2^n combinations for up to four
+/// of them, else nothing, any single one and the first k of them; all equally probable.
+/// @throws std::invalid_argument for more than 31 components.
+[[nodiscard]] std::vector<LearnerHypothesis> grid_of_known_components(std::size_t num_components);
 
 /// What a member may be like, and what the member would then believe.
 struct MemberHypothesis {

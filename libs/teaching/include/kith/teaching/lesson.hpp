@@ -91,6 +91,7 @@ struct Feedback {
   std::vector<HalfSpace> half_spaces;  ///< The true constraints of all tests, in test order: what feedback teaches.
   std::vector<std::size_t> excluded;   ///< Members whom a rule of aggregation left out, such as the common belief's.
   bool component_learned = false;
+  std::vector<std::size_t> released{};  ///< Members who are done with the component before the others; ascending.
   friend bool operator==(const Feedback&, const Feedback&) = default;
 };
 

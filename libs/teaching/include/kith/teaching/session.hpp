@@ -62,7 +62,8 @@ enum class ComponentStatus { kOpen, kLearned, kSkipped };
 /// tells nothing.
 ///
 /// A member who leaves during a period has no more part in it, except that answers already given count; who returns
-/// takes part from the next lesson on. While everybody is away nothing can be proposed.
+/// takes part from the next lesson on. While everybody is away nothing can be proposed. TeachingOptions::release may
+/// send members away until the next component begins; that is part of the session and no event.
 class Session {
  public:
   /// @param cache  of the session's atlas; only its cover of the prior is used here.
@@ -86,6 +87,10 @@ class Session {
   [[nodiscard]] std::span<const ComponentStatus> components() const noexcept { return components_; }
 
   // --- events ---------------------------------------------------------------
+  /// The members' answers to placement(), before the first lesson: evidence for the teacher, without feedback.
+  /// @param answers  per member one per test, or none if the member does not take part.
+  /// @throws kith::Error (kUsage) unless awaits_placement(); (kInvalidInput) for answers that cannot be given.
+  void take_placement(std::vector<std::vector<Answer>> answers);
   /// Chooses the next lesson of the current component, or of the first later one that has anything to teach.
   /// @param cache  of the same atlas; makes it faster and changes no result.
   /// @param truth  the members as they are, which only simulations know, for strategies that ask for it; may be empty.
@@ -116,8 +121,20 @@ class Session {
   const Feedback& submit(std::span<const std::vector<Answer>> answers);
 
   // --- state ----------------------------------------------------------------
+  /// The tests before the first lesson; none unless TeachingOptions::placement_tests.
+  [[nodiscard]] std::span<const Test> placement() const noexcept { return placement_; }
+  /// Whether they are to be answered now; nothing can be proposed before.
+  [[nodiscard]] bool awaits_placement() const noexcept {
+    return !placement_.empty() && placement_verdicts_.empty() && events_.empty();
+  }
+  /// What their answers showed, per member and test; empty before.
+  [[nodiscard]] std::span<const std::vector<Verdict>> placement_verdicts() const noexcept {
+    return placement_verdicts_;
+  }
   /// What to show and ask now. @throws kith::Error (kUsage) in the phases kProposal and kFinished.
   [[nodiscard]] const Lesson& lesson() const;
+  /// Whether a member is released until the next component begins.
+  [[nodiscard]] bool is_released(std::size_t member) const { return seats_.at(member) == Seat::kReleased; }
   /// Whether a member takes part in the current period.
   [[nodiscard]] bool takes_part(std::size_t member) const { return seats_.at(member) == Seat::kPresent; }
   /// Whether a member has answered the current tests.
@@ -136,7 +153,7 @@ class Session {
   friend bool operator==(const Session& a, const Session& b);
 
  private:
-  enum class Seat : std::uint8_t { kPresent, kAway, kReturning };
+  enum class Seat : std::uint8_t { kPresent, kAway, kReturning, kReleased };
   struct Given {
     std::vector<Answer> answers;
     std::vector<Verdict> verdicts;
@@ -154,8 +171,10 @@ class Session {
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
   void make_bank(TeachingCache& cache);
   void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
+  [[nodiscard]] std::size_t periods_of_component() const;
   [[nodiscard]] bool is_enough(bool everybody_right) const;
-  void conclude_period(bool learned);
+  [[nodiscard]] std::vector<std::size_t> done_members(const Feedback& feedback, const std::vector<bool>& present);
+  void conclude_period(const Feedback& feedback);
 
   std::shared_ptr<const Atlas> atlas_;
   TeachingOptions options_;
@@ -166,6 +185,8 @@ class Session {
   RandomStream teacher_;
   TeamBelief belief_;
   std::optional<TeamBank> bank_;
+  std::vector<Test> placement_;
+  std::vector<std::vector<Verdict>> placement_verdicts_;
   std::shared_ptr<const Exam> exam_;  // what MasteryRule::kPosterior judges by
   double mastery_ = 0.0;
 
@@ -173,6 +194,7 @@ class Session {
   SessionPhase phase_ = SessionPhase::kProposal;
   std::size_t component_ = 0;
   std::size_t correct_in_a_row_ = 0;
+  std::vector<std::size_t> right_in_a_row_;  // of every member
   std::vector<ComponentStatus> components_;
   std::vector<Seat> seats_;
   VisitedDemos visited_;

@@ -49,12 +49,18 @@ struct StrategyChanged {
   friend bool operator==(const StrategyChanged&, const StrategyChanged&) = default;
 };
 
+/// The members answered the placement tests, before the first lesson.
+struct PlacementTaken {
+  std::vector<std::vector<Answer>> answers;  ///< Per member, per test; empty for a member who did not take part.
+  friend bool operator==(const PlacementTaken&, const PlacementTaken&) = default;
+};
+
 /// Everything that can happen to a session, see Session.
 using SessionEvent = std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft,
-                                  MemberReturned, StrategyChanged>;
+                                  MemberReturned, StrategyChanged, PlacementTaken>;
 
 /// "lesson-proposed", "lesson-shown", "tests-answered", "tests-closed", "feedback-given", "member-left",
-/// "member-returned", "strategy-changed".
+/// "member-returned", "strategy-changed", "placement-taken".
 [[nodiscard]] std::string_view name_of(const SessionEvent& event) noexcept;
 
 }  // namespace kith

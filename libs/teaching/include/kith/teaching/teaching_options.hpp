@@ -32,6 +32,20 @@ enum class MasteryRule {
                ///< `probability`; see TeamBank.
 };
 
+/// What the hypotheses of a LearnerBank differ in.
+enum class HypothesesAbout {
+  kAbility,          ///< How well people learn: TeachingOptions::hypotheses.
+  kKnownComponents,  ///< Which components they know beforehand: grid_of_known_components().
+};
+
+/// Which members are done with a component before the team is. They have no part in its remaining periods and return
+/// with the next component. Once nobody is left, the component counts as learned, whatever MasteryRule says.
+enum class ReleaseRule {
+  kNone,       ///< Nobody: all members take part in all periods [jayaraman2024].
+  kAllRight,   ///< Who answered all tests right, `consecutive_correct` periods in a row.
+  kPosterior,  ///< Who answers a random test of the component right with at least `probability`; see LearnerBank.
+};
+
 /// How a group is taught; every field is a key of the study file.
 struct TeachingOptions {
   FilterOptions filter{};           ///< particles, eta, resampling threshold of the teacher's beliefs
@@ -54,12 +68,17 @@ struct TeachingOptions {
   std::size_t periods_per_component = 3;  ///< kFixed: >= 1
   double probability = 0.9;               ///< kPosterior: in (0, 1)
   std::size_t min_periods = 1;            ///< kPosterior: periods of a component at least, >= 1
-  std::size_t duplicate_sets = 1;         ///< test sets per period, >= 1
+  ReleaseRule release = ReleaseRule::kNone;
+  std::size_t duplicate_sets = 1;  ///< test sets per period, >= 1
 
   /// The rules of aggregation that there are: their beliefs are kept where the strategy reads them.
   std::vector<AggregationRule> rules{aggregation_rules().begin(), aggregation_rules().end()};
   /// What members may be like, as the bank has it that strategies and stopping rules may ask for; see LearnerBank.
   std::vector<LearnerHypothesis> hypotheses = grid_of_hypotheses();
+  HypothesesAbout hypotheses_about = HypothesesAbout::kAbility;
+  /// Tests before the first lesson, at most, that tell the hypotheses apart; see placement_tests(). There is no
+  /// feedback on them, and they are asked only if hypotheses differ in what people know.
+  std::size_t placement_tests = 0;
   bool keep_bank = false;     ///< the bank is kept even if nobody reads it
   bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
   bool keep_rules = false;    ///< the same for the beliefs of all rules

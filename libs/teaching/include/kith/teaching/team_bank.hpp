@@ -12,15 +12,19 @@ namespace kith {
 /// A LearnerBank about every member of a team.
 class TeamBank {
  public:
-  /// @param persons  one stream per member.
+  /// @param persons  one stream per member. @param components  as for LearnerBank.
   TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
-           const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons);
+           const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons,
+           std::span<const std::vector<HalfSpace>> components = {});
 
   [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
   [[nodiscard]] const LearnerBank& member(std::size_t i) const { return members_[i]; }
   /// Whether the component of the coming lesson begins with it.
   [[nodiscard]] bool begins(std::size_t component) const noexcept { return component != component_; }
 
+  /// What the members answered before the first lesson, without feedback; empty lists are ignored.
+  void see_placement(const Atlas& atlas, std::span<const Test> tests, std::span<const std::vector<Answer>> answers,
+                     std::span<const std::vector<Verdict>> verdicts);
   /// The members present watched a lesson.
   void watch(const Lesson& lesson, const std::vector<bool>& present);
   /// The tests were closed; the feedback that follows is taken in, too.

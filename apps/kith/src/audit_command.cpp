@@ -1,0 +1,393 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "build_facts.hpp"
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "kith/bec/memory_needs.hpp"
+#include "kith/core/error.hpp"
+#include "kith/core/parallel.hpp"
+#include "kith/explain/curriculum.hpp"
+#include "kith/explain/words.hpp"
+#include "kith/files/atomic_file.hpp"
+#include "kith/files/folder_lock.hpp"
+#include "kith/files/generation.hpp"
+#include "kith/hosting/event_file.hpp"
+#include "kith/hosting/session_review.hpp"
+#include "kith/hosting/session_study.hpp"
+#include "kith/present/audit_report.hpp"
+#include "kith/present/wrapped.hpp"
+#include "kith/runs/journal.hpp"
+#include "kith/runs/run_folder.hpp"
+#include "kith/runs/team_codec.hpp"
+#include "kith/study/observed_team.hpp"
+#include "option_values.hpp"
+#include "progress.hpp"
+
+namespace kith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error refusal(ErrorKind kind, const std::string& id, const std::string& message, const std::string& hint) {
+  return Error{
+      kind, message, {{.id = id, .message = message, .hint = hint, .infeasible = kind == ErrorKind::kInfeasible}}};
+}
+
+// A person whose answers are to be judged.
+struct Observed {
+  AuditedPerson person;  // without components
+  std::vector<ObservedPeriod> periods;
+};
+
+AuditOptions audit_options(const AuditCommandOptions& options, const StudySpec& spec) {
+  AuditOptions how;
+  how.bank.filter = spec.teaching.filter;
+  how.bank.likelihood = spec.teaching.likelihood;
+  how.forgetting = options.forgetting;
+  return how;
+}
+
+void judge(TeachingCache& cache, const AuditOptions& how, std::vector<Observed>& people) {
+  Auditor auditor{cache, how};
+  for (auto& [person, periods] : people) {
+    const RandomStream random =
+        RandomStream{1}.split("audit").split(person.team).split(person.room).split(person.member);
+    person.components = auditor.audit(periods, random);
+  }
+}
+
+// --- a run ---------------------------------------------------------------------------------------------------------
+
+std::vector<Observed> people_of(const Atlas& atlas, const Study& study, const TeamRecord& record) {
+  std::vector<Observed> people;
+  const auto& address = record.address;
+  for (auto& periods : observed_people(atlas, record)) {
+    AuditedPerson person;
+    person.team = address.team;
+    person.group = describe_team(study, address);
+    person.member = people.size() + 1;
+    person.type = address.composition[people.size()];
+    people.push_back({std::move(person), std::move(periods)});
+  }
+  return people;
+}
+
+// Threads take an atlas's cache each, and give it back.
+class Caches {
+ public:
+  explicit Caches(const Atlas& atlas) : atlas_{atlas} {}
+  std::unique_ptr<TeachingCache> take() {
+    const std::lock_guard lock{mutex_};
+    if (free_.empty()) return std::make_unique<TeachingCache>(atlas_);
+    auto cache = std::move(free_.back());
+    free_.pop_back();
+    return cache;
+  }
+  void give_back(std::unique_ptr<TeachingCache> cache) {
+    cache->trim();
+    const std::lock_guard lock{mutex_};
+    free_.push_back(std::move(cache));
+  }
+
+ private:
+  const Atlas& atlas_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TeachingCache>> free_;
+};
+
+class RunAudit {
+ public:
+  RunAudit(const AuditCommandOptions& options, Console& console) : options_{options}, console_{console} {
+    const fs::path folder{options.folder};
+    if (!is_busy(folder)) settle_for_reading(folder);
+    auto reading = read_run_folder(folder);
+    if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
+    study_ = *std::move(reading.study);
+    require_teaching_memory(*reading.domain);
+    atlas_ = std::make_unique<const Atlas>(*std::move(reading.domain));
+    read(Journal::read(folder / kJournalFile));
+  }
+
+  [[nodiscard]] const Atlas& atlas() const { return *atlas_; }
+
+  AuditReport report() {
+    std::vector<std::vector<Observed>> judged(records_.size());
+    Caches caches{*atlas_};
+    watch_signals();
+    Progress progress{options_.progress, console_};
+    const auto on_progress = [&](std::size_t done, std::size_t total) {
+      progress.update(done, total, 0);
+      return stop_signal() == 0;
+    };
+    const bool all =
+        for_each_index(records_.size(), {.threads = options_.threads, .on_progress = on_progress}, [&](std::size_t i) {
+          auto cache = caches.take();
+          judged[i] = people_of(*atlas_, study_, records_[i]);
+          judge(*cache, audit_options(options_, spec_of(records_[i])), judged[i]);
+          caches.give_back(std::move(cache));
+        });
+    progress.finish();
+    if (!all) throw Error{ErrorKind::kPartial, "interrupted; nothing was written"};
+    AuditReport report{.source = options_.folder, .people = {}, .options = audit_options(options_, study_.variants[0])};
+    for (auto& team : judged) {
+      for (auto& one : team) report.people.push_back(std::move(one.person));
+    }
+    return report;
+  }
+
+ private:
+  [[nodiscard]] const StudySpec& spec_of(const TeamRecord& record) const {
+    return study_.variants[record.address.variant];
+  }
+
+  void read(const Journal& journal) {
+    if (study_.variants[0].record == RecordLevel::kTeam) {
+      throw refusal(ErrorKind::kInfeasible, "E1113",
+                    options_.folder + " has no answers: only the results of whole teams were recorded",
+                    "run the study with record.level = \"period\"");
+    }
+    const auto total = num_teams(study_);
+    if (options_.team) {
+      const auto wrong = wrong_integer(std::to_string(*options_.team), 1, static_cast<std::int64_t>(total));
+      if (!wrong.empty()) refuse("--team " + wrong);
+      const auto bytes = journal.find(*options_.team);
+      if (!bytes) {
+        throw refusal(ErrorKind::kInfeasible, "E1115",
+                      fmt::format("team {} of {} has not been taught yet, or failed", *options_.team, options_.folder),
+                      "kith status shows how far the run is");
+      }
+      add(journal, *options_.team, *bytes);
+      return;
+    }
+    journal.for_each([&](std::size_t team, std::string_view bytes) { add(journal, team, bytes); });
+    if (records_.empty()) {
+      throw refusal(ErrorKind::kInfeasible, "E1115", "no team of " + options_.folder + " has been taught yet",
+                    "kith status shows how far the run is");
+    }
+  }
+
+  void add(const Journal& journal, std::size_t team, std::string_view bytes) {
+    auto record = decode_team(team_address(study_, team), bytes, journal.key());
+    if (!record) {
+      throw Error{ErrorKind::kIo, fmt::format("the record of team {} in {} cannot be read", team, options_.folder)};
+    }
+    // What is not observed is not kept.
+    record->beliefs.clear();
+    record->progress.clear();
+    records_.push_back(*std::move(record));
+  }
+
+  const AuditCommandOptions& options_;
+  Console& console_;
+  Study study_;
+  std::unique_ptr<const Atlas> atlas_;
+  std::vector<TeamRecord> records_;
+};
+
+// --- a live session ------------------------------------------------------------------------------------------------
+
+std::vector<Observed> people_of(const Room& room) {
+  std::vector<Observed> people;
+  const auto& setup = room.setup();
+  for (std::size_t i = 0; i < room.session().num_members(); ++i) {
+    AuditedPerson person;
+    person.room = setup.id;
+    person.group = fmt::format("room {} ({}, {})", setup.id, setup.strategy, setup.composition);
+    person.member = i + 1;
+    person.type = setup.composition.at(i);
+    person.simulated = setup.simulated.at(i);
+    people.push_back({std::move(person), observed_periods(room.session().history(), i)});
+  }
+  return people;
+}
+
+class SessionAudit {
+ public:
+  SessionAudit(const AuditCommandOptions& options, EventFile file)
+      : options_{options}, file_{std::move(file)}, study_{restore_session_study(file_.identity().inputs).study} {}
+
+  [[nodiscard]] const Atlas& atlas() const { return *study_->atlas; }
+
+  AuditReport report() {
+    TeachingCache cache{study_->atlas};
+    const auto how = audit_options(options_, study_->spec);
+    AuditReport report{.source = options_.folder, .people = {}, .options = how};
+    std::vector<StoredRoom> rooms = file_.rooms();
+    if (!options_.room.empty()) rooms = {find_room(file_, options_.room)};
+    for (const auto& stored : rooms) {
+      auto people = people_in(stored, cache);
+      judge(cache, how, people);
+      for (auto& one : people) report.people.push_back(std::move(one.person));
+    }
+    if (report.people.empty()) {
+      throw refusal(ErrorKind::kInfeasible, "E1115", "no room of " + options_.folder + " has had a lesson yet",
+                    "kith session list shows how far the rooms are");
+    }
+    return report;
+  }
+
+ private:
+  // Nobody as long as there was no lesson.
+  std::vector<Observed> people_in(const StoredRoom& stored, TeachingCache& cache) {
+    std::size_t left = 0;
+    file_.for_each_event([&](const StoredEvent&) { ++left; }, stored.number);
+    std::vector<Observed> people;
+    const auto replayed = replay_room(file_, stored, study_, cache, [&](const Room& room, const RoomEvent&) {
+      if (--left == 0 && !room.session().history().empty()) people = people_of(room);
+    });
+    if (!replayed.problem.empty()) {
+      throw refusal(ErrorKind::kMismatch, "E1614",
+                    "room " + replayed.id + " does not replay to what it was: " + replayed.problem,
+                    "use the version of kith and the kind of machine that the session was run with");
+    }
+    return people;
+  }
+
+  const AuditCommandOptions& options_;
+  EventFile file_;
+  std::shared_ptr<const LiveStudy> study_;
+};
+
+// --- as text -------------------------------------------------------------------------------------------------------
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+class AuditText {
+ public:
+  AuditText(const Atlas& atlas, const AuditReport& report, const Console& console)
+      : atlas_{atlas}, report_{report}, console_{console} {}
+
+  std::string text(bool everybody) {
+    summary();
+    if (!everybody) return out_;
+    std::string group;
+    for (const auto& person : report_.people) {
+      if (person.group != group) out_ += "\n" + console_.bold(person.group) + "\n";
+      group = person.group;
+      out_ += fmt::format("\nMember {} ({}{})\n", person.member, person.type,
+                          person.room.empty() ? ""
+                          : person.simulated  ? ", simulated"
+                                              : ", a person");
+      for (const auto& audit : person.components) component(audit);
+    }
+    return out_;
+  }
+
+ private:
+  void line(const std::string& text, std::size_t indent) {
+    const std::string blank(indent, ' ');
+    out_ += blank + wrapped(text, kTextWidth - indent, blank) + "\n";
+  }
+
+  void summary() {
+    TextTable table{"lrrrr"};
+    table.add({"component", "understand", "cannot tell", "misconception", "not taught"});
+    for (std::size_t k = 0; k < atlas_.knowledge_components().size(); ++k) {
+      const auto counts = counts_of(report_, k);
+      table.add({std::to_string(k + 1) + ". " + atlas_.knowledge_components()[k].name,
+                 std::to_string(counts.understand), std::to_string(counts.cannot_tell),
+                 std::to_string(counts.misconception), std::to_string(counts.not_taught)});
+    }
+    out_ += table.text(console_);
+    const auto shared = shared_misconceptions(report_);
+    if (!shared.empty()) out_ += "\nMisconceptions, with the number of people\n";
+    for (const auto& one : shared) {
+      line(fmt::format("{}: thinks that {}; in fact, {} (component {})", one.people, one.thinks.front(), one.fact,
+                       one.component + 1),
+           2);
+    }
+  }
+
+  void component(const ComponentAudit& audit) {
+    line(fmt::format("{}. {}: {}", audit.component + 1, component_in_words(atlas_, audit.component),
+                     in_words(audit.understanding)),
+         2);
+    if (audit.understanding == Understanding::kNotTaught) return;
+    line(fmt::format("understands with probability {}; expected to get all of it right {} of the time ({} interval: {} "
+                     "to {}); {} of {} right in {}",
+                     percent(audit.level.probability), percent(audit.level.mean),
+                     percent(report_.options.level.coverage), percent(audit.level.low), percent(audit.level.high),
+                     audit.correct, counted(audit.tests, "answer"), counted(audit.periods, "lesson")),
+         5);
+    if (audit.misconception) misconception(audit, *audit.misconception);
+    line("next: " + advice_in_words(audit), 5);
+    if (audit.test) line("test: " + place(*audit.test), 5);
+  }
+
+  void misconception(const ComponentAudit& audit, const LikelyMisconception& found) {
+    const bool sure = audit.understanding == Understanding::kMisconception;
+    line(fmt::format("{} that {} (probability {}); in fact, {}", sure ? "probably thinks" : "might think", found.thinks,
+                     percent(found.probability), found.fact),
+         5);
+    for (const auto& answer : found.answers) {
+      line(fmt::format("period {}, test {} (world {}), predicted: {}", answer.period, answer.test,
+                       atlas_.id(answer.demo).mdp.value(), answer.text),
+           7);
+    }
+    if (found.show) {
+      line("show: " + place(*found.show) + (found.reason.empty() ? "" : "; " + found.reason), 5);
+    }
+  }
+
+  [[nodiscard]] std::string place(DemoIndex demo) const {
+    const auto id = atlas_.id(demo);
+    return fmt::format("world {}, start {}", id.mdp.value(), id.start.value());
+  }
+
+  const Atlas& atlas_;
+  const AuditReport& report_;
+  const Console& console_;
+  std::string out_;
+};
+
+void write_audit_page(const std::string& out, const std::string& page, Console& console) {
+  if (out == "-") {
+    if (console.json()) throw Error{ErrorKind::kUsage, "--json and '-o -' would both write to standard output"};
+    console.print(page);
+    return;
+  }
+  write_file_atomically(out, page);
+  constexpr double kKilobyte = 1e3;
+  console.info(fmt::format("audit in {} ({:.0f} kB); open it in a browser (no network needed)", out,
+                           static_cast<double>(page.size()) / kKilobyte));
+}
+
+int show(const Atlas& atlas, const AuditReport& report, const AuditCommandOptions& options, Console& console) {
+  constexpr std::size_t kFew = 30;  // people; of more, the text has the summary only
+  if (!options.out.empty()) write_audit_page(options.out, audit_page(atlas, report, program_name()), console);
+  if (console.json()) {
+    console.print_json(audit_json(atlas, report, program_name()));
+  } else if (options.out.empty()) {
+    const bool everybody = report.people.size() <= kFew;
+    console.print(AuditText{atlas, report, console}.text(everybody));
+    if (!everybody) console.info("--team N shows the people of one team; -o PAGE.html shows everybody");
+  }
+  return 0;
+}
+
+}  // namespace
+
+int run_audit(const AuditCommandOptions& options, Console& console) {
+  const fs::path folder{options.folder};
+  std::error_code none;
+  if (fs::exists(folder / kEventFile, none)) {
+    if (options.team) refuse("--team is for run folders; --room ID names a room of a live session");
+    SessionAudit audit{options, EventFile::read(folder)};
+    return show(audit.atlas(), audit.report(), options, console);
+  }
+  if (!options.room.empty()) refuse("--room is for live sessions; --team N names a team of a run");
+  if (!Journal::exists(folder / kJournalFile)) {
+    throw refusal(ErrorKind::kIo, "E1114", options.folder + " holds neither a run nor a live session",
+                  "give the folder of -o of kith study or kith serve");
+  }
+  RunAudit audit{options, console};
+  return show(audit.atlas(), audit.report(), options, console);
+}
+
+}  // namespace kith::cli

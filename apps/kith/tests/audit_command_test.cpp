@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> study(const std::string& folder, const std::string& setting = "replicates=2") {
+  return {"study", "quick", "-o", folder, "--set", setting, "-q"};
+}
+
+// A run of four teams.
+class AuditCommand : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new Scratch;
+    ASSERT_EQ(run_kith(study(*scratch_ / "run")).code, 0);
+  }
+  static void TearDownTestSuite() {
+    delete scratch_;
+    scratch_ = nullptr;
+  }
+  [[nodiscard]] static std::string run() { return *scratch_ / "run"; }
+
+  static Scratch* scratch_;
+};
+Scratch* AuditCommand::scratch_ = nullptr;
+
+TEST_F(AuditCommand, SaysWhoUnderstandsWhat) {
+  const auto ran = run_kith({"audit", run(), "--team", "3"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("team 3 (common, NP, replicate 1)"));
+  EXPECT_THAT(ran.out, HasSubstr("Member 1 (N)"));
+  EXPECT_THAT(ran.out, HasSubstr("1. crossing rubble versus steps: "));
+  EXPECT_THAT(ran.out, HasSubstr("next: "));
+  std::istringstream lines{ran.out};
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST_F(AuditCommand, JudgesEverybodyAlikeOnAnyNumberOfThreads) {
+  const auto one = run_kith({"audit", run(), "--json", "-j", "1"});
+  const auto two = run_kith({"audit", run(), "--json", "-j", "2"});
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(one.out, two.out);
+  const auto document = Json::parse(one.out);
+  EXPECT_EQ(document.at("schema"), "kith.audit/1");
+  ASSERT_EQ(document.at("people").size(), 8u);
+  // A team by itself gives the same.
+  const auto team = Json::parse(run_kith({"audit", run(), "--json", "--team", "2"}).out);
+  ASSERT_EQ(team.at("people").size(), 2u);
+  EXPECT_EQ(team.at("people")[0], document.at("people")[2]);
+  for (const auto& person : document.at("people")) {
+    for (const auto& component : person.at("components")) {
+      EXPECT_LE(component.at("level").at("low"), component.at("level").at("high"));
+      EXPECT_LE(component.at("correct"), component.at("tests"));
+    }
+  }
+}
+
+TEST_F(AuditCommand, WritesAPageThatLoadsNothing) {
+  const auto out = *scratch_ / "audit.html";
+  EXPECT_EQ(run_kith({"audit", run(), "--team", "1", "-o", out, "-q"}).code, 0);
+  const auto page = text_of(out);
+  EXPECT_THAT(page, HasSubstr("<!doctype html>"));
+  EXPECT_THAT(page, HasSubstr("Who understands what"));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+TEST_F(AuditCommand, NeedsAnswers) {
+  const auto teams_only = *scratch_ / "teams-only";
+  ASSERT_EQ(run_kith(study(teams_only, "record.level=\"team\"")).code, 0);
+  const auto nothing = run_kith({"audit", teams_only});
+  EXPECT_EQ(nothing.code, 4);
+  EXPECT_THAT(nothing.err, HasSubstr("E1113"));
+  const auto wrong = run_kith({"audit", run(), "--team", "99"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--team must be an integer from 1 to 4"));
+  EXPECT_EQ(run_kith({"audit", run(), "--room", "r1"}).code, 2);
+  const auto neither = run_kith({"audit", *scratch_ / "nowhere"});
+  EXPECT_EQ(neither.code, 5);
+  EXPECT_THAT(neither.err, HasSubstr("E1114"));
+}
+
+TEST_F(AuditCommand, ReadsTheTeamsThatAreFinished) {
+  const auto folder = *scratch_ / "interrupted";
+  RunWith with;
+  with.environment = {{"KITH_FAILPOINT", "committed:1"}};
+  auto arguments = study(folder, "replicates=8");
+  arguments.insert(arguments.end(), {"-j", "1"});
+  EXPECT_NE(run_kith(arguments, with).code, 0);
+  const auto some = run_kith({"audit", folder, "--json"});
+  EXPECT_EQ(some.code, 0) << some.err;
+  const auto people = Json::parse(some.out).at("people").size();
+  EXPECT_GT(people, 0u);
+  EXPECT_LT(people, 32u);
+  const auto missing = run_kith({"audit", folder, "--team", "16"});
+  EXPECT_EQ(missing.code, 4);
+  EXPECT_THAT(missing.err, HasSubstr("E1115"));
+}
+
+TEST_F(AuditCommand, ReadsLiveSessions) {
+  const auto folder = *scratch_ / "live";
+  const auto served = run_kith({"serve", "quick", "-o", folder, "--rehearse", "1", "--answer-every", "0.05", "-q"});
+  ASSERT_EQ(served.code, 0) << served.err;
+  const auto ran = run_kith({"audit", folder});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("room "));
+  EXPECT_THAT(ran.out, HasSubstr("Member 2 (P, a person)"));
+  EXPECT_EQ(run_kith({"audit", folder, "--team", "1"}).code, 2);
+  const auto none = run_kith({"audit", folder, "--room", "r99"});
+  EXPECT_EQ(none.code, 3);
+}
+
+}  // namespace
+}  // namespace kith::testing

@@ -1,0 +1,59 @@
+#include "people_regret.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kith/random/stream.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kMdps = 12;
+constexpr std::size_t kStartsPerMdp = 24;
+
+// Some of n, the same in every run, ascending.
+std::vector<std::size_t> some_of(std::size_t n, std::size_t most, const RandomStream& random) {
+  std::vector<std::size_t> all(n);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (n <= most) return all;
+  std::sort(all.begin(), all.end(),
+            [&](auto a, auto b) { return random.split(a).address() < random.split(b).address(); });
+  all.resize(most);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+PeopleRegret::PeopleRegret(const Atlas& atlas) : atlas_{&atlas}, behaviours_{atlas} {
+  const Domain& domain = atlas.domain();
+  const auto random = RandomStream{0}.split("regret of people");
+  const double scale = 1.0 / static_cast<double>(domain.count_scale());
+  for (const std::size_t m : some_of(domain.num_mdps(), kMdps, random.split("mdps"))) {
+    const MdpIndex mdp{m};
+    const auto& starts = domain.starts(mdp);
+    for (const std::size_t i : some_of(starts.size(), kStartsPerMdp, random.split("starts").split(m))) {
+      Start start{atlas.index({mdp, starts[i]})};
+      for (std::size_t choice = 0; choice < domain.mdp(mdp).choices(starts[i]).size(); ++choice) {
+        const auto loss = atlas.feature_counts(start.demo) - atlas.deviation_counts(start.demo, choice);
+        start.worst = std::max(start.worst, domain.weights().return_of(loss) * scale);
+      }
+      starts_.push_back(start);
+    }
+  }
+}
+
+double PeopleRegret::of(const Direction& weights) {
+  const Domain& domain = atlas_->domain();
+  const double scale = 1.0 / static_cast<double>(domain.count_scale());
+  const auto cell = behaviours_.locate(weights);
+  double sum = 0.0;
+  for (const Start& start : starts_) {
+    const auto answer = behaviours_.answer(start.demo, cell);
+    sum += answer ? std::max(0.0, domain.weights().return_of(atlas_->feature_counts(start.demo) - *answer) * scale)
+                  : start.worst;
+  }
+  return starts_.empty() ? 0.0 : sum / static_cast<double>(starts_.size());
+}
+
+}  // namespace kith

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kith/explain/misconception.hpp"
+#include "kith/teaching/cache.hpp"
+#include "kith/teaching/credible_level.hpp"
+#include "kith/teaching/misconception_bank.hpp"
+#include "kith/teaching/observed_period.hpp"
+
+namespace kith {
+
+/// What can be said of a person and a component.
+enum class Understanding {
+  kNotTaught,      ///< The person has had no lesson about it.
+  kUnderstands,    ///< Almost certainly satisfies all its constraints often enough.
+  kCannotTell,     ///< Neither of the others.
+  kMisconception,  ///< More likely than not violates one of its constraints.
+};
+
+/// "not-taught", "understands", "cannot-tell" or "misconception".
+[[nodiscard]] const char* name_of(Understanding understanding) noexcept;
+
+/// An answer that shows a misconception.
+struct TellingAnswer {
+  std::size_t period = 0;
+  std::size_t test = 0;  ///< 1-based within the period.
+  DemoIndex demo;
+  /// How many times as probable the answer is from people who violate the constraint as from those who satisfy it,
+  /// among all who know the prior; nothing if nobody who satisfies it gives it.
+  std::optional<double> factor{};
+  std::string text;  ///< prediction_in_words(), or what the answer shows where counts are expectations.
+};
+
+/// What a person gets wrong about a component.
+struct LikelyMisconception {
+  Misbelief misbelief;
+  double probability = 0.0;            ///< That the person would violate the constraint if asked now.
+  std::string thinks;                  ///< in_words() of the misbelief.
+  std::string fact;                    ///< in_words() of the constraint.
+  std::vector<TellingAnswer> answers;  ///< The most telling ones, in order of time; may be empty.
+  std::optional<DemoIndex> show{};     ///< The simplest demonstration that conveys the constraint to this person.
+  std::string reason{};                ///< What it shows; see Contrast.
+};
+
+/// A person and a component.
+struct ComponentAudit {
+  std::size_t component = 0;  ///< Index into Atlas::knowledge_components().
+  Understanding understanding = Understanding::kNotTaught;
+  /// How often the person would satisfy all constraints of the component: `probability` is that of understanding.
+  CredibleLevel level;
+  std::size_t periods = 0;  ///< With lessons about it.
+  std::size_t tests = 0;    ///< Answered in these.
+  std::size_t correct = 0;  ///< Of them.
+  /// The likeliest of the component's; nothing if it is not taught yet, or too unlikely to speak of.
+  std::optional<LikelyMisconception> misconception{};
+  /// The simplest start that tests what the person gets wrong, or else what is least certain; another one than was
+  /// shown or asked before, or is to be shown now, if there is any.
+  std::optional<DemoIndex> test{};
+  /// With Understanding::kUnderstands: after how many periods without lessons to test again; 0: it will not be needed
+  /// within kLongestBreak.
+  std::size_t test_after = 0;
+};
+
+/// Periods; nobody plans further ahead.
+inline constexpr std::size_t kLongestBreak = 24;
+
+struct AuditOptions {
+  MisconceptionBank::Options bank{};
+  CredibleLevelOptions level{};
+  double sure = 0.95;       ///< Probability from which a person is said to understand.
+  double likely = 0.5;      ///< Probability from which a misconception is said to be there.
+  double negligible = 0.1;  ///< Below this no misconception is named.
+  double telling = 3.0;     ///< TellingAnswer::factor of an answer that shows a misconception.
+  std::size_t most_answers = 3;
+  double forgetting = 0.02;  ///< Radians by which beliefs blur in a period without lessons; >= 0.
+};
+
+/// Judges from their answers who understands what. Not thread-safe: it uses the cache.
+class Auditor {
+ public:
+  /// @param cache  stays valid as long as this object. @throws std::invalid_argument if an option is out of range.
+  Auditor(TeachingCache& cache, const AuditOptions& options);
+
+  /// Per knowledge component.
+  /// @param periods  all that was observed of the person, in order.
+  /// @param random  moves the points of beliefs; equal streams give equal results.
+  [[nodiscard]] std::vector<ComponentAudit> audit(std::span<const ObservedPeriod> periods, const RandomStream& random);
+
+  /// The constraints of a component that people may violate, sorted.
+  [[nodiscard]] const std::vector<HalfSpace>& constraints_of(std::size_t component) const {
+    return constraints_[component];
+  }
+
+ private:
+  void count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const;
+  [[nodiscard]] std::optional<LikelyMisconception> misconception(const MisconceptionBank& bank, std::size_t component,
+                                                                 std::span<const ObservedPeriod> periods);
+  [[nodiscard]] Misbelief limited(const MisconceptionBank& bank, const HalfSpace& violated) const;
+  [[nodiscard]] std::vector<TellingAnswer> telling(const HalfSpace& violated, std::span<const ObservedPeriod> periods);
+  [[nodiscard]] bool concerns(const HalfSpace& constraint, const IntegerVector& difference) const;
+  [[nodiscard]] std::optional<double> factor(const HalfSpace& violated, const Test& test, const Answer& answer,
+                                             const Verdict& verdict);
+  [[nodiscard]] std::string answer_in_words(const Test& test, const Answer& answer, const Verdict& verdict) const;
+  void choose_demonstration(const MisconceptionBank& bank, std::size_t component,
+                            std::span<const ObservedPeriod> periods, LikelyMisconception& misconception);
+  [[nodiscard]] std::optional<DemoIndex> choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
+                                                     std::span<const ObservedPeriod> periods) const;
+  void plan_tests(const MisconceptionBank& bank, const RandomStream& random, std::vector<ComponentAudit>& audits) const;
+
+  TeachingCache* cache_;
+  AuditOptions options_;
+  std::vector<std::vector<HalfSpace>> constraints_;  // per component
+  std::size_t unit_ = 0;                             // the reference feature
+};
+
+}  // namespace kith

@@ -1,0 +1,316 @@
+#include "kith/explain/audit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "kith/explain/contrast.hpp"
+#include "kith/explain/reason.hpp"
+#include "kith/explain/words.hpp"
+
+namespace kith {
+namespace {
+
+constexpr std::size_t kPeople = 8;  // that a demonstration is judged by
+
+// The feature against which all others are weighed.
+std::size_t reference_feature(const Atlas& atlas) {
+  const auto& all = atlas.knowledge_components().back().features;
+  for (std::size_t k = 0; k < atlas.domain().num_features(); ++k) {
+    if (std::find(all.begin(), all.end(), k) == all.end()) return k;
+  }
+  return 0;
+}
+
+bool is_probability(double p) { return p > 0.0 && p < 1.0; }
+
+// The simplest of some starts, those that were not used before first.
+class Simplest {
+ public:
+  explicit Simplest(const Atlas& atlas) : atlas_{atlas} {}
+
+  void offer(DemoIndex demo, bool is_new, std::size_t besides) {
+    const Rank rank{!is_new, besides, atlas_.domain().complexity(atlas_.id(demo)),
+                    atlas_.trajectory(demo).actions.size(), demo};
+    if (found_ && best_ <= rank) return;
+    best_ = rank;
+    found_ = true;
+  }
+  [[nodiscard]] std::optional<DemoIndex> best() const { return found_ ? std::optional{best_.demo} : std::nullopt; }
+
+ private:
+  struct Rank {
+    bool is_old = false;
+    std::size_t besides = 0;  // other constraints that come with it
+    int complexity = 0;
+    std::size_t length = 0;
+    DemoIndex demo{};
+    friend auto operator<=>(const Rank&, const Rank&) = default;
+  };
+  const Atlas& atlas_;
+  Rank best_;  // if found
+  bool found_ = false;
+};
+
+}  // namespace
+
+const char* name_of(Understanding understanding) noexcept {
+  switch (understanding) {
+    case Understanding::kNotTaught:
+      return "not-taught";
+    case Understanding::kUnderstands:
+      return "understands";
+    case Understanding::kMisconception:
+      return "misconception";
+    case Understanding::kCannotTell:
+      break;
+  }
+  return "cannot-tell";
+}
+
+Auditor::Auditor(TeachingCache& cache, const AuditOptions& options)
+    : cache_{&cache}, options_{options}, unit_{reference_feature(cache.atlas())} {
+  const bool is_good = is_probability(options.sure) && is_probability(options.likely) && options.negligible >= 0.0 &&
+                       options.telling >= 1.0 && options.forgetting >= 0.0 && std::isfinite(options.forgetting);
+  if (!is_good) throw std::invalid_argument{"Auditor: an option is out of range"};
+  const auto& atlas = cache.atlas();
+  for (const auto& component : atlas.knowledge_components()) {
+    auto& constraints = constraints_.emplace_back(atlas.constraints().half_spaces(component.constraints));
+    std::erase_if(constraints, [&](const HalfSpace& c) { return atlas.prior_cone().implies(c); });
+  }
+}
+
+std::vector<ComponentAudit> Auditor::audit(std::span<const ObservedPeriod> periods, const RandomStream& random) {
+  MisconceptionBank bank{*cache_, options_.bank, random.split("bank")};
+  for (const auto& period : periods) bank.observe(cache_->atlas(), period);
+  std::vector<ComponentAudit> audits(constraints_.size());
+  count(periods, audits);
+  for (std::size_t k = 0; k < audits.size(); ++k) {
+    auto& audit = audits[k];
+    audit.component = k;
+    audit.level = credible_level(bank.shares(constraints_[k]), options_.level);
+    if (audit.periods == 0) continue;
+    audit.understanding = Understanding::kCannotTell;
+    audit.misconception = misconception(bank, k, periods);
+    if (audit.level.probability >= options_.sure) {
+      audit.understanding = Understanding::kUnderstands;
+    } else if (audit.misconception && audit.misconception->probability >= options_.likely) {
+      audit.understanding = Understanding::kMisconception;
+    }
+    if (audit.understanding == Understanding::kMisconception) {
+      choose_demonstration(bank, k, periods, *audit.misconception);
+    }
+    audit.test = choose_test(bank, audit, periods);
+  }
+  plan_tests(bank, random.split("forget"), audits);
+  return audits;
+}
+
+void Auditor::count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const {
+  for (const auto& period : periods) {
+    auto& audit = audits[period.component];
+    ++audit.periods;
+    for (const auto& verdict : period.verdicts) {
+      if (!verdict.answered) continue;
+      ++audit.tests;
+      audit.correct += verdict.correct ? 1u : 0u;
+    }
+  }
+}
+
+// --- what the person thinks ----------------------------------------------------------------------------------------
+
+std::optional<LikelyMisconception> Auditor::misconception(const MisconceptionBank& bank, std::size_t component,
+                                                          std::span<const ObservedPeriod> periods) {
+  const HalfSpace* likeliest = nullptr;
+  double probability = 0.0;
+  for (const auto& constraint : constraints_[component]) {
+    const double violated = 1.0 - bank.probability_of({&constraint, 1});
+    if (violated <= probability) continue;
+    probability = violated;
+    likeliest = &constraint;
+  }
+  if (likeliest == nullptr || probability < options_.negligible) return std::nullopt;
+  auto misbelief = limited(bank, *likeliest);
+  const auto& domain = cache_->atlas().domain();
+  auto thinks = in_words(domain, misbelief);
+  return LikelyMisconception{.misbelief = std::move(misbelief),
+                             .probability = probability,
+                             .thinks = std::move(thinks),
+                             .fact = in_words(domain, *likeliest),
+                             .answers = telling(*likeliest, periods)};
+}
+
+// The nearest limit, in whole units, that holds for almost all weights that violate the constraint.
+Misbelief Auditor::limited(const MisconceptionBank& bank, const HalfSpace& violated) const {
+  constexpr std::int64_t kMostUnits = 8;
+  constexpr double kAlmostAll = 0.9;
+  Misbelief plain{.violated = violated, .limit = {}, .unit = unit_};
+  const auto beyond = violated.opposite();
+  const double all = bank.probability_of({&beyond, 1});
+  for (std::int64_t n = 1; n <= kMostUnits && all > 0.0; ++n) {
+    auto candidate = weakened(cache_->atlas().domain(), violated, unit_, n);
+    if (!candidate) break;
+    const std::array both{beyond, candidate->satisfied().value()};
+    if (bank.probability_of(both) >= kAlmostAll * all) return *candidate;
+  }
+  return plain;
+}
+
+// --- the answers that show it --------------------------------------------------------------------------------------
+
+std::vector<TellingAnswer> Auditor::telling(const HalfSpace& violated, std::span<const ObservedPeriod> periods) {
+  std::vector<TellingAnswer> found;
+  for (const auto& period : periods) {
+    for (std::size_t t = 0; t < period.tests.size() && t < period.answers.size(); ++t) {
+      if (!period.answers[t] || period.verdicts[t].correct) continue;
+      if (!concerns(violated, cache_->atlas().feature_counts(period.tests[t].demo) - *period.answers[t])) continue;
+      const auto ratio = factor(violated, period.tests[t], period.answers[t], period.verdicts[t]);
+      if (ratio && *ratio < options_.telling) continue;
+      found.push_back({.period = period.period,
+                       .test = t + 1,
+                       .demo = period.tests[t].demo,
+                       .factor = ratio,
+                       .text = answer_in_words(period.tests[t], period.answers[t], period.verdicts[t])});
+    }
+  }
+  // The latest count most: what was said before may have been mended.
+  if (found.size() > options_.most_answers) {
+    found.erase(found.begin(), found.end() - static_cast<std::ptrdiff_t>(options_.most_answers));
+  }
+  return found;
+}
+
+// Whether paths differ in what the constraint weighs against the unit. If they do not, an answer could only tell by
+// what is common among people, which convinces nobody.
+bool Auditor::concerns(const HalfSpace& constraint, const IntegerVector& difference) const {
+  bool weighs_other_things = false;
+  for (std::size_t k = 0; k < difference.size(); ++k) {
+    if (k == unit_ || constraint.normal()[k] == 0) continue;
+    if (difference[k] != 0) return true;
+    weighs_other_things = true;
+  }
+  return !weighs_other_things;
+}
+
+std::optional<double> Auditor::factor(const HalfSpace& violated, const Test& test, const Answer& answer,
+                                      const Verdict& verdict) {
+  const auto& atlas = cache_->atlas();
+  const auto& cover = cache_->cover(atlas.prior_cone(), options_.bank.filter.particles);
+  std::array<double, 2> people{}, given{};  // who satisfy it, who violate it
+  const bool by_path = [&] {
+    if (!atlas.is_tabulated()) return false;
+    const auto& losses = atlas.hull(atlas.hull(test.demo)).losses;
+    return std::find(losses.begin(), losses.end(), atlas.feature_counts(test.demo) - *answer) != losses.end();
+  }();
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    const auto point = cover.point(i);
+    const std::size_t side = violated.contains(point) ? 0 : 1;
+    people[side] += 1.0;
+    const bool fits = by_path ? cache_->behaviours().answer(test.demo, cache_->behaviours().locate(point)) == answer
+                              : std::all_of(verdict.half_spaces.begin(), verdict.half_spaces.end(),
+                                            [&](const HalfSpace& h) { return h.contains(point); });
+    given[side] += fits ? 1.0 : 0.0;
+  }
+  if (given[1] == 0.0) return 0.0;
+  if (given[0] == 0.0) return std::nullopt;
+  return (given[1] / people[1]) / (given[0] / people[0]);
+}
+
+std::string Auditor::answer_in_words(const Test& test, const Answer& answer, const Verdict& verdict) const {
+  const auto& atlas = cache_->atlas();
+  const auto& domain = atlas.domain();
+  const auto& robot = atlas.feature_counts(test.demo);
+  const bool can_be_compared =
+      domain.is_exact() && *answer != robot && sign_of_dot(domain.weights().integer, robot - *answer) >= 0;
+  if (can_be_compared) return prediction_in_words(domain, *answer, robot);
+  std::vector<std::string> shown;
+  for (const auto& half_space : verdict.half_spaces) shown.push_back(in_words(domain, half_space));
+  return shown.empty() ? "a path that earns less" : "a path that is best if " + listed(shown);
+}
+
+// --- what to do next -----------------------------------------------------------------------------------------------
+
+void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t component,
+                                   std::span<const ObservedPeriod> periods, LikelyMisconception& misconception) {
+  const auto& atlas = cache_->atlas();
+  auto& behaviours = cache_->behaviours();
+  std::vector<DemoIndex> shown;
+  for (const auto& period : periods) {
+    for (const auto& demonstration : period.demonstrations) shown.push_back(demonstration.demo);
+  }
+  std::vector<PolicyCellIndex> people;
+  for (const auto& weights : bank.violators(misconception.misbelief.violated, kPeople)) {
+    people.push_back(behaviours.locate(weights));
+  }
+  std::sort(people.begin(), people.end());
+  people.erase(std::unique(people.begin(), people.end()), people.end());
+  const auto wanted = cache_->numbers_of({&misconception.misbelief.violated, 1}).members().front();
+  const auto& lessons = atlas.knowledge_components()[component];
+  const auto conveyed = behaviours.conveyed_by_class(lessons, people);
+  Simplest simplest{atlas};
+  for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
+    if (!atlas.belongs_to(c, lessons)) continue;
+    const auto set = conveyed.set(c);
+    if (!set.contains(wanted)) continue;
+    for (const auto demo : atlas.members(c)) {
+      simplest.offer(demo, std::find(shown.begin(), shown.end(), demo) == shown.end(), set.count());
+    }
+  }
+  misconception.show = simplest.best();
+  if (!misconception.show) return;
+  const auto contrast = contrast_for(behaviours, *misconception.show, misconception.misbelief.violated, people);
+  if (contrast) misconception.reason = reason(atlas.domain(), *contrast);
+}
+
+std::optional<DemoIndex> Auditor::choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
+                                              std::span<const ObservedPeriod> periods) const {
+  const auto& atlas = cache_->atlas();
+  std::vector<DemoIndex> known;
+  for (const auto& period : periods) {
+    for (const auto& test : period.tests) known.push_back(test.demo);
+    for (const auto& demonstration : period.demonstrations) known.push_back(demonstration.demo);
+  }
+  const bool is_wrong = audit.understanding == Understanding::kMisconception;
+  if (is_wrong && audit.misconception->show) known.push_back(*audit.misconception->show);
+  // The constraint that the person gets wrong, then the least certain first.
+  std::vector<std::pair<double, HalfSpace>> wanted;
+  for (const auto& constraint : constraints_[audit.component]) {
+    const bool comes_first = is_wrong && constraint == audit.misconception->misbelief.violated;
+    wanted.emplace_back(comes_first ? -1.0 : std::abs(bank.probability_of({&constraint, 1}) - 0.5), constraint);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  for (const auto& [order, constraint] : wanted) {
+    const auto number = atlas.constraints().find(constraint);
+    if (!number) continue;
+    Simplest simplest{atlas};
+    for (const auto demo : atlas.tests_for(*number)) {
+      simplest.offer(demo, std::find(known.begin(), known.end(), demo) == known.end(),
+                     atlas.tested_constraints(demo).count());
+    }
+    if (const auto best = simplest.best()) return best;
+  }
+  return std::nullopt;
+}
+
+void Auditor::plan_tests(const MisconceptionBank& bank, const RandomStream& random,
+                         std::vector<ComponentAudit>& audits) const {
+  constexpr std::array<std::size_t, 9> kBreaks{1, 2, 3, 4, 6, 8, 12, 16, kLongestBreak};
+  if (options_.forgetting == 0.0) return;
+  const auto is_open = [](const ComponentAudit& audit) {
+    return audit.understanding == Understanding::kUnderstands && audit.test_after == 0;
+  };
+  for (const auto periods : kBreaks) {
+    if (std::none_of(audits.begin(), audits.end(), is_open)) return;
+    auto later = bank;
+    later.forget(options_.forgetting * std::sqrt(static_cast<double>(periods)), random.split(periods));
+    for (auto& audit : audits) {
+      if (!is_open(audit)) continue;
+      const auto level = credible_level(later.shares(constraints_[audit.component]), options_.level);
+      if (level.probability < options_.sure) audit.test_after = periods;
+    }
+  }
+}
+
+}  // namespace kith

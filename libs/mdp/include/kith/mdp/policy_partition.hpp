@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "kith/core/integer_vector.hpp"
+#include "kith/mdp/behaviour.hpp"
+#include "kith/mdp/mdp.hpp"
+
+namespace kith {
+
+/// What people with any reward weights do in one exact process (is_exact()): a partition of weight space by policy,
+/// which grows where weights are met, so that weights that behave like earlier ones cost a look-up.
+///
+/// The process is answered one strongly connected component after the other. What is best within a component depends
+/// on the differences between the counts of the states that it leads to, and on the weights. For each such list of
+/// differences that occurs, the parts of weight space that were met are kept: the counts of one behaviour, and all
+/// half-spaces n . w > 0 that it follows from, n being the counts of the behaviour minus those of one different
+/// choice. Weights that lie inside all of them, by more than any tolerance of behave_in_favour(), behave that way. All
+/// other weights are planned, within the component alone. Cycles that earn are kept as well: weights for which one of
+/// them does have no optimum.
+///
+/// A cache in front of a pure function: results never depend on what was asked before, and equal those of
+/// behave_in_favour(). Not thread-safe. The process must outlive it.
+class PolicyPartition {
+ public:
+  /// @param states  the states whose counts will be asked for, ascending. @param robot_weights  shape [d]; see
+  /// behave_in_favour(). @throws std::invalid_argument unless the process is exact and there is one weight per feature.
+  PolicyPartition(const Mdp& mdp, std::span<const StateIndex> states, std::vector<double> robot_weights,
+                  const BehaveOptions& options = {});
+  PolicyPartition(PolicyPartition&&) noexcept;
+  PolicyPartition& operator=(PolicyPartition&&) noexcept;
+  ~PolicyPartition();
+
+  /// Finds out what people with these weights do. False if they have no optimum.
+  /// @param may_grow  whether what is new is kept. @throws std::invalid_argument unless there is one finite weight per
+  /// feature.
+  bool locate(std::span<const double> weights, bool may_grow = true);
+
+  /// After locate() was true: feature counts in units of 1 / scale of the i-th of `states`, shape [d].
+  [[nodiscard]] IntegerVector counts(std::size_t i) const;
+  /// Where the weights lie, one number per component: equal keys mean equal counts at all states, as long as nothing
+  /// is cleared. Empty where the behaviour was not kept.
+  [[nodiscard]] std::span<const std::uint32_t> key() const noexcept;
+
+  /// Parts of components that are kept.
+  [[nodiscard]] std::size_t num_parts() const noexcept;
+  /// About how much is kept, in bytes.
+  [[nodiscard]] std::size_t memory() const noexcept;
+  /// Forgets everything.
+  void clear();
+
+ private:
+  class Body;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace kith

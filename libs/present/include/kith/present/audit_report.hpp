@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "kith/explain/audit.hpp"
+#include "kith/present/json.hpp"
+
+namespace kith {
+
+/// A person of a run or of a live session, judged by the answers.
+struct AuditedPerson {
+  std::size_t team = 0;    ///< Number of the team in its run; 0: of a room.
+  std::string group;       ///< As people read it: "team 17 (joint, NNP, replicate 2)", "room r3 (joint, NNP)".
+  std::string room;        ///< Id of the room; empty: of a run.
+  std::size_t member = 1;  ///< 1-based. In a room the place, whoever took it.
+  char type = 'N';         ///< Learner type of the place.
+  bool simulated = true;   ///< Whether a simulated learner answered.
+  std::vector<ComponentAudit> components;
+};
+
+/// An audit of a run or of a live session.
+struct AuditReport {
+  std::string source;  ///< The folder, as it was named.
+  std::vector<AuditedPerson> people;
+  AuditOptions options;
+};
+
+/// How many people stand how with a component.
+struct AuditCounts {
+  std::size_t understand = 0, cannot_tell = 0, misconception = 0, not_taught = 0;
+};
+[[nodiscard]] AuditCounts counts_of(const AuditReport& report, std::size_t component);
+
+/// A misconception that several people have about a component.
+struct SharedMisconception {
+  std::size_t component = 0;
+  std::string fact;
+  std::vector<std::string> thinks;  ///< What they think, the most frequent first; without repetitions.
+  std::size_t people = 0;
+};
+/// Of people with Understanding::kMisconception, the most frequent first.
+[[nodiscard]] std::vector<SharedMisconception> shared_misconceptions(const AuditReport& report);
+
+/// "understands", "has a misconception", "cannot tell yet" or "not taught yet".
+[[nodiscard]] std::string in_words(Understanding understanding);
+/// What to do about it: "test again after 8 periods without lessons", "show the demonstration and test again in the
+/// next lesson". Empty if nothing is to do.
+[[nodiscard]] std::string advice_in_words(const ComponentAudit& audit);
+
+/// The document kith.audit/1 (docs/formats.md). @param program  that made it, such as "kith 0.1.0".
+[[nodiscard]] Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string& program);
+
+/// One HTML page without scripts, which loads nothing: a summary, then everybody in turn, with boards.
+[[nodiscard]] std::string audit_page(const Atlas& atlas, const AuditReport& report, const std::string& program);
+
+}  // namespace kith

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kith/teaching/lesson.hpp"
+#include "kith/teaching/strategy.hpp"
+
+namespace kith {
+
+/// What one person saw, answered and heard in an interaction period: all that can be observed of a person from outside.
+struct ObservedPeriod {
+  std::size_t period = 0;                     ///< 1, 2, ...
+  std::size_t component = 0;                  ///< Index into Atlas::knowledge_components().
+  std::vector<Demonstration> demonstrations;  ///< Only `demo` and `half_spaces` are read.
+  std::vector<Test> tests;
+  std::vector<Answer> answers;    ///< One per test; none where the person gave none.
+  std::vector<Verdict> verdicts;  ///< One per test.
+  bool all_correct = false;
+  std::vector<HalfSpace> feedback;  ///< What the feedback taught; empty if the person heard none.
+  friend bool operator==(const ObservedPeriod&, const ObservedPeriod&) = default;
+};
+
+/// What a member of a session took part in. Periods in which the member was away are left out.
+[[nodiscard]] std::vector<ObservedPeriod> observed_periods(std::span<const PastPeriod> history, std::size_t member);
+
+}  // namespace kith

@@ -1,0 +1,69 @@
+#include "kith/teaching/credible_level.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
+#include <stdexcept>
+#include <vector>
+
+namespace kith {
+namespace {
+
+constexpr double kLeastShare = 1e-3;  // Beta needs shares inside (0, 1)
+
+class Mixture {
+ public:
+  Mixture(std::span<const WeightedShare> shares, double precision) {
+    constexpr double kIgnored = 1e-5;
+    double sum = 0.0;
+    for (const auto& one : shares) sum += one.weight;
+    if (!(sum > 0.0)) throw std::invalid_argument{"credible_level: no weight is above 0"};
+    for (const auto& one : shares) {
+      mean_ += one.weight / sum * one.share;
+      if (one.weight / sum < kIgnored) continue;
+      const double share = std::clamp(one.share, kLeastShare, 1.0 - kLeastShare);
+      parts_.push_back({one.weight / sum, precision * share, precision * (1.0 - share)});
+      kept_ += one.weight / sum;
+    }
+  }
+  [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] double below(double share) const {
+    double sum = 0.0;
+    for (const auto& part : parts_) sum += part.weight * boost::math::ibeta(part.a, part.b, share);
+    return sum / kept_;
+  }
+  [[nodiscard]] double quantile(double q) const {
+    constexpr int kHalvings = 30;
+    double low = 0.0, high = 1.0;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = (low + high) / 2.0;
+      (below(middle) < q ? low : high) = middle;
+    }
+    return (low + high) / 2.0;
+  }
+
+ private:
+  struct Part {
+    double weight, a, b;
+  };
+  std::vector<Part> parts_;
+  double mean_ = 0.0;
+  double kept_ = 0.0;
+};
+
+bool is_share(double x) { return x > 0.0 && x < 1.0; }
+
+}  // namespace
+
+CredibleLevel credible_level(std::span<const WeightedShare> shares, const CredibleLevelOptions& options) {
+  if (!is_share(options.enough) || !is_share(options.coverage) || !(options.precision > 0.0)) {
+    throw std::invalid_argument{"credible_level: an option is out of range"};
+  }
+  const Mixture mixture{shares, options.precision};
+  const double tail = (1.0 - options.coverage) / 2.0;
+  return {.mean = mixture.mean(),
+          .low = mixture.quantile(tail),
+          .high = mixture.quantile(1.0 - tail),
+          .probability = 1.0 - mixture.below(options.enough)};
+}
+
+}  // namespace kith

@@ -1,0 +1,137 @@
+#include "kith/teaching/misconception_bank.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "item_delivery.hpp"
+#include "kith/teaching/cache.hpp"
+
+namespace kith {
+namespace {
+
+using testing::half_spaces;
+using testing::item_delivery;
+
+// "crossing rubble costs more than 2 steps".
+const HalfSpace kRubble{{-1, 0, 2}};
+
+class MisconceptionBankTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] MisconceptionBank bank(double mended = 0.1) {
+    MisconceptionBank::Options options;
+    options.filter.particles = 200;
+    options.mended = mended;
+    return {cache_, options, RandomStream{3}};
+  }
+
+  // A lesson about all of the first component, with a test of kRubble that somebody with these weights answers.
+  [[nodiscard]] ObservedPeriod lesson(std::size_t number, const Direction& weights) {
+    const auto& component = item_delivery().knowledge_components()[0];
+    const auto shown = item_delivery().constraints().half_spaces(component.constraints);
+    const auto start = item_delivery().tests_for(*item_delivery().constraints().find(kRubble)).front();
+    const auto answer = cache_.behaviours().answer(start, cache_.behaviours().locate(weights));
+    const bool is_right = answer == item_delivery().feature_counts(start);
+    ObservedPeriod period;
+    period.period = number;
+    period.component = 0;
+    period.demonstrations.push_back({.demo = start, .half_spaces = shown, .counterfactuals = {}});
+    period.tests.push_back({.demo = start, .covered = {kRubble}});
+    period.answers.push_back(answer);
+    period.verdicts.push_back({.correct = is_right, .half_spaces = {}});
+    period.all_correct = is_right;
+    period.feedback = shown;
+    return period;
+  }
+
+  // Weights of length 1.
+  [[nodiscard]] static Direction weights(double rubble, double charger, double step) {
+    Direction w(3);
+    w << rubble, charger, step;
+    return w / w.norm();
+  }
+
+  [[nodiscard]] std::size_t position(const MisconceptionBank& bank) const {
+    const auto constraints = bank.constraints();
+    return static_cast<std::size_t>(std::find(constraints.begin(), constraints.end(), kRubble) - constraints.begin());
+  }
+
+  TeachingCache cache_{item_delivery()};
+  const Direction robot_ = weights(-3.0, 3.5, -1.0);
+  const Direction cheap_rubble_ = weights(-1.2, 3.5, -1.0);
+};
+
+TEST_F(MisconceptionBankTest, KnowsTheConstraintsThatPeopleMayGetWrong) {
+  EXPECT_EQ(constraints_to_learn(item_delivery()),
+            half_spaces({{-1, 0, 2}, {0, -1, -4}, {0, 1, 2}, {1, 0, -4}, {1, 1, 0}}));
+  const auto one = bank();
+  ASSERT_EQ(one.constraints().size(), 5u);
+  for (std::size_t j = 0; j < 5; ++j) EXPECT_NEAR(one.probability_of_misconception(j), 0.04, 1e-12);
+}
+
+TEST_F(MisconceptionBankTest, FindsAMisconceptionThatLessonsDoNotMend) {
+  auto one = bank();
+  const auto j = position(one);
+  double before = one.probability_of_misconception(j);
+  for (std::size_t period = 1; period <= 4; ++period) {
+    one.observe(item_delivery(), lesson(period, cheap_rubble_));
+    EXPECT_GT(one.probability_of_misconception(j), before);
+    before = one.probability_of_misconception(j);
+  }
+  EXPECT_LT(one.probability_of({&kRubble, 1}), 0.2);
+}
+
+TEST_F(MisconceptionBankTest, RulesMisconceptionsOutByRightAnswers) {
+  auto one = bank(0.0);
+  for (std::size_t period = 1; period <= 4; ++period) one.observe(item_delivery(), lesson(period, robot_));
+  EXPECT_LT(one.probability_of_misconception(position(one)), 0.001);
+  EXPECT_GT(one.probability_of({&kRubble, 1}), 0.9);
+}
+
+TEST_F(MisconceptionBankTest, BelievesThatFeedbackMayMendAMisconception) {
+  auto stubborn = bank(0.0);
+  auto ordinary = bank(0.5);
+  for (std::size_t period = 1; period <= 3; ++period) {
+    stubborn.observe(item_delivery(), lesson(period, cheap_rubble_));
+    ordinary.observe(item_delivery(), lesson(period, cheap_rubble_));
+  }
+  EXPECT_GT(stubborn.probability_of_misconception(position(stubborn)),
+            ordinary.probability_of_misconception(position(ordinary)) + 0.1);
+}
+
+TEST_F(MisconceptionBankTest, LearnsNothingFromTestsWithoutAnswers) {
+  auto silent = lesson(1, cheap_rubble_);
+  silent.answers.front().reset();
+  silent.verdicts.front().answered = false;
+  auto one = bank(0.0);
+  one.observe(item_delivery(), silent);
+  EXPECT_NEAR(one.probability_of_misconception(position(one)), 0.04, 1e-12);
+}
+
+TEST_F(MisconceptionBankTest, ForgetsWithTime) {
+  auto one = bank();
+  for (std::size_t period = 1; period <= 4; ++period) one.observe(item_delivery(), lesson(period, robot_));
+  const double before = one.probability_of({&kRubble, 1});
+  one.forget(0.4, RandomStream{1});
+  EXPECT_LT(one.probability_of({&kRubble, 1}), before);
+}
+
+TEST_F(MisconceptionBankTest, DrawsWeightsThatViolateAConstraint) {
+  const auto drawn = bank().violators(kRubble, 8);
+  ASSERT_FALSE(drawn.empty());
+  EXPECT_LE(drawn.size(), 8u);
+  for (const auto& weights : drawn) EXPECT_FALSE(kRubble.contains(weights));
+}
+
+TEST_F(MisconceptionBankTest, RefusesWhatIsOutOfRange) {
+  MisconceptionBank::Options options;
+  options.misconceived = 1.0;
+  EXPECT_THROW(MisconceptionBank(cache_, options, RandomStream{1}), std::invalid_argument);
+  options.misconceived = 0.1;
+  options.mended = 1.5;
+  EXPECT_THROW(MisconceptionBank(cache_, options, RandomStream{1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kith

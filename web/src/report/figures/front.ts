@@ -1,0 +1,119 @@
+// Knowledge against items shown: which strategies are on the efficiency front.
+import type { Spec } from '../chart';
+import { type Row, num } from '../document';
+import { strategyLegend } from '../legend';
+import { extent, panels, roundTicks, yAxis } from '../panels';
+import { type Study, rowsOf } from '../study';
+import type { Figure } from './figure';
+
+function spec(study: Study, rows: Row[], width: number): Spec {
+  const looks = study.looks(rows);
+  const labels = looks.map((look) => look.label);
+  const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
+  const compositions = study.compositions(rows);
+  const ends = (name: string): (number | null)[] =>
+    rows.flatMap((row) => [num(row[name]), num(row[`${name}_low`]), num(row[`${name}_high`])]);
+  const xs = roundTicks(extent(ends('items')));
+  const ys = roundTicks(extent(ends('knowledge')));
+  const grid = { left: 52, min: 190, max: 2, gap: 22, rowGap: 54 };
+  const concat = panels(compositions.length, width, grid, (i, place) => {
+    const values = rows
+      .filter((row) => row.composition === compositions[i])
+      .map((row) => ({
+        strategy: study.words.strategy(row.strategy),
+        items: num(row.items),
+        itemsLow: num(row.items_low),
+        itemsHigh: num(row.items_high),
+        knowledge: num(row.knowledge),
+        knowledgeLow: num(row.knowledge_low),
+        knowledgeHigh: num(row.knowledge_high),
+        front: row.on_front === true,
+        share: num(row.front_share),
+      }));
+    const x: Spec = {
+      type: 'quantitative',
+      scale: { domain: xs.domain, zero: false, nice: false },
+      axis: { title: place.lastRow ? 'Demonstrations and tests' : null, grid: false, labelFlush: false, tickCount: 5 },
+    };
+    const y: Spec = {
+      type: 'quantitative',
+      scale: { domain: ys.domain, zero: false, nice: false },
+      axis: yAxis(place, { title: 'Knowledge', values: ys.values, domain: false, format: '.3~f' }, true),
+    };
+    const color: Spec = {
+      field: 'strategy',
+      type: 'nominal',
+      scale: scale(looks.map((look) => look.color)),
+      legend: null,
+    };
+    const shape: Spec = {
+      field: 'strategy',
+      type: 'nominal',
+      scale: scale(looks.map((look) => look.shape)),
+      legend: null,
+    };
+    const rule = (filter: string, encoding: Spec): Spec => ({
+      transform: [{ filter }],
+      mark: { type: 'rule', strokeWidth: 1.2, opacity: 0.7 },
+      encoding: { ...encoding, color },
+    });
+    const tooltip = [
+      { field: 'strategy', title: 'Strategy' },
+      { field: 'items', title: 'Items shown', format: '.3~r' },
+      { field: 'knowledge', title: 'Knowledge', format: '.3~r' },
+      { field: 'share', title: 'On the front, share of samples', format: '.2~r' },
+    ];
+    return {
+      title: compositions[i] ?? '',
+      data: { values },
+      width: place.width,
+      height: 190,
+      layer: [
+        {
+          transform: [{ filter: 'datum.front' }],
+          mark: { type: 'line', stroke: 'var(--text)', strokeWidth: 1, strokeDash: [4, 3], opacity: 0.6 },
+          encoding: { x: { ...x, field: 'items' }, y: { ...y, field: 'knowledge' } },
+        },
+        rule('isValid(datum.itemsLow)', {
+          x: { ...x, field: 'itemsLow' },
+          x2: { field: 'itemsHigh' },
+          y: { ...y, field: 'knowledge' },
+        }),
+        rule('isValid(datum.knowledgeLow)', {
+          x: { ...x, field: 'items' },
+          y: { ...y, field: 'knowledgeLow' },
+          y2: { field: 'knowledgeHigh' },
+        }),
+        {
+          mark: { type: 'point', filled: true, size: 62, opacity: 1, stroke: 'var(--ground)', strokeWidth: 1 },
+          encoding: { x: { ...x, field: 'items' }, y: { ...y, field: 'knowledge' }, color, shape, tooltip },
+        },
+      ],
+    };
+  });
+  return { ...concat, usermeta: { legend: strategyLegend(looks, width - 60, 'mark') } };
+}
+
+export function frontFigures(study: Study): Figure[] {
+  const table = study.table('efficiency');
+  if (!table) return [];
+  const rows = rowsOf(table);
+  const title = 'Efficiency: knowledge and items shown';
+  const fronts = study.compositions(rows).map((code) => {
+    const names = rows
+      .filter((row) => row.composition === code && row.on_front === true)
+      .map((row) => study.words.strategy(row.strategy));
+    return `${code}: ${names.join(', ')}`;
+  });
+  return [
+    {
+      id: 'efficiency',
+      title,
+      reading:
+        'Higher and further left is better. The broken line joins the strategies of the efficiency front: no other strategy leads to as much knowledge with fewer demonstrations and tests. Means with 95\u00a0% intervals; the data say how often a strategy is on the front in bootstrap samples.',
+      gist: `${title}. On the front: ${fronts.join('; ')}.`,
+      table,
+      spec: (width) => spec(study, rows, width),
+    },
+  ];
+}
