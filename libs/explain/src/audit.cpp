@@ -261,7 +261,7 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
   misconception.show = simplest.best();
   if (!misconception.show) return;
   const auto contrast = contrast_for(behaviours, *misconception.show, misconception.misbelief.violated, people);
-  if (contrast) misconception.reason = reason(atlas.domain(), *contrast);
+  if (contrast) misconception.reason = reason(atlas, *contrast);
 }
 
 std::optional<DemoIndex> Auditor::choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
