@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -238,6 +239,22 @@ bool implies(const Domain& domain, const ShortStatement& one, const ShortStateme
   return region && region->implies(other.said);
 }
 
+// Whether two statements compare the same things, with numbers that differ by a quarter at most.
+bool are_nearly_equal(const ShortStatement& one, const ShortStatement& other) {
+  constexpr double kQuarter = 1.25;
+  const auto& a = one.said.normal();
+  const auto& b = other.said.normal();
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if ((a[k] > 0) != (b[k] > 0) || (a[k] < 0) != (b[k] < 0)) return false;
+    if (a[k] == 0) continue;
+    const double ratio = static_cast<double>(a[k]) / static_cast<double>(b[k]);
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  return most <= kQuarter * least;
+}
+
 }  // namespace
 
 std::vector<std::optional<ShortStatement>> short_statements(const Domain& domain,
@@ -250,7 +267,13 @@ std::vector<std::optional<ShortStatement>> short_statements(const Domain& domain
   if (domain.is_exact()) return statements;  // they are the constraints themselves
   for (std::size_t i = 0; i < statements.size(); ++i) {
     for (std::size_t j = 0; j < statements.size() && statements[i]; ++j) {
-      if (i == j || !statements[j] || !implies(domain, *statements[j], *statements[i])) continue;
+      if (i == j || !statements[j]) continue;
+      const bool adds_a_condition = statements[i]->condition && !statements[j]->condition;
+      if (adds_a_condition && are_nearly_equal(*statements[i], *statements[j])) {
+        statements[i].reset();
+        continue;
+      }
+      if (!implies(domain, *statements[j], *statements[i])) continue;
       // Of two that say the same the first stays.
       if (j < i || !implies(domain, *statements[i], *statements[j])) statements[i].reset();
     }

@@ -181,7 +181,21 @@ bool follows(const Domain& domain, const ShortStatement& one, const ShortStateme
   return region && region->implies(one.said);
 }
 
-TEST(ShortStatements, LeaveOutWhatAnotherImpliesAndNothingElse) {
+// With a condition, beside nearly the same without one: "if coming home is worth something, 16 steps cost more than
+// falling into the water" beside "19 steps cost more than falling into the water".
+bool adds_little(const ShortStatement& one, const ShortStatement& other) {
+  if (!one.condition || other.condition) return false;
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < one.said.normal().size(); ++k) {
+    const auto a = one.said.normal()[k], b = other.said.normal()[k];
+    if (a == 0 && b == 0) continue;
+    if (a == 0 || b == 0 || (a < 0) != (b < 0)) return false;
+    ratios.push_back(static_cast<double>(a) / static_cast<double>(b));
+  }
+  return *std::max_element(ratios.begin(), ratios.end()) <= 1.25 * *std::min_element(ratios.begin(), ratios.end());
+}
+
+TEST(ShortStatements, LeaveOutWhatAnotherSaysAndNothingElse) {
   std::size_t left_out = 0;
   for (const auto& name : uncertain_domains()) {
     SCOPED_TRACE(name);
@@ -191,7 +205,9 @@ TEST(ShortStatements, LeaveOutWhatAnotherImpliesAndNothingElse) {
     ASSERT_EQ(all.size(), policy.size());
     for (std::size_t i = 0; i < policy.size(); ++i) {
       const auto own = short_statement(domain, policy[i], policy);
-      const auto implies_own = [&](std::size_t j) { return j != i && all[j] && own && follows(domain, *own, *all[j]); };
+      const auto implies_own = [&](std::size_t j) {
+        return j != i && all[j] && own && (follows(domain, *own, *all[j]) || adds_little(*own, *all[j]));
+      };
       bool is_implied = false;
       for (std::size_t j = 0; j < policy.size(); ++j) is_implied = is_implied || implies_own(j);
       EXPECT_EQ(all[i].has_value(), own.has_value() && !is_implied) << in_words(domain, policy[i], policy);

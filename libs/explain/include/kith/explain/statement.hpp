@@ -32,7 +32,8 @@ struct ShortStatement {
 
 /// short_statement() of each of some constraints that are conveyed together, in their order. Nothing where none follows
 /// and, unless counts are exact, where another of the statements implies it for those who know the prior: of a weaker
-/// statement beside a stronger one only the stronger is left, of two that say the same the first.
+/// statement beside a stronger one only the stronger is left, of two that say the same the first, and of
+/// two that compare the same things in numbers that differ by a quarter at most the one without a condition.
 /// @param together  further constraints that are conveyed at the same time.
 [[nodiscard]] std::vector<std::optional<ShortStatement>> short_statements(const Domain& domain,
                                                                           std::span<const HalfSpace> half_spaces,
