@@ -86,7 +86,7 @@ class Room {
   [[nodiscard]] const Session& session() const noexcept;
   /// Whether the session is in memory: until release().
   [[nodiscard]] bool holds_session() const noexcept;
-  /// Gives back the memory of what only teaching needs, which is nearly all: the session with its beliefs and the
+  /// Gives back the memory of what only teaching needs, which is most of it: the session with its beliefs and the
   /// simulated learners. Views, the digest, and what commands and events lead to stay the same. Does nothing while the
   /// group may still be taught.
   void release();
