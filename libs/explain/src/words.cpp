@@ -243,13 +243,13 @@ std::string more_or_fewer(const Wording& wording, std::int64_t n, bool more) {
 }
 
 // What is left of a difference in so many tries once it is rounded, and whether it still speaks for the robot's choice.
-struct InTries {
+struct RoundedDifference {
   std::vector<std::string> parts;
   double value = 0.0;
 };
 
-InTries in_tries(const Domain& domain, const IntegerVector& difference, double tries) {
-  InTries result;
+RoundedDifference in_tries(const Domain& domain, const IntegerVector& difference, double tries) {
+  RoundedDifference result;
   std::vector<std::string> less, more;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const double n = tries * static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
