@@ -151,6 +151,7 @@ class ModelReader {
   // visit(reader, name) for each [[model.mdp]], whose names must differ.
   template <typename Visit>
   void for_each_mdp(TomlReader& table, const Visit& visit) {
+    if (!table.has("mdp")) return report_missing_mdp(table);
     const TomlArray* list = table.array("mdp", Presence::kRequired);
     if (list == nullptr) return;
     if (list->size() > kMaxModelMdps || list->empty()) {
@@ -171,6 +172,19 @@ class ModelReader {
       visit(reader, name.value_or(""));
       reader.finish();
     }
+  }
+
+  // The files of these layouts are often written under [model] itself.
+  void report_missing_mdp(TomlReader& table) {
+    const bool is_gym = table.content().find("format")->string()->starts_with("gym");
+    std::string file = is_gym ? "file = \"model.json\"" : "transitions = \"model.tra\"";
+    for (const char* key : {"name", "file", "initial", "transitions", "states", "labels", "rewards"}) {
+      if (!table.has(key)) continue;
+      const TomlValue& value = *table.content().find(key);
+      if (std::string_view{key} == (is_gym ? "file" : "transitions")) file = std::string{key} + " = " + to_toml(value);
+    }
+    report_.error("E0109", table.place(), "key 'mdp' is missing in [model]: each MDP needs a table of its own",
+                  "write [[model.mdp]] below [model], and in it " + file);
   }
 
   void read_prism(TomlReader& table) {
