@@ -1,6 +1,6 @@
 #include "kith/teaching/team_bank.hpp"
 
-#include <algorithm>
+#include "kith/teaching/random_test.hpp"
 
 namespace kith {
 
@@ -41,41 +41,12 @@ void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<c
 
 double TeamBank::probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
                                         const std::vector<bool>& present) {
-  double expected = 0.0;
-  if (atlas.is_tabulated()) {
-    const auto& table = exam.table();
-    std::vector<std::vector<double>> masses;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (present[i]) masses.push_back(members_[i].cell_masses(atlas));
-    }
-    for (const auto& test : table.tests(component)) {
-      std::vector<double> right;
-      for (const auto& mass : masses) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < mass.size(); ++c) {
-          if (table.is_right(PolicyCellIndex{c}, test.hull)) sum += mass[c];
-        }
-        right.push_back(sum);
-      }
-      std::sort(right.begin(), right.end());  // so that seats do not matter
-      double all = 1.0;
-      for (const double p : right) all *= p;
-      expected += test.weight * all;
-    }
-    return expected;
+  const RandomTest test{atlas, exam, component};
+  std::vector<std::vector<double>> right;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (present[i]) right.push_back(test.right(members_[i]));
   }
-  const auto facets = atlas.constraints().half_spaces(atlas.knowledge_components()[component].constraints);
-  for (const auto& facet : facets) {
-    std::vector<double> right;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (present[i]) right.push_back(members_[i].mass_in({&facet, 1}));
-    }
-    std::sort(right.begin(), right.end());
-    double all = 1.0;
-    for (const double p : right) all *= p;
-    expected += all / static_cast<double>(facets.size());
-  }
-  return expected;
+  return test.all_right(right);
 }
 
 }  // namespace kith

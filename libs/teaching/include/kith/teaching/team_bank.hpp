@@ -32,10 +32,9 @@ class TeamBank {
   void close_tests(const Atlas& atlas, const Lesson& lesson, std::span<const std::vector<Answer>> answers,
                    const Feedback& feedback, const std::vector<bool>& present);
 
-  /// The expected probability that all members present answer a random test of the component right,
-  ///   E_t prod_i sum_h w_ih P_ih(right on t),
-  /// t spread evenly over the facets of the component (GradeTable::tests); where behaviours are not tabulated a facet
-  /// itself is the test, and answered right by the weights that satisfy it.
+  /// The probability that all members present answer a random test of the component correctly,
+  ///   E_t prod_i sum_h w_ih P_ih(right on t);
+  /// see RandomTest.
   [[nodiscard]] double probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
                                               const std::vector<bool>& present);
 
