@@ -6,6 +6,7 @@
 
 #include "item_delivery.hpp"
 #include "kith/teaching/cache.hpp"
+#include "kith/teaching/session.hpp"
 
 namespace kith {
 namespace {
@@ -43,6 +44,33 @@ TEST_F(RandomTestTest, IsHarderForSeveralPeopleInWhateverOrder) {
   const auto novice = test.right(prior()), expert = test.right(taught);
   EXPECT_LT(test.all_right(People{novice, expert}), test.all_right(People{novice}));
   EXPECT_EQ(test.all_right(People{novice, expert}), test.all_right(People{expert, novice}));
+}
+
+// What the members' answers say counts for the belief that strategies plan with, and not for those of the hypotheses.
+TEST_F(RandomTestTest, TeamBanksLearnFromAnswers) {
+  std::vector<double> informed, hypothetical;
+  for (const bool right : {true, false}) {
+    Session session{cache_,
+                    {.keep_bank = true},
+                    strategy_named("joint"),
+                    {RandomStream{7}.split("anna"), RandomStream{7}.split("ben")},
+                    RandomStream{7}.split("teacher")};
+    ASSERT_TRUE(session.propose(cache_));
+    const auto taught = session.lesson().taught;
+    session.show();
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::vector<Answer> answers;
+      for (const auto& test : session.lesson().tests) {
+        answers.push_back(right ? Answer{item_delivery().feature_counts(test.demo)} : Answer{});
+      }
+      session.answer(i, answers);
+    }
+    hypothetical.push_back(session.bank()->member(0).belief(0).mass_in(taught));
+    session.close_tests();
+    informed.push_back(session.bank()->informed(0).mass_in(taught));
+  }
+  EXPECT_EQ(hypothetical[0], hypothetical[1]);
+  EXPECT_GT(informed[0], informed[1]);
 }
 
 }  // namespace
