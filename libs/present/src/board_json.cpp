@@ -76,7 +76,11 @@ Json board_domain_json(const Domain& domain) {
 
 Json board_json(const Domain& domain, DemoId id) {
   Json json{{"world", id.mdp.value()}};
-  if (const auto map = domain.map()) json["map"] = map->draw(id.mdp, std::nullopt);
+  if (const auto map = domain.map()) {
+    json["map"] = map->draw(id.mdp, std::nullopt);
+  } else if (const auto name = domain.describe_variant(id.mdp); !name.empty()) {
+    json["world_name"] = name;
+  }
   json["start"] = frame_json(domain, id.mdp, id.start);
   return json;
 }

@@ -68,7 +68,7 @@ export function actionsText(frames: Frame[]): string {
 
 // Sentences about what is on the map and where, while the board is at its start.
 export function mapText(domain: Domain, legend: Legend, board: Board): string[] {
-  if (!board.map) return [`It starts in ${board.start.state ?? 'a state'}.`];
+  if (!board.map) return [`The robot starts here: ${board.start.state ?? 'a state'}.`];
   const places = new Map<string, string[]>();
   const add = (name: string, cell: Place): void => void places.set(name, [...(places.get(name) ?? []), cellText(cell)]);
   board.map.forEach((row, y) => {
