@@ -251,6 +251,9 @@ class Paragraph {
       case MasteryRule::kPosterior:
         return "until the estimated probability that all members answer a random test correctly was " +
                shortest(options.probability);
+      case MasteryRule::kExam:
+        return "until every member was expected to predict the robot from at least " + shortest(options.share_right) +
+               " of the component's start states";
       case MasteryRule::kAllRight:
         break;
     }

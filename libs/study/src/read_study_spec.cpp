@@ -351,6 +351,7 @@ class SpecReader {
     set_if(options.mastery, stop.word("mastery", Presence::kOptional, kMasteryWords));
     set_if(options.periods_per_component, stop.integer("periods_per_component", Presence::kOptional, {1, 100'000}));
     set_if(options.probability, stop.real("probability", Presence::kOptional, {0.0, 1.0, true, true}));
+    set_if(options.share_right, stop.real("share_right", Presence::kOptional, {0.0, 1.0, true, true}));
     set_if(options.min_periods, stop.integer("min_periods", Presence::kOptional, {1, 100'000}));
     set_if(options.max_periods, stop.integer("max_periods", Presence::kOptional, {1, 100'000}));
     set_if(options.consecutive_correct, stop.integer("consecutive_correct", Presence::kOptional, {1, 1000}));

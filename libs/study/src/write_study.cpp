@@ -162,6 +162,7 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   stop.add("mastery", kMasteryWords[static_cast<std::size_t>(spec.teaching.mastery)]);
   stop.add_count("periods_per_component", spec.teaching.periods_per_component);
   stop.add("probability", spec.teaching.probability);
+  if (spec.teaching.mastery == MasteryRule::kExam) stop.add("share_right", spec.teaching.share_right);
   stop.add_count("min_periods", spec.teaching.min_periods);
   stop.add_count("max_periods", spec.teaching.max_periods);
   stop.add_count("consecutive_correct", spec.teaching.consecutive_correct);

@@ -142,6 +142,23 @@ TEST(StudyFile, ReadsHowLongAndWithWhatPeopleAreTaught) {
   }
 }
 
+TEST(StudyFile, ReadsWhenTheExamStops) {
+  const auto text = study_with("[learner.N]", "[stop]\nmastery = \"exam\"\nshare_right = 0.85\n[learner.N]");
+  const auto first = parse(text);
+  ASSERT_TRUE(first.study) << ::testing::PrintToString(ids(first));
+  for (const auto& reading : {parse(text), parse(to_toml(*first.study, *first.domain))}) {
+    ASSERT_TRUE(reading.study) << ::testing::PrintToString(ids(reading));
+    EXPECT_EQ(reading.study->variants.front().teaching.mastery, MasteryRule::kExam);
+    EXPECT_EQ(reading.study->variants.front().teaching.share_right, 0.85);
+  }
+  for (const auto* wrong : {"0", "1", "1.5", "-0.1", "\"high\""}) {
+    const auto refused = parse(
+        study_with("[learner.N]", std::string{"[stop]\nmastery = \"exam\"\nshare_right = "} + wrong + "\n[learner.N]"));
+    EXPECT_FALSE(refused.study) << wrong;
+    EXPECT_FALSE(refused.diagnostics.empty()) << wrong;
+  }
+}
+
 TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
   const auto text = study_with("[learner.N]",
                                "[teacher]\ngrouping = \"by-type\"\nhypotheses = \"known-components\"\n"

@@ -30,6 +30,8 @@ enum class MasteryRule {
   kFixed,      ///< After `periods_per_component` periods, whatever the answers.
   kPosterior,  ///< When the probability that all members answer a random test of the component right is at least
                ///< `probability`; see TeamBank.
+  kExam,       ///< When every member is expected to predict the robot right from at least `share_right` of the
+               ///< component's starts, under the teacher's belief about the member; see StartSample.
 };
 
 /// What the hypotheses of a LearnerBank differ in.
@@ -68,7 +70,8 @@ struct TeachingOptions {
   std::size_t consecutive_correct = 1;    ///< kAllRight: periods in a row that everybody must answer all right, >= 1
   std::size_t periods_per_component = 3;  ///< kFixed: >= 1
   double probability = 0.9;               ///< kPosterior: in (0, 1)
-  std::size_t min_periods = 1;            ///< kPosterior: periods of a component at least, >= 1
+  double share_right = 0.9;               ///< kExam: in (0, 1)
+  std::size_t min_periods = 1;            ///< kPosterior and kExam: periods of a component at least, >= 1
   ReleaseRule release = ReleaseRule::kNone;
   std::size_t duplicate_sets = 1;  ///< test sets per period, >= 1
 
