@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "kith/teaching/session.hpp"
+#include "session_checks.hpp"
+
+namespace kith {
+
+std::string_view name_of(const SessionEvent& event) noexcept {
+  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",     "tests-answered",
+                                         "tests-closed",    "feedback-given",   "member-left",
+                                         "member-returned", "strategy-changed", "placement-taken"};
+  static_assert(std::size(kNames) == std::variant_size_v<SessionEvent>);
+  return kNames[event.index()];
+}
+
+void Session::leave(std::size_t member) {
+  require_seat(member);
+  if (finished()) throw Error{ErrorKind::kUsage, "nobody can leave: the session is finished"};
+  if (seats_[member] == Seat::kAway) refuse("member " + std::to_string(member + 1) + " is away already");
+  events_.emplace_back(MemberLeft{member});
+  seats_[member] = Seat::kAway;
+}
+
+void Session::come_back(std::size_t member) {
+  require_seat(member);
+  if (finished()) throw Error{ErrorKind::kUsage, "nobody can return: the session is finished"};
+  if (seats_[member] != Seat::kAway) refuse("member " + std::to_string(member + 1) + " is not away");
+  events_.emplace_back(MemberReturned{member});
+  seats_[member] = Seat::kReturning;
+}
+
+void Session::change_strategy(StrategyChoice strategy) {
+  require_phase(SessionPhase::kProposal, "changing the strategy");
+  require(!strategy.is_baseline() || persons_.size() == 1, "the baseline teaches one person per session");
+  const auto needs = strategy.kind.needs(strategy.parameters);
+  const auto& kept = belief_.options();
+  require(!needs.members || kept.members, "the strategy '" + strategy.name + "' needs the beliefs about members");
+  for (const auto& name : needs.rules) {
+    const bool is_kept =
+        std::any_of(kept.rules.begin(), kept.rules.end(), [&](const auto& rule) { return rule.name == name; });
+    require(is_kept, "the strategy '" + strategy.name + "' needs the belief '" + name + "'");
+  }
+  auto made = strategy.kind.make(strategy.parameters);
+  events_.emplace_back(StrategyChanged{strategy});
+  strategy_ = std::move(made);
+  choice_ = std::move(strategy);
+}
+
+void Session::apply(const SessionEvent& event, TeachingCache& cache) {
+  struct Visitor {
+    Session& session;
+    TeachingCache& cache;
+    void operator()(const LessonProposed&) const { session.propose(cache); }
+    void operator()(const LessonShown&) const { session.show(); }
+    void operator()(const TestsAnswered& e) const { session.answer(e.member, e.answers); }
+    void operator()(const TestsClosed&) const { session.close_tests(); }
+    void operator()(const FeedbackGiven&) const { session.give_feedback(); }
+    void operator()(const MemberLeft& e) const { session.leave(e.member); }
+    void operator()(const MemberReturned& e) const { session.come_back(e.member); }
+    void operator()(const StrategyChanged& e) const { session.change_strategy(e.strategy); }
+    void operator()(const PlacementTaken& e) const { session.take_placement(e.answers); }
+  };
+  std::visit(Visitor{*this, cache}, event);
+}
+
+bool operator==(const Session& a, const Session& b) {
+  return a.status_ == b.status_ && a.phase_ == b.phase_ && a.component_ == b.component_ &&
+         a.correct_in_a_row_ == b.correct_in_a_row_ && a.right_in_a_row_ == b.right_in_a_row_ &&
+         a.components_ == b.components_ && a.seats_ == b.seats_ && a.visited_ == b.visited_ &&
+         a.taught_before_ == b.taught_before_ && a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ &&
+         a.pending_ == b.pending_ && a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ &&
+         a.belief_ == b.belief_ && a.bank_ == b.bank_ && a.placement_verdicts_ == b.placement_verdicts_;
+}
+
+}  // namespace kith
