@@ -192,7 +192,8 @@ TEST(FindCommand, WorksWhereNobodyKnowsWhatPeopleExpect) {
   const auto test = run_kith({"find", "navigation", "(0,-1,0,0,0,0,-2)", "--test", "--json"});
   ASSERT_EQ(test.code, 0) << test.err;
   const auto document = Json::parse(test.out);
-  EXPECT_THAT(document.at("found").at("reason").get<std::string>(), HasSubstr(": crossing grass and 2 steps together cost "));
+  EXPECT_THAT(document.at("found").at("reason").get<std::string>(),
+              HasSubstr(": crossing grass and 2 steps together cost "));
   expect_board(document, document["found"], document["found"].at("frames"));
 }
 
