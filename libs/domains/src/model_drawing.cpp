@@ -2,6 +2,7 @@
 #include "model_drawing.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "explicit_family.hpp"
@@ -233,7 +234,7 @@ class MemberDrawer {
       is_left[*look(s)] = true;
       for (const Choice& choice : mdp.choices(StateIndex{s})) {
         for (const Outcome& outcome : mdp.outcomes(choice)) {
-          const auto [first, second] = std::minmax<std::size_t>(*look(s), *look(outcome.next.value()));
+          const auto [first, second] = std::minmax({std::size_t{*look(s)}, std::size_t{*look(outcome.next.value())}});
           if (second == first + 1) to_right[first] = true;
           if (second == first + width) to_below[first] = true;
         }
@@ -261,7 +262,17 @@ bool act_alike(const Mdp& mdp, const DrawnMember& member, std::size_t look_size,
   if (mdp.is_terminal(a) != mdp.is_terminal(b)) return false;
   if (mdp.is_terminal(a)) return true;
   const auto look = [&](StateIndex s) { return member.looks.data() + s.value() * look_size; };
-  return std::ranges::equal(mdp.choices(a), mdp.choices(b), [&](const Choice& x, const Choice& y) {
+  // What seems to change nothing is nothing to choose.
+  const auto visible = [&](StateIndex s) {
+    std::vector<Choice> choices;
+    std::ranges::copy_if(mdp.choices(s), std::back_inserter(choices), [&](const Choice& choice) {
+      return !std::ranges::all_of(mdp.outcomes(choice), [&](const Outcome& outcome) {
+        return std::equal(look(s), look(s) + look_size, look(outcome.next));
+      });
+    });
+    return choices;
+  };
+  return std::ranges::equal(visible(a), visible(b), [&](const Choice& x, const Choice& y) {
     return x.action == y.action &&
            std::ranges::equal(mdp.outcomes(x), mdp.outcomes(y), [&](const Outcome& one, const Outcome& other) {
              return one.probability == other.probability &&

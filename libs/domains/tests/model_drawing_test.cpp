@@ -16,7 +16,7 @@ TEST(ModelDrawing, PlacesTheRobotAndThingsAsStatesSay) {
   const Domain domain = sound_model(kIceDrawn);
   const GridMap picture = picture_of(domain);
   EXPECT_TRUE(picture.is_picture());
-  EXPECT_EQ(picture.width(), 3);
+  EXPECT_EQ(picture.width(), 4);
   EXPECT_THAT(picture.item_names(), ElementsAre("dog"));
   const GridState bank = picture.state(kFirst, StateIndex{0});
   EXPECT_EQ(bank.robot, (Cell{1, 1}));
@@ -24,8 +24,8 @@ TEST(ModelDrawing, PlacesTheRobotAndThingsAsStatesSay) {
   const GridState ice = picture.state(kFirst, StateIndex{1});
   EXPECT_THAT(ice.carried, ElementsAre(true));
   EXPECT_THAT(ice.items, ElementsAre(Cell{2, 1})) << "what is carried is where the robot is";
-  EXPECT_THAT(picture.draw(kFirst, std::nullopt), ElementsAre(".~G"));
-  EXPECT_THAT(picture.draw(kFirst, StateIndex{0}), ElementsAre("@~D"));
+  EXPECT_THAT(picture.draw(kFirst, std::nullopt), ElementsAre(".~G#"));
+  EXPECT_THAT(picture.draw(kFirst, StateIndex{0}), ElementsAre("@~D#"));
 }
 
 TEST(ModelDrawing, FindsTheStateThatLooksSo) {

@@ -52,7 +52,7 @@ origin = [0, 0]
 [model.drawing.things]
 D = { x = "dog", y = "y", carried = "held" }
 [map]
-rows = [".~G"]
+rows = [".~G#"]
 [map.legend]
 "." = "floor"
 "~" = { terrain = "ice" }
