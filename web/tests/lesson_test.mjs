@@ -10,7 +10,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
 import { launch, openPage, requireFrom } from './browser.mjs';
-import { largeLesson, mapless, uncertain } from './lessons.mjs';
+import { drawn, largeLesson, mapless, uncertain } from './lessons.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
@@ -43,6 +43,7 @@ const pages = {
   large: addressOf('large', largeLesson()),
   mapless: addressOf('mapless', mapless()),
   uncertain: addressOf('uncertain', uncertain()),
+  drawn: addressOf('drawn', drawn()),
 };
 
 let browser;
@@ -234,6 +235,25 @@ describe('a lesson', () => {
       await test.locator('summary').click();
       assert.match(await test.textContent(), /Run 1 of 2/);
       assert.doesNotMatch(await test.textContent(), /A correct answer shows/);
+      assert.deepEqual(await violations(page), []);
+    });
+  });
+
+  it('draws walls and what states place, and says where the robot slips', async () => {
+    await withLesson('drawn', { width: 390, dark: true }, async (page) => {
+      const shown = page.locator('.demonstration').first();
+      assert.match(await shown.textContent(), /This world: wet ice\./);
+      assert.equal(await shown.locator('.board .destination').count(), 1);
+      assert.equal(await shown.locator('.board .fence').getAttribute('d'), 'M80 0v40');
+      assert.equal(await shown.locator('.runs').count(), 0, 'run before the reader has decided');
+      await shown.getByText('Show what the robot does').click();
+      const next = shown.locator('.runs').getByRole('button', { name: 'Next step' });
+      await next.click();
+      assert.match(await shown.locator('.runs').textContent(), /Step 1 of 4: it tries to go right but slips up\./);
+      await next.click();
+      assert.match(await shown.locator('.runs').textContent(), /Step 2 of 4: it tries to go down but stays where it is\./);
+      await next.click();
+      assert.match(await shown.locator('.runs').textContent(), /Step 3 of 4: it goes down\./);
       assert.deepEqual(await violations(page), []);
     });
   });

@@ -1,4 +1,4 @@
-// Lessons that no small domain has: a large map with many things, and a model without a map.
+// Lessons that no small domain has: a large map with many things, and explicit models with and without a drawing.
 
 const sentence = { normal: [-1, 0, 2, 0, 0, 0, 0, 1], text: 'crossing rubble costs more than 2 steps' };
 
@@ -115,5 +115,40 @@ export function uncertain() {
   first.runs = runs;
   component.tests[0].runs = runs;
   component.tests[0].covers = [{ ...component.sentences[0], text: '' }]; // nothing short is true
+  return lesson;
+}
+
+// A drawn model: a wall between two cells, a destination that the state places, and a robot that slips.
+export function drawn() {
+  const lesson = mapless();
+  const frame = (robot, action = null) => ({
+    robot,
+    items: [
+      { name: 'dog', cell: [1, 1], carried: false },
+      { name: 'destination of dog', cell: [3, 2], carried: false },
+    ],
+    stations: [],
+    action,
+  });
+  const frames = [frame([1, 2], 'right'), frame([1, 1], 'down'), frame([1, 1], 'down'), frame([1, 2], 'right'), frame([2, 2])];
+  const board = { world: 0, world_name: 'wet ice', map: ['~~~', '~~~'], fences: [[[2, 1], [3, 1]]], start: frame([1, 2]), frames };
+  Object.assign(lesson.domain, {
+    width: 3,
+    height: 2,
+    legend: [
+      { symbol: '~', kind: 'terrain', name: 'ice' },
+      { symbol: 'A', kind: 'item', name: 'dog' },
+      { symbol: 'D', kind: 'destination', name: 'destination of dog' },
+    ],
+  });
+  const [component] = lesson.components;
+  component.demonstrations = component.demonstrations.map((shown) => ({
+    ...shown,
+    ...board,
+    alternative: { frames },
+    decisive: { frame: 0, cell: [1, 2] },
+    runs: { text: 'in 1 run: the same path each time', runs: [{ frames, ended: true }] },
+  }));
+  component.tests = component.tests.map((test) => ({ ...test, ...board, runs: component.demonstrations[0].runs }));
   return lesson;
 }

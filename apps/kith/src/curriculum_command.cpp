@@ -88,7 +88,7 @@ class CurriculumText {
   }
 
   [[nodiscard]] std::string place(MdpIndex world, StateIndex s) const {
-    const auto map = domain_.map();
+    const auto map = domain_.drawing();
     return map ? "at " + cell_text(*map, map->state(world, s).robot)
                : "in state '" + domain_.state_name(world, s) + "'";
   }

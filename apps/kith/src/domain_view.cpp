@@ -32,10 +32,10 @@ std::string DomainView::title() const {
 }
 
 std::string DomainView::map() const {
-  const auto map = domain_.map();
+  const auto map = domain_.drawing();
   if (!map) return model();
   const DemoId start{mdp_, domain_.initial_state(mdp_)};
-  return heading(fmt::format("Map of MDP {}, and its first start", mdp_.value())) +
+  return (map->is_picture() ? model() : "") + heading(fmt::format("Map of MDP {}, and its first start", mdp_.value())) +
          beside({bare_picture(*map, start), start_picture(*map, start)}, 2) + "\n" + legend(domain_, 2);
 }
 
@@ -88,19 +88,20 @@ std::string DomainView::reward() const {
 std::string DomainView::policy() const {
   auto text = heading(fmt::format("The robot's policy in MDP {}", mdp_.value()));
   const auto& mdp = domain_.mdp(mdp_);
-  const auto map = domain_.map();
+  const auto map = domain_.drawing();
   if (!map) return text + policy_table();
-  if (!mdp.is_deterministic() || mdp.discount() != 1.0)
-    return text + "  not shown: only policies of deterministic, undiscounted MDPs are\n";
-  const auto solution = plan_exactly(mdp, domain_.weights().integer).solution.value();
+  const auto policy = policy_to_draw(domain_, *map, mdp_);
+  if (!policy && map->is_picture()) return text + policy_table();
+  if (!policy) return text + "  not shown: only policies of deterministic, undiscounted MDPs are\n";
   const auto start = domain_.initial_state(mdp_);
-  const auto path = canonical_trajectory(mdp, solution.canonical_choice, start);
+  const auto& path = policy->path;
   for (const auto& now : configurations_on(domain_, *map, mdp_, path)) {
     text += "  " + configuration_in_words(*map, mdp_, now) + "\n" +
-            beside({policy_picture(domain_, *map, mdp_, solution.canonical_choice, now)}, 4);
+            beside({policy_picture(domain_, *map, mdp_, policy->choice, now)}, 4);
   }
-  const auto& counts = solution.feature_counts[start.value()];
   text += "  ^ v < > move the robot; a letter begins the name of another action\n";
+  if (!kith::is_exact(mdp)) return text + policy_table();
+  const auto counts = plan_exactly(mdp, domain_.weights().integer).solution.value().feature_counts[start.value()];
   return text + "  from the start: " + actions_text(domain_, path.actions) + "\n" +
          fmt::format("  {}, return {:.4f}\n", counts_text(domain_, counts), domain_.weights().return_of(counts));
 }

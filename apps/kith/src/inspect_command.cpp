@@ -135,7 +135,7 @@ class Inspection {
   void counterfactuals() {
     const auto demo = atlas_.index({mdp_, domain_.initial_state(mdp_)});
     heading(fmt::format("What people could expect from the start of MDP {}", mdp_.value()));
-    if (const auto map = domain_.map()) {
+    if (const auto map = domain_.drawing()) {
       out_ += beside({bare_picture(*map, atlas_.id(demo)), start_picture(*map, atlas_.id(demo))}, 4);
     } else {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";

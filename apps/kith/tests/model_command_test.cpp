@@ -58,9 +58,9 @@ TEST_F(Model, IsRefusedWithMessagePlaceHintAndCode) {
   const std::string states = "icy_crossing_states.csv";
   const std::string rows = "icy_crossing_transitions.csv";
   const std::vector<Malformed> cases{
-      {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:19:15: error[E0233]",
+      {toml, "icy_crossing_states.csv", "states.csv", "icy_crossing.toml:14:15: error[E0233]",
        "'states.csv' cannot be read", "it is expected at"},
-      {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:19:15: error[E0232]",
+      {toml, "\"icy_crossing_states", "\"../icy_crossing_states", "icy_crossing.toml:14:15: error[E0232]",
        "cannot be a file of a model", "in its folder or below"},
       {states, "b1,on the ice", "a1,on the ice", "icy_crossing_states.csv:3:1: error[E0241]", "'a1' is given twice",
        "one row"},

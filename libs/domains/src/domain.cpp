@@ -106,6 +106,12 @@ std::optional<GridMap> Domain::map() const noexcept {
   return grid == nullptr ? std::nullopt : std::optional{GridMap{*grid}};
 }
 
+std::optional<GridMap> Domain::drawing() const noexcept {
+  const auto* model = std::get_if<ExplicitFamily>(&data_->family);
+  if (model == nullptr) return map();
+  return model->drawing ? std::optional{GridMap{*model->drawing}} : std::nullopt;
+}
+
 StateIndex Domain::initial_state(MdpIndex m) const {
   check_mdp(*data_, m, "Domain::initial_state");
   if (data_->has_map()) return StateIndex{0};  // the search starts there

@@ -133,6 +133,7 @@ std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& 
   detail::check_model(family, data, model.dynamics, weights_place, report);
   if (failed()) return std::nullopt;
   check_features(model.dynamics, family.members, report);
+  if (model.drawing) family.drawing = detail::draw_model(*std::move(model.drawing), family, report);
   data.family = std::move(family);
   return data;
 }
@@ -145,8 +146,11 @@ std::optional<Domain> read_document(const TomlDocument& document, const DomainLi
   if (id) check_id(file, *id);
   const auto title = file.string("title", Presence::kOptional);
   const TomlEntry* model = document.root.find_entry("model");
-  if (model != nullptr && document.root.find("map") != nullptr) {
-    report.error("E0230", model->place, "a domain has a map or a model, not both", "remove one of [map] and [model]");
+  const bool is_drawn = model != nullptr && model->value.table() != nullptr && model->value.table()->find("drawing");
+  if (model != nullptr && !is_drawn && document.root.find("map") != nullptr) {
+    report.error(
+        "E0230", model->place, "a domain has a map or a model, not both",
+        "remove one of them; if the map is a picture of the model, [model.drawing] says where the robot is on it");
     return std::nullopt;
   }
   detail::NamedFiles named{files, report};

@@ -7,6 +7,7 @@
 
 #include "kith/domains/domain.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "model_drawing.hpp"
 #include "raw_model.hpp"
 
 namespace kith {
@@ -26,6 +27,7 @@ struct ExplicitMember {
 struct ExplicitFamily {
   std::vector<std::string> variables;  // integer variables that states have
   std::vector<ExplicitMember> members;
+  std::optional<ModelDrawing> drawing;
 };
 
 namespace detail {

@@ -30,13 +30,28 @@ char glyph_for(const World& world, std::size_t cell, const SymbolContent& conten
 
 }  // namespace
 
-int GridMap::width() const noexcept { return family_->world.width; }
-int GridMap::height() const noexcept { return family_->world.height; }
-const std::vector<std::string>& GridMap::item_names() const noexcept { return family_->item_names; }
+GridMap::GridMap(const GridFamily& family) noexcept : family_{&family} {}
+GridMap::GridMap(const ModelDrawing& drawing) noexcept : drawing_{&drawing} {}
+
+const World& GridMap::world() const noexcept { return drawing_ != nullptr ? drawing_->world : family_->world; }
+
+void GridMap::check_mdp(MdpIndex m, const char* function) const {
+  if (drawing_ == nullptr) {
+    (void)member_of(*family_, m, function);
+  } else if (m.value() >= drawing_->members.size()) {
+    throw std::invalid_argument{std::string{function} + ": there is no MDP " + std::to_string(m.value())};
+  }
+}
+
+int GridMap::width() const noexcept { return world().width; }
+int GridMap::height() const noexcept { return world().height; }
+const std::vector<std::string>& GridMap::item_names() const noexcept {
+  return drawing_ != nullptr ? drawing_->things : family_->item_names;
+}
 
 std::vector<LegendEntry> GridMap::legend() const {
   std::vector<LegendEntry> entries;
-  for (const detail::Symbol& symbol : family_->world.symbols) {
+  for (const detail::Symbol& symbol : world().symbols) {
     const detail::SymbolContent& content = symbol.content;
     entries.push_back({symbol.glyph,
                        {content.wall, content.goal, content.terrain, content.destination},
@@ -50,14 +65,14 @@ std::vector<LegendEntry> GridMap::legend() const {
 }
 
 std::size_t GridMap::legend_index(Cell cell) const {
-  const auto index = family_->world.index_of(cell);
+  const auto index = world().index_of(cell);
   if (!index) throw std::invalid_argument{"GridMap::legend_index: the cell is off the map"};
   // What has a name of its own is looked up here: stations and goals.
-  const detail::World& world = family_->world;
-  std::size_t found = world.symbol_of[*index];
-  for (const detail::MapThing& thing : world.things_on(*index)) {
+  const World& all = world();
+  std::size_t found = all.symbol_of[*index];
+  for (const detail::MapThing& thing : all.things_on(*index)) {
     const auto has_name = [&](std::size_t symbol) {
-      const SymbolContent& content = world.symbols[symbol].content;
+      const SymbolContent& content = all.symbols[symbol].content;
       return content.goal || !content.station.empty();
     };
     if (!has_name(found) || has_name(thing.symbol)) found = thing.symbol;
@@ -66,23 +81,105 @@ std::size_t GridMap::legend_index(Cell cell) const {
 }
 
 CellContent GridMap::content(MdpIndex m, Cell cell) const {
-  (void)member_of(*family_, m, "GridMap::content");
-  const auto index = family_->world.index_of(cell);
+  check_mdp(m, "GridMap::content");
+  const auto index = world().index_of(cell);
   if (!index) throw std::invalid_argument{"GridMap::content: the cell is off the map"};
-  const detail::SymbolContent content = family_->world.content_in(*index, m.value());
+  const detail::SymbolContent content = world().content_in(*index, m.value());
   return {content.wall, content.goal, content.terrain, content.destination};
 }
 
 std::vector<std::size_t> GridMap::items_in(MdpIndex m) const {
   std::vector<std::size_t> items;
-  const DomainMember& member = member_of(*family_, m, "GridMap::items_in");
+  check_mdp(m, "GridMap::items_in");
+  if (drawing_ != nullptr) {
+    for (std::size_t i = 0; i < drawing_->things.size(); ++i) items.push_back(i);
+    return items;
+  }
+  const DomainMember& member = family_->members[m.value()];
   for (std::size_t i = 0; i < member.item_present.size(); ++i) {
     if (member.item_present[i]) items.push_back(i);
   }
   return items;
 }
 
+GridState GridMap::drawn_state(MdpIndex m, StateIndex s) const {
+  check_mdp(m, "GridMap::state");
+  const DrawnMember& member = drawing_->members[m.value()];
+  if (s.value() >= member.by_look.size()) {
+    throw std::invalid_argument{"GridMap::state: there is no state " + std::to_string(s.value())};
+  }
+  const std::uint32_t* look = member.looks.data() + s.value() * drawing_->look_size();
+  const World& all = world();
+  GridState state;
+  state.robot = all.cell_at(*look++);
+  for (std::size_t i = 0; i < drawing_->things.size(); ++i) {
+    state.items.push_back(all.cell_at(*look++));
+    state.carried.push_back(*look++ != 0);
+  }
+  for (const detail::Station& station : all.stations) {
+    if (!all.content_in(station.cell, m.value()).station.empty()) state.stations.push_back(all.cell_at(station.cell));
+  }
+  return state;
+}
+
+std::optional<StateIndex> GridMap::find_drawn(MdpIndex m, const GridState& state) const {
+  check_mdp(m, "GridMap::find_state");
+  const DrawnMember& member = drawing_->members[m.value()];
+  const std::size_t size = drawing_->look_size();
+  if (state.items.size() != drawing_->things.size() || state.carried.size() != state.items.size()) return std::nullopt;
+  std::vector<std::uint32_t> look;
+  const auto add_cell = [&](const Cell& cell) {
+    const auto index = world().index_of(cell);
+    look.push_back(index ? static_cast<std::uint32_t>(*index) : static_cast<std::uint32_t>(world().num_cells()));
+  };
+  add_cell(state.robot);
+  for (std::size_t i = 0; i < state.items.size(); ++i) {
+    add_cell(state.items[i]);
+    look.push_back(state.carried[i] ? 1 : 0);
+  }
+  const auto row = [&](std::uint32_t s) { return member.looks.begin() + static_cast<std::ptrdiff_t>(s * size); };
+  const auto end = static_cast<std::ptrdiff_t>(size);
+  const auto found =
+      std::lower_bound(member.by_look.begin(), member.by_look.end(), look, [&](std::uint32_t s, const auto& key) {
+        return std::lexicographical_compare(row(s), row(s) + end, key.begin(), key.end());
+      });
+  if (found == member.by_look.end() || !std::equal(look.begin(), look.end(), row(*found))) return std::nullopt;
+  return StateIndex{*found};
+}
+
+std::vector<std::pair<Cell, Cell>> GridMap::fences(MdpIndex m) const {
+  check_mdp(m, "GridMap::fences");
+  return drawing_ != nullptr ? drawing_->members[m.value()].fences : std::vector<std::pair<Cell, Cell>>{};
+}
+
+// The rows of a picture, with what the MDP has.
+std::vector<std::string> GridMap::drawn_rows(MdpIndex m) const {
+  check_mdp(m, "GridMap::draw");
+  const World& all = world();
+  std::vector<std::string> rows(static_cast<std::size_t>(all.height));
+  for (std::size_t cell = 0; cell < all.num_cells(); ++cell) {
+    rows[cell / static_cast<std::size_t>(all.width)] += glyph_for(all, cell, all.content_in(cell, m.value()));
+  }
+  return rows;
+}
+
+// Things of a picture where a state has them: destinations, unless `bare` what can be carried, and the robot.
+void GridMap::place_things(MdpIndex m, const GridState& now, bool bare, std::vector<std::string>& rows) const {
+  const auto put = [&](const Cell& cell, char glyph) {
+    rows[static_cast<std::size_t>(world().height - cell.y)][static_cast<std::size_t>(cell.x - 1)] = glyph;
+  };
+  for (const bool is_item : {false, true}) {
+    if (bare && is_item) return;
+    for (const std::size_t i : items_in(m)) {
+      const detail::Symbol& symbol = world().symbols[drawing_->symbol_of_thing[i]];
+      if (symbol.content.item.empty() != is_item) put(now.items[i], symbol.glyph);
+    }
+  }
+  put(now.robot, '@');
+}
+
 GridState GridMap::state(MdpIndex m, StateIndex s) const {
+  if (drawing_ != nullptr) return drawn_state(m, s);
   const DomainMember& member = member_of(*family_, m, "GridMap::state");
   if (s.value() >= member.states.size()) {
     throw std::invalid_argument{"GridMap::state: there is no state " + std::to_string(s.value())};
@@ -104,6 +201,7 @@ GridState GridMap::state(MdpIndex m, StateIndex s) const {
 }
 
 std::optional<StateIndex> GridMap::find_state(MdpIndex m, const GridState& state) const {
+  if (drawing_ != nullptr) return find_drawn(m, state);
   const DomainMember& member = member_of(*family_, m, "GridMap::find_state");
   const detail::World& world = family_->world;
   const auto robot = world.index_of(state.robot);
@@ -132,6 +230,11 @@ std::optional<StateIndex> GridMap::find_state(MdpIndex m, const GridState& state
 }
 
 std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) const {
+  if (drawing_ != nullptr) {
+    std::vector<std::string> rows = drawn_rows(m);
+    if (s) place_things(m, state(m, *s), false, rows);
+    return rows;
+  }
   const World& world = family_->world;
   const GridState now = s ? state(m, *s) : GridState{};
   const std::vector<std::size_t> items = items_in(m);
@@ -159,6 +262,11 @@ std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) 
 }
 
 std::vector<std::string> GridMap::draw_bare(MdpIndex m, StateIndex s) const {
+  if (drawing_ != nullptr) {
+    std::vector<std::string> rows = drawn_rows(m);
+    place_things(m, state(m, s), true, rows);
+    return rows;
+  }
   const World& world = family_->world;
   const GridState now = state(m, s);
   std::vector<std::string> rows(static_cast<std::size_t>(world.height));

@@ -91,7 +91,8 @@ void LayersReader::read_layer(const TomlValue& value) {
   if (const TomlValue* optional = layer.value("optional", Presence::kOptional)) {
     const bool* flag = optional->boolean();
     const std::string* name = optional->string();
-    const bool is_name = name != nullptr && !name->empty() && std::ranges::all_of(*name, is_name_character);
+    const bool is_name =
+        name != nullptr && !name->empty() && (world_.is_picture || std::ranges::all_of(*name, is_name_character));
     if (flag == nullptr && name == nullptr) {
       report_.error("E0108", optional->place(),
                     "optional must be true or a name, not " + std::string{optional->kind_name()});

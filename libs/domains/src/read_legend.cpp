@@ -80,7 +80,7 @@ class LegendReader {
       content.goal = true;
       content.goal_name = word;
     }
-    if (const auto [set, word] = flag_or_name(reader, "optional"); set) {
+    if (const auto [set, word] = flag_or_name(reader, "optional", world_.is_picture); set) {
       symbol.toggles_each_cell = word.empty();
       symbol.toggle = word;
     }
@@ -96,13 +96,13 @@ class LegendReader {
     return "";
   }
 
-  // `KEY = true` or `KEY = "NAME"`.
-  std::pair<bool, std::string> flag_or_name(TomlReader& reader, std::string_view key) {
+  // `KEY = true` or `KEY = "NAME"`. @param any  names may have any characters.
+  std::pair<bool, std::string> flag_or_name(TomlReader& reader, std::string_view key, bool any = false) {
     const TomlValue* value = reader.value(key, Presence::kOptional);
     if (value == nullptr) return {false, ""};
     if (const bool* flag = value->boolean()) return {*flag, ""};
     if (const std::string* text = value->string()) {
-      if (is_name(*text)) return {true, *text};
+      if (is_name(*text) || (any && !text->empty())) return {true, *text};
       report_bad_name(*value, *text);
       return {false, ""};
     }

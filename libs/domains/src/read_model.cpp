@@ -35,12 +35,21 @@ class ModelReader {
     if (format == std::size_t{2}) read_prism(*table);
     if (format == std::size_t{3}) read_gym(*table);
     if (format && is_sound() && !reading_.weights) refuse_rewards();
+    read_drawing_of(*table);
     if (format) table->finish();
     return std::move(reading_);
   }
 
  private:
   [[nodiscard]] bool is_sound() const { return !report_.has_errors() && !model_report_.has_errors(); }
+
+  // Once the variables of states are known.
+  void read_drawing_of(TomlReader& table) {
+    if (!table.has("drawing")) return;
+    file_.know("map");
+    auto drawing = table.table("drawing", Presence::kOptional);
+    if (drawing && is_sound()) reading_.drawing = read_drawing(file_, *drawing, reading_.model, files_, model_report_);
+  }
 
   // --- [mdp] and [[feature]] ---
 

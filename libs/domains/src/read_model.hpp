@@ -7,6 +7,7 @@
 #include "dynamics.hpp"
 #include "explicit_family.hpp"
 #include "kith/toml/reader.hpp"
+#include "model_drawing.hpp"
 #include "named_files.hpp"
 
 namespace kith::detail {
@@ -17,9 +18,10 @@ struct ModelReading {
   RawModel model;
   std::optional<std::vector<double>> weights;  // where the rewards of the model are the weights
   TomlPlace place;                             // of [model]
+  std::optional<DrawingPlan> drawing;
 };
 
-// Reads [mdp], [model] and [[feature]], and the files.
+// Reads [mdp], [model] with its drawing, [map] and [[feature]], and the files.
 [[nodiscard]] ModelReading read_model(TomlReader& file, NamedFiles& files, ModelReport& report);
 
 }  // namespace kith::detail

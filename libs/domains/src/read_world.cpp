@@ -46,7 +46,7 @@ class MapReader {
     for (const PaintedThing& painted : layers_.painted()) check_shared(painted);
     std::stable_sort(world_.stations.begin(), world_.stations.end(),
                      [](const Station& a, const Station& b) { return a.cell < b.cell; });
-    if (world_.starts.empty()) {
+    if (world_.starts.empty() && !world_.is_picture) {
       report_.error("E0206", world_.source_place, "the map has no start", "declare a symbol with start = true");
     }
   }
@@ -62,7 +62,9 @@ class MapReader {
     const SymbolContent& content = world_.symbols[thing.symbol].content;
     const auto always = [](const Spot& spot) { return spot.group < 0; };
     const Spot spot{thing.cell, thing.group};
-    if (content.start && always(spot) && std::ranges::any_of(world_.starts, always)) {
+    if (content.start && world_.is_picture) {
+      // where the robot is drawn depends on the state
+    } else if (content.start && always(spot) && std::ranges::any_of(world_.starts, always)) {
       report_.error("E0208", place, "there is a second start");
     } else if (content.start) {
       if (world_.starts.empty()) world_.start_place = place;
@@ -132,7 +134,7 @@ class MapReader {
     }
     for (std::size_t i = 0; i < world_.symbols.size(); ++i) {
       for (const std::size_t cell : cells_of[i]) {
-        const std::size_t group = group_named(world_.symbols[i].toggle);
+        const std::size_t group = group_named(world_.symbols[i].toggle, world_.symbols[i].place);
         world_.groups[group].things.push_back({cell, static_cast<std::uint8_t>(i), static_cast<std::int32_t>(group)});
         world_.group_of[cell] = static_cast<std::int32_t>(group);
       }
@@ -153,10 +155,10 @@ class MapReader {
     for (PaintedThing* painted : things) {
       const Symbol& symbol = world_.symbols[painted->thing.symbol];
       if (painted->toggle) {
-        if (!of_layer) of_layer = group_named(*painted->toggle);
+        if (!of_layer) of_layer = group_named(*painted->toggle, painted->place);
         add(*painted, *of_layer);
       } else if (symbol.is_optional()) {
-        add(*painted, group_named(symbol.toggle));
+        add(*painted, group_named(symbol.toggle, painted->place));
       }
     }
     for (const PaintedThing& painted : layers_.painted()) {
@@ -170,18 +172,18 @@ class MapReader {
   }
 
   // The group of that name; a new one if there is none, or for no name.
-  std::size_t group_named(const std::string& name) {
+  std::size_t group_named(const std::string& name, const TomlPlace& place) {
     if (!name.empty()) {
       const auto [at, is_new] = group_of_name_.try_emplace(name, world_.groups.size());
       if (!is_new) return at->second;
     }
-    world_.groups.push_back({name, {}});
+    world_.groups.push_back({name, {}, place});
     return world_.groups.size() - 1;
   }
 
   void check_groups() {
     const std::string number = std::to_string(world_.groups.size());
-    const bool builds_all = !world_.thinning.worlds && world_.thinning.listed == nullptr;
+    const bool builds_all = !world_.is_picture && !world_.thinning.worlds && world_.thinning.listed == nullptr;
     if (builds_all && world_.groups.size() > kMaxGroups) {
       report_.error("E0218", world_.source_place,
                     number + " optional things make about " + power_of_two() + " MDPs; at most 65536 are built",
@@ -203,6 +205,7 @@ class MapReader {
     wall.wall = true;
     const SymbolContent& content = symbol.content;
     if (content.is_floor() || content == wall) return;
+    if (world_.is_picture && !(content.item.empty() && content.destination.empty())) return;  // placed by states
     const auto is_declared = [&](const std::string& name) { return is_called(content, name); };
     const auto number = static_cast<std::uint8_t>(&symbol - world_.symbols.data());
     const bool painted =
@@ -338,6 +341,23 @@ World read_world(TomlReader& file, NamedFiles& files, ModelReport& model_report)
   if (is_sound()) compute_rasters(world, report);
   if (is_sound()) name_combinations(world);
   world.is_sound = is_sound();
+  return world;
+}
+
+World read_picture(TomlReader& file, NamedFiles& files, ModelReport& model_report) {
+  World world;
+  world.is_picture = true;
+  auto map = file.table("map", Presence::kRequired);
+  if (!map) return world;
+  TomlReport& report = file.report();
+  const std::size_t errors_before = report.num_errors();
+  world.map_place = world.source_place = map->place();
+  if (auto legend = map->table("legend", Presence::kRequired)) read_legend(legend->content(), world, report);
+  world.legend_is_sound = report.num_errors() == errors_before;
+  MapReader{world, report, files, model_report}.read(*map);
+  map->finish();
+  world.is_sound = report.num_errors() == errors_before && !model_report.has_errors();
+  if (world.is_sound) name_combinations(world);
   return world;
 }
 

@@ -49,6 +49,7 @@ struct MapThing {
 struct CellGroup {
   std::string name;  // optional = "NAME"; empty: a thing by itself
   std::vector<MapThing> things;
+  TomlPlace place;  // of the symbol or layer that is optional
 };
 
 // A cell, in the MDPs in which a group is on.
@@ -120,6 +121,7 @@ struct World {
   TomlPlace goal_place;                  // of a goal or destination
   std::vector<TomlPlace> row_places;     // of the strings in rows; empty: read from an image
   std::optional<std::size_t> some_goal;  // cell of a goal or destination, for messages
+  bool is_picture = false;               // of an explicit model: it makes no states
   bool legend_is_sound = false;          // else names may be missing
   bool is_sound = false;                 // legend and rows
 
@@ -186,6 +188,10 @@ void read_legend(const TomlTable& legend, World& world, TomlReport& report);
 
 // Reads [map], its layers and rasters, and [family]. Reports everything that is wrong.
 [[nodiscard]] World read_world(TomlReader& file, NamedFiles& files, ModelReport& report);
+
+// Reads [map] as the picture of an explicit model: it needs no start and no end, and what is optional is there in the
+// MDP of that name. The variants are not known yet.
+[[nodiscard]] World read_picture(TomlReader& file, NamedFiles& files, ModelReport& report);
 
 // Where cell `cell` of the lowest layer stands in the file.
 [[nodiscard]] TomlPlace place_of_cell(const World& world, std::size_t cell);

@@ -39,6 +39,7 @@ const std::string kNine =
 
 std::vector<ModelCase> model_cases() {
   const auto* csv = &kIceCsv;
+  const auto* drawn = &kIceDrawn;
   const auto* json = &kIceJson;
   const auto* prism = &kIcePrism;
   const auto* gym = &kIceGym;
@@ -111,6 +112,33 @@ std::vector<ModelCase> model_cases() {
        "ice,false,true,1\nshore,ashore,true,false,2\n",
        "mdp,state,terminal\na,bank,false\na,ice,false\na,shore,true\n", "E0502 transitions.csv 1:1",
        "\"mdp\" is missing"},
+      // drawings
+      {"drawing_without_map", csv, toml, "[[feature]]", "[model.drawing]\nx = \"x\"\ny = \"x\"\n[[feature]]",
+       "E0275 domain.toml 9:1", "there is no [map]", "rows and [map.legend]"},
+      {"drawing_of_unknown_variable", drawn, toml, "x = \"x\"", "x = \"column\"", "E0276 domain.toml 16:5",
+       "no variable 'column'", "known: x, y, dog, held"},
+      {"drawing_with_one_origin", drawn, toml, "[0, 0]", "[0]", "E0276 domain.toml 18:10", "x and the y", "[0, 0]"},
+      {"drawing_in_no_mdp", drawn, toml, "{ terrain = \"ice\" }", "{ terrain = \"ice\", optional = \"wet ice\" }",
+       "E0277 domain.toml 25:1", "no MDP 'wet ice'", "remove 'optional'"},
+      {"drawing_optional", drawn, toml, "{ terrain = \"ice\" }", "{ terrain = \"ice\", optional = true }",
+       "E0277 domain.toml 25:1", "must name the MDP"},
+      {"drawing_of_unknown_symbol", drawn, toml, "D = {", "E = {", "E0278 domain.toml 20:1", "'E' is not a symbol",
+       "item = \"NAME\""},
+      {"drawing_moves_terrain", drawn, toml, "D = {", "\"~\" = {", "E0278 domain.toml 20:1",
+       "neither an item nor a destination", "rows"},
+      {"drawing_item_nowhere", drawn, toml, "D = { x = \"dog\", y = \"y\", carried = \"held\" }", "",
+       "E0278 domain.toml 28:1", "nothing says where symbol 'D' is", "D = { x = \"VARIABLE\""},
+      {"drawing_item_in_rows", drawn, toml, ".~G#", "D~G#", "E0278 domain.toml 28:1", "states place it", "below it"},
+      {"drawing_off_the_map", drawn, states, "false,true,0,0", "false,true,-1,0", "E0279 states.csv 2:1",
+       "in state 'bank' the robot is off the map of 4 x 1 cells: x = -1, y = 0", "the top left cell is 0, 0"},
+      {"drawing_counted_from_0", drawn, toml, "origin = [0, 0]\n", "", "E0279 states.csv 2:1", "x = 0, y = 0",
+       "origin = [0, 0] counts from 0"},
+      {"drawing_thing_off_the_map", drawn, states, "0,0,2,0", "0,0,4,0", "E0279 states.csv 2:1", "dog is off the map"},
+      {"drawing_in_a_wall", drawn, states, "true,1,0", "true,3,0", "E0279 states.csv 3:1", "the robot is inside a wall",
+       "another symbol at (4,1)"},
+      {"drawing_hides_a_difference", drawn, states, "false,true,1,0,9,1", "false,true,0,0,2,0",
+       "W0207 domain.toml 15:1", "no difference between the states 'on the bank' and 'on the ice'",
+       "[model.drawing.things]"},
       // optimum
       {"for_ever", csv, rows, "bank,creep,bank,1,0,1\n", "ice,pace,bank,0.5,-9,1\nice,pace,ice,0.5,-9,1\n",
        "E0323 domain.toml 14:11", "collect reward for ever", "discount", true},
@@ -286,7 +314,8 @@ TEST(ModelErrors, StopAtTwentyOfTheFiles) {
 
 // Those of this page of the documentation; the others are those of grids.
 bool is_of_models(const std::string& id) {
-  return (id >= "E0230" && id < "E0265") || id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205";
+  return (id >= "E0230" && id < "E0265") || (id >= "E0275" && id <= "E0279") || id == "W0207" || id == "E0323" ||
+         id == "E0324" || id == "W0204" || id == "W0205";
 }
 
 TEST(ModelErrorIds, AreAllTriggeredHere) {

@@ -44,6 +44,29 @@ ice,creep,ice,0.5,0,1
 bank,creep,bank,1,0,1
 )"}};
 
+/// The same on a picture of three cells, with a dog that waits ashore or is on the robot's cell.
+inline const ModelTexts kIceDrawn{{"domain.toml", kIceCsv.at("domain.toml") + R"([model.drawing]
+x = "x"
+y = "y"
+origin = [0, 0]
+[model.drawing.things]
+D = { x = "dog", y = "y", carried = "held" }
+[map]
+rows = [".~G#"]
+[map.legend]
+"." = "floor"
+"~" = { terrain = "ice" }
+"G" = { goal = true }
+"#" = "wall"
+"D" = { item = "dog" }
+)"},
+                                  {"states.csv", R"(state,name,terminal,start,x,y,dog,held
+bank,on the bank,false,true,0,0,2,0
+ice,on the ice,false,true,1,0,9,1
+shore,ashore,true,false,2,0,2,0
+)"},
+                                  {"transitions.csv", kIceCsv.at("transitions.csv")}};
+
 inline const ModelTexts kIceJson{{"domain.toml", R"(schema = "kith.domain/1"
 id = "ice"
 [model]

@@ -31,7 +31,7 @@ class WorldTable {
         domain_{study.atlas->domain()},
         world_{world},
         mdp_{domain_.mdp(world)},
-        map_{domain_.map()},
+        map_{domain_.drawing()},
         num_states_{mdp_.num_states() + mdp_.num_terminals()} {}
 
   [[nodiscard]] Json json() {

@@ -90,7 +90,8 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Domains, WorldTables,
-                         ::testing::Values("item-delivery", "domains/icy_crossing.toml", "two-goals"),
+                         ::testing::Values("item-delivery", "domains/icy_crossing.toml", "two-goals",
+                                           "docs/examples/cliff.toml"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            std::replace_if(

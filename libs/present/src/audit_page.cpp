@@ -51,7 +51,7 @@ class Page {
  public:
   Page(const Atlas& atlas, const AuditReport& report, const std::string& program)
       : atlas_{atlas}, domain_{atlas.domain()}, report_{report}, program_{program} {
-    if (const auto map = domain_.map()) boards_.emplace(*map);
+    if (const auto map = domain_.drawing()) boards_.emplace(*map);
   }
 
   std::string text() {
@@ -204,7 +204,7 @@ class Page {
                     text.empty() ? "" : "; ", text, actions_text(domain_, path.actions));
     std::string picture;
     if (boards_) {
-      auto svg = boards_->board(id.mdp, domain_.map()->state(id.mdp, id.start));
+      auto svg = boards_->board(id.mdp, domain_.drawing()->state(id.mdp, id.start));
       svg.add(0.0, 0.0, boards_->path(id.mdp, path, "#3b6ea5"));
       picture = svg.file(boards_->width(), boards_->height(), caption);
     }

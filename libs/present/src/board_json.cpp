@@ -31,7 +31,7 @@ std::vector<Kind> parts_of(const LegendEntry& entry) {
 }
 
 Json frame_json(const Domain& domain, MdpIndex world, StateIndex s) {
-  const auto map = domain.map();
+  const auto map = domain.drawing();
   if (!map) return {{"state", domain.state_name(world, s)}};
   const auto state = map->state(world, s);
   const auto names = map->items_in(world);
@@ -55,7 +55,7 @@ Json board_domain_json(const Domain& domain) {
         {{"name", domain.feature_names()[k]}, {"words", domain.feature_words(k)}, {"weight", domain.weights().raw[k]}});
   }
   Json json{{"id", domain.id()}, {"title", domain.title()}, {"features", features}};
-  const auto map = domain.map();
+  const auto map = domain.drawing();
   if (!map) return json;
   Json legend = Json::array();
   for (const auto& entry : map->legend()) {
@@ -76,11 +76,12 @@ Json board_domain_json(const Domain& domain) {
 
 Json board_json(const Domain& domain, DemoId id) {
   Json json{{"world", id.mdp.value()}};
-  if (const auto map = domain.map()) {
-    json["map"] = map->draw(id.mdp, std::nullopt);
-  } else if (const auto name = domain.describe_variant(id.mdp); !name.empty()) {
-    json["world_name"] = name;
-  }
+  const auto map = domain.drawing();
+  if (map) json["map"] = map->draw(id.mdp, std::nullopt);
+  const auto fences = map ? map->fences(id.mdp) : std::vector<std::pair<Cell, Cell>>{};
+  for (const auto& [a, b] : fences) json["fences"].push_back({cell_json(*map, a), cell_json(*map, b)});
+  const auto name = domain.describe_variant(id.mdp);
+  if ((!map || map->is_picture()) && !name.empty()) json["world_name"] = name;
   json["start"] = frame_json(domain, id.mdp, id.start);
   return json;
 }
@@ -97,7 +98,7 @@ Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
 
 Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step) {
   Json json{{"frame", step}};
-  if (const auto map = domain.map()) json["cell"] = cell_json(*map, map->state(world, path.states[step]).robot);
+  if (const auto map = domain.drawing()) json["cell"] = cell_json(*map, map->state(world, path.states[step]).robot);
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 namespace kith {
 namespace {
@@ -188,6 +189,19 @@ void BoardSvg::grid(Svg& svg) const {
   }
 }
 
+void BoardSvg::fences(Svg& svg, MdpIndex m) const {
+  for (const auto& [a, b] : map_.fences(m)) {
+    const auto from = centre(a);
+    const auto to = centre(b);
+    const double x = (from.x + to.x) / 2;
+    const double y = (from.y + to.y) / 2;
+    const double dx = (to.y - from.y) / 2;  // along the border
+    const double dy = (to.x - from.x) / 2;
+    svg.line(x - dx, y - dy, x + dx, y + dy,
+             {{"stroke", "#3c444d"}, {"stroke-width", "5"}, {"stroke-linecap", "round"}});
+  }
+}
+
 void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state) const {
   for (int y = 1; y <= map_.height(); ++y) {
     for (int x = 1; x <= map_.width(); ++x) {
@@ -209,8 +223,17 @@ void BoardSvg::contents(Svg& svg, MdpIndex m, const GridState& state) const {
     station(svg, centre(cell), letters(map_.legend()[map_.legend_index(cell)].station));
   }
   const auto items = map_.items_in(m);
-  for (std::size_t i = 0; i < state.items.size(); ++i) {
-    if (!state.carried[i]) disc(svg, centre(state.items[i]), letters(map_.item_names()[items[i]]));
+  constexpr std::string_view kDestination = "destination of ";
+  for (const bool is_destination : {true, false}) {  // what is at its destination is drawn on top
+    for (std::size_t i = 0; i < state.items.size(); ++i) {
+      const auto& name = map_.item_names()[items[i]];
+      if (state.carried[i] || name.starts_with(kDestination) != is_destination) continue;
+      if (is_destination) {
+        destination(svg, centre(state.items[i]), letters(name.substr(kDestination.size())));
+      } else {
+        disc(svg, centre(state.items[i]), letters(name));
+      }
+    }
   }
 }
 
@@ -223,6 +246,7 @@ Svg BoardSvg::board(MdpIndex m, const GridState& state, bool bare) const {
     }
   }
   grid(svg);
+  fences(svg, m);
   contents(svg, m, state);
   if (!bare) robot(svg, centre(state.robot));
   return svg;

@@ -102,16 +102,16 @@ SvgFile map_picture(const Domain& domain, const GridMap& map, const BoardSvg& bo
 
 std::optional<SvgFile> policy_picture(const Domain& domain, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& mdp = domain.mdp(m);
-  if (!mdp.is_deterministic() || !mdp.is_integral() || mdp.discount() != 1.0) return std::nullopt;
-  const auto solution = plan_exactly(mdp, domain.weights().integer).solution.value();
-  const auto path = canonical_trajectory(mdp, solution.canonical_choice, domain.initial_state(m));
+  const auto policy = policy_to_draw(domain, map, m);
+  if (!policy) return std::nullopt;
+  const auto& [choice_in, path] = *policy;
   Sheet sheet{boards, fmt::format("What the robot does in MDP {} of {}", m.value(), domain.id())};
   for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
     for_each_cell_from_bottom(map, [&](const Cell& cell) {
       const auto state = map.find_state(m, with_robot_at(configuration, cell));
       if (!state || mdp.is_terminal(*state)) return;
-      const auto& choice = mdp.choices(*state)[solution.canonical_choice[state->value()]];
+      const auto& choice = mdp.choices(*state)[choice_in[state->value()]];
       boards.action(board, cell, domain.action_names()[choice.action.value()]);
     });
     sheet.add(std::move(board), configuration_in_words(map, m, configuration));
@@ -171,7 +171,7 @@ SvgFile expected_picture(const Atlas& atlas, const GridMap& map, const BoardSvg&
 }  // namespace
 
 std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
-  const auto map = domain.map();
+  const auto map = domain.drawing();
   if (!map) return {};
   const BoardSvg boards{*map};
   std::vector<SvgFile> files{map_picture(domain, *map, boards, m)};
@@ -180,7 +180,7 @@ std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
 }
 
 std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
-  const auto map = atlas.domain().map();
+  const auto map = atlas.domain().drawing();
   if (!map || !atlas.is_tabulated()) return {region_picture(atlas)};
   const BoardSvg boards{*map};
   return {region_picture(atlas), coverage_picture(atlas, *map, boards, m), expected_picture(atlas, *map, boards, m)};

@@ -25,7 +25,7 @@ Shown shown(const GridMap& map, MdpIndex m, const GridState& state, const Cell& 
   Shown result;
   result.content = map.content(m, cell);
   result.station = std::find(state.stations.begin(), state.stations.end(), cell) != state.stations.end();
-  const auto numbers = map.items_in(m);
+  const auto numbers = map.is_picture() ? std::vector<std::size_t>{} : map.items_in(m);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (state.items[i] == cell) result.items.push_back(numbers[i]);
   }
@@ -60,7 +60,7 @@ std::string name_of(const GridMap& map, const Shown& what, const LegendEntry& sy
 Picture bare_picture(const GridMap& map, DemoId id) { return map.draw_bare(id.mdp, id.start); }
 
 std::string legend(const Domain& domain, std::size_t indent) {
-  const auto map = domain.map();
+  const auto map = domain.drawing();
   if (!map) return "";
   const auto symbols = map->legend();
   const std::string blank(indent, ' ');
@@ -77,6 +77,14 @@ std::string legend(const Domain& domain, std::size_t indent) {
       if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
     });
   }
+  for (const auto& symbol : symbols) {
+    if (!map->is_picture()) break;
+    const auto& item = symbol.item.empty() ? "destination of " + symbol.content.destination_of : symbol.item;
+    const auto& placed = map->item_names();
+    if (std::find(placed.begin(), placed.end(), item) != placed.end()) {
+      entries.push_back(fmt::format("{} {}", symbol.symbol, item));
+    }
+  }
   std::string text, line;
   for (const auto& entry : entries) {
     if (!line.empty() && indent + line.size() + 3 + entry.size() > kTextWidth) {
@@ -86,7 +94,7 @@ std::string legend(const Domain& domain, std::size_t indent) {
     line += (line.empty() ? "" : "   ") + entry;
   }
   text += line;
-  const std::string item = map->item_names().empty() ? "" : "   * item elsewhere";
+  const std::string item = map->item_names().empty() || map->is_picture() ? "" : "   * item elsewhere";
   return blank + text + "\n" + blank + "@ robot" + item + "   ^ v < > moves   o end of a leg\n";
 }
 

@@ -1,8 +1,10 @@
 #include "kith/present/picture.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "kith/explain/words.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/present/legend.hpp"
 #include "kith/present/wrapped.hpp"
 
@@ -58,7 +60,8 @@ std::string configuration_in_words(const GridMap& map, MdpIndex m, const GridSta
     const auto& name = map.item_names()[names[i]];
     text += (state.carried[i] ? "carrying " + name : name + " at " + cell_text(map, state.items[i])) + ", ";
   }
-  return text + counted(state.stations.size(), "station") + " left";
+  if (!map.is_picture()) return text + counted(state.stations.size(), "station") + " left";
+  return text.substr(0, text.size() - std::min<std::size_t>(2, text.size()));
 }
 
 Picture start_picture(const GridMap& map, DemoId id) { return map.draw(id.mdp, id.start); }
@@ -95,11 +98,42 @@ std::string path_text(const Domain& domain, DemoId id, const Trajectory& path, s
 }
 
 std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent) {
-  const auto map = domain.map();
+  const auto map = domain.drawing();
   if (!map) return path_text(domain, id, path, indent);
   std::vector<Picture> pictures{bare_picture(*map, id), start_picture(*map, id)};
   for (auto& leg : path_pictures(domain, *map, id, path)) pictures.push_back(std::move(leg));
   return beside(pictures, indent);
+}
+
+namespace {
+
+Trajectory likeliest_path(const Mdp& mdp, std::span<const std::uint32_t> choice, StateIndex start) {
+  Trajectory path{{start}, {}};
+  std::vector<bool> is_seen(mdp.num_states() + mdp.num_terminals(), false);
+  for (auto s = start; !mdp.is_terminal(s) && !is_seen[s.value()];) {
+    is_seen[s.value()] = true;
+    const auto& taken = mdp.choices(s)[choice[s.value()]];
+    s = std::ranges::max_element(mdp.outcomes(taken), {}, &Outcome::probability)->next;
+    path.actions.push_back(taken.action);
+    path.states.push_back(s);
+  }
+  return path;
+}
+
+}  // namespace
+
+std::optional<DrawnPolicy> policy_to_draw(const Domain& domain, const GridMap& map, MdpIndex m) {
+  const auto& mdp = domain.mdp(m);
+  if (mdp.is_deterministic() && mdp.is_integral() && mdp.discount() == 1.0) {
+    auto solution = plan_exactly(mdp, domain.weights().integer).solution.value();
+    auto path = canonical_trajectory(mdp, solution.canonical_choice, domain.initial_state(m));
+    return DrawnPolicy{std::move(solution.canonical_choice), std::move(path)};
+  }
+  if (!map.is_picture()) return std::nullopt;
+  auto behaviour = behave(mdp, domain.weights().raw, {.scale = domain.count_scale()});
+  if (!behaviour) return std::nullopt;
+  auto path = likeliest_path(mdp, behaviour->choice, domain.initial_state(m));
+  return DrawnPolicy{std::move(behaviour->choice), std::move(path)};
 }
 
 Picture policy_picture(const Domain& domain, const GridMap& map, MdpIndex m, std::span<const std::uint32_t> choice,
@@ -110,8 +144,8 @@ Picture policy_picture(const Domain& domain, const GridMap& map, MdpIndex m, std
       const Cell cell{x, y};
       const auto state = map.find_state(m, with_robot_at(configuration, cell));
       if (!state || domain.mdp(m).is_terminal(*state)) continue;
-      const auto path = canonical_trajectory(domain.mdp(m), choice, *state);
-      at(picture, cell) = arrow_of(domain.action_names()[path.actions.front().value()]);
+      const auto action = domain.mdp(m).choices(*state)[choice[state->value()]].action;
+      at(picture, cell) = arrow_of(domain.action_names()[action.value()]);
     }
   }
   return picture;

@@ -51,7 +51,7 @@ class HeaderWriter {
 
   void pictures() {
     line();
-    if (!domain_.map()) {
+    if (!domain_.drawing()) {
       line("MDP n is one of the model's MDPs; start m is one of its states. Paths are lists of actions and states.");
       return;
     }
@@ -60,6 +60,10 @@ class HeaderWriter {
         "robot "
         "acts without moving).");
     out_ += legend(domain_, 2);
+    if (!domain_.map()) {
+      line("  MDP n is one of the model's MDPs; start m is one of its states.");
+      return;
+    }
     line(
         "  MDP n is a variant of the map (n says which optional things are there); start m is one of its states: where "
         "the "

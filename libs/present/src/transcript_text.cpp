@@ -125,7 +125,7 @@ class TranscriptWriter {
 
   [[nodiscard]] std::string start_text(DemoId id) const {
     auto text = fmt::format("MDP {}, start {}", id.mdp.value(), id.start.value());
-    const auto map = domain_.map();
+    const auto map = domain_.drawing();
     if (!map) return text + ": " + domain_.state_name(id.mdp, id.start);
     const auto state = map->state(id.mdp, id.start);
     const auto items = map->items_in(id.mdp);

@@ -88,17 +88,36 @@ TEST(BoardJson, GivesAFrameForEveryStateOfAPath) {
 }
 
 TEST(BoardJson, LeavesOutMapsWhereThereAreNone) {
-  const auto& domain = icy_crossing();
+  const auto domain = load_domain(std::string{KITH_SOURCE_DIR} + "/docs/examples/cliff.toml");
   const auto described = board_domain_json(domain);
   for (const auto* key : {"legend", "width", "height"}) EXPECT_FALSE(described.contains(key)) << key;
   const MdpIndex world{0};
   const auto start = domain.initial_state(world);
   const auto board = board_json(domain, {world, start});
   EXPECT_FALSE(board.contains("map"));
-  EXPECT_EQ(board.at("world_name"), "firm ice");
   EXPECT_EQ(board.at("start"), Json({{"state", domain.state_name(world, start)}}));
   const Trajectory nowhere{{start}, {}};
   EXPECT_EQ(step_json(domain, world, nowhere, 0), parsed(R"({"frame": 0})"));
+}
+
+TEST(BoardJson, DrawsModelsThatHaveAPicture) {
+  const auto& domain = icy_crossing();
+  EXPECT_EQ(board_domain_json(domain).at("width"), 6);
+  const auto board = board_json(domain, {MdpIndex{0}, domain.initial_state(MdpIndex{0})});
+  EXPECT_EQ(board.at("map"), parsed(R"([".~~~~H", ".~o~o.", "......"])"));
+  EXPECT_EQ(board.at("world_name"), "firm ice");  // the picture does not tell how slippery it is
+  EXPECT_EQ(board.at("start"), parsed(R"({"robot": [1, 1], "items": [], "stations": []})"));
+  EXPECT_FALSE(board.contains("fences"));
+}
+
+TEST(BoardJson, PlacesWhatStatesPlace) {
+  const auto domain = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/gallery/taxi.toml");
+  const MdpIndex world{0};
+  const auto board = board_json(domain, {world, domain.initial_state(world)});
+  EXPECT_EQ(board.at("fences").size(), 6u);
+  EXPECT_EQ(board.at("fences").at(0), parsed("[[2, 1], [3, 1]]"));
+  EXPECT_EQ(board.at("start").at("items"), parsed(R"([{"name": "passenger", "cell": [1, 1], "carried": false},
+                       {"name": "destination of passenger", "cell": [4, 5], "carried": false}])"));
 }
 
 TEST(BoardJson, PutsConstraintsIntoSentences) {

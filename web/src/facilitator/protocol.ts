@@ -1,5 +1,5 @@
 // What the server sends to facilitators and observers, and what it takes from facilitators.
-import type { Frame, MapDomain } from '../shared/board/types';
+import type { Frame, MapDomain, Place } from '../shared/board/types';
 
 export type { Frame };
 export type Role = 'facilitator' | 'observer';
@@ -72,6 +72,7 @@ export interface BoardView {
   domain: MapDomain;
   world: number;
   map?: string[];
+  fences?: [Place, Place][];
   start: Frame;
 }
 

@@ -26,6 +26,8 @@ export function DemonstrationView({ shown, number, ...context }: Context & { sho
   const { alternative, decisive, flip } = shown;
   // Where chance has a part, the most likely paths can be the same although the decisions differ.
   const isSame = Boolean(shown.runs && alternative && actionsText(shown.frames) === actionsText(alternative.frames));
+  // A list, and what happened in how many runs, would tell before the reader has decided.
+  const tells = !shown.map || Boolean(shown.runs);
   // The board of the other world marks the same place: there the robot decides differently.
   const there = flip && decisive ? { frame: decisive.frame, ...cellThere(flip.frames[decisive.frame]?.robot) } : null;
   return (
@@ -33,8 +35,8 @@ export function DemonstrationView({ shown, number, ...context }: Context & { sho
       <h3>Example {number}</h3>
       <p class="question">{shown.runs ? 'What will the robot do?' : 'Where will the robot go?'} Decide first, then watch.</p>
       <WorldName board={shown} />
-      {!shown.map && <Start {...context} board={shown} />}
-      <Watched isList={!shown.map} watching={watching} setWatching={setWatching}>
+      {(!shown.map || (tells && !watching)) && <Start {...context} board={shown} />}
+      <Watched isHidden={tells} watching={watching} setWatching={setWatching}>
         {shown.runs && <RunsView {...context} board={shown} shown={shown.runs} />}
         {(!shown.runs || open) && (
           <Scene
@@ -84,10 +86,10 @@ export function DemonstrationView({ shown, number, ...context }: Context & { sho
   );
 }
 
-// A board shows the robot only as far as it has gone; a list shows its whole path, so it waits until the reader has decided.
-function Watched(props: { isList: boolean; watching: boolean; setWatching: (open: boolean) => void; children: ComponentChildren }) {
-  const { isList, watching, setWatching, children } = props;
-  if (!isList) return <>{children}</>;
+// A board shows the robot only as far as it has gone; whatever tells more waits until the reader has decided.
+function Watched(props: { isHidden: boolean; watching: boolean; setWatching: (open: boolean) => void; children: ComponentChildren }) {
+  const { isHidden, watching, setWatching, children } = props;
+  if (!isHidden) return <>{children}</>;
   return (
     <details class="watch" open={watching} onToggle={(event) => setWatching(event.currentTarget.open)}>
       <summary>{watching ? 'Hide what the robot does' : 'Show what the robot does'}</summary>

@@ -90,8 +90,8 @@ function InWords(props: SceneProps): JSX.Element | null {
   if (!board.map) return null;
   const things = (frames: Frame[], first: number): JSX.Element => (
     <ol start={first + 1}>
-      {frames.slice(first, -1).map((frame) => (
-        <li>{placedStepText(frame)}</li>
+      {frames.slice(first, -1).map((frame, i) => (
+        <li>{placedStepText(frame, frames[first + i + 1])}</li>
       ))}
     </ol>
   );
@@ -109,7 +109,7 @@ function InWords(props: SceneProps): JSX.Element | null {
   );
 }
 
-// What the world is called, where nothing is drawn that shows it.
+// What the world is called, where a picture does not tell all of it.
 export function WorldName({ board }: { board: Board }): JSX.Element | null {
   return board.world_name ? <p class="world-name">This world: {board.world_name}.</p> : null;
 }

@@ -38,8 +38,23 @@ export function placeOf(frame: Frame): string {
 // "on the bank", "in state 3": many names of states say where they are.
 const stateText = (state: string): string => (/^(on|in|at|by|near|under|behind|beside|inside|outside) /i.test(state) ? state : `in ${state}`);
 
+const kMoves: Record<string, Place> = { up: [0, -1], down: [0, 1], left: [-1, 0], right: [1, 0] };
+
+// Where a robot ends up that does not go where it wanted to: " but slips down"; nothing if all went well.
+function mishap(frame: Frame, next: Frame | undefined): string {
+  const wanted = kMoves[frame.action ?? ''];
+  if (!wanted || !frame.robot || !next?.robot) return '';
+  const [dx, dy] = [next.robot[0] - frame.robot[0], next.robot[1] - frame.robot[1]];
+  if (dx === 0 && dy === 0) return ' but stays where it is';
+  if (Math.sign(dx) === wanted[0] && Math.sign(dy) === wanted[1]) return '';
+  const side = Object.keys(kMoves).find((name) => kMoves[name]?.[0] === dx && kMoves[name]?.[1] === dy);
+  return side ? ` but slips ${side}` : ' but ends up elsewhere';
+}
+
 // What a frame's action does, with what the robot carries: "it goes left, carrying the parcel".
-function moveText(frame: Frame): string {
+function moveText(frame: Frame, next: Frame | undefined): string {
+  const trouble = mishap(frame, next);
+  if (trouble) return `it tries to go ${frame.action ?? ''}${trouble}`;
   const carried = (frame.items ?? []).filter((item) => item.carried).map((item) => item.name);
   const load = carried.length > 0 && frame.action !== 'dropoff' ? `, carrying ${withArticle(carried)}` : '';
   return `it ${actionWords(frame.action ?? '')}${load}`;
@@ -50,11 +65,11 @@ export function stepText(frames: Frame[], step: number, isCutOff = false): strin
   const steps = frames.length - 1;
   const before = frames[step - 1];
   if (!before?.action) return step === 0 ? 'The robot has not moved yet.' : `After ${counted(steps, 'step')}: the end.`;
-  return `Step ${step} of ${steps}: ${moveText(before)}.${step === steps ? (isCutOff ? ' It goes on.' : ' The end.') : ''}`;
+  return `Step ${step} of ${steps}: ${moveText(before, frames[step])}.${step === steps ? (isCutOff ? ' It goes on.' : ' The end.') : ''}`;
 }
 
 // The step that begins with a frame, for those who do not see the board: "At column 3, row 1 it goes left."
-export const placedStepText = (frame: Frame): string => `${upperFirst(placeOf(frame))} ${moveText(frame)}.`;
+export const placedStepText = (frame: Frame, next?: Frame): string => `${upperFirst(placeOf(frame))} ${moveText(frame, next)}.`;
 
 // "up, left 3 times": actions with repetitions counted.
 export function actionsText(frames: Frame[]): string {
@@ -90,6 +105,7 @@ export function mapText(domain: Domain, legend: Legend, board: Board): string[] 
   return [
     `The map has ${counted(domain.width ?? 0, 'column')} and ${counted(domain.height ?? 0, 'row')}; columns are counted from the left, rows from the top.`,
     `The robot starts${robot}${carried.length > 0 ? `, carrying ${withArticle(carried)}` : ''}.`,
+    ...(board.fences?.length ? [`Walls stand between ${listed(board.fences.map(([a, b]) => `${cellText(a)} and ${cellText(b)}`))}.`] : []),
     ...[...places].map(([name, cells]) => `${upperFirst(name)}: ${cells.join('; ')}.`),
   ];
 }

@@ -1,5 +1,5 @@
 // What the server sends to participants and what they send to it.
-import type { Frame, MapDomain } from '../shared/board/types';
+import type { Frame, MapDomain, Place } from '../shared/board/types';
 
 export type { Frame } from '../shared/board/types';
 
@@ -8,6 +8,8 @@ export interface LiveBoard {
   domain: MapDomain;
   world: number;
   map?: string[];
+  fences?: [Place, Place][];
+  world_name?: string;
   start: Frame;
 }
 

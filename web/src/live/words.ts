@@ -28,7 +28,7 @@ function partsAt(board: LiveBoard, legend: Legend, frame: Frame, cell: Place): P
     .map((place): Part => ({ kind: 'station', name: legend.stationAt(board.map ?? [], place) }));
   const items = (frame.items ?? [])
     .filter((item) => !item.carried && isSame(item.cell, cell))
-    .map(({ name }): Part => ({ kind: 'item', name }));
+    .map(({ name }): Part => legend.placed(name));
   return [...fixed, ...stations, ...items];
 }
 

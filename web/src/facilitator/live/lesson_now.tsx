@@ -17,6 +17,7 @@ const asBoard = (board: BoardView, frames: Frame[]): Board => ({
   start: board.start,
   frames,
   ...(board.map ? { map: board.map } : {}),
+  ...(board.fences ? { fences: board.fences } : {}),
 });
 
 function useDrawing(board: BoardView): { domain: MapDomain; legend: Legend } {

@@ -68,11 +68,16 @@ function legendName({ kind, name }: Part): string {
   return capitalised(named(name));
 }
 
+// What the world is called, where a picture does not tell all of it.
+export function WorldName({ board }: { board: LiveBoard }): JSX.Element | null {
+  return board.world_name ? <p>{t('board.world', { name: named(board.world_name) })}</p> : null;
+}
+
 // What is on this board, and nothing else.
 export function Things({ board, legend, lines }: { board: LiveBoard; legend: Legend; lines: ('own' | 'other')[] }): JSX.Element {
   const symbols = new Set((board.map ?? []).flatMap((row) => [...row]));
   const onMap = new Set([...symbols].flatMap((symbol) => legend.parts(symbol)).map(({ kind, name }) => `${kind} ${name}`));
-  for (const { name } of board.start.items ?? []) onMap.add(`item ${name}`);
+  for (const { name } of board.start.items ?? []) onMap.add(`${legend.placed(name).kind} ${name}`);
   const parts = legend.things().filter(({ kind, name }) => onMap.has(`${kind} ${name}`));
   return (
     <ul class="legend" aria-label={t('legend.title')}>

@@ -1,7 +1,7 @@
 // What the robot really does, beside what was predicted.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-import { BoardInWords, LiveBoardView, Things, useLegend } from '../parts/live_board';
+import { BoardInWords, LiveBoardView, Things, useLegend, WorldName } from '../parts/live_board';
 import { LogView, useLog } from '../parts/log';
 import { Player, usePacedPlayback } from '../parts/player';
 import { StateCard, StepList } from '../parts/steps';
@@ -87,6 +87,7 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
         <Heading>{t(`feedback.title.${verdict}`)}</Heading>
       </div>
       <p class="lead">{t(leadKey(test))}</p>
+      <WorldName board={board} />
       <div class="board-screen">
         <div class="board-column">
           {board.map ? (

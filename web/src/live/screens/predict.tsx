@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useLayoutEffect, useState } from 'preact/hooks';
 import { useDrive, type Drive } from '../drive';
 import { Driver } from '../parts/driver';
-import { useLegend } from '../parts/live_board';
+import { useLegend, WorldName } from '../parts/live_board';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import type { Task } from '../protocol';
 import type { ScreenProps } from '../screen';
@@ -25,6 +25,7 @@ export function Predict(props: Props): JSX.Element {
       <p class="kicker">{t('predict.count', { index: task.index + 1, of: task.of })}</p>
       <Heading>{t(isScreening ? 'screening.title' : 'predict.title')}</Heading>
       <p class="lead">{t(question)}</p>
+      <WorldName board={task.board} />
       {world?.hasChance && <p>{t('predict.chance')}</p>}
       <TimeLeft until={view.limit_ms} />
       {world ? (

@@ -1,7 +1,7 @@
 // One demonstration: the robot moves when asked to, and its path is drawn only as far as it has gone.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-import { BoardInWords, LiveBoardView, Things, useLegend } from '../parts/live_board';
+import { BoardInWords, LiveBoardView, Things, useLegend, WorldName } from '../parts/live_board';
 import { LogView, useLog } from '../parts/log';
 import { Player, usePacedPlayback } from '../parts/player';
 import { StateCard, StepList } from '../parts/steps';
@@ -41,6 +41,7 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
       <Heading>{t('watch.title')}</Heading>
       <p class="lead">{t(`watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`)}</p>
       {view.study.goal && <p class="muted">{view.study.goal}</p>}
+      <WorldName board={board} />
       <TimeLeft until={view.limit_ms} />
       <div class="board-screen">
         <div class="board-column">

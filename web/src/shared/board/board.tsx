@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { centre, kUnit, lineOf } from './geometry';
 import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
-import type { Board, Frame, MapDomain, Place } from './types';
+import type { Board, Frame, Item, MapDomain, Place } from './types';
 
 export const kFew = 12; // columns of a map that is drawn in full size
 const kRobotLane = 0.08;
@@ -63,9 +63,16 @@ function Ground({ domain, legend, board }: BoardProps): JSX.Element {
       <Parts board={board} legend={legend} kinds={['terrain']} />
       <path class="grid" d={lines.join('')} />
       <Parts board={board} legend={legend} kinds={['wall']} />
+      <path class="fence" d={(board.fences ?? []).map(fenceLine).join('')} />
       <rect class="frame" width={width} height={height} />
     </g>
   );
+}
+
+// The border between two neighbouring cells.
+function fenceLine([a, b]: [Place, Place]): string {
+  const [x, y] = [Math.min(a[0], b[0]) * kUnit, Math.min(a[1], b[1]) * kUnit];
+  return a[0] === b[0] ? `M${x - kUnit} ${y}h${kUnit}` : `M${x} ${y - kUnit}v${kUnit}`;
 }
 
 function Parts({ board, legend, kinds }: { board: Board; legend: Legend; kinds: string[] }): JSX.Element {
@@ -90,6 +97,8 @@ function Things({ legend, board, frame }: BoardProps & { frame: Frame }): JSX.El
   const isSame = (a: Place, b: Place | undefined): boolean => a[0] === b?.[0] && a[1] === b[1];
   const isBelow = (cell: Place): boolean => isSame(cell, frame.robot);
   const isUsedUp = (station: Place): boolean => !(frame.stations ?? []).some((cell) => isSame(cell, station));
+  const lying = (frame.items ?? []).filter(({ carried }) => !carried);
+  const isDestination = ({ name }: Item): boolean => legend.placed(name).kind === 'destination';
   return (
     <g>
       <Parts board={board} legend={legend} kinds={['goal', 'destination']} />
@@ -98,8 +107,13 @@ function Things({ legend, board, frame }: BoardProps & { frame: Frame }): JSX.El
           <Station letter={legend.letter(legend.stationAt(board.map ?? [], cell))} />
         </At>
       ))}
-      {(frame.items ?? [])
-        .filter(({ carried }) => !carried)
+      {lying.filter(isDestination).map(({ name, cell }) => (
+        <At at={centre(cell)}>
+          <PartGlyph part={legend.placed(name)} legend={legend} />
+        </At>
+      ))}
+      {lying
+        .filter((item) => !isDestination(item))
         .map(({ name, cell }) => (
           <At at={centre(cell)}>
             <g transform={isBelow(cell) ? 'translate(-13 13)' : undefined}>

@@ -70,6 +70,11 @@ export class Legend {
     return this.letters.get(name) ?? name.charAt(0).toUpperCase();
   }
 
+  // What a thing that is somewhere on the map is: an item, or a destination that lies elsewhere in every board.
+  placed(name: string): Part {
+    return this.things().find((part) => part.kind === 'destination' && part.name === name) ?? { kind: 'item', name };
+  }
+
   // A goal without a name of its own needs no letter.
   hasPlainName(name: string): boolean {
     return name === 'goal';

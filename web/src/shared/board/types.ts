@@ -31,7 +31,8 @@ export interface Frame {
 export interface Board {
   world: number;
   map?: string[]; // absent where the domain has none
-  world_name?: string; // where nothing is drawn, what the world is called
+  fences?: [Place, Place][]; // neighbouring cells with a wall between them
+  world_name?: string; // what the world is called, where a picture does not tell all of it
   start: Frame;
   frames: Frame[];
 }

@@ -116,6 +116,8 @@ class Domain {
   /// The map, if the MDPs are gridworlds on one; nothing for an explicit model that was given state by state. It refers
   /// to the domain, which has to stay (it may be moved).
   [[nodiscard]] std::optional<GridMap> map() const noexcept;
+  /// What people see of the MDPs: map(), or the picture that an explicit model comes with; nothing without either.
+  [[nodiscard]] std::optional<GridMap> drawing() const noexcept;
 
   /// How much there is to look at: optional things present in the start state
   /// (terrain cells and stations that are toggled, plus stations still there). 0 without a map.

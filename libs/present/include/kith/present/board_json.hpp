@@ -7,14 +7,17 @@
 
 namespace kith {
 
-// Boards as pages animate them. Cells are [column, row] from the top left, from 1. Where a domain has no map, legend,
-// width, height, map and cell are left out, and a frame is {"state", "action"} with the state's name.
+// Boards as pages animate them. Cells are [column, row] from the top left, from 1. Where a domain has neither a map nor
+// a picture, legend, width, height, map and cell are left out, and a frame is {"state", "action"} with the state's
+// name.
 
 /// {"id", "title", "features": [{name, words, weight}], "legend": [{symbol, kind, name, parts: [{kind, name}]}],
 /// "width", "height"}. The parts of a symbol are what it puts on a cell, in the order wall, terrain, station,
 /// destination, goal, start, item; kind and name are those of the first.
 [[nodiscard]] Json board_domain_json(const Domain& domain);
-/// {"world", "map", "start"}: the number of the MDP, its map in the symbols of the file, and the state as a frame.
+/// {"world", "map", "start"}: the number of the MDP, its map in the symbols of the file, and the state as a frame. Of
+/// an explicit model also "world_name", if the MDP has a name, and "fences", pairs of cells, if lines are drawn between
+/// some.
 [[nodiscard]] Json board_json(const Domain& domain, DemoId id);
 /// [{"robot", "items": [{name, cell, carried}], "stations", "action"}]: entry i is the state before action i; the last
 /// has action null.

@@ -41,6 +41,7 @@ class BoardSvg {
   void destination(Svg& svg, const Point& at, const std::string& sign) const;
   void goal(Svg& svg, const Point& at, const std::string& sign) const;
   void robot(Svg& svg, const Point& at) const;
+  void fences(Svg& svg, MdpIndex m) const;
   void contents(Svg& svg, MdpIndex m, const GridState& state) const;
   void grid(Svg& svg) const;
   [[nodiscard]] std::string letters(const std::string& name) const;

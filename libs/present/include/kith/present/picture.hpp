@@ -25,7 +25,7 @@ using Picture = std::vector<std::string>;
 /// path in words.
 [[nodiscard]] std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& path, std::size_t indent);
 /// What the robot does wherever it stands, while items and stations are as in `configuration`.
-/// @param choice  per state of the MDP, as in ExactSolution::canonical_choice.
+/// @param choice  per state of the MDP, as in DrawnPolicy::choice.
 [[nodiscard]] Picture policy_picture(const Domain& domain, const GridMap& map, MdpIndex m,
                                      std::span<const std::uint32_t> choice, const GridState& configuration);
 /// The state with the robot at another cell; what it carries comes along.
@@ -37,5 +37,15 @@ using Picture = std::vector<std::string>;
 [[nodiscard]] std::string configuration_in_words(const GridMap& map, MdpIndex m, const GridState& state);
 /// Pictures beside each other, each row indented.
 [[nodiscard]] std::string beside(const std::vector<Picture>& pictures, std::size_t indent);
+
+/// The robot's policy as pictures show it.
+struct DrawnPolicy {
+  std::vector<std::uint32_t> choice;  ///< Per state, an index into Mdp::choices().
+  Trajectory path;  ///< From the initial state; by likeliest outcomes, until it ends or repeats itself.
+};
+
+/// Nothing where pictures do not show it: on maps with chance, discounting or features that are not integers, and if no
+/// policy has a finite return.
+[[nodiscard]] std::optional<DrawnPolicy> policy_to_draw(const Domain& domain, const GridMap& map, MdpIndex m);
 
 }  // namespace kith
