@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the pictures of docs/gallery.md: the maps of domains/gallery with what the robot does, as kith plans it.
+"""Draws the pictures of docs/gallery.md: the maps of its robots with what the robot does, as kith plans it.
 
     gallery_pictures.py KITH --write|--check [FOLDER]
 
@@ -15,7 +15,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CELL = 30
 INK = "#1c2127"
 GROUND = {"hole": "#57606a", "ice": "#d3e4f7", "goal": "#b9e2c6", "cliff": "#57606a", "wall": "#3c444d", "lava": "#e5895f",
-          "heat": "#fbe3c4", "toll": "#f8edc0", "bumps": "#e9dcc9", "depot": "#e6dcf3"}
+          "heat": "#fbe3c4", "toll": "#f8edc0", "bumps": "#e9dcc9", "depot": "#e6dcf3", "lane": "#e9dcc9", "close": "#f7d4d0",
+          "person": "#c25a50", "wet": "#a9cbee", "view": "#fbdcbf", "camera": "#8d6fb5", "charger": "#ffe08a"}
 ANGLES = {"right": 0, "down": 90, "left": 180, "up": 270}
 
 # Per picture: the rows, what symbols stand for, the world, what the names of the states have to say, and the caption.
@@ -37,14 +38,24 @@ PICTURES = {
                              "#.d..#.e..#", "#.D..w.E..#", "#.d..#.e.G#", "###########"],
                        kinds={"#": "wall", "G": "goal", **dict.fromkeys("NHDE", "lava"), **dict.fromkeys("hdew", "heat")}, world=31,
                        where="", title="Four rooms with all the lava: what the robot does"),
+    # The rows are those of the domain, which come from an image; too large for an arrow in every cell.
+    "warehouse": dict(file="domains/warehouse.toml", kinds={"#": "wall", "f": "lane", "d": "view", "v": "view", "e": "camera", "c": "close",
+                                                            "a": "person", "w": "wet", "b": "wet", "B": "charger", "G": "goal"},
+                      world=6, cell=12, title="The warehouse with everything in it: how the robot brings a crate from the dock to packing"),
 }
 
 
-def policy(kith, name, picture):
+def inspect(kith, name, picture):
+    """What `kith inspect` says about the world of a picture."""
+    file = SOURCE / picture.get("file", f"domains/gallery/{name}.toml")
+    command = [kith, "inspect", str(file), "--show", "demos", "--mdp", str(picture["world"]), "--json"]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def policy(demos, picture):
     """{(x, y): first action} of the states that the picture shows."""
-    command = [kith, "inspect", str(SOURCE / f"domains/gallery/{name}.toml"), "--show", "demos", "--mdp", str(picture["world"]), "--json"]
     moves = {}
-    for demo in json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["demos"]:
+    for demo in demos:
         start = demo["start"]
         if "robot" in start:
             moves.setdefault(tuple(start["robot"]), demo["actions"][0])
@@ -53,9 +64,21 @@ def policy(kith, name, picture):
     return moves
 
 
-def draw(name, picture, moves):
-    rows, kinds = picture["rows"], picture["kinds"]
-    width, height = CELL * len(rows[0]) + 2, CELL * len(rows) + 2
+def path(demo, cell):
+    """A path as the elements of a picture: a line that begins in a disc."""
+    x, y = (1 + cell * place - cell // 2 for place in demo["start"]["robot"])
+    steps = {"right": f"h{cell}", "left": f"h-{cell}", "up": f"v-{cell}", "down": f"v{cell}"}
+    line = "".join(steps.get(action, "") for action in demo["actions"])
+    return [f'<path d="M{x} {y}{line}" fill="none" stroke="#0b5cad" stroke-width="2.4" stroke-linejoin="round"/>',
+            f'<circle cx="{x}" cy="{y}" r="{cell / 2:g}" fill="#0b5cad"/>']
+
+
+def draw(picture, known):
+    by_cell = "rows" in picture
+    rows, kinds = picture["rows"] if by_cell else known["maps"][picture["world"]], picture["kinds"]
+    moves = policy(known["demos"], picture) if by_cell else {}
+    size = picture.get("cell", CELL)
+    width, height = size * len(rows[0]) + 2, size * len(rows) + 2
     used, cells, arrows = [], {}, []
     for y, row in enumerate(rows):
         for x, symbol in enumerate(row):
@@ -63,8 +86,8 @@ def draw(name, picture, moves):
             if kind and kind not in used:
                 used.append(kind)
             fill = GROUND.get(kind, "#ffffff")
-            cells[fill] = cells.get(fill, "") + f"M{1 + CELL * x} {1 + CELL * y}h{CELL}v{CELL}h-{CELL}z"
-            centre = (1 + CELL * x + CELL // 2, 1 + CELL * y + CELL // 2)
+            cells[fill] = cells.get(fill, "") + f"M{1 + size * x} {1 + size * y}h{size}v{size}h-{size}z"
+            centre = (1 + size * x + size // 2, 1 + size * y + size // 2)
             if symbol in picture.get("signs", ""):
                 arrows.append(f'<text x="{centre[0] - 13}" y="{centre[1] - 4}">{symbol}</text>')
             action = moves.get((x + 1, y + 1))
@@ -74,6 +97,8 @@ def draw(name, picture, moves):
                 arrows.append(f'<circle cx="{centre[0]}" cy="{centre[1]}" r="7" fill="#0b5cad"/>')
     for x, y in picture.get("walls", []):
         arrows.append(f'<path d="M{1 + CELL * x} {1 + CELL * (y - 1)}v{CELL}" stroke="{INK}" stroke-width="4"/>')
+    if not by_cell:
+        arrows += path(known["demos"][0], size)
     wide = max(width, 66 * len(used) + 2)
     key = "".join(
         f'<path d="M{1 + 66 * i} {height + 8}h14v14h-14z" fill="{GROUND[kind]}" stroke="#87909b"/>'
@@ -91,7 +116,7 @@ def main(kith, mode, folder):
     different = 0
     for name, picture in PICTURES.items():
         file = folder / f"{name}.svg"
-        text = draw(name, picture, policy(kith, name, picture))
+        text = draw(picture, inspect(kith, name, picture))
         if mode == "--write":
             file.parent.mkdir(exist_ok=True)
             file.write_text(text)

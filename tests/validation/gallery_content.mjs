@@ -12,7 +12,14 @@ const ROBOTS = {
   cliff_walking: 'CliffWalking',
   taxi: 'Taxi',
   four_rooms: 'four rooms',
+  warehouse: 'warehouse',
 };
+// Robots that are given by a map instead of tables: the files, and their folder if they are built in.
+const MAPS = {
+  four_rooms: ['four_rooms.toml'],
+  warehouse: ['warehouse.toml', 'warehouse.yaml', 'warehouse.pgm', 'warehouse_zones.pgm'],
+};
+const BUILT_IN = ['warehouse'];
 const STRATEGIES = ['plan', 'joint', 'common', 'individual-low', 'individual-high', 'baseline'];
 const SOON = 30; // periods
 
@@ -22,7 +29,8 @@ const REGRET_LEFT = 0.1;
 const SHARE_RIGHT = 0.85;
 
 const short = (value) => (value === 0 ? '0' : value.toPrecision(2));
-const fileOf = (robot) => `domains/gallery/${robot}.toml`;
+const folderOf = (robot) => (BUILT_IN.includes(robot) ? 'domains' : 'domains/gallery');
+const fileOf = (robot) => `${folderOf(robot)}/${robot}.toml`;
 
 export const COMMANDS = {
   ...Object.fromEntries(Object.keys(ROBOTS).map((robot) => [robot, study('studies/gallery.toml', `domain="${fileOf(robot)}"`)])),
@@ -73,8 +81,8 @@ export function makeContent(runs, source) {
     sizes: () => ({
       columns: ['robot', 'files', 'kB'],
       rows: Object.entries(ROBOTS).map(([robot, title]) => {
-        const files = [`${robot}.toml`, ...(robot === 'four_rooms' ? [] : [`${robot}_states.csv`, `${robot}_transitions.csv`])];
-        const bytes = files.map((file) => statSync(join(source, 'domains/gallery', file)).size).reduce((sum, size) => sum + size, 0);
+        const files = MAPS[robot] ?? [`${robot}.toml`, `${robot}_states.csv`, `${robot}_transitions.csv`];
+        const bytes = files.map((file) => statSync(join(source, folderOf(robot), file)).size).reduce((sum, size) => sum + size, 0);
         return [title, files.map((file) => `\`${file}\``).join(', '), fixed(bytes / 1000, 0)];
       }),
     }),

@@ -39,9 +39,13 @@ export class Legend {
     const surfaceNames = [...new Set(parts.filter(({ kind }) => kind === 'terrain').map(({ name }) => name))];
     for (const name of surfaceNames) {
       const own = kTints.find((tint) => tint === name) ?? kNamed[name];
-      const tint = own && !used.has(own) ? own : (kTints.find((one) => !used.has(one)) ?? 'grey');
+      const number = this.surfaces.length;
+      const tint = own && !used.has(own) ? own : (kTints.find((one) => !used.has(one)) ?? kTints[number % kTints.length] ?? 'grey');
       used.add(tint);
-      this.surfaces.push({ name, tint, pattern: kPatterns[this.surfaces.length % kPatterns.length] ?? 'dots' });
+      // A tint that occurs again has another pattern.
+      const patterns = kPatterns.map((_, i) => kPatterns[(number + i) % kPatterns.length] ?? 'dots');
+      const isFree = (pattern: string) => !this.surfaces.some((other) => other.tint === tint && other.pattern === pattern);
+      this.surfaces.push({ name, tint, pattern: patterns.find(isFree) ?? patterns[0] ?? 'dots' });
     }
     const things = parts.filter(({ kind }) => ['station', 'item', 'goal'].includes(kind)).map(({ name }) => name);
     for (const name of new Set(things)) this.letters.set(name, this.freeLetter(name));
