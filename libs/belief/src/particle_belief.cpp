@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "general_kernels.hpp"
@@ -28,11 +29,13 @@ FilterOptions checked(const FilterOptions& options) {
 }
 
 constexpr std::size_t kSpace = 3;  // the dimension with kernels of its own
-// Observing what hardly any point satisfies, the points may be too few where the belief now is.
-constexpr double kSurprise = 0.05;
-constexpr std::size_t kSweepsInSurprise = 3;
-constexpr std::size_t kSweeps = 2;     // after a resampling
-constexpr std::size_t kMostStill = 4;  // observations without a move
+// Above three dimensions:
+constexpr double kLeastOfStage = 0.5;    // effective sample size that a stage leaves, over that of resampling
+constexpr std::size_t kMostStages = 50;  // of one observation
+constexpr std::size_t kSweeps = 4;       // after a resampling
+constexpr std::size_t kMostStill = 4;    // observations without a move
+constexpr double kWidth = 4.0;           // of the bracket of a slice move, over the spread
+constexpr double kDegenerate = 0.1;      // effective sample size over M below which the spread says little
 
 // The axes of points in space.
 detail::MutablePoints in_space(std::vector<double>& points) {
@@ -104,20 +107,55 @@ void ParticleBelief::observe(std::span<const HalfSpace> half_spaces, const HalfS
     reweigh(factors.values(), random);
     return;
   }
-  const bool is_surprised = mass_in(half_spaces) < kSurprise;
+  observe_in_product(half_spaces, likelihood, factors.values(), random);
+}
+
+// Tempering: the observation is taken in by stages, each of which raises the share that counts by as much as leaves
+// enough effective particles; they are resampled and moved before the next [delmoral2006].
+void ParticleBelief::observe_in_product(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
+                                        std::span<double> factors, const RandomStream& random) {
   const auto before = observed_;
-  remember(half_spaces, likelihood);
-  try {
-    reweigh(factors.values(), random);
-  } catch (...) {
-    observed_ = before;
-    throw;
+  double done = 0.0;
+  for (std::size_t stage = 0; done < 1.0; ++stage) {
+    if (stage > 0) weigh(half_spaces, likelihood, factors);
+    const double rest = 1.0 - done;
+    const double share = likelihood.is_hard() || stage + 1 == kMostStages ? rest : affordable_share(factors, rest);
+    done = share < rest ? done + share : 1.0;
+    if (share < 1.0) {
+      for (double& factor : factors) factor *= share;
+    }
+    remember(half_spaces, likelihood, share);
+    try {
+      reweigh(factors, stage == 0 ? random : random.split(stage));
+    } catch (...) {
+      observed_ = before;
+      throw;
+    }
   }
-  ++num_still_;
-  if (is_surprised || num_still_ >= kMostStill) {
-    auto more = random.split("moves");
-    move_in_product(is_surprised ? kSweepsInSurprise : 1, more);
+  if (++num_still_ < kMostStill) return;
+  auto more = random.split("moves");
+  move_in_product(1, slice_width(1.0), more);
+}
+
+// The largest share of the log factors, at most `most`, that leaves enough effective particles; by bisection.
+double ParticleBelief::affordable_share(std::span<const double> factors, double most) const {
+  const double least = kLeastOfStage * options_.resample_below * static_cast<double>(size());
+  detail::ParticleScratch<double> scratch{size()};
+  const std::span<double> values = scratch.values();
+  const auto leaves_enough = [&](double share) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = share * factors[i];
+    const double top = detail::add(log_weights_, values);
+    const double sum = detail::exp_below(values, top, values);
+    return effective_size(sum, detail::sum_of_squares(values)) >= least;
+  };
+  if (leaves_enough(most)) return most;
+  double low = 0.0, high = most;
+  constexpr int kHalvings = 12;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (leaves_enough(middle) ? low : high) = middle;
   }
+  return low > 0.0 ? low : high;
 }
 
 bool ParticleBelief::keeps_product() const noexcept {
@@ -131,7 +169,8 @@ void ParticleBelief::lose_product() {
   observed_.clear();
 }
 
-void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) {
+void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
+                              double share) {
   std::vector<HalfSpace> sorted{half_spaces.begin(), half_spaces.end()};
   std::sort(sorted.begin(), sorted.end());
   for (const HalfSpace& half_space : sorted) {
@@ -140,12 +179,12 @@ void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const Half
     if (place == observed_.end() || !(place->half_space == half_space)) {
       place = observed_.insert(place, {half_space, 0.0, 0.0});
     }
-    place->far += likelihood.log_far();
-    place->slope += likelihood.concentration();
+    place->far += share * likelihood.log_far();
+    place->slope += share * likelihood.concentration();
   }
 }
 
-void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
+void ParticleBelief::move_in_product(std::size_t sweeps, double width, RandomStream& random) {
   detail::FallingDensity density;
   density.dimension = dimension_;
   for (const Direction& normal : prior_normals_)
@@ -156,7 +195,7 @@ void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
     density.far.push_back(one.far);
     density.slope.push_back(one.slope);
   }
-  detail::move_in_density(density, sweeps, points_, random);
+  detail::move_in_density(density, {.sweeps = sweeps, .width = width}, points_, random);
   num_still_ = 0;
 }
 
@@ -196,7 +235,8 @@ void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
 
 // The weights are not divided by their sum, which is `sum`, the largest of them is 1.
 void ParticleBelief::resample(double sum, RandomStream& random) {
-  const double angle = options_.process_noise > 0.0 && !keeps_product() ? kernel_angle(sum) : 0.0;
+  double angle = 0.0;
+  if (options_.process_noise > 0.0) angle = keeps_product() ? slice_width(sum) : kernel_angle(sum);
   detail::Scratch<std::uint32_t, detail::kUsualParticles + detail::kIndexRoom> index{size() + detail::kIndexRoom};
   detail::systematic_indices(weights_, uniform01(random), index.values());
   draw_and_move(index.values().first(size()), angle, random);
@@ -219,13 +259,24 @@ double ParticleBelief::kernel_angle(double sum) const {
   return options_.process_noise * std::sqrt(square) * std::pow(count, exponent);
 }
 
+// In proportion to the root mean square distance to the mean, from the length R of the mean: 2 (1 - R) = s^2 up to
+// s^4 / 12. The weights add up to `sum`.
+double ParticleBelief::slice_width(double sum) const {
+  constexpr double kCircle = 2.0 * std::numbers::pi;
+  const double effective = effective_size(sum, detail::sum_of_squares(weights_));
+  if (effective < kDegenerate * static_cast<double>(size())) return kCircle;
+  const double length = detail::weighted_sum(detail::AxisPoints{points_, dimension_}, weights_).norm() / sum;
+  const double spread = std::sqrt(std::max(0.0, 2.0 * (1.0 - length)));
+  return spread > 0.0 ? std::min(kCircle, kWidth * spread) : kCircle;
+}
+
 void ParticleBelief::draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random) {
   if (dimension_ != kSpace) {
     std::vector<double> drawn(points_.size());
     detail::gather(detail::AxisPoints{points_, dimension_}, index, drawn);
     points_ = std::move(drawn);
     if (keeps_product()) {
-      move_in_product(kSweeps, random);
+      move_in_product(kSweeps, angle, random);
     } else if (angle > 0.0) {
       move(angle, random);
     }
