@@ -22,8 +22,8 @@ using testing::Estimate;
 using testing::estimate_from;
 using testing::log_product;
 using testing::negative_last;
-using testing::Observation;
 using testing::observe_all;
+using testing::SimulatedObservation;
 using testing::some_likelihoods;
 
 constexpr std::size_t kMostUpdates = 50;
@@ -32,7 +32,7 @@ constexpr std::size_t kBins = 20;
 
 // What truth and particles are ranked by.
 constexpr std::size_t kQuantities = 4;
-std::array<double, kQuantities> quantities(const Direction& w, std::span<const Observation> observations) {
+std::array<double, kQuantities> quantities(const Direction& w, std::span<const SimulatedObservation> observations) {
   double sum = 0.0, alternating = 0.0;
   for (Eigen::Index k = 0; k < w.size(); ++k) {
     sum += w[k];

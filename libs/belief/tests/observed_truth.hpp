@@ -13,7 +13,7 @@
 namespace kith::testing {
 
 /// Half-spaces that are observed together.
-struct Observation {
+struct SimulatedObservation {
   std::vector<HalfSpace> half_spaces;
   HalfSpaceLikelihood likelihood;
 };
@@ -57,12 +57,12 @@ inline std::vector<HalfSpaceLikelihood> some_likelihoods(std::size_t d) {
 }
 
 /// `updates` observations of one or two half-spaces each.
-inline std::vector<Observation> draw_observations(const Direction& truth, std::size_t updates,
-                                                  std::span<const HalfSpaceLikelihood> likelihoods,
-                                                  RandomStream& random) {
-  std::vector<Observation> list;
+inline std::vector<SimulatedObservation> draw_observations(const Direction& truth, std::size_t updates,
+                                                           std::span<const HalfSpaceLikelihood> likelihoods,
+                                                           RandomStream& random) {
+  std::vector<SimulatedObservation> list;
   for (std::size_t t = 0; t < updates; ++t) {
-    Observation one{{}, likelihoods[uniform_index(likelihoods.size(), random)]};
+    SimulatedObservation one{{}, likelihoods[uniform_index(likelihoods.size(), random)]};
     const std::size_t n = 1 + uniform_index(2, random);
     for (std::size_t i = 0; i < n; ++i) one.half_spaces.push_back(draw_half_space(truth, one.likelihood, random));
     list.push_back(one);
@@ -70,13 +70,14 @@ inline std::vector<Observation> draw_observations(const Direction& truth, std::s
   return list;
 }
 
-inline void observe_all(ParticleBelief& belief, std::span<const Observation> observations, const RandomStream& random) {
+inline void observe_all(ParticleBelief& belief, std::span<const SimulatedObservation> observations,
+                        const RandomStream& random) {
   std::uint64_t time = 0;
   for (const auto& one : observations) belief.observe(one.half_spaces, one.likelihood, random.split(time++));
 }
 
 /// log of the product of the relative likelihoods at w.
-inline double log_product(std::span<const Observation> observations, const Direction& w) {
+inline double log_product(std::span<const SimulatedObservation> observations, const Direction& w) {
   double sum = 0.0;
   for (const auto& one : observations) {
     for (const HalfSpace& h : one.half_spaces) sum += one.likelihood.log_relative(h.margin(w));
@@ -101,7 +102,7 @@ inline Estimate estimate_from(std::span<const double> values) {
 /// The posterior mass of each region by a Metropolis chain on the part of the sphere where the last weight is negative:
 /// steps of three sizes, uniform in direction. The chain starts at the truth, which is a draw from the posterior.
 /// Standard errors from 50 batches.
-inline std::vector<Estimate> chain_masses(const Direction& truth, std::span<const Observation> observations,
+inline std::vector<Estimate> chain_masses(const Direction& truth, std::span<const SimulatedObservation> observations,
                                           std::span<const std::vector<HalfSpace>> regions, std::size_t steps,
                                           RandomStream random) {
   constexpr std::size_t kBatches = 50;
