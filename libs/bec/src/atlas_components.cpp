@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMostInOrder = 3;  // features up to which components follow from them alone
 constexpr std::size_t kPeople = 32;      // in proportion to whom regret is saved
+constexpr std::size_t kFewPeople = 6;    // who know a candidate: no more are too few to tell what it saves
 constexpr double kLeastShare = 0.02;     // of the regret before any lesson, for a lesson of its own
 
 }  // namespace
@@ -89,10 +90,13 @@ std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeCo
   Regions regions{atlas_.constraints_};
   auto taught = atlas_.prior_;
   std::optional<double> at_first;
-  while (!candidates.empty() && chosen.size() <= atlas_.domain_.num_features()) {
-    const auto cone = Cone::intersection(atlas_.constraints_.half_spaces(taught));
+  const auto people_within = [&](const ConstraintSet& set, std::size_t n) -> Eigen::MatrixXd {
+    const auto cone = Cone::intersection(atlas_.constraints_.half_spaces(set));
     KITH_ASSERT(cone.has_value());  // the robot's weights satisfy everything that is taught
-    const Eigen::MatrixXd people = ConeSampler{*cone}.cover(kPeople);
+    return ConeSampler{*cone}.cover(n);
+  };
+  while (!candidates.empty() && chosen.size() <= atlas_.domain_.num_features()) {
+    const Eigen::MatrixXd people = people_within(taught, kPeople);
     std::vector<double> lost;
     for (Eigen::Index i = 0; i < people.cols(); ++i) lost.push_back(regret.of(people.col(i)));
     const double before = std::accumulate(lost.begin(), lost.end(), 0.0) / static_cast<double>(kPeople);
@@ -112,8 +116,12 @@ std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeCo
         sum += knows ? lost[p] : 0.0;
         inside += knows ? 1.0 : 0.0;
       }
-      // Where nobody knows it yet, they are taken to lose nothing when they do.
-      const double saved = before - (inside > 0.0 ? sum / inside : 0.0);
+      if (inside < static_cast<double>(kFewPeople)) {
+        const Eigen::MatrixXd others = people_within(after, kFewPeople);
+        for (Eigen::Index p = 0; p < others.cols(); ++p) sum += regret.of(others.col(p));
+        inside += static_cast<double>(others.cols());
+      }
+      const double saved = before - sum / inside;
       if (saved < kLeastShare * *at_first || saved / num_new <= most) continue;
       most = saved / num_new;
       best = i;

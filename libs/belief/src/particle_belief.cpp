@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "general_kernels.hpp"
@@ -34,8 +33,6 @@ constexpr double kLeastOfStage = 0.5;    // effective sample size that a stage l
 constexpr std::size_t kMostStages = 50;  // of one observation
 constexpr std::size_t kSweeps = 4;       // after a resampling
 constexpr std::size_t kMostStill = 4;    // observations without a move
-constexpr double kWidth = 4.0;           // of the bracket of a slice move, over the spread
-constexpr double kDegenerate = 0.1;      // effective sample size over M below which the spread says little
 
 // The axes of points in space.
 detail::MutablePoints in_space(std::vector<double>& points) {
@@ -134,7 +131,7 @@ void ParticleBelief::observe_in_product(std::span<const HalfSpace> half_spaces, 
   }
   if (++num_still_ < kMostStill) return;
   auto more = random.split("moves");
-  move_in_product(1, slice_width(1.0), more);
+  move_in_product(1, more);
 }
 
 // The largest share of the log factors, at most `most`, that leaves enough effective particles; by bisection.
@@ -184,7 +181,7 @@ void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const Half
   }
 }
 
-void ParticleBelief::move_in_product(std::size_t sweeps, double width, RandomStream& random) {
+void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
   detail::FallingDensity density;
   density.dimension = dimension_;
   for (const Direction& normal : prior_normals_)
@@ -195,7 +192,7 @@ void ParticleBelief::move_in_product(std::size_t sweeps, double width, RandomStr
     density.far.push_back(one.far);
     density.slope.push_back(one.slope);
   }
-  detail::move_in_density(density, {.sweeps = sweeps, .width = width}, points_, random);
+  detail::move_in_density(density, sweeps, points_, random);
   num_still_ = 0;
 }
 
@@ -235,8 +232,7 @@ void ParticleBelief::reweigh(std::span<double> factors, RandomStream random) {
 
 // The weights are not divided by their sum, which is `sum`, the largest of them is 1.
 void ParticleBelief::resample(double sum, RandomStream& random) {
-  double angle = 0.0;
-  if (options_.process_noise > 0.0) angle = keeps_product() ? slice_width(sum) : kernel_angle(sum);
+  const double angle = options_.process_noise > 0.0 && !keeps_product() ? kernel_angle(sum) : 0.0;
   detail::Scratch<std::uint32_t, detail::kUsualParticles + detail::kIndexRoom> index{size() + detail::kIndexRoom};
   detail::systematic_indices(weights_, uniform01(random), index.values());
   draw_and_move(index.values().first(size()), angle, random);
@@ -259,24 +255,13 @@ double ParticleBelief::kernel_angle(double sum) const {
   return options_.process_noise * std::sqrt(square) * std::pow(count, exponent);
 }
 
-// In proportion to the root mean square distance to the mean, from the length R of the mean: 2 (1 - R) = s^2 up to
-// s^4 / 12. The weights add up to `sum`.
-double ParticleBelief::slice_width(double sum) const {
-  constexpr double kCircle = 2.0 * std::numbers::pi;
-  const double effective = effective_size(sum, detail::sum_of_squares(weights_));
-  if (effective < kDegenerate * static_cast<double>(size())) return kCircle;
-  const double length = detail::weighted_sum(detail::AxisPoints{points_, dimension_}, weights_).norm() / sum;
-  const double spread = std::sqrt(std::max(0.0, 2.0 * (1.0 - length)));
-  return spread > 0.0 ? std::min(kCircle, kWidth * spread) : kCircle;
-}
-
 void ParticleBelief::draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random) {
   if (dimension_ != kSpace) {
     std::vector<double> drawn(points_.size());
     detail::gather(detail::AxisPoints{points_, dimension_}, index, drawn);
     points_ = std::move(drawn);
     if (keeps_product()) {
-      move_in_product(kSweeps, angle, random);
+      move_in_product(kSweeps, random);
     } else if (angle > 0.0) {
       move(angle, random);
     }

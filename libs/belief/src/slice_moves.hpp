@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -20,16 +19,9 @@ struct FallingDensity {
   std::vector<double> slope;    // shape [n]
 };
 
-struct SliceSteps {
-  std::size_t sweeps = 1;  // moves of every point
-  // Radians: the bracket of every second move. The others begin with the whole circle, since there may be several
-  // modes.
-  double width = 2.0 * std::numbers::pi;
-};
-
-// Moves every point in such a way that the density stays what it was: along a random great circle, by slice sampling
-// with shrinkage [habeck2023; neal2003]. Points outside the prior stay. `values` has shape [d, n], axis by axis.
-void move_in_density(const FallingDensity& density, const SliceSteps& steps, std::span<double> values,
-                     RandomStream& random);
+// Moves every point `sweeps` times in such a way that the density stays what it was: along random great circles, by
+// slice sampling with shrinkage [habeck2023; neal2003]. Points outside the prior stay. `values` has shape [d, n], axis
+// by axis.
+void move_in_density(const FallingDensity& density, std::size_t sweeps, std::span<double> values, RandomStream& random);
 
 }  // namespace kith::detail

@@ -251,6 +251,9 @@ class Paragraph {
       case MasteryRule::kPosterior:
         return "until the estimated probability that all members answer a random test correctly was " +
                shortest(options.probability);
+      case MasteryRule::kExam:
+        return "until every member was expected to predict the robot from at least " + shortest(options.share_right) +
+               " of the component's start states";
       case MasteryRule::kAllRight:
         break;
     }
@@ -307,6 +310,10 @@ class Paragraph {
     if (data_.has_costs) {
       say("Minutes assume " + shortest(spec_.pace.demonstration_s) + " s per demonstration, " +
           shortest(spec_.pace.test_s) + " s per test and " + shortest(spec_.pace.feedback_s) + " s for its feedback.");
+    }
+    if (spec_.estimates) {
+      say("Estimates of abilities and of mastery are posterior means over hypotheses about "
+          "each person, and are compared with what the simulated people really believed.");
     }
     if (spec_.forecast_sessions > 0) {
       say("Forecasts are distributions over " + counted(spec_.forecast_sessions, "imagined session") +

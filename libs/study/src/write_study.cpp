@@ -162,6 +162,7 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   stop.add("mastery", kMasteryWords[static_cast<std::size_t>(spec.teaching.mastery)]);
   stop.add_count("periods_per_component", spec.teaching.periods_per_component);
   stop.add("probability", spec.teaching.probability);
+  if (spec.teaching.mastery == MasteryRule::kExam) stop.add("share_right", spec.teaching.share_right);
   stop.add_count("min_periods", spec.teaching.min_periods);
   stop.add_count("max_periods", spec.teaching.max_periods);
   stop.add_count("consecutive_correct", spec.teaching.consecutive_correct);
@@ -176,6 +177,8 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   record.add("exam", kExamWords[static_cast<std::size_t>(spec.exam)]);
   record.add_count("exam_questions", spec.exam_questions);
   record.add_count("forecast", spec.forecast_sessions);
+  record.add("estimates", spec.estimates);
+  record.add("proficient_ability", spec.proficient_ability);
   root.add("record", record);
   if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});
   if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});

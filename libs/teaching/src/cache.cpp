@@ -29,6 +29,20 @@ const std::shared_ptr<const Exam>& TeachingCache::shared_exam() {
   return exam_;
 }
 
+const std::shared_ptr<const StartSample>& TeachingCache::starts_of(std::size_t component) {
+  starts_.resize(atlas_->knowledge_components().size());
+  auto& known = starts_.at(component);
+  if (!known) known = std::make_shared<const StartSample>(StartSample::spread_over_starts(*atlas_, component));
+  return known;
+}
+
+const std::shared_ptr<const StartSample>& TeachingCache::tests_of(std::size_t component) {
+  tests_.resize(atlas_->knowledge_components().size());
+  auto& known = tests_.at(component);
+  if (!known) known = std::make_shared<const StartSample>(StartSample::spread_over_facets(*atlas_, component));
+  return known;
+}
+
 const std::vector<Test>& TeachingCache::placement(const TeachingOptions& options) {
   const auto& filter = options.filter;
   const auto known = std::find_if(placements_.begin(), placements_.end(), [&](const Placement& one) {

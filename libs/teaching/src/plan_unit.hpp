@@ -20,7 +20,7 @@ struct ImaginedPeople {
                                             std::size_t n, RandomStream random);
 
 struct PlanOptions {
-  std::size_t max_demonstrations = 2;  // >= 1
+  std::size_t max_demonstrations = 2;  // >= 1, but 0 in parameters: Lookahead::plan_for() decides
   double min_gain = 0.0;               // of U, for every demonstration but the first
   std::size_t capacity = 0;            // different constraints of a lesson that members take in; 0: all
 };

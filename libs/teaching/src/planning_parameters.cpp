@@ -8,6 +8,9 @@ namespace kith {
 namespace {
 
 constexpr double kAbilityMax = 0.95;
+// U is a share of tests, which are spread over the constraints of a component: of more constraints each adds less.
+constexpr double kConstraintsOfGain = 4.0;
+constexpr std::size_t kFewestFeatures = 3;
 
 const std::array kParameters{
     Parameter{.name = "people",
@@ -26,9 +29,10 @@ const std::array kParameters{
               .description = "gain of ability by the time of the feedback that is expected of everybody",
               .max = 0.5},
     Parameter{.name = "demonstrations",
-              .default_value = std::int64_t{3},
-              .description = "demonstrations per lesson at most; teacher.max_demonstrations takes precedence",
-              .min = 1,
+              .default_value = std::int64_t{0},
+              .description =
+                  "demonstrations per lesson at most, 0: as many as the domain has features, at least three; "
+                  "teacher.max_demonstrations takes precedence",
               .max = 100},
     Parameter{.name = "capacity",
               .default_value = std::int64_t{0},
@@ -36,7 +40,8 @@ const std::array kParameters{
               .max = 1000},
     Parameter{.name = "min_gain",
               .default_value = 0.005,
-              .description = "a further demonstration is added to a lesson only if it raises U by more than this"},
+              .description = "a further demonstration is added to a lesson only if it raises U by more than this; in "
+                             "proportion less for a component with more than four constraints"},
 };
 
 }  // namespace
@@ -53,6 +58,12 @@ std::span<const Parameter> Lookahead::parameters() { return kParameters; }
 
 PlanOptions Lookahead::plan_for(const TeachingView& view) const {
   auto options = plan;
+  const auto& component = view.atlas.knowledge_components()[view.component];
+  const auto constraints = static_cast<double>(component.constraints.count());
+  options.min_gain *= kConstraintsOfGain / std::max(constraints, kConstraintsOfGain);
+  if (options.max_demonstrations == 0) {
+    options.max_demonstrations = std::max(view.atlas.domain().num_features(), kFewestFeatures);
+  }
   if (view.options.max_demonstrations > 0) options.max_demonstrations = view.options.max_demonstrations;
   return options;
 }

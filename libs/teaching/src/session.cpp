@@ -26,8 +26,8 @@ void require(bool holds, const std::string& rule) {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error{ErrorKind::kInvalidInput, message}; }
 
-TeamBelief::Options belief_options(const TeachingOptions& options, const StrategyChoice& choice,
-                                   std::size_t dimension) {
+TeamBelief::Options belief_options(const TeachingOptions& options, const StrategyChoice& choice, std::size_t dimension,
+                                   bool reads_members) {
   const auto needs = choice.kind.needs(choice.parameters);
   const auto is_needed = [&](const AggregationRule& rule) {
     return options.keep_rules || std::find(needs.rules.begin(), needs.rules.end(), rule.name) != needs.rules.end();
@@ -42,7 +42,7 @@ TeamBelief::Options belief_options(const TeachingOptions& options, const Strateg
           .likelihood = HalfSpaceLikelihood{std::min(options.assumed_ability, kSurest), options.likelihood, dimension},
           .response_noise = options.response_noise,
           .reduce_before_update = options.reduce_before_update,
-          .members = options.keep_members || needs.members,
+          .members = options.keep_members || needs.members || reads_members,
           .rules = std::move(rules)};
 }
 
@@ -108,7 +108,7 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
       persons_{std::move(persons)},
       teacher_{teacher},
       belief_{cache.cover(atlas_->prior_cone(), options_.filter.particles),
-              belief_options(options_, choice_, atlas_->domain().num_features()), persons_,
+              belief_options(options_, choice_, atlas_->domain().num_features(), reads_beliefs()), persons_,
               teacher.split("team belief")},
       right_in_a_row_(persons_.size(), 0),
       components_(atlas_->knowledge_components().size(), ComponentStatus::kOpen),
@@ -123,9 +123,13 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
   require(options_.periods_per_component >= 1, "periods_per_component must be at least 1");
   require(options_.min_periods >= 1, "min_periods must be at least 1");
   require(options_.probability > 0.0 && options_.probability < 1.0, "probability must be between 0 and 1");
+  require(options_.share_right > 0.0 && options_.share_right < 1.0, "share_right must be between 0 and 1");
   require(options_.duplicate_sets >= 1, "duplicate_sets must be at least 1");
   taught_before_ = cache.constraints().half_spaces(cache.regions().minimal(atlas_->prior()));
   taught_with_unit_ = taught_before_;
+  for (std::size_t k = 0; reads_beliefs() && k < components_.size(); ++k) {
+    starts_.push_back(options_.mastery == MasteryRule::kExam ? cache.starts_of(k) : cache.tests_of(k));
+  }
   make_bank(cache);
   if (options_.scaffold == Scaffold::kNone && !components_.empty()) {
     component_ = components_.size() - 1;
@@ -366,6 +370,7 @@ const Feedback& Session::close_tests() {
   update_with(belief_, counts,
               [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
   inform_bank(feedback, counts);
+  if (reads_beliefs()) judge_beliefs(feedback, counts);
   auto done = done_members(feedback, counts);
   const auto num_counted = static_cast<std::size_t>(std::count(counts.begin(), counts.end(), true));
   feedback.component_learned = is_enough(everybody) || done.size() == num_counted;

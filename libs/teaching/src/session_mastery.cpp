@@ -15,15 +15,17 @@ namespace {
 }  // namespace
 
 void Session::make_bank(TeachingCache& cache) {
-  const bool stops = options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior;
+  const bool stops = (options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior) &&
+                     atlas_->is_tabulated();
   if (stops) exam_ = cache.shared_exam();
   if (options_.hypotheses_about == HypothesesAbout::kKnownComponents) {
     options_.hypotheses = grid_of_known_components(atlas_->knowledge_components().size());
     if (options_.placement_tests > 0) placement_ = cache.placement(options_);
   }
+  if (options_.hypotheses_about == HypothesesAbout::kNothing) options_.hypotheses = one_hypothesis();
   if (!stops && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
   bank_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options_.filter, options_.likelihood,
-                options_.hypotheses, persons_, constraints_of_components(*atlas_));
+                options_.hypotheses, persons_, options_.response_noise, constraints_of_components(*atlas_));
 }
 
 void Session::take_placement(std::vector<std::vector<Answer>> answers) {
@@ -70,7 +72,47 @@ bool Session::is_enough(bool everybody_right) const {
   }
   const auto periods = periods_of_component();
   if (options_.mastery == MasteryRule::kFixed) return periods >= options_.periods_per_component;
-  return periods >= options_.min_periods && mastery_ >= options_.probability;
+  if (periods < options_.min_periods) return false;
+  if (options_.mastery == MasteryRule::kExam) return least_share_right_ >= options_.share_right;
+  return mastery_ >= options_.probability;
+}
+
+// Whether components are left by what the teacher believes about the members: by the exam, and, where behaviours are
+// not tabulated, by the posterior, because lessons stop showing what answers prove to be known, and beliefs of the bank
+// never learn of that.
+bool Session::reads_beliefs() const {
+  if (options_.mastery == MasteryRule::kExam) return true;
+  const bool stops = options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior;
+  return stops && !atlas_->is_tabulated();
+}
+
+// What the members present are expected to predict right after the feedback that they are about to get.
+void Session::judge_beliefs(const Feedback& feedback, const std::vector<bool>& present) {
+  TeamBelief after = belief_;
+  if (after.present() != present) after.set_present(present);
+  after.observe_feedback(feedback.half_spaces, lesson_.period);
+  const auto& sample = *starts_[lesson_.component];
+  std::vector<std::vector<double>> all(sample.size());  // per start the members' probabilities
+  std::vector<double> shares(num_members(), 0.0);
+  least_share_right_ = 1.0;
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (!present[i]) continue;
+    const auto right = sample.probabilities_right(after.member(i));
+    for (std::size_t s = 0; s < right.size(); ++s) {
+      shares[i] += sample.weight(s) * right[s];
+      all[s].push_back(right[s]);
+    }
+    least_share_right_ = std::min(least_share_right_, shares[i]);
+  }
+  right_alone_ = shares;
+  if (options_.mastery == MasteryRule::kExam) return;
+  mastery_ = 0.0;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    std::sort(all[s].begin(), all[s].end());  // so that seats do not matter
+    double together = sample.weight(s);
+    for (const double right : all[s]) together *= right;
+    mastery_ += together;
+  }
 }
 
 // The members present who are done with the component; nobody unless members are released.
@@ -84,7 +126,8 @@ std::vector<std::size_t> Session::done_members(const Feedback& feedback, const s
     if (options_.release == ReleaseRule::kPosterior) {
       std::vector<bool> alone(num_members(), false);
       alone[i] = true;
-      const double right = bank_->probability_of_mastery(*atlas_, *exam_, lesson_.component, alone);
+      const double right =
+          exam_ ? bank_->probability_of_mastery(*atlas_, *exam_, lesson_.component, alone) : right_alone_[i];
       is_done = right >= options_.probability;
     }
     if (is_done) done.push_back(i);

@@ -75,15 +75,8 @@ void UnitValue::grade_points(TeachingCache& cache, std::size_t component) {
     }
     return;
   }
-  const auto facets = constraints_->half_spaces(atlas.knowledge_components()[component].constraints);
-  for (std::size_t i = 0; i < worth_.size(); ++i) {
-    for (const auto& facet : facets) {
-      const auto normal = facet.unit();
-      double t = 0.0;
-      for (std::size_t k = 0; k < dimension_; ++k) t += normal[static_cast<Eigen::Index>(k)] * axes_[k][i];
-      worth_[i] += t >= 0.0 ? 1.0 / static_cast<double>(facets.size()) : 0.0;
-    }
-  }
+  std::vector<std::span<const double>> points(axes_.begin(), axes_.end());
+  worth_ = cache.tests_of(component)->share_right(points);
 }
 
 const UnitValue::Factors& UnitValue::factors(ConstraintIndex c) {

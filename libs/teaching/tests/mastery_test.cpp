@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 #include "item_delivery.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -59,6 +61,48 @@ TEST(Mastery, MinPeriodsHoldsBackThePosterior) {
       session_of_two(cache, "joint", {.mastery = MasteryRule::kPosterior, .probability = 0.01, .min_periods = 2});
   while (session.propose(cache)) session.submit(answers_to(session, true));
   EXPECT_EQ(session.periods(), 6u);
+}
+
+TEST(Mastery, ExamStopsOnceEverybodyIsExpectedToPredictEnoughStarts) {
+  const Atlas on_demand{load_domain("item-delivery"), BehaviourSource::kOnDemand};
+  for (const auto* atlas : {&item_delivery(), &on_demand}) {
+    TeachingCache cache{*atlas};
+    const auto taught = [&](double share_right, bool right) {
+      auto session = session_of_two(cache, "joint",
+                                    {.mastery = MasteryRule::kExam, .max_periods = 20, .share_right = share_right});
+      while (session.propose(cache)) {
+        session.submit(answers_to(session, right));
+        EXPECT_GT(session.least_share_right(), 0.0);
+        EXPECT_LE(session.least_share_right(), 1.0);
+        EXPECT_EQ(session.history().back().feedback.component_learned, session.least_share_right() >= share_right);
+      }
+      return session;
+    };
+    const auto lenient = taught(0.5, true), strict = taught(0.97, true);
+    EXPECT_LT(lenient.periods(), strict.periods());
+    EXPECT_EQ(lenient.status(), SessionStatus::kComplete);
+    EXPECT_GE(taught(0.5, false).periods(), lenient.periods());
+    auto again =
+        session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .max_periods = 20, .share_right = 0.97});
+    for (const auto& event : strict.events()) again.apply(event, cache);
+    EXPECT_EQ(again, strict);
+    EXPECT_EQ(again.least_share_right(), strict.least_share_right());
+  }
+}
+
+TEST(Mastery, MinPeriodsHoldsBackTheExam) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .share_right = 0.01, .min_periods = 2});
+  while (session.propose(cache)) session.submit(answers_to(session, true));
+  EXPECT_EQ(session.periods(), 6u);
+}
+
+TEST(Mastery, ExamNeedsAShareBetweenNothingAndEverything) {
+  TeachingCache cache{item_delivery()};
+  for (const double share : {0.0, 1.0, -0.5, 2.0}) {
+    EXPECT_THROW((session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .share_right = share})),
+                 std::invalid_argument);
+  }
 }
 
 // The first member is right at once, the second from the third period of a component on.

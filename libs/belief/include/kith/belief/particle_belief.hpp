@@ -132,8 +132,7 @@ class ParticleBelief {
   void remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, double share);
   [[nodiscard]] bool keeps_product() const noexcept;
   void lose_product();
-  [[nodiscard]] double slice_width(double sum) const;
-  void move_in_product(std::size_t sweeps, double width, RandomStream& random);
+  void move_in_product(std::size_t sweeps, RandomStream& random);
 
   // All observations of one half-space; see detail::FallingDensity.
   struct Observed {

@@ -14,6 +14,7 @@
 #include "kith/teaching/exam.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
+#include "kith/teaching/start_sample.hpp"
 
 namespace kith {
 
@@ -65,6 +66,11 @@ class TeachingCache {
   /// The same, for those that outlive this object.
   const std::shared_ptr<const Exam>& shared_exam();
 
+  /// The starts of a component by which a session may stop, and those by which units are judged where behaviours are
+  /// not tabulated; made when first asked for. The references stay valid as long as this object.
+  const std::shared_ptr<const StartSample>& starts_of(std::size_t component);
+  const std::shared_ptr<const StartSample>& tests_of(std::size_t component);
+
   /// The placement tests of sessions with these options; see placement_tests().
   const std::vector<Test>& placement(const TeachingOptions& options);
 
@@ -89,7 +95,9 @@ class TeachingCache {
     std::vector<Test> tests;
   };
   std::list<Placement> placements_;
-  std::list<PriorCover> covers_;  // few: one per prior and filter size of a study
+  std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
+  std::vector<std::shared_ptr<const StartSample>> tests_;   // per component
+  std::list<PriorCover> covers_;                            // few: one per prior and filter size of a study
 };
 
 }  // namespace kith

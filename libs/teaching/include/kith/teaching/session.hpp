@@ -146,6 +146,9 @@ class Session {
   /// MasteryRule::kPosterior: the probability that all members answer a random test of the last component right, when
   /// its tests were closed last; 0 before.
   [[nodiscard]] double probability_of_mastery() const noexcept { return mastery_; }
+  /// MasteryRule::kExam: the smallest share of the last component's starts that a member is expected to predict right
+  /// after the feedback, when its tests were closed last; 0 before.
+  [[nodiscard]] double least_share_right() const noexcept { return least_share_right_; }
   /// R_n at the end of the last learned component: minimal, with the prior; sorted.
   [[nodiscard]] const std::vector<HalfSpace>& taught_region() const noexcept { return taught_before_; }
 
@@ -171,6 +174,8 @@ class Session {
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
   void make_bank(TeachingCache& cache);
   void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
+  [[nodiscard]] bool reads_beliefs() const;
+  void judge_beliefs(const Feedback& feedback, const std::vector<bool>& present);
   [[nodiscard]] std::size_t periods_of_component() const;
   [[nodiscard]] bool is_enough(bool everybody_right) const;
   [[nodiscard]] std::vector<std::size_t> done_members(const Feedback& feedback, const std::vector<bool>& present);
@@ -189,6 +194,10 @@ class Session {
   std::vector<std::vector<Verdict>> placement_verdicts_;
   std::shared_ptr<const Exam> exam_;  // what MasteryRule::kPosterior judges by
   double mastery_ = 0.0;
+  // Per component what MasteryRule::kExam judges by, or kPosterior where there are no tables.
+  std::vector<std::shared_ptr<const StartSample>> starts_;
+  double least_share_right_ = 0.0;
+  std::vector<double> right_alone_;  // per member, of a random test: for ReleaseRule::kPosterior without tables
 
   SessionStatus status_ = SessionStatus::kRunning;
   SessionPhase phase_ = SessionPhase::kProposal;

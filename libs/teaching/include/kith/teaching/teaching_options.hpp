@@ -30,12 +30,15 @@ enum class MasteryRule {
   kFixed,      ///< After `periods_per_component` periods, whatever the answers.
   kPosterior,  ///< When the probability that all members answer a random test of the component right is at least
                ///< `probability`; see TeamBank.
+  kExam,       ///< When every member is expected to predict the robot right from at least `share_right` of the
+               ///< component's starts, under the teacher's belief about the member; see StartSample.
 };
 
 /// What the hypotheses of a LearnerBank differ in.
 enum class HypothesesAbout {
   kAbility,          ///< How well people learn: TeachingOptions::hypotheses.
   kKnownComponents,  ///< Which components they know beforehand: grid_of_known_components().
+  kNothing,          ///< Nothing: everybody is taken for a person of average ability, one_hypothesis().
 };
 
 /// Which members are done with a component before the team is. They have no part in its remaining periods and return
@@ -67,7 +70,8 @@ struct TeachingOptions {
   std::size_t consecutive_correct = 1;    ///< kAllRight: periods in a row that everybody must answer all right, >= 1
   std::size_t periods_per_component = 3;  ///< kFixed: >= 1
   double probability = 0.9;               ///< kPosterior: in (0, 1)
-  std::size_t min_periods = 1;            ///< kPosterior: periods of a component at least, >= 1
+  double share_right = 0.9;               ///< kExam: in (0, 1)
+  std::size_t min_periods = 1;            ///< kPosterior and kExam: periods of a component at least, >= 1
   ReleaseRule release = ReleaseRule::kNone;
   std::size_t duplicate_sets = 1;  ///< test sets per period, >= 1
 

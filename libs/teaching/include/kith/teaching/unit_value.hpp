@@ -23,8 +23,8 @@ namespace kith {
 /// which the feedback to the tests repeats, and f(x) what somebody with weights x gets out of the component: the share
 /// of its tests answered right (GradeTable::tests_right; the objective `right`), minus the regret on its starts
 /// (`regret`); for `worst-member` the smallest value of a member counts instead of the mean over the m members. Where
-/// behaviours are not tabulated, a test of a facet counts as answered right by the weights that satisfy the facet,
-/// and `regret` is taken for `right`.
+/// behaviours are not tabulated, tests are those of StartSample::spread_over_facets(), and `regret` is taken for
+/// `right`.
 ///
 /// Beliefs are represented by `points` systematic draws from each, the same for all units that are compared.
 /// The order of the members changes nothing: sums are taken in the order of their tie breaks.
