@@ -31,7 +31,10 @@ constexpr std::size_t kSpace = 3;  // the dimension with kernels of its own
 // Above three dimensions:
 constexpr double kLeastOfStage = 0.5;    // effective sample size that a stage leaves, over that of resampling
 constexpr std::size_t kMostStages = 50;  // of one observation
-constexpr std::size_t kSweeps = 4;       // after a resampling
+// After a resampling, points move until little is left of where they were.
+constexpr std::size_t kSweeps = 2;       // between two looks
+constexpr std::size_t kMostSweeps = 40;  // altogether
+constexpr double kForgotten = 0.3;       // correlation of where points were and are
 constexpr std::size_t kMostStill = 4;    // observations without a move
 
 // The axes of points in space.
@@ -53,6 +56,25 @@ class NormalsInSpace {
  private:
   detail::Scratch<Eigen::Vector3d, 16> normals_;
 };
+
+// Correlation of two lists of n unit vectors, axis by axis: (mean a_i . b_i - mean a . mean b) over the mean of both
+// variances, which are 1 - |mean|^2. 0 if nothing varies.
+double correlation(std::span<const double> a, std::span<const double> b, std::size_t d) {
+  const std::size_t count = a.size() / d;
+  const auto n = static_cast<double>(count);
+  double product = 0.0, of_means = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < d; ++k) {
+    double sum_a = 0.0, sum_b = 0.0;
+    for (std::size_t i = k * count; i < (k + 1) * count; ++i) {
+      sum_a += a[i];
+      sum_b += b[i];
+      product += a[i] * b[i];
+    }
+    of_means += sum_a * sum_b / (n * n);
+    square += 0.5 * (sum_a * sum_a + sum_b * sum_b) / (n * n);
+  }
+  return square < 1.0 ? (product / n - of_means) / (1.0 - square) : 0.0;
+}
 
 // Whether both sides are equally likely (ability 1/2): such evidence says nothing.
 bool is_constant(const HalfSpaceLikelihood& likelihood) {
@@ -131,7 +153,7 @@ void ParticleBelief::observe_in_product(std::span<const HalfSpace> half_spaces, 
   }
   if (++num_still_ < kMostStill) return;
   auto more = random.split("moves");
-  move_in_product(1, more);
+  move_in_product(false, more);
 }
 
 // The largest share of the log factors, at most `most`, that leaves enough effective particles; by bisection.
@@ -181,7 +203,8 @@ void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const Half
   }
 }
 
-void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
+// One sweep, or as many after a resampling as it takes to forget where points were.
+void ParticleBelief::move_in_product(bool is_resampled, RandomStream& random) {
   detail::FallingDensity density;
   density.dimension = dimension_;
   for (const Direction& normal : prior_normals_)
@@ -192,8 +215,16 @@ void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
     density.far.push_back(one.far);
     density.slope.push_back(one.slope);
   }
-  detail::move_in_density(density, sweeps, points_, random);
   num_still_ = 0;
+  if (!is_resampled) {
+    detail::move_in_density(density, 1, points_, random);
+    return;
+  }
+  const std::vector<double> start = points_;
+  for (std::size_t done = 0; done < kMostSweeps; done += kSweeps) {
+    detail::move_in_density(density, kSweeps, points_, random);
+    if (correlation(start, points_, dimension_) < kForgotten) return;
+  }
 }
 
 void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alternatives,
@@ -261,7 +292,7 @@ void ParticleBelief::draw_and_move(std::span<const std::uint32_t> index, double 
     detail::gather(detail::AxisPoints{points_, dimension_}, index, drawn);
     points_ = std::move(drawn);
     if (keeps_product()) {
-      move_in_product(kSweeps, random);
+      move_in_product(true, random);
     } else if (angle > 0.0) {
       move(angle, random);
     }

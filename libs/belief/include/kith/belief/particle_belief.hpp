@@ -39,8 +39,9 @@ struct FilterOptions {
 /// sampler [delmoral2006]. An observation that would leave too few effective particles is taken in by stages
 /// (tempering): each raises the share of it that counts by as much as leaves an effective sample size of resample_below
 /// M / 2, then the points are resampled and move. Points move by slice sampling along random great circles
-/// [habeck2023], which leaves the product as it is: four times after each resampling, and once after four observations
-/// without a move.
+/// [habeck2023], which leaves the product as it is: after each resampling in rounds of two moves until the correlation
+/// of the points with where they began is below 0.3 (at most 40 moves), and once after four observations without a
+/// move.
 class ParticleBelief {
  public:
   /// Uniform over the prior: exactly M points of a regular cover, weights 1/M.
@@ -132,7 +133,7 @@ class ParticleBelief {
   void remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, double share);
   [[nodiscard]] bool keeps_product() const noexcept;
   void lose_product();
-  void move_in_product(std::size_t sweeps, RandomStream& random);
+  void move_in_product(bool is_resampled, RandomStream& random);
 
   // All observations of one half-space; see detail::FallingDensity.
   struct Observed {
