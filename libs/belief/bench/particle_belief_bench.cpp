@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../tests/observed_truth.hpp"
 #include "kith/belief/consistency.hpp"
 #include "kith/belief/team_belief.hpp"
 #include "kith/random/distributions.hpp"
@@ -193,6 +194,27 @@ void BM_MakeACover(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(PriorCover{prior(), 1000});
 }
 BENCHMARK(BM_MakeACover);
+
+// What does an update of 1 000 particles cost in d dimensions? A belief takes in 50 observations of one or two
+// half-spaces, one after the other; s_per_update is the mean.
+void BM_UpdateInDimensions(benchmark::State& state) {
+  const auto d = static_cast<std::size_t>(state.range(0));
+  constexpr std::size_t kUpdates = 50;
+  RandomStream random{5};
+  const auto likelihoods = testing::some_likelihoods(d);
+  const Direction truth = testing::draw_truth(d, random);
+  const auto observations = testing::draw_observations(truth, kUpdates, likelihoods, random);
+  const ParticleBelief start{testing::negative_last(d), {}};
+  std::uint64_t n = 0;
+  for (auto _ : state) {
+    ParticleBelief belief = start;
+    testing::observe_all(belief, observations, random.split(n++));
+    benchmark::DoNotOptimize(belief.weights().data());
+  }
+  state.counters["s_per_update"] = benchmark::Counter(
+      static_cast<double>(kUpdates), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(BM_UpdateInDimensions)->Arg(4)->Arg(6)->Arg(8)->Unit(benchmark::kMillisecond);
 
 // How long does it take to reconcile 30 members with 4 random half-spaces each?
 void BM_ReconcileThirtyMembers(benchmark::State& state) {

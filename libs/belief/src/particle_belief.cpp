@@ -28,11 +28,14 @@ FilterOptions checked(const FilterOptions& options) {
 }
 
 constexpr std::size_t kSpace = 3;  // the dimension with kernels of its own
-// Observing what hardly any point satisfies, the points may be too few where the belief now is.
-constexpr double kSurprise = 0.05;
-constexpr std::size_t kSweepsInSurprise = 3;
-constexpr std::size_t kSweeps = 2;     // after a resampling
-constexpr std::size_t kMostStill = 4;  // observations without a move
+// Above three dimensions:
+constexpr double kLeastOfStage = 0.5;    // effective sample size that a stage leaves, over that of resampling
+constexpr std::size_t kMostStages = 50;  // of one observation
+// After a resampling, points move until little is left of where they were.
+constexpr std::size_t kSweeps = 2;       // between two looks
+constexpr std::size_t kMostSweeps = 40;  // altogether
+constexpr double kForgotten = 0.3;       // correlation of where points were and are
+constexpr std::size_t kMostStill = 4;    // observations without a move
 
 // The axes of points in space.
 detail::MutablePoints in_space(std::vector<double>& points) {
@@ -53,6 +56,25 @@ class NormalsInSpace {
  private:
   detail::Scratch<Eigen::Vector3d, 16> normals_;
 };
+
+// Correlation of two lists of n unit vectors, axis by axis: (mean a_i . b_i - mean a . mean b) over the mean of both
+// variances, which are 1 - |mean|^2. 0 if nothing varies.
+double correlation(std::span<const double> a, std::span<const double> b, std::size_t d) {
+  const std::size_t count = a.size() / d;
+  const auto n = static_cast<double>(count);
+  double product = 0.0, of_means = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < d; ++k) {
+    double sum_a = 0.0, sum_b = 0.0;
+    for (std::size_t i = k * count; i < (k + 1) * count; ++i) {
+      sum_a += a[i];
+      sum_b += b[i];
+      product += a[i] * b[i];
+    }
+    of_means += sum_a * sum_b / (n * n);
+    square += 0.5 * (sum_a * sum_a + sum_b * sum_b) / (n * n);
+  }
+  return square < 1.0 ? (product / n - of_means) / (1.0 - square) : 0.0;
+}
 
 // Whether both sides are equally likely (ability 1/2): such evidence says nothing.
 bool is_constant(const HalfSpaceLikelihood& likelihood) {
@@ -104,20 +126,55 @@ void ParticleBelief::observe(std::span<const HalfSpace> half_spaces, const HalfS
     reweigh(factors.values(), random);
     return;
   }
-  const bool is_surprised = mass_in(half_spaces) < kSurprise;
+  observe_in_product(half_spaces, likelihood, factors.values(), random);
+}
+
+// Tempering: the observation is taken in by stages, each of which raises the share that counts by as much as leaves
+// enough effective particles; they are resampled and moved before the next [delmoral2006].
+void ParticleBelief::observe_in_product(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
+                                        std::span<double> factors, const RandomStream& random) {
   const auto before = observed_;
-  remember(half_spaces, likelihood);
-  try {
-    reweigh(factors.values(), random);
-  } catch (...) {
-    observed_ = before;
-    throw;
+  double done = 0.0;
+  for (std::size_t stage = 0; done < 1.0; ++stage) {
+    if (stage > 0) weigh(half_spaces, likelihood, factors);
+    const double rest = 1.0 - done;
+    const double share = likelihood.is_hard() || stage + 1 == kMostStages ? rest : affordable_share(factors, rest);
+    done = share < rest ? done + share : 1.0;
+    if (share < 1.0) {
+      for (double& factor : factors) factor *= share;
+    }
+    remember(half_spaces, likelihood, share);
+    try {
+      reweigh(factors, stage == 0 ? random : random.split(stage));
+    } catch (...) {
+      observed_ = before;
+      throw;
+    }
   }
-  ++num_still_;
-  if (is_surprised || num_still_ >= kMostStill) {
-    auto more = random.split("moves");
-    move_in_product(is_surprised ? kSweepsInSurprise : 1, more);
+  if (++num_still_ < kMostStill) return;
+  auto more = random.split("moves");
+  move_in_product(false, more);
+}
+
+// The largest share of the log factors, at most `most`, that leaves enough effective particles; by bisection.
+double ParticleBelief::affordable_share(std::span<const double> factors, double most) const {
+  const double least = kLeastOfStage * options_.resample_below * static_cast<double>(size());
+  detail::ParticleScratch<double> scratch{size()};
+  const std::span<double> values = scratch.values();
+  const auto leaves_enough = [&](double share) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = share * factors[i];
+    const double top = detail::add(log_weights_, values);
+    const double sum = detail::exp_below(values, top, values);
+    return effective_size(sum, detail::sum_of_squares(values)) >= least;
+  };
+  if (leaves_enough(most)) return most;
+  double low = 0.0, high = most;
+  constexpr int kHalvings = 12;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (leaves_enough(middle) ? low : high) = middle;
   }
+  return low > 0.0 ? low : high;
 }
 
 bool ParticleBelief::keeps_product() const noexcept {
@@ -131,7 +188,8 @@ void ParticleBelief::lose_product() {
   observed_.clear();
 }
 
-void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) {
+void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
+                              double share) {
   std::vector<HalfSpace> sorted{half_spaces.begin(), half_spaces.end()};
   std::sort(sorted.begin(), sorted.end());
   for (const HalfSpace& half_space : sorted) {
@@ -140,12 +198,13 @@ void ParticleBelief::remember(std::span<const HalfSpace> half_spaces, const Half
     if (place == observed_.end() || !(place->half_space == half_space)) {
       place = observed_.insert(place, {half_space, 0.0, 0.0});
     }
-    place->far += likelihood.log_far();
-    place->slope += likelihood.concentration();
+    place->far += share * likelihood.log_far();
+    place->slope += share * likelihood.concentration();
   }
 }
 
-void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
+// One sweep, or as many after a resampling as it takes to forget where points were.
+void ParticleBelief::move_in_product(bool is_resampled, RandomStream& random) {
   detail::FallingDensity density;
   density.dimension = dimension_;
   for (const Direction& normal : prior_normals_)
@@ -156,8 +215,16 @@ void ParticleBelief::move_in_product(std::size_t sweeps, RandomStream& random) {
     density.far.push_back(one.far);
     density.slope.push_back(one.slope);
   }
-  detail::move_in_density(density, sweeps, points_, random);
   num_still_ = 0;
+  if (!is_resampled) {
+    detail::move_in_density(density, 1, points_, random);
+    return;
+  }
+  const std::vector<double> start = points_;
+  for (std::size_t done = 0; done < kMostSweeps; done += kSweeps) {
+    detail::move_in_density(density, kSweeps, points_, random);
+    if (correlation(start, points_, dimension_) < kForgotten) return;
+  }
 }
 
 void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alternatives,
@@ -225,7 +292,7 @@ void ParticleBelief::draw_and_move(std::span<const std::uint32_t> index, double 
     detail::gather(detail::AxisPoints{points_, dimension_}, index, drawn);
     points_ = std::move(drawn);
     if (keeps_product()) {
-      move_in_product(kSweeps, random);
+      move_in_product(true, random);
     } else if (angle > 0.0) {
       move(angle, random);
     }

@@ -19,8 +19,9 @@ struct FallingDensity {
   std::vector<double> slope;    // shape [n]
 };
 
-// Moves every point `sweeps` times in such a way that the density stays what it was: along a random great circle, by
-// slice sampling with shrinkage [habeck2023]. Points outside the prior stay. `values` has shape [d, n], axis by axis.
+// Moves every point `sweeps` times in such a way that the density stays what it was: along random great circles, by
+// slice sampling with shrinkage [habeck2023; neal2003]. Points outside the prior stay. `values` has shape [d, n], axis
+// by axis.
 void move_in_density(const FallingDensity& density, std::size_t sweeps, std::span<double> values, RandomStream& random);
 
 }  // namespace kith::detail

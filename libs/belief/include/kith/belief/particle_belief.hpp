@@ -35,9 +35,13 @@ struct FilterOptions {
 /// prior is drawn again, at most 20 times, else the point stays.
 ///
 /// Above three dimensions such moves would lose regions that M points cannot keep. As long as the belief is a product
-/// of likelihoods (nothing but observe() happened) and process_noise > 0, points move instead by slice sampling along
-/// random great circles [habeck2023], which leaves the product as it is: twice after each resampling, three times when
-/// less than 5 % of the mass satisfied what was just observed, and once after four observations without a move.
+/// of likelihoods (nothing but observe() happened) and process_noise > 0, it is updated as a sequential Monte Carlo
+/// sampler [delmoral2006]. An observation that would leave too few effective particles is taken in by stages
+/// (tempering): each raises the share of it that counts by as much as leaves an effective sample size of resample_below
+/// M / 2, then the points are resampled and move. Points move by slice sampling along random great circles
+/// [habeck2023], which leaves the product as it is: after each resampling in rounds of two moves until the correlation
+/// of the points with where they began is below 0.3 (at most 40 moves), and once after four observations without a
+/// move.
 class ParticleBelief {
  public:
   /// Uniform over the prior: exactly M points of a regular cover, weights 1/M.
@@ -123,10 +127,13 @@ class ParticleBelief {
   [[nodiscard]] double kernel_angle(double sum) const;
   void draw_and_move(std::span<const std::uint32_t> index, double angle, RandomStream& random);
   void move(double angle, RandomStream& random);
-  void remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood);
+  void observe_in_product(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
+                          std::span<double> factors, const RandomStream& random);
+  [[nodiscard]] double affordable_share(std::span<const double> factors, double most) const;
+  void remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, double share);
   [[nodiscard]] bool keeps_product() const noexcept;
   void lose_product();
-  void move_in_product(std::size_t sweeps, RandomStream& random);
+  void move_in_product(bool is_resampled, RandomStream& random);
 
   // All observations of one half-space; see detail::FallingDensity.
   struct Observed {
