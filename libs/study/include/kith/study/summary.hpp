@@ -21,6 +21,7 @@ struct ExamSummary {
   MeanSd share_right;
   MeanSd regret;
   MeanSd worst_share_right;
+  std::optional<MeanSd> regret_before;  ///< Before the first lesson, of ExamLevel::kPeriod.
 };
 
 /// What the teams of one cell, or of several pooled, came to.
