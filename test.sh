@@ -66,13 +66,18 @@ if [[ $mode != --nightly ]]; then
   exit
 fi
 
-# The night: what most likely fails first, what takes long last, nothing twice.
-parts=''
+# The night: what most likely fails first, what takes long last, nothing twice. A part that fails does not keep the
+# others from running, except that tests are not run where their build failed.
+parts='' failed=0
 part() {  # NAME COMMAND...
-  local name=$1 start=$SECONDS
+  local name=$1 start=$SECONDS outcome=''
   shift
-  "$@"
-  parts+=$(printf '%6d min %02d s  %s' $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) "$name")$'\n'
+  if ! ("$@"); then
+    outcome=' FAILED'
+    failed=$((failed + 1))
+  fi
+  parts+=$(printf '%6d min %02d s  %s' $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) "$name$outcome")$'\n'
+  [[ -z $outcome ]]
 }
 slow_tests() {
   say
@@ -91,18 +96,18 @@ layers=("${layers[@]#libs/}")
 layers=("${layers[@]%/tests}")
 all_tests=("${layers[@]/#/kith_}")
 
-part "release: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_BUILD_BENCHMARKS=ON -- all
-part "release: tests" run_tests release
+if part "release: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_BUILD_BENCHMARKS=ON -- all; then
+  part "release: tests" run_tests release
+fi
 part "headers alone" configure_and_build release -- all_verify_interface_header_sets
-part "ASan: build" configure_and_build asan -- "${all_tests[@]/%/_tests}"
-part "ASan: tests" run_tests asan
+part "ASan: build" configure_and_build asan -- "${all_tests[@]/%/_tests}" && part "ASan: tests" run_tests asan
 part "TSan: build" configure_and_build tsan -- kith_core_tests kith_teaching_tests kith_study_tests kith_runs_tests \
-  kith_server_tests
-part "TSan: tests" run_tests tsan
-part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers
-part "fuzzing" fuzz
+  kith_server_tests && part "TSan: tests" run_tests tsan
+part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers && part "fuzzing" fuzz
 part "slow tests" slow_tests
 part "clang-tidy" configure_and_build tidy -- all
 say
-say "All passed:"
+say "The night:"
 printf '%s' "$parts" >&2
+((failed == 0)) || die "parts that failed: $failed"
+say "All passed"

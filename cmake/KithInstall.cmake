@@ -19,7 +19,8 @@ configure_package_config_file(
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLibqrencode.cmake DESTINATION ${package_dir} COMPONENT development)
+  ${PROJECT_SOURCE_DIR}/cmake/FindLibcsv.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLibqrencode.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindLibyaml.cmake DESTINATION ${package_dir} COMPONENT development)
 
 if(TARGET kith)
   install(TARGETS kith COMPONENT program)
@@ -37,7 +38,8 @@ if(TARGET kith)
   install(FILES ${manual}/kith.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/domains ${PROJECT_SOURCE_DIR}/studies
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/kith COMPONENT program FILES_MATCHING PATTERN "*.toml")
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/kith COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv"
+  PATTERN "*.pgm" PATTERN "*.yaml")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
@@ -54,5 +56,5 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kith)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libkith-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev, libqrencode-dev")
+  "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libcsv-dev, libssl-dev, libsqlite3-dev, libqrencode-dev, libyaml-dev")
 include(CPack)

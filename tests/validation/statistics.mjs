@@ -14,6 +14,35 @@ export const errorOfMean = (values) => sd(values) / Math.sqrt(values.length);
 // Standard error of a standard deviation of normal values.
 export const errorOfSd = (deviation, n) => deviation / Math.sqrt(2 * (n - 1));
 
+// Pearson's correlation, with its standard error if both are normal.
+export function correlation(x, y) {
+  const [centerX, centerY] = [mean(x), mean(y)];
+  const product = sum(x.map((one, i) => (one - centerX) * (y[i] - centerY)));
+  const value = product / ((x.length - 1) * sd(x) * sd(y));
+  return { value, se: (1 - value ** 2) / Math.sqrt(x.length - 1) };
+}
+
+export const share = (hits, n) => ({ value: hits / n, se: Math.sqrt(((hits / n) * (1 - hits / n)) / n) });
+
+// The area under the receiver operating characteristic curve: how probably one of `positive` is larger than one of
+// `negative`; with Hanley and McNeil's standard error.
+export function areaUnderCurve(negative, positive) {
+  const sorted = [...negative].sort((a, b) => a - b);
+  const below = (value, orEqual) => {
+    let [low, high] = [0, sorted.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (orEqual ? sorted[middle] <= value : sorted[middle] < value) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  };
+  const value = mean(positive.map((one) => (below(one, false) + below(one, true)) / 2)) / negative.length;
+  const [q1, q2] = [value / (2 - value), (2 * value ** 2) / (1 + value)];
+  const spread = value * (1 - value) + (positive.length - 1) * (q1 - value ** 2) + (negative.length - 1) * (q2 - value ** 2);
+  return { value, se: Math.sqrt(spread / (positive.length * negative.length)) };
+}
+
 export function groupBy(rows, key) {
   const groups = new Map();
   for (const row of rows) {

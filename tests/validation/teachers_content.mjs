@@ -1,7 +1,7 @@
 // The tables and claims of docs/teachers.md.
 import { study } from './runs.mjs';
-import { errorOfMean, groupBy, mean } from './statistics.mjs';
-import { withError } from './format.mjs';
+import { areaUnderCurve, correlation, errorOfMean, groupBy, mean, share } from './statistics.mjs';
+import { figure, withError } from './format.mjs';
 
 const TEACHERS = 'studies/teachers.toml';
 const MIXED = 'studies/teachers-mixed.toml';
@@ -10,6 +10,7 @@ const RIVALS = ['joint', 'plan', 'set-cover', 'highlights', 'random'];
 const DOMAINS = ['item-delivery', 'colored-tiles', 'skateboard'];
 const only = (...strategies) => `design.strategies=${JSON.stringify(strategies)}`;
 const FEW = 'replicates=50';
+const HUNDRED = 'replicates=100';
 const TWO_DEMONSTRATIONS = 'teacher.max_demonstrations=2';
 const PAPER_STOP = 'stop.mastery="all-right"';
 const TAKE_IN_TWO = ['learner.N.capacity=2', 'learner.P.capacity=2'];
@@ -18,6 +19,12 @@ const PLAN_FOR_TWO = ['strategy.plan.capacity=2', 'strategy.adaptive.capacity=2'
 const PLANNERS = ['plan', 'adaptive', 'oracle'];
 
 const AT_ONCE = 'teacher.scaffold="none"';
+// With what the teacher can tell after every period, beside the truth.
+const ESTIMATES = ['record.level="period"', 'record.estimates=true'];
+// A teacher that plans for one average person and sees no answers, as in the prototype that this work began with.
+const BLIND = ['strategy.adaptive.answers=0', 'teacher.hypotheses="average"'];
+const EQUALLY_MANY = [TWO_DEMONSTRATIONS, ...PLANNERS.map((one) => `strategy.${one}.min_gain=0`)];
+const FORECAST = ['joint', 'pick', 'plan'];
 const POSTERIOR = (probability) => ['stop.mastery="posterior"', `stop.probability=${probability}`];
 const KNOWN = [
   FEW, AT_ONCE, 'stop.periods_per_component=4', 'teacher.max_demonstrations=1', 'teacher.hypotheses="known-components"',
@@ -42,18 +49,26 @@ export const COMMANDS = {
   'stop of the paper, two demonstrations': study(TEACHERS, only('plan'), PAPER_STOP, TWO_DEMONSTRATIONS),
   'mixed abilities': study(MIXED),
   'mixed abilities, bank alone': study(MIXED, only('adaptive'), 'strategy.adaptive.answers=0'),
-  ...Object.fromEntries([3, 4, 5].map((n) => [`fixed ${n}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, `stop.periods_per_component=${n}`)])),
-  ...Object.fromEntries([0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...POSTERIOR(p))])),
-  known: study(TEACHERS, only('joint', ...PLANNERS), ...KNOWN),
+  'mixed abilities, equally many items': study(MIXED, HUNDRED, only(...PLANNERS), ...EQUALLY_MANY),
+  'mixed abilities, equally many items, blind': study(MIXED, HUNDRED, only('adaptive'), ...EQUALLY_MANY, ...BLIND),
+  'mixed abilities, equally many items, bank alone': study(MIXED, HUNDRED, only('adaptive'), ...EQUALLY_MANY, 'strategy.adaptive.answers=0'),
+  abilities: study(TEACHERS, HUNDRED, only('joint'), ...ESTIMATES),
+  'abilities, mixed': study(MIXED, HUNDRED, only('joint'), 'design.compositions=["LLH"]', ...ESTIMATES),
+  ...Object.fromEntries([3, 4, 5].map((n) => [`fixed ${n}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...ESTIMATES, `stop.periods_per_component=${n}`)])),
+  ...Object.fromEntries([0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...ESTIMATES, ...POSTERIOR(p))])),
+  known: study(TEACHERS, only('joint', ...PLANNERS), ...KNOWN, ...ESTIMATES),
+  'known, blind': study(TEACHERS, only('adaptive'), ...KNOWN.filter((one) => !one.startsWith('teacher.hypotheses')), ...BLIND),
+  'known, bank alone': study(TEACHERS, only('adaptive'), ...KNOWN, 'strategy.adaptive.answers=0'),
   'known, placement tests': study(TEACHERS, only('adaptive'), ...KNOWN, 'teacher.placement_tests=4'),
   ...Object.fromEntries(
     Object.entries(CREWS).flatMap(([crew, file]) =>
       Object.entries(SESSIONS).map(([label, settings]) => [
         `${crew} ${label.replaceAll('`', '')}`,
-        study(file, 'replicates=100', only('joint'), `design.compositions=["${crew}"]`, AT_ONCE, ...POSTERIOR(0.9), ...settings),
+        study(file, HUNDRED, only('joint'), `design.compositions=["${crew}"]`, AT_ONCE, ...POSTERIOR(0.9), ...settings),
       ]),
     ),
   ),
+  forecasts: study(TEACHERS, 'replicates=20', only(...FORECAST), 'design.compositions=["NNN","NPP"]', PAPER_STOP, 'record.level="period"', 'record.forecast=60'),
   ...Object.fromEntries(DOMAINS.map((domain) => [`rivals, ${domain}`, study(TEACHERS, FEW, only(...RIVALS), `domain="${domain}"`)])),
   ...Object.fromEntries(
     DOMAINS.map((domain) => [
@@ -117,6 +132,51 @@ export function makeContent(runs) {
     ),
   });
 
+  // Rows about people: {type, ability, ability_mean, ...} after a period.
+  const people = (run, period) => runs.table(run, 'estimates').filter((row) => row.kc === '' && row.period === period);
+  const abilities = (run, period, [low, high]) => {
+    const rows = people(run, period);
+    const of = (type) => rows.filter((row) => row.type === type).map((row) => row.ability_mean);
+    const told = rows.filter((row) => row.proficiency !== 'cannot tell yet');
+    const correctly = told.filter((row) => (row.proficiency === 'proficient') === row.ability >= 0.735);
+    return {
+      correlation: correlation(rows.map((row) => row.ability), rows.map((row) => row.ability_mean)),
+      area: areaUnderCurve(of(low), of(high)),
+      covered: share(rows.filter((row) => row.ability_low <= row.ability && row.ability <= row.ability_high).length, rows.length),
+      told: share(told.length, rows.length),
+      correctly: share(correctly.length, told.length),
+    };
+  };
+  // Probabilities of mastery after the last period of each team: predicted, true, and how many teams did not finish.
+  const mastery = (run) => {
+    const last = [...groupBy(runs.table(run, 'periods'), (row) => row.team).values()].map((rows) => rows.at(-1));
+    const meanOf = (values) => ({ value: mean(values), se: errorOfMean(values) });
+    const teams = runs.table(run, 'teams');
+    return {
+      predicted: meanOf(last.map((row) => row.p_mastery)),
+      actual: meanOf(last.map((row) => row.mastery)),
+      stalled: share(teams.filter((team) => team.status !== 'complete').length, teams.length),
+    };
+  };
+  const masteryRules = [...[3, 4, 5].map((n) => `fixed ${n}`), ...[0.8, 0.9, 0.95].map((p) => `posterior ${p}`)];
+  // Forecasts of being done within three more periods, {forecast, done}.
+  const forecasts = () => {
+    const teams = new Map(runs.table('forecasts', 'teams').map((team) => [team.team, team]));
+    return runs
+      .table('forecasts', 'periods')
+      .filter((row) => row.period < teams.get(row.team).periods)
+      .map((row) => {
+        const team = teams.get(row.team);
+        return { forecast: row.forecast_done_3, done: team.status === 'complete' && team.periods - row.period <= 3 ? 1 : 0 };
+      });
+  };
+  const sureForecasts = () => forecasts().filter(({ forecast }) => forecast >= 0.9);
+  const lowForecasts = () => forecasts().filter(({ forecast }) => forecast < 0.1);
+  // What the teacher says about who knew a component. Who did begins with 0.43 to 0.54 of the belief in its constraints, others
+  // with at most 0.12.
+  const knowers = (period) =>
+    runs.table('known', 'estimates').filter((row) => row.strategy === 'adaptive' && row.kc !== '' && row.p_knew !== '' && row.period === period);
+
   const tables = {
     commands: () => runs.commandTable(),
 
@@ -147,14 +207,60 @@ export function makeContent(runs) {
       ]),
     }),
 
-    posterior: () =>
-      table('rule', ['periods', 'regret', 'p_BEC'], [
-        ...[3, 4, 5].map((n) => [`fixed ${n}`, `fixed ${n}`, 'joint']),
-        ...[0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, `posterior ${p}`, 'joint']),
+    'mixed-equal': () => ({
+      columns: ['strategy', ...['LLH', 'LLLHHH'].flatMap((composition) => [`${composition}: regret`, `${composition}: p_BEC`, 'items'])],
+      rows: [
+        ['one average person, no answers', 'mixed abilities, equally many items, blind', 'adaptive'],
+        ['the bank alone', 'mixed abilities, equally many items, bank alone', 'adaptive'],
+        ...named('mixed abilities, equally many items', PLANNERS),
+      ].map(([label, run, strategy]) => [
+        label,
+        ...['LLH', 'LLLHHH'].flatMap((composition) => ['regret', 'p_BEC', 'items'].map((measure) => cell(run, strategy, measure, composition))),
       ]),
+    }),
+
+    abilities: () => ({
+      columns: ['people', 'after periods', 'correlation', 'AUC', '80 % intervals cover', 'told', 'of these, correctly'],
+      rows: [
+        ...[3, 6, 9].map((period) => ['N and P', period, abilities('abilities', period, 'NP')]),
+        ['L and H', 9, abilities('abilities, mixed', 9, 'LH')],
+      ].map(([who, period, one]) => [
+        who,
+        String(period),
+        ...[one.correlation, one.area, one.covered, one.told, one.correctly].map((value) => withError(value, 2)),
+      ]),
+    }),
+
+    posterior: () => ({
+      columns: ['rule', 'periods', 'regret', 'p_BEC', 'predicted mastery', 'true mastery'],
+      rows: masteryRules.map((rule) => [
+        rule,
+        ...['periods', 'regret', 'p_BEC'].map((measure) => cell(rule, 'joint', measure)),
+        withError(mastery(rule).predicted, 3),
+        withError(mastery(rule).actual, 3),
+      ]),
+    }),
+
+    forecasts: () => ({
+      columns: ['strategy', 'composition', 'forecast periods', 'central 80 %', 'periods', 'teams within'],
+      rows: FORECAST.flatMap((strategy) =>
+        ['NNN', 'NPP'].map((composition) => {
+          const teams = teamsOf('forecasts', strategy, composition);
+          const { forecast_periods: forecast, forecast_periods_low: low, forecast_periods_high: high } = teams[0];
+          const within = teams.filter((team) => team.periods >= low && team.periods <= high).length;
+          const periods = teams.map((team) => team.periods);
+          return [
+            `\`${strategy}\``, composition, forecast.toFixed(2), `${low} to ${high}`,
+            withError({ value: mean(periods), se: errorOfMean(periods) }, 2), withError(share(within, teams.length), 2),
+          ];
+        }),
+      ),
+    }),
 
     known: () =>
       table('strategy', ['regret', 'p_BEC'], [
+        ['one average person, no answers', 'known, blind', 'adaptive'],
+        ['the bank alone', 'known, bank alone', 'adaptive'],
         ...named('known', ['joint', ...PLANNERS]),
         ['`adaptive` with four placement tests', 'known, placement tests', 'adaptive'],
       ]),
@@ -216,12 +322,38 @@ export function makeContent(runs) {
         const ratio = value('mixed abilities', 'adaptive', 'regret', composition) / value('mixed abilities', 'plan', 'regret', composition);
         return ratio < 1 && ratio > 0.9;
       }),
+    'answers-lower-regret': () =>
+      ['LLH', 'LLLHHH'].every((one) => {
+        const run = 'mixed abilities, equally many items';
+        const blind = value(`${run}, blind`, 'adaptive', 'regret', one);
+        return value(`${run}, bank alone`, 'adaptive', 'regret', one) < 0.75 * blind && value(run, 'adaptive', 'regret', one) < 0.6 * blind;
+      }),
+    'little-is-left': () =>
+      ['LLH', 'LLLHHH'].every((one) => {
+        const ratio = (strategy) =>
+          value('mixed abilities, equally many items', strategy, 'regret', one) / value('mixed abilities, equally many items', 'plan', 'regret', one);
+        return ratio('oracle') > 0.9 && ratio('oracle') < 1 && ratio('adaptive') > 0.9 && ratio('adaptive') < 1;
+      }),
     'adapting-costs-nothing': () =>
       value('lessons', 'adaptive', 'p_BEC') > value('lessons', 'plan', 'p_BEC') - 0.005 &&
       ['LLH', 'LLLHHH'].every((one) => value('mixed abilities', 'adaptive', 'p_BEC', one) > value('mixed abilities', 'plan', 'p_BEC', one) - 0.005),
     'knowing-pays-a-little': () => {
       const gain = (strategy) => value('known', strategy, 'p_BEC') - value('known', 'plan', 'p_BEC');
       return gain('adaptive') > 0 && gain('adaptive') < 0.05 && gain('oracle') < 0.05 && value('known', 'adaptive', 'regret') < 0.9 * value('known', 'plan', 'regret');
+    },
+    'abilities-are-found': () => {
+      const { correlation: r, area, covered } = abilities('abilities', 9, 'NP');
+      return r.value >= 0.5 && area.value >= 0.75 && covered.value >= 0.75 && covered.value <= 0.88;
+    },
+    'mastery-is-calibrated': () =>
+      [0.8, 0.9, 0.95].every((p) => {
+        const one = mastery(`posterior ${p}`);
+        return Math.abs(one.predicted.value - one.actual.value) <= 0.05 && one.stalled.value <= 0.01;
+      }),
+    'little-to-gain-by-knowing': () => {
+      const gain = (strategy) => value('known', strategy, 'p_BEC') - value('known, blind', 'adaptive', 'p_BEC');
+      const less = (strategy) => value('known', strategy, 'regret') < value('known, blind', 'adaptive', 'regret');
+      return ['adaptive', 'oracle'].every((one) => gain(one) > 0 && gain(one) < 0.05 && less(one)) && gain('plan') < 0 && !less('plan');
     },
     'placement-adds-nothing': () => Math.abs(value('known, placement tests', 'adaptive', 'p_BEC') - value('known', 'adaptive', 'p_BEC')) < 0.01,
     'releasing-costs-knowledge': () =>
@@ -254,5 +386,22 @@ export function makeContent(runs) {
     'capacity-planned-for': () => value('capacity 2, planned for', 'plan', 'p_BEC') > value('capacity 2', 'joint', 'p_BEC') + 0.1,
     'planning-for-little-is-safe': () => value('planned for capacity 2 in vain', 'plan', 'p_BEC') > value('lessons', 'joint', 'p_BEC') && value('planned for capacity 2 in vain', 'plan', 'regret') < value('lessons', 'joint', 'regret'),
   };
-  return { tables, figures: {}, claims };
+  const doneShare = (rows) => share(rows.reduce((sum, row) => sum + row.done, 0), rows.length);
+  const forecastMean = (rows) => mean(rows.map((row) => row.forecast));
+  const knewArea = (period) => {
+    const rows = knowers(period);
+    const of = (holds) => rows.filter((row) => holds(row.knew)).map((row) => row.p_knew);
+    return areaUnderCurve(of((mass) => mass < 0.3), of((mass) => mass > 0.3));
+  };
+  const figures = {
+    'sure-forecasts': () => String(sureForecasts().length),
+    'sure-forecast-mean': () => forecastMean(sureForecasts()).toFixed(3),
+    'sure-forecast-share': () => figure(doneShare(sureForecasts()), 3),
+    'low-forecasts': () => String(lowForecasts().length),
+    'low-forecast-mean': () => forecastMean(lowForecasts()).toFixed(3),
+    'low-forecast-share': () => figure(doneShare(lowForecasts()), 3),
+    'knew-first': () => figure(knewArea(1), 2),
+    'knew-last': () => figure(knewArea(4), 2),
+  };
+  return { tables, figures, claims };
 }

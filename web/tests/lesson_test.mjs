@@ -84,7 +84,7 @@ describe('a lesson', () => {
             mkdirSync(values.screenshots, { recursive: true });
             await page.screenshot({ path: join(values.screenshots, `${name}-${width}-closed.png`), fullPage: true });
           }
-          await page.evaluate(() => document.querySelectorAll('.test details, .why').forEach((box) => (box.open = true)));
+          await page.evaluate(() => document.querySelectorAll('.test details, .why, .watch').forEach((box) => (box.open = true)));
           await page.waitForSelector('.test .answer');
           await page.waitForSelector('.why .reason');
           if (values.screenshots) {
@@ -206,6 +206,11 @@ describe('a lesson', () => {
   it('lists states and actions where there is no map', async () => {
     await withLesson('mapless', { width: 1280, dark: false }, async (page) => {
       assert.equal(await page.locator('.board').count(), 0);
+      const example = page.locator('.demonstration').first();
+      assert.match(await example.textContent(), /This world: weekday\..*The robot starts here: dock\./s);
+      assert.equal(await page.locator('.steps').count(), 0, 'listed before the reader has decided');
+      await example.getByText('Show what the robot does').click();
+      await page.waitForSelector('.steps');
       await page.click('.why summary');
       assert.match(await page.textContent('.steps .parting'), /dock: wait.*here they separate/);
     });
@@ -214,6 +219,9 @@ describe('a lesson', () => {
   it('shows several runs where chance has a part, and the most likely path only with the reason', async () => {
     await withLesson('uncertain', { width: 1280, dark: false }, async (page) => {
       const shown = page.locator('.demonstration').first();
+      assert.equal(await shown.locator('.runs').count(), 0, 'run before the reader has decided');
+      await shown.getByText('Show what the robot does').click();
+      await page.waitForSelector('.runs');
       assert.match(await shown.textContent(), /What will the robot do\?.*2 runs of the robot, just as they happened/s);
       assert.doesNotMatch(await shown.textContent(), /most likely path/i);
       assert.match(await shown.locator('.runs').textContent(), /Run 1 of 2.*the end.*the most common path in 1\./s);

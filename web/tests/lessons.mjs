@@ -72,7 +72,7 @@ export function mapless() {
   const frames = (...steps) => steps.map(([state, action]) => ({ state, action: action ?? null }));
   const own = frames(['dock', 'wait'], ['dock, charged', 'leave'], ['hall', 'forward'], ['done']);
   const other = frames(['dock', 'leave'], ['hall, nearly empty', 'forward'], ['done']);
-  const board = { world: 0, start: { state: 'dock' }, frames: own };
+  const board = { world: 0, world_name: 'weekday', start: { state: 'dock' }, frames: own };
   return {
     schema: 'kith.curriculum/1',
     title: 'A model without a map',

@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/question.hpp"
+#include "kith/explain/runs.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/present/board_json.hpp"
 #include "kith/present/legend.hpp"
@@ -33,16 +34,33 @@ Json reply_json(const Atlas& atlas, const Reply& reply) {
           {"question", reply.question}, {"answer", reply.text},      {"examples", examples}};
 }
 
+// The actions, and how likely the path is where chance has a part.
+std::string path_text(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  const auto chance = chance_in_words(domain, world, path);
+  return actions_text(domain, path.actions) + (chance.empty() ? "" : " (" + chance + ")");
+}
+
+// What happens in several runs; nothing where chance has no part.
+std::string runs_text(const Atlas& atlas, DemoIndex demo) {
+  constexpr std::size_t kRuns = 10;
+  if (atlas.domain().is_exact()) return "";
+  auto random = RandomStream{1}.split("runs").split(demo.value());
+  const auto runs = several_runs(atlas, demo, kRuns, random);
+  return runs.empty() ? "" : runs_in_words(atlas.domain(), atlas.id(demo).mdp, runs);
+}
+
 std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& console) {
   const auto& domain = atlas.domain();
   std::string text = console.dim(reply.question) + "\n" + wrapped(reply.text, kTextWidth) + "\n";
   for (const auto& example : reply.examples) {
     text += "\n" + wrapped(example.text, kTextWidth) + "\n" +
             start_and_path(domain, atlas.id(example.demo), example.path, 2);
-    if (example.alternative) {
-      text += "  the robot: " + actions_text(domain, example.path.actions) + "\n";
-      text += "  otherwise: " + actions_text(domain, example.alternative->actions) + "\n";
-    }
+    const auto world = atlas.id(example.demo).mdp;
+    const auto add = [&](const std::string& line) { text += "  " + wrapped(line, kTextWidth - 2, "  ") + "\n"; };
+    const auto runs = runs_text(atlas, example.demo);
+    if (example.alternative || !runs.empty()) add("the robot: " + path_text(domain, world, example.path));
+    if (!runs.empty()) add(runs);
+    if (example.alternative) add("otherwise: " + path_text(domain, world, *example.alternative));
   }
   return text + "\n" + legend(domain, 0);
 }

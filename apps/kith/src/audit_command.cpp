@@ -14,7 +14,6 @@
 #include "kith/core/parallel.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/files/atomic_file.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/files/generation.hpp"
 #include "kith/hosting/event_file.hpp"
@@ -27,6 +26,7 @@
 #include "kith/runs/team_codec.hpp"
 #include "kith/study/observed_team.hpp"
 #include "option_values.hpp"
+#include "page.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {
@@ -346,21 +346,9 @@ class AuditText {
   std::string out_;
 };
 
-void write_audit_page(const std::string& out, const std::string& page, Console& console) {
-  if (out == "-") {
-    if (console.json()) throw Error{ErrorKind::kUsage, "--json and '-o -' would both write to standard output"};
-    console.print(page);
-    return;
-  }
-  write_file_atomically(out, page);
-  constexpr double kKilobyte = 1e3;
-  console.info(fmt::format("audit in {} ({:.0f} kB); open it in a browser (no network needed)", out,
-                           static_cast<double>(page.size()) / kKilobyte));
-}
-
 int show(const Atlas& atlas, const AuditReport& report, const AuditCommandOptions& options, Console& console) {
   constexpr std::size_t kFew = 30;  // people; of more, the text has the summary only
-  if (!options.out.empty()) write_audit_page(options.out, audit_page(atlas, report, program_name()), console);
+  if (!options.out.empty()) write_page("audit", audit_page(atlas, report, program_name()), options.out, console);
   if (console.json()) {
     console.print_json(audit_json(atlas, report, program_name()));
   } else if (options.out.empty()) {

@@ -9,7 +9,6 @@
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/files/atomic_file.hpp"
 #include "kith/present/curriculum_json.hpp"
 #include "kith/present/legend.hpp"
 #include "kith/present/picture.hpp"
@@ -117,19 +116,6 @@ class CurriculumText {
   std::string out_;
 };
 
-void write_page(const std::string& out, const Json& document, Console& console) {
-  const auto page = page_with(document.dump(-1, ' ', true), detail::kLessonPage);
-  if (out == "-") {
-    if (console.json()) throw Error{ErrorKind::kUsage, "--json and '-o -' would both write to standard output"};
-    console.print(page);
-    return;
-  }
-  write_file_atomically(out, page);
-  constexpr double kKilobyte = 1e3;
-  console.info(fmt::format("lesson in {} ({:.0f} kB); open it in a browser (no network needed)", out,
-                           static_cast<double>(page.size()) / kKilobyte));
-}
-
 }  // namespace
 
 int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
@@ -145,7 +131,8 @@ int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
     return 0;
   }
   const auto document = curriculum_json(atlas, curriculum, options.seed, program_name());
-  if (!options.out.empty()) write_page(options.out, document, console);
+  if (!options.out.empty())
+    write_page("lesson", page_with(document.dump(-1, ' ', true), detail::kLessonPage), options.out, console);
   if (console.json()) console.print_json(document);
   return 0;
 }

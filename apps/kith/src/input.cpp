@@ -53,7 +53,7 @@ InputText read_input(const std::string& file) {
 
 InputText read_named(const std::string& name_or_file) {
   for (const auto& domain : built_in_domains()) {
-    if (domain.name == name_or_file) return {name_or_file, std::string{domain.text}, {}};
+    if (domain.name == name_or_file) return {name_or_file, std::string{domain.text}, {}, domain.files};
   }
   for (const auto& study : built_in_studies()) {
     if (study.name == name_or_file) return {name_or_file, std::string{study.text}, {}};

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "kith/domains/domain.hpp"
+#include "kith/domains/domain_file.hpp"
 #include "kith/study/study_file.hpp"
 
 namespace kith::cli {
@@ -12,7 +12,8 @@ namespace kith::cli {
 struct InputText {
   std::string name;  ///< For messages.
   std::string text;
-  std::filesystem::path folder;  ///< Where files that it names are looked for.
+  std::filesystem::path folder;        ///< Where files that it names are looked for.
+  std::vector<DomainFile> files = {};  ///< Those that come with kith.
 };
 
 /// The file's text, or that of standard input for "-". At most a little more than

@@ -1,5 +1,7 @@
 #include "page.hpp"
 
+#include <fmt/format.h>
+
 #include "kith/core/error.hpp"
 #include "kith/report/report.hpp"
 
@@ -11,6 +13,19 @@ std::string page_with(const std::string& document, std::string_view page) {
                 "install Node.js and npm and build it again, or use --json"};
   }
   return render_report(document, page);
+}
+
+void write_page(std::string_view what, const std::string& page, const std::string& out, Console& console,
+                OldLink link) {
+  if (out == "-") {
+    if (console.json()) throw Error{ErrorKind::kUsage, "--json and '-o -' would both write to standard output"};
+    console.print(page);
+    return;
+  }
+  write_file_atomically(out, page, FolderSync::kNow, link);
+  constexpr double kKilobyte = 1e3;
+  console.info(fmt::format("{} in {} ({:.0f} kB); open it in a browser (no network needed)", what, out,
+                           static_cast<double>(page.size()) / kKilobyte));
 }
 
 }  // namespace kith::cli

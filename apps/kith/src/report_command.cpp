@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 
 #include "commands.hpp"
-#include "kith/files/atomic_file.hpp"
 #include "kith/report/report.hpp"
 #include "page.hpp"
 #include "report_page.hpp"
@@ -42,17 +40,11 @@ int run_report(const ReportCommandOptions& options, Console& console) {
     return 0;
   }
   const auto page = page_with(document, detail::kReportPage);
-  if (options.out == "-") {
-    console.print(page);
-    return 0;
+  if (!options.out.empty()) {
+    write_page("report", page, options.out, console);
+  } else {  // a link in the folder was not named by anybody
+    write_page("report", page, options.folder + "/report.html", console, OldLink::kReplace);
   }
-  const bool is_ours = options.out.empty();  // a link that lies in the folder was not named by anybody
-  const auto file =
-      is_ours ? std::filesystem::path{options.folder} / "report.html" : std::filesystem::path{options.out};
-  write_file_atomically(file, page, FolderSync::kNow, is_ours ? OldLink::kReplace : OldLink::kFollow);
-  constexpr double kMegabyte = 1e6;
-  console.info(fmt::format("report in {} ({:.1f} MB); open it in a browser, it needs no network", file.string(),
-                           static_cast<double>(page.size()) / kMegabyte));
   return 0;
 }
 

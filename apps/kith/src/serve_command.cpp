@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -123,6 +124,8 @@ LiveServiceOptions service_options(const ServeOptions& options, const SessionStu
   service.teaching_workers = default_num_workers();
   service.joins_per_minute = options.join_limit;
   service.max_rooms = std::max(service.max_rooms, options.rooms + options.rehearse);
+  // In a rehearsal of a given length new groups follow those that finish.
+  if (options.rehearse > 0) service.max_rooms = std::numeric_limits<std::size_t>::max() / 2;
   return service;
 }
 

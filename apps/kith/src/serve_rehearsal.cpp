@@ -139,7 +139,8 @@ RehearsalOptions rehearsal_options(const ServeOptions& options, std::shared_ptr<
   rehearsal.duration = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.for_seconds)};
   rehearsal.answer_every = std::chrono::milliseconds{static_cast<std::int64_t>(1000.0 * options.answer_every)};
   rehearsal.reconnects = options.reconnects;
-  // Groups that learn are done after a minute or two; a load that is to last needs people who do not.
+  // Groups that learn are done after a minute or two. New ones follow them, but most of the time would be spent
+  // joining.
   if (options.for_seconds > 0.0) rehearsal.right = 0.0;
   rehearsal.right_path = [study = std::move(study)](const std::string& world, int start) {
     return robots_path(*study, world, start);

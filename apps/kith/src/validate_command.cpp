@@ -23,7 +23,7 @@ struct Verdict {
 };
 
 Verdict check_domain(const InputText& input) {
-  const auto reading = parse_domain(input.text, input.name, {}, {.folder = input.folder});
+  const auto reading = parse_domain(input.text, input.name, {}, {.folder = input.folder, .known = input.files});
   Verdict verdict{"domain", "", "", reading.diagnostics};
   if (reading.domain) {
     verdict.id = reading.domain->id();

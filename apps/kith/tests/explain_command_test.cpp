@@ -186,8 +186,9 @@ TEST(FindCommand, MakesAWorldWhereThereIsNoneAndWritesItAsADomain) {
 TEST(FindCommand, WorksWhereNobodyKnowsWhatPeopleExpect) {
   const auto rescue = run_kith({"find", "rescue-floor", "(0,0,-1,0,-1)"});
   EXPECT_EQ(rescue.code, 0) << rescue.err;
-  EXPECT_THAT(rescue.out, AllOf(HasSubstr("teaches exactly this: (0,0,-1,0,-1): a stair and a step cost something\n"),
-                                HasSubstr(": a stair and a step cost something\n  #")));
+  EXPECT_THAT(rescue.out,
+              AllOf(HasSubstr("teaches exactly this: (0,0,-1,0,-1): a stair and a step together cost something\n"),
+                    HasSubstr(": a stair and a step together cost\nsomething\n  #")));
   const auto test = run_kith({"find", "navigation", "(0,-1,0,0,0,0,-2)", "--test", "--json"});
   ASSERT_EQ(test.code, 0) << test.err;
   const auto document = Json::parse(test.out);

@@ -375,12 +375,26 @@ Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, st
   for (std::size_t m = 0; m < worlds_.size(); ++m) {
     if (component.uses_mdp[m]) by_mdp[m] = behaviours_of(cells, MdpIndex{m});
   }
-  std::vector<SetIndex> distinct;
+  // Classes that follow each other mostly start in the same MDP, and many convey the same.
+  std::vector<SetIndex> distinct, own, last;
+  std::size_t last_mdp = worlds_.size();
+  SetIndex last_set = kNoSet;
   for (DemoClassIndex c{0}; c.value() < by_class.size(); ++c) {
     if (!atlas_->belongs_to(c, component)) continue;
     const DemoIndex demo = atlas_->members(c).front();
-    by_class[c.value()] = conveyed_by(demo, by_mdp[atlas_->id(demo).mdp.value()]);
-    distinct.push_back(by_class[c.value()]);
+    const std::size_t m = atlas_->id(demo).mdp.value();
+    const auto place = static_cast<std::size_t>(partitions_->place(demo));
+    own.clear();
+    for (const auto behaviour : by_mdp[m]) {
+      own.push_back(worlds_[m].behaviours[static_cast<std::size_t>(behaviour)].sets[place]);
+    }
+    if (m != last_mdp || own != last) {
+      last = own;
+      last_mdp = m;
+      last_set = union_of(own);
+      distinct.push_back(last_set);
+    }
+    by_class[c.value()] = last_set;
   }
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
@@ -401,12 +415,17 @@ Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, st
                    "teach from some starts only: [family] starts = 1000");
   }
   rows_.assign(by_class.size() * words, 0);
+  std::vector<std::uint64_t> row_of(distinct.size() * words, 0);  // of each set
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    for (const std::uint32_t constraint : *sets_[distinct[i]]) {
+      const std::size_t bit = bit_of_[constraint];
+      row_of[i * words + bit / kBits] |= std::uint64_t{1} << (bit % kBits);
+    }
+  }
   for (std::size_t c = 0; c < by_class.size(); ++c) {
     if (by_class[c] == kNoSet) continue;
-    for (const std::uint32_t constraint : *sets_[by_class[c]]) {
-      const std::size_t bit = bit_of_[constraint];
-      rows_[c * words + bit / kBits] |= std::uint64_t{1} << (bit % kBits);
-    }
+    const auto place = std::lower_bound(distinct.begin(), distinct.end(), by_class[c]) - distinct.begin();
+    std::copy_n(&row_of[static_cast<std::size_t>(place) * words], words, &rows_[c * words]);
   }
   return {words, rows_, numbering_};
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "behaviour_source.hpp"
+#include "kith/bec/behaviours.hpp"
 #include "kith/core/memory.hpp"
 
 namespace kith {
@@ -40,12 +41,21 @@ std::uint64_t teaching_memory(const Domain& domain) {
   return domain.num_starts() * (kBytesPerStart + largest / kPairsPerByte);
 }
 
+std::uint64_t partition_memory(const Domain& domain) {
+  if (is_cheap_to_tabulate(domain)) return 0;
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    if (is_exact(domain.mdp(m))) return PolicyPartitions::kDefaultBytes;
+  }
+  return 0;
+}
+
 void require_planning_memory(const Domain& domain) {
   require_memory(planning_memory(domain), what("planning", domain), kHint);
 }
 
 void require_teaching_memory(const Domain& domain, std::size_t threads) {
-  require_memory(planning_memory(domain) + threads * teaching_memory(domain), what("teaching", domain), kHint);
+  require_memory(planning_memory(domain) + threads * (teaching_memory(domain) + partition_memory(domain)),
+                 what("teaching", domain), kHint);
 }
 
 }  // namespace kith

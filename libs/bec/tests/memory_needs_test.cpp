@@ -53,6 +53,15 @@ TEST(MemoryNeeds, OfTablesAreThoseOfPlanning) {
   EXPECT_GT(planning_memory(item_delivery().domain()), 0u);
 }
 
+TEST(MemoryNeeds, IncludeThePartitionsOfEveryThread) {
+  const auto domain = open_map(50);
+  EXPECT_EQ(partition_memory(domain), PolicyPartitions::kDefaultBytes);
+  EXPECT_EQ(partition_memory(item_delivery().domain()), 0u);
+  ASSERT_LT(planning_memory(domain) + 2 * teaching_memory(domain), 50'000'000u);
+  const MemoryLimit limit{"100M"};
+  EXPECT_THAT(memory_refusal([&] { require_teaching_memory(domain, 2); }), HasSubstr("teaching the 2499 states"));
+}
+
 TEST(MemoryNeeds, AreCheckedBeforePlanning) {
   const auto domain = open_map(100);
   const MemoryLimit little{"1M"};

@@ -1,117 +1,355 @@
 #include "slice_moves.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
+#include "kith/core/assert.hpp"
 #include "kith/core/integer_vector.hpp"
-#include "kith/random/distributions.hpp"
+#include "kith/core/vector_clones.hpp"
+#include "kith/random/batch_normal.hpp"
 
 namespace kith::detail {
 namespace {
 
-constexpr int kMostShrinkages = 100;
-constexpr double kOutside = -std::numeric_limits<double>::infinity();
+constexpr std::size_t kMost = IntegerVector::kMaxDimension;
+constexpr std::size_t kMostShrinkages = 100;
+constexpr float kOutside = -std::numeric_limits<float>::infinity();
+constexpr double kShortest = 1e-12;  // square of the length of a tangent that has a direction
+// Margins from the prior's boundary that single precision cannot tell from 0.
+constexpr float kUnsure = 4e-6f;
 
-using Vector = std::array<double, IntegerVector::kMaxDimension>;
+// Points that are moved side by side. Angles and densities are in single precision, which decides between moves that
+// are equally good; the points stay in double precision (decision 15).
+constexpr std::size_t kLanes = 32;
+constexpr std::size_t kBlock = NormalPairs::kBlock;  // points that share blocks of random numbers
+using Floats = std::array<float, kLanes>;
+using Doubles = std::array<double, kLanes>;
+template <typename Values>
+using Axes = std::array<Values, kMost>;
 
-// One great circle: x(angle) = point cos(angle) + side sin(angle).
-class Circle {
- public:
-  explicit Circle(const FallingDensity& density)
-      : density_{density}, prior_(density.prior.size() / density.dimension), falls_(density.far.size()) {}
+// Half-spaces in single precision, and where great circles lie in them: x(angle) = point cos(angle) + side sin(angle).
+struct Falls {
+  std::vector<float> normals;       // row-major, shape [n, d]
+  std::vector<float> far, slope;    // shape [n]; of a prior none
+  std::vector<Floats> point, side;  // u . point and u . side, shape [n, kLanes]
 
-  void lay(const Vector& point, const Vector& side) {
-    const std::size_t d = density_.dimension;
-    const auto project = [&](const std::vector<double>& normals, std::vector<Along>& along) {
-      for (std::size_t j = 0; j < along.size(); ++j) {
-        along[j] = {};
-        for (std::size_t k = 0; k < d; ++k) {
-          along[j].point += normals[j * d + k] * point[k];
-          along[j].side += normals[j * d + k] * side[k];
-        }
+  explicit Falls(std::span<const double> unit_normals, std::size_t d)
+      : normals(unit_normals.begin(), unit_normals.end()), point(normals.size() / d), side(normals.size() / d) {}
+  [[nodiscard]] std::size_t size() const noexcept { return point.size(); }
+};
+
+struct Lanes {
+  Axes<Doubles> point, side;
+  Axes<Floats> rough_point, rough_side;
+  Floats cosine, sine;              // of the angle that is tried
+  Floats found_cosine, found_sine;  // of the angle that is taken
+  Floats low, high, angle;          // in turns
+  Floats density, level, margin;
+  std::array<std::int32_t, kLanes> is_open;
+};
+
+// Uniform unit vectors at right angles to the points from normals, `stride` of each axis.
+KITH_VECTOR_CLONES void aim(const float* normals, std::size_t stride, std::size_t d, Lanes& lanes) {
+  Doubles along{};
+  for (std::size_t k = 0; k < d; ++k) {
+    const float* const normal = normals + k * stride;
+    const double* const point = lanes.point[k].data();
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) along[i] += static_cast<double>(normal[i]) * point[i];
+  }
+  Doubles square{};
+  for (std::size_t k = 0; k < d; ++k) {
+    const float* const normal = normals + k * stride;
+    const double* const point = lanes.point[k].data();
+    double* const side = lanes.side[k].data();
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      side[i] = static_cast<double>(normal[i]) - along[i] * point[i];
+      square[i] += side[i] * side[i];
+    }
+  }
+  Doubles scale;
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double inverse = 1.0 / std::sqrt(square[i]);
+    scale[i] = square[i] > kShortest ? inverse : 0.0;
+    lanes.is_open[i] = square[i] > kShortest ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < d; ++k) {
+    const double* const point = lanes.point[k].data();
+    double* const side = lanes.side[k].data();
+    float* const rough_point = lanes.rough_point[k].data();
+    float* const rough_side = lanes.rough_side[k].data();
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      side[i] *= scale[i];
+      rough_point[i] = static_cast<float>(point[i]);
+      rough_side[i] = static_cast<float>(side[i]);
+    }
+  }
+}
+
+template <std::size_t d>
+[[gnu::always_inline]] inline void lay_in(Falls& falls, const Lanes& lanes) {
+  for (std::size_t j = 0; j < falls.size(); ++j) {
+    const float* const u = falls.normals.data() + j * d;
+    float* const point = falls.point[j].data();
+    float* const side = falls.side[j].data();
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      float p = 0.0f;
+      float s = 0.0f;
+      for (std::size_t k = 0; k < d; ++k) {
+        p += u[k] * lanes.rough_point[k][i];
+        s += u[k] * lanes.rough_side[k][i];
       }
-    };
-    project(density_.prior, prior_);
-    project(density_.normals, falls_);
+      point[i] = p;
+      side[i] = s;
+    }
+  }
+}
+
+KITH_VECTOR_CLONES void lay(Falls& falls, std::size_t d, const Lanes& lanes) {
+  switch (d) {
+    case 2:
+      return lay_in<2>(falls, lanes);
+    case 3:
+      return lay_in<3>(falls, lanes);
+    case 4:
+      return lay_in<4>(falls, lanes);
+    case 5:
+      return lay_in<5>(falls, lanes);
+    case 6:
+      return lay_in<6>(falls, lanes);
+    case 7:
+      return lay_in<7>(falls, lanes);
+    default:
+      return lay_in<8>(falls, lanes);
+  }
+}
+
+// The log densities at the angles, and the smallest margins over the prior's normals.
+KITH_VECTOR_CLONES void weigh(const Falls& prior, const Falls& falls, Lanes& lanes) {
+  Floats sum{};
+  Floats least;
+  least.fill(1.0f);
+  for (std::size_t j = 0; j < prior.size(); ++j) {
+    const float* const point = prior.point[j].data();
+    const float* const side = prior.side[j].data();
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const float t = point[i] * lanes.cosine[i] + side[i] * lanes.sine[i];
+      least[i] = t < least[i] ? t : least[i];
+    }
+  }
+  for (std::size_t j = 0; j < falls.size(); ++j) {
+    const float* const point = falls.point[j].data();
+    const float* const side = falls.side[j].data();
+    const float far = falls.far[j];
+    const float slope = falls.slope[j];
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const float t = point[i] * lanes.cosine[i] + side[i] * lanes.sine[i];
+      const float fall = far + slope * t;
+      sum[i] += t < 0.0f ? fall : 0.0f;
+    }
+  }
+  lanes.density = sum;
+  lanes.margin = least;
+}
+
+// Levels below the densities of the points, by exponential deviates from the radii of pairs of normals. What lies
+// outside the prior stays.
+KITH_VECTOR_CLONES void set_levels(const float* first, const float* second, Lanes& lanes) {
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const float level = lanes.density[i] - 0.5f * (first[i] * first[i] + second[i] * second[i]);
+    const std::int32_t may_move = level > kOutside && lanes.margin[i] > -kUnsure ? 1 : 0;
+    lanes.level[i] = level;
+    lanes.is_open[i] &= may_move;
+    lanes.found_cosine[i] = 1.0f;
+    lanes.found_sine[i] = 0.0f;
+  }
+}
+
+// cos and sin of angles in (-1, 1] turns: an angle a in [-pi/4, pi/4] about the nearest axis, by the Chebyshev
+// interpolants of cos a and sin a / a in a^2, errors 4e-8 and 4e-9 before rounding.
+KITH_VECTOR_CLONES void turn(Lanes& lanes) {
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const float quarters = 4.0f * lanes.angle[i];
+    const float half = quarters < 0.0f ? -0.5f : 0.5f;
+    const auto axis = static_cast<std::int32_t>(quarters + half);
+    const float a = (quarters - static_cast<float>(axis)) * (0.5f * std::numbers::pi_v<float>);
+    const float q = a * a;
+    float s = -0.00019503904f;
+    s = s * q + 0.0083320358f;
+    s = s * q - 0.16666651f;
+    s = a + a * q * s;
+    float c = -0.0013585779f;
+    c = c * q + 0.041655015f;
+    c = c * q - 0.49999857f;
+    c = c * q + 1.0f;
+    const float x = (axis & 1) != 0 ? s : c;
+    const float y = (axis & 1) != 0 ? c : s;
+    lanes.cosine[i] = ((axis + 1) & 2) != 0 ? -x : x;
+    lanes.sine[i] = (axis & 2) != 0 ? -y : y;
+  }
+}
+
+// A number in [0, 1) from its upper 24 bits.
+[[gnu::always_inline]] inline float uniform_of(std::uint32_t word) {
+  return static_cast<float>(static_cast<std::int32_t>(word >> 8u)) * 0x1.0p-24f;
+}
+
+KITH_VECTOR_CLONES void first_angles(const std::uint32_t* words, Lanes& lanes) {
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const float u = uniform_of(words[i]);
+    lanes.angle[i] = u;
+    lanes.high[i] = u;
+    lanes.low[i] = u - 1.0f;
+  }
+}
+
+// Angles between the last ones, which are too far, and the points.
+KITH_VECTOR_CLONES void shrink(const std::uint32_t* words, Lanes& lanes) {
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const float at = lanes.angle[i];
+    const float low = at < 0.0f ? at : lanes.low[i];
+    const float high = at < 0.0f ? lanes.high[i] : at;
+    lanes.low[i] = low;
+    lanes.high[i] = high;
+    lanes.angle[i] = low + (high - low) * uniform_of(words[i]);
+  }
+}
+
+// Takes the angles whose densities lie above the levels. @returns how many points still look for one.
+KITH_VECTOR_CLONES std::int32_t take(Lanes& lanes) {
+  std::int32_t num_open = 0;
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::int32_t is_high = lanes.density[i] > lanes.level[i] ? 1 : 0;
+    const std::int32_t is_inside = lanes.margin[i] >= kUnsure ? 1 : 0;
+    const std::int32_t is_found = lanes.is_open[i] & is_high & is_inside;
+    const float c = is_found != 0 ? lanes.cosine[i] : lanes.found_cosine[i];
+    const float s = is_found != 0 ? lanes.sine[i] : lanes.found_sine[i];
+    const std::int32_t is_open = lanes.is_open[i] & (is_found ^ 1);
+    lanes.found_cosine[i] = c;
+    lanes.found_sine[i] = s;
+    lanes.is_open[i] = is_open;
+    num_open += is_open;
+  }
+  return num_open;
+}
+
+KITH_VECTOR_CLONES void arrive(std::size_t d, Lanes& lanes) {
+  Doubles square{};
+  for (std::size_t k = 0; k < d; ++k) {
+    double* const point = lanes.point[k].data();
+    const double* const side = lanes.side[k].data();
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      point[i] =
+          point[i] * static_cast<double>(lanes.found_cosine[i]) + side[i] * static_cast<double>(lanes.found_sine[i]);
+      square[i] += point[i] * point[i];
+    }
+  }
+  Doubles length;
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kLanes; ++i) length[i] = std::sqrt(square[i]);
+  for (std::size_t k = 0; k < d; ++k) {
+    double* const point = lanes.point[k].data();
+    KITH_INDEPENDENT_LOOP
+    for (std::size_t i = 0; i < kLanes; ++i) point[i] /= length[i];
+  }
+}
+
+// The random words of the angles that are tried, made when they are needed: few points need many.
+class AngleWords {
+ public:
+  explicit AngleWords(RandomStream& random) : words_{random} {}
+
+  void restart(std::uint64_t visit) {
+    visit_ = visit;
+    num_made_ = 0;
   }
 
-  [[nodiscard]] double log_density(double cosine, double sine) const {
-    for (const Along& u : prior_) {
-      if (u.point * cosine + u.side * sine < 0.0) return kOutside;
+  // One for each point of the block.
+  [[nodiscard]] const std::uint32_t* of_attempt(std::size_t attempt) {
+    while (num_made_ <= attempt) {
+      if (blocks_.size() < num_made_ + 2) blocks_.resize(num_made_ + 2);
+      words_.fill(visit_ * (kMostShrinkages / 2 + 1) + num_made_ / 2, blocks_[num_made_], blocks_[num_made_ + 1]);
+      num_made_ += 2;
     }
-    double sum = 0.0;
-    for (std::size_t j = 0; j < falls_.size(); ++j) {
-      const double t = falls_[j].point * cosine + falls_[j].side * sine;
-      if (t < 0.0) sum += density_.far[j] + density_.slope[j] * t;
-    }
-    return sum;
+    return blocks_[attempt].data();
   }
 
  private:
-  struct Along {
-    double point = 0.0, side = 0.0;  // u . point, u . side
-  };
-  const FallingDensity& density_;
-  std::vector<Along> prior_;
-  std::vector<Along> falls_;
+  WordPairs words_;
+  std::uint64_t visit_ = 0;
+  std::size_t num_made_ = 0;
+  std::vector<WordPairs::Block> blocks_;
 };
-
-// A uniform unit vector at right angles to the point.
-Vector tangent_at(const Vector& point, std::size_t d, RandomStream& random) {
-  Vector side{};
-  double length = 0.0;
-  while (!(length > 1e-9)) {
-    fill_standard_normal(std::span{side}.first(d), random);
-    double along = 0.0;
-    for (std::size_t k = 0; k < d; ++k) along += side[k] * point[k];
-    length = 0.0;
-    for (std::size_t k = 0; k < d; ++k) {
-      side[k] -= along * point[k];
-      length += side[k] * side[k];
-    }
-    length = std::sqrt(length);
-  }
-  for (std::size_t k = 0; k < d; ++k) side[k] /= length;
-  return side;
-}
 
 }  // namespace
 
 void move_in_density(const FallingDensity& density, std::size_t sweeps, std::span<double> values,
                      RandomStream& random) {
   const std::size_t d = density.dimension;
+  KITH_ASSERT(d >= 2 && d <= kMost);
   const std::size_t n = values.size() / d;
-  Circle circle{density};
-  for (std::size_t i = 0; i < n; ++i) {
-    Vector point{};
-    for (std::size_t k = 0; k < d; ++k) point[k] = values[k * n + i];
+  Falls prior{density.prior, d};
+  Falls falls{density.normals, d};
+  falls.far.assign(density.far.begin(), density.far.end());
+  falls.slope.assign(density.slope.begin(), density.slope.end());
+  const NormalPairs pairs{random};
+  AngleWords words{random};
+  // As many as the tangents need, and one for the levels.
+  const std::size_t num_pairs = (d + 1) / 2 + 1;
+  std::array<NormalPairs::Block, kMost + 2> normals;
+  Lanes lanes;
+  for (std::size_t block = 0; block * kBlock < n; ++block) {
     for (std::size_t sweep = 0; sweep < sweeps; ++sweep) {
-      const Vector side = tangent_at(point, d, random);
-      circle.lay(point, side);
-      const double level = circle.log_density(1.0, 0.0) + std::log(uniform01(random));
-      if (!(level > kOutside)) continue;
-      double high = 2.0 * std::numbers::pi * uniform01(random);
-      double low = high - 2.0 * std::numbers::pi;
-      double angle = high;
-      for (int attempt = 0; attempt < kMostShrinkages; ++attempt) {
-        const double cosine = std::cos(angle);
-        const double sine = std::sin(angle);
-        if (circle.log_density(cosine, sine) > level) {
-          double length = 0.0;
-          for (std::size_t k = 0; k < d; ++k) {
-            point[k] = point[k] * cosine + side[k] * sine;
-            length += point[k] * point[k];
-          }
-          for (std::size_t k = 0; k < d; ++k) point[k] /= std::sqrt(length);
-          break;
+      const std::uint64_t visit = block * sweeps + sweep;
+      words.restart(visit);
+      for (std::size_t p = 0; p < num_pairs; ++p) {
+        pairs.fill(visit * num_pairs + p, normals[2 * p], normals[2 * p + 1]);
+      }
+      for (std::size_t begin = 0; begin < kBlock && block * kBlock + begin < n; begin += kLanes) {
+        const std::size_t first = block * kBlock + begin;
+        const std::size_t count = std::min(kLanes, n - first);
+        for (std::size_t k = 0; k < d; ++k) {
+          const double* const from = values.data() + k * n + first;
+          std::copy_n(from, count, lanes.point[k].begin());
+          std::fill(lanes.point[k].begin() + static_cast<std::ptrdiff_t>(count), lanes.point[k].end(), from[0]);
         }
-        (angle < 0.0 ? low : high) = angle;
-        angle = low + (high - low) * uniform01(random);
+        aim(normals[0].data() + begin, kBlock, d, lanes);
+        lay(prior, d, lanes);
+        lay(falls, d, lanes);
+        lanes.cosine.fill(1.0f);
+        lanes.sine.fill(0.0f);
+        weigh(prior, falls, lanes);
+        set_levels(normals[2 * num_pairs - 2].data() + begin, normals[2 * num_pairs - 1].data() + begin, lanes);
+        std::fill(lanes.is_open.begin() + static_cast<std::ptrdiff_t>(count), lanes.is_open.end(), 0);
+        first_angles(words.of_attempt(0) + begin, lanes);
+        for (std::size_t attempt = 1; attempt <= kMostShrinkages; ++attempt) {
+          turn(lanes);
+          weigh(prior, falls, lanes);
+          if (take(lanes) == 0) break;
+          shrink(words.of_attempt(attempt) + begin, lanes);
+        }
+        arrive(d, lanes);
+        for (std::size_t k = 0; k < d; ++k) {
+          std::copy_n(lanes.point[k].begin(), count, values.data() + k * n + first);
+        }
       }
     }
-    for (std::size_t k = 0; k < d; ++k) values[k * n + i] = point[k];
   }
 }
 

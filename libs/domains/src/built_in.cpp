@@ -16,6 +16,17 @@ const std::vector<BuiltInDomain>& built_in_domains() {
        detail::kNavigationText},
       {"rescue-floor", "a robot makes two deliveries on a damaged floor (16 MDPs of 24 x 16 cells, five features)",
        detail::kRescueFloorText},
+      {"icy-crossing",
+       "a robot crosses slippery ice or walks around it (3 MDPs given state by state, stochastic)",
+       detail::kIcyCrossingText,
+       {{"icy_crossing_states.csv", std::string{detail::kIcyCrossingStates}},
+        {"icy_crossing_transitions.csv", std::string{detail::kIcyCrossingTransitions}}}},
+      {"warehouse",
+       "a robot brings a crate past people, forklifts and cameras (7 MDPs of 60 x 40 cells, six features)",
+       detail::kWarehouseText,
+       {{"warehouse.yaml", std::string{detail::kWarehouseGrid}},
+        {"warehouse.pgm", std::string{detail::kWarehouseFloor}},
+        {"warehouse_zones.pgm", std::string{detail::kWarehouseZones}}}},
   };
   return kDomains;
 }

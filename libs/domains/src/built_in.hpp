@@ -11,4 +11,11 @@ extern const std::string_view kTwoGoalsText;
 extern const std::string_view kCookieCrumbText;
 extern const std::string_view kNavigationText;
 extern const std::string_view kRescueFloorText;
+extern const std::string_view kIcyCrossingText;
+extern const std::string_view kIcyCrossingStates;
+extern const std::string_view kIcyCrossingTransitions;
+extern const std::string_view kWarehouseText;
+extern const std::string_view kWarehouseGrid;
+extern const std::string_view kWarehouseFloor;
+extern const std::string_view kWarehouseZones;
 }  // namespace kith::detail

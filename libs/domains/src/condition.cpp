@@ -114,6 +114,8 @@ class Parser {
   std::optional<Atom> action(const std::string& name, std::size_t at) {
     std::vector<std::string> names;
     for (const Action a : vocabulary_.actions) names.push_back(all_action_names()[static_cast<std::size_t>(a)]);
+    const bool needs_item = name == "pickup" || name == "dropoff";
+    if (needs_item && !position(names, name) && !vocabulary_.world.absent.empty()) return never();
     if (const auto i = position(names, name)) {
       return Atom{Atom::Kind::kAction, static_cast<std::size_t>(vocabulary_.actions[*i])};
     }
@@ -123,6 +125,7 @@ class Parser {
 
   std::optional<Atom> place(const std::string& name, std::size_t at, Atom::Kind terrain, Atom::Kind station) {
     const World& world = vocabulary_.world;
+    if (is_absent(name)) return never();
     if (const auto i = position(world.terrain_names, name)) return Atom{terrain, *i};
     if (const auto i = position(world.station_names, name)) return Atom{station, *i};
     std::vector<std::string> known = world.terrain_names;
@@ -133,7 +136,8 @@ class Parser {
 
   std::optional<Atom> deliver(const std::string& name, std::size_t at) {
     const auto found = look_up(name, at, item_names(vocabulary_.world), Atom::Kind::kDeliver, "item");
-    if (found && vocabulary_.world.is_sound && !vocabulary_.world.items[found->index].has_destination) {
+    if (found && found->kind == Atom::Kind::kDeliver && vocabulary_.world.is_sound &&
+        vocabulary_.world.items[found->index].destinations.empty() && !is_absent(name)) {
       fail(at, name.size(), "item '" + name + "' has no destination on the map");
       return std::nullopt;
     }
@@ -142,9 +146,19 @@ class Parser {
 
   std::optional<Atom> look_up(const std::string& name, std::size_t at, const std::vector<std::string>& known,
                               Atom::Kind kind, const std::string& what) {
+    if (is_absent(name)) return never();
     if (const auto i = position(known, name)) return Atom{kind, *i};
     fail_unknown(at, name, what, known);
     return std::nullopt;
+  }
+
+  // Declared as not being on this map: the condition does not hold, instead of being an error.
+  [[nodiscard]] bool is_absent(const std::string& name) const {
+    return position(vocabulary_.world.absent, name).has_value();
+  }
+  std::optional<Atom> never() {
+    result_.names_absent_things = true;
+    return Atom{Atom::Kind::kNever, 0};
   }
 
   std::size_t number_of(const Atom& atom) {

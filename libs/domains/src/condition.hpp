@@ -28,6 +28,7 @@ struct Atom {
     kDeliver,   // deliver:X; index into items
     kGoal,      // goal:X; index into goal_names
     kAnyGoal,   // goal
+    kNever,     // of a thing that is declared absent
   };
   Kind kind = Kind::kAnyAction;
   std::size_t index = 0;
@@ -49,6 +50,7 @@ class Condition {
     std::size_t atom = 0;
   };
   std::vector<Step> steps;
+  bool names_absent_things = false;
 };
 
 // What conditions may name.

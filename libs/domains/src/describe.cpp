@@ -9,8 +9,10 @@ namespace kith {
 void GridFamily::describe_states() {
   const std::size_t num_groups = world.groups.size();
   for (std::size_t group = 0; group < num_groups; ++group) {
-    const auto is_station = [&](std::size_t cell) { return !world.content(cell).station.empty(); };
-    const bool only_stations = std::ranges::all_of(world.groups[group].cells, is_station);
+    const auto is_station = [&](const detail::MapThing& thing) {
+      return !world.symbols[thing.symbol].content.station.empty();
+    };
+    const bool only_stations = std::ranges::all_of(world.groups[group].things, is_station);
     if (!only_stations) non_station_groups |= world.bit_of(group);
   }
   digits_per_state = 2 + 3 * world.items.size() + 2 * world.stations.size();

@@ -138,8 +138,8 @@ std::vector<OptionalGroup> Domain::optional_groups() const {
   std::vector<OptionalGroup> groups;
   for (const detail::CellGroup& group : world.groups) {
     OptionalGroup& added = groups.emplace_back();
-    for (const std::size_t cell : group.cells) added.cells.push_back(world.cell_at(cell));
-    if (!group.cells.empty()) added.name = symbol_name(world.symbols[world.symbol_of[group.cells.front()]]);
+    for (const detail::MapThing& thing : group.things) added.cells.push_back(world.cell_at(thing.cell));
+    if (!group.things.empty()) added.name = symbol_name(world.symbols[group.things.front().symbol]);
   }
   return groups;
 }

@@ -57,6 +57,7 @@ void check_features(const detail::Dynamics& dynamics, const std::vector<Member>&
                    "a policy shows how features are weighed against each other: count something else too");
   }
   for (std::size_t k = 0; k < dynamics.features.size(); ++k) {
+    if (dynamics.features[k].when.names_absent_things) continue;
     if (std::ranges::any_of(members, [k](const Member& member) { return member.mdp.has_feature(k); })) continue;
     report.warning("W0301", dynamics.features[k].place,
                    "feature '" + dynamics.features[k].name + "' occurs in no " +
@@ -85,14 +86,15 @@ GridFamily grid_from(detail::World world, std::vector<DomainMember> members) {
   return grid;
 }
 
-std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limits) {
+std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limits, detail::NamedFiles& files,
+                                      detail::ModelReport& model_report) {
   TomlReport& report = file.report();
-  detail::World world = detail::read_world(file);
+  detail::World world = detail::read_world(file, files, model_report);
   const detail::Dynamics dynamics = detail::read_dynamics(file, world);
   detail::Reward reward = detail::read_reward(file, dynamics);
   file.finish();
   if (world.is_sound) check_has_goal(world, dynamics, report);
-  if (report.has_errors()) return std::nullopt;
+  if (report.has_errors() || model_report.has_errors()) return std::nullopt;
 
   std::vector<DomainMember> members = detail::build_family(world, dynamics, limits, report);
   if (report.has_errors()) return std::nullopt;
@@ -107,11 +109,10 @@ std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limi
   return data;
 }
 
-std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& limits, const DomainFiles& files,
-                                          detail::ModelReport& model_report, DomainReading& reading) {
+std::optional<Domain::Data> read_explicit(TomlReader& file, const DomainLimits& limits, detail::NamedFiles& files,
+                                          detail::ModelReport& model_report) {
   TomlReport& report = file.report();
   detail::ModelReading model = detail::read_model(file, files, model_report);
-  reading.files = std::move(model.files);
   const auto failed = [&] { return report.has_errors() || model_report.has_errors(); };
   const bool knows_features = !model.dynamics.features.empty() && (model.weights || !failed());
   if (!knows_features && failed()) {  // the rest speaks of features
@@ -148,7 +149,10 @@ std::optional<Domain> read_document(const TomlDocument& document, const DomainLi
     report.error("E0230", model->place, "a domain has a map or a model, not both", "remove one of [map] and [model]");
     return std::nullopt;
   }
-  auto data = model == nullptr ? read_grid(file, limits) : read_explicit(file, limits, files, model_report, reading);
+  detail::NamedFiles named{files, report};
+  auto data = model == nullptr ? read_grid(file, limits, named, model_report)
+                               : read_explicit(file, limits, named, model_report);
+  reading.files = named.take_read();
   if (!data || report.has_errors()) return std::nullopt;
   data->id = *id;
   data->title = title.value_or(*id);

@@ -53,7 +53,7 @@ class DynamicsReader {
       if (std::find(dynamics_.actions.begin(), dynamics_.actions.end(), action) != dynamics_.actions.end()) {
         report_.error("E0222", element.place(), "action '" + *element.string() + "' is listed twice");
       } else if ((action == Action::kPickup || action == Action::kDropoff) && world_.items.empty() &&
-                 world_.legend_is_sound) {
+                 world_.absent.empty() && world_.legend_is_sound) {
         report_.error("E0222", element.place(), "there is no item for '" + *element.string() + "'");
       } else {
         dynamics_.actions.push_back(action);
@@ -95,6 +95,7 @@ class DynamicsReader {
       if (auto condition = conditions.read(*when)) feature.when = *std::move(condition);
     }
     feature.exclusive = reader.string("exclusive", Presence::kOptional).value_or("");
+    if (const auto name = reader.string("times", Presence::kOptional)) feature.times = raster_named(reader, *name);
     reader.finish();
     check_feature_name(reader);
     if (feature.name.empty()) dynamics_.features_are_known = false;
@@ -107,6 +108,17 @@ class DynamicsReader {
       return;
     }
     dynamics_.features.push_back(std::move(feature));
+  }
+
+  std::optional<std::size_t> raster_named(const TomlReader& feature, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Raster& raster : world_.rasters) names.push_back(raster.name);
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
+    if (!world_.is_sound) return std::nullopt;  // the raster may be one that could not be read
+    report_.error("E0216", feature.content().find("times")->place(), "there is no raster '" + name + "'",
+                  names.empty() ? "declare it: [[map.raster]] with name = \"" + name + "\"" : suggestion(name, names));
+    return std::nullopt;
   }
 
   void read_rules(ConditionReader& conditions) {
@@ -165,22 +177,38 @@ std::vector<std::string> Dynamics::feature_names() const {
 
 Dynamics read_dynamics(TomlReader& file, const World& world) { return DynamicsReader{file, world}.read(); }
 
-std::uint32_t FeatureTable::row_of(AtomMask mask) {
-  const auto [it, is_new] = numbers_.try_emplace(mask, static_cast<std::uint32_t>(rows_.size()));
-  if (is_new) rows_.push_back(evaluate(mask));
+FeatureTable::FeatureTable(const Dynamics& dynamics) : dynamics_{dynamics} {
+  const auto counts_raster = [](const Feature& feature) { return feature.times.has_value(); };
+  if (std::none_of(dynamics.features.begin(), dynamics.features.end(), counts_raster)) (void)counts_of({});
+}
+
+std::uint32_t FeatureTable::row_of(AtomMask mask, std::uint32_t counts) {
+  const auto [it, is_new] = numbers_[counts].try_emplace(mask, static_cast<std::uint32_t>(rows_.size()));
+  if (is_new) rows_.push_back(evaluate(mask, counts_[counts]));
   return it->second;
 }
 
-FeatureTable::Row FeatureTable::evaluate(AtomMask mask) const {
+std::uint32_t FeatureTable::counts_of(const std::vector<std::uint16_t>& values) {
+  const auto [it, is_new] = counts_numbers_.try_emplace(values, static_cast<std::uint32_t>(counts_.size()));
+  if (is_new) {
+    counts_.push_back(values);
+    numbers_.emplace_back();
+  }
+  return it->second;
+}
+
+FeatureTable::Row FeatureTable::evaluate(AtomMask mask, const std::vector<std::uint16_t>& values) const {
   Row row;
   row.forbidden = std::any_of(dynamics_.forbidden.begin(), dynamics_.forbidden.end(),
                               [&](const Condition& condition) { return condition.holds(mask); });
   std::vector<std::string> fired;  // exclusive groups that have fired
+  std::size_t num_counted = 0;
   for (const Feature& feature : dynamics_.features) {
     const bool blocked = std::find(fired.begin(), fired.end(), feature.exclusive) != fired.end();
     const bool fires = !blocked && feature.when.holds(mask);
     if (fires && !feature.exclusive.empty()) fired.push_back(feature.exclusive);
-    row.features.push_back(fires ? 1.0 : 0.0);
+    const double count = feature.times ? static_cast<double>(values[num_counted++]) : 1.0;
+    row.features.push_back(fires ? count : 0.0);
   }
   return row;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -13,8 +15,9 @@ namespace kith::detail {
 struct Feature {
   std::string name;
   Condition when;
-  std::string exclusive;  // empty: fires whatever the others do
-  TomlPlace place;        // of the name
+  std::string exclusive;             // empty: fires whatever the others do
+  std::optional<std::size_t> times;  // the raster whose value it counts, at the cell where the robot then is
+  TomlPlace place;                   // of the name
 };
 
 // What the robot can do, and what transitions count for.
@@ -47,23 +50,27 @@ void check_feature_name(const TomlReader& feature);
 // Feature vectors by atom mask: each distinct mask is evaluated once.
 class FeatureTable {
  public:
-  explicit FeatureTable(const Dynamics& dynamics) : dynamics_{dynamics} {}
+  explicit FeatureTable(const Dynamics& dynamics);
 
   struct Row {
     bool forbidden = false;
     std::vector<double> features;  // shape [num_features]
   };
 
-  // The number of the row for `mask`.
-  [[nodiscard]] std::uint32_t row_of(AtomMask mask);
+  // The number of the row for `mask`, and for a cell with these counts.
+  [[nodiscard]] std::uint32_t row_of(AtomMask mask, std::uint32_t counts);
+  // The number of these values of rasters, one for each feature that counts one, in order. Without any it is 0.
+  [[nodiscard]] std::uint32_t counts_of(const std::vector<std::uint16_t>& values);
   [[nodiscard]] const Row& row(std::uint32_t index) const { return rows_[index]; }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
 
  private:
-  [[nodiscard]] Row evaluate(AtomMask mask) const;
+  [[nodiscard]] Row evaluate(AtomMask mask, const std::vector<std::uint16_t>& values) const;
 
   const Dynamics& dynamics_;
-  std::unordered_map<AtomMask, std::uint32_t> numbers_;
+  std::vector<std::unordered_map<AtomMask, std::uint32_t>> numbers_;  // per number of counts
+  std::map<std::vector<std::uint16_t>, std::uint32_t> counts_numbers_;
+  std::vector<std::vector<std::uint16_t>> counts_;
   std::vector<Row> rows_;
 };
 

@@ -364,8 +364,7 @@ ExplicitFamily build_explicit_family(RawModel&& model, std::size_t num_features,
   std::size_t num_states = 0;
   for (const RawMdp& mdp : model.mdps) num_states += mdp.states.size();
   if (model.mdps.empty() || num_states > limits.max_states) {
-    const ModelPlace place = model.mdps.empty() ? ModelPlace{model.files.empty() ? nullptr : model.files.back().get()}
-                                                : model.mdps.front().place;
+    const ModelPlace place = model.mdps.empty() ? ModelPlace{model.last_file} : model.mdps.front().place;
     report.error("E0257", place,
                  model.mdps.empty() ? "there is no MDP"
                                     : "the model has " + std::to_string(num_states) + " states; at most " +

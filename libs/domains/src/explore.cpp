@@ -19,6 +19,13 @@ Explorer::Explorer(const World& world, const Dynamics& dynamics, FeatureTable& f
     station_leave_atoms_.push_back(atoms_of(Atom::Kind::kLeaveStation, world.station_names, station.name));
     station_enter_atoms_.push_back(atoms_of(Atom::Kind::kEnterStation, world.station_names, station.name));
   }
+  for (const Raster& raster : world.rasters) {
+    raster_atoms_.push_back({atoms_of(Atom::Kind::kLeaveTerrain, world.terrain_names, raster.name),
+                             atoms_of(Atom::Kind::kEnterTerrain, world.terrain_names, raster.name)});
+  }
+  for (const Feature& feature : dynamics.features) {
+    if (feature.times) counted_rasters_.push_back(*feature.times);
+  }
   numbers_ = StateNumbers{layout_.num_bits()};
 }
 
@@ -34,18 +41,55 @@ AtomMask Explorer::atoms_of(Atom::Kind kind, const std::vector<std::string>& nam
 
 void Explorer::set_up(std::size_t mdp) {
   cells_.assign(world_.num_cells(), {});
+  station_present_.assign(world_.stations.size(), false);
   for (std::size_t cell = 0; cell < world_.num_cells(); ++cell) {
-    if (world_.is_present(cell, mdp)) cells_[cell] = symbol_effects_[world_.symbol_of[cell]];
+    if (world_.is_there(world_.group_of[cell], mdp)) put(cell, world_.symbol_of[cell]);
   }
-  for (std::size_t i = 0; i < world_.stations.size(); ++i) {
-    const Station& station = world_.stations[i];
-    if (world_.is_present(station.cell, mdp)) cells_[station.cell].station = static_cast<std::int32_t>(i);
+  for (const MapThing& thing : world_.painted) {
+    if (world_.is_there(thing.group, mdp)) put(thing.cell, thing.symbol);
   }
   item_present_.clear();
+  item_counts_.clear();
   has_deliveries_ = false;
   for (const Item& item : world_.items) {
-    item_present_.push_back(item.home && world_.is_present(*item.home, mdp));
-    has_deliveries_ = has_deliveries_ || (item_present_.back() && item.has_destination);
+    item_present_.push_back(world_.find(item.homes, mdp).has_value());
+    item_counts_.push_back(item_present_.back() && world_.find(item.destinations, mdp));
+    has_deliveries_ = has_deliveries_ || item_counts_.back();
+  }
+  set_up_rasters(mdp);
+}
+
+// Adds what the symbol puts on the cell.
+void Explorer::put(std::size_t cell, std::size_t symbol) {
+  const CellEffect& effect = symbol_effects_[symbol];
+  CellEffect& sum = cells_[cell];
+  sum.leave |= effect.leave;
+  sum.enter |= effect.enter;
+  sum.wall = sum.wall || effect.wall;
+  sum.goal = sum.goal || effect.goal;
+  if (effect.destination >= 0) sum.destination = effect.destination;
+  if (!effect.has_station) return;
+  const auto at = std::lower_bound(world_.stations.begin(), world_.stations.end(), cell,
+                                   [](const Station& station, std::size_t c) { return station.cell < c; });
+  sum.station = static_cast<std::int32_t>(at - world_.stations.begin());
+  station_present_[static_cast<std::size_t>(sum.station)] = true;
+}
+
+void Explorer::set_up_rasters(std::size_t mdp) {
+  for (std::size_t r = 0; r < world_.rasters.size(); ++r) {
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      if (world_.raster_value(r, cell, mdp) == 0) continue;
+      cells_[cell].leave |= raster_atoms_[r].first;
+      cells_[cell].enter |= raster_atoms_[r].second;
+    }
+  }
+  if (counted_rasters_.empty()) return;
+  std::vector<std::uint16_t> values(counted_rasters_.size());
+  for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = world_.raster_value(counted_rasters_[i], cell, mdp);
+    }
+    cells_[cell].counts = features_.counts_of(values);
   }
 }
 
@@ -53,6 +97,10 @@ Explorer::CellEffect Explorer::effect_of(const SymbolContent& content) const {
   CellEffect effect;
   effect.wall = content.wall;
   effect.goal = content.goal;
+  effect.has_station = !content.station.empty();
+  for (std::size_t i = 0; i < world_.items.size(); ++i) {
+    if (world_.items[i].name == content.destination) effect.destination = static_cast<std::int32_t>(i);
+  }
   effect.leave = atoms_of(Atom::Kind::kLeaveTerrain, world_.terrain_names, content.terrain);
   effect.enter = atoms_of(Atom::Kind::kEnterTerrain, world_.terrain_names, content.terrain) |
                  atoms_of(Atom::Kind::kGoal, world_.goal_names, content.goal_name);
@@ -61,26 +109,28 @@ Explorer::CellEffect Explorer::effect_of(const SymbolContent& content) const {
 }
 
 PackedState Explorer::start_state(std::size_t mdp) const {
-  PackedState s = layout_.with_robot(0, world_.start);
+  PackedState s = layout_.with_robot(0, world_.start_in(mdp));
   for (std::size_t i = 0; i < world_.items.size(); ++i) {
-    if (item_present_[i]) s = layout_.with_item(s, i, *world_.items[i].home);
+    if (!item_present_[i]) continue;
+    s = layout_.with_item(s, i, *world_.find(world_.items[i].homes, mdp));
+    if (world_.items[i].carried) s = layout_.with_carried(s, i + 1);
   }
   std::uint64_t stations = 0;
   for (std::size_t i = 0; i < world_.stations.size(); ++i) {
-    if (world_.is_present(world_.stations[i].cell, mdp)) stations |= std::uint64_t{1} << i;
+    if (station_present_[i]) stations |= std::uint64_t{1} << i;
   }
   return layout_.with_stations(s, stations);
 }
 
 bool Explorer::is_delivered(PackedState s, std::size_t item) const {
-  return layout_.carried(s) != item + 1 && world_.content(layout_.item(s, item)).destination == world_.items[item].name;
+  return layout_.carried(s) != item + 1 && cells_[layout_.item(s, item)].destination == static_cast<std::int32_t>(item);
 }
 
 bool Explorer::is_terminal(PackedState s) const {
   if (layout_.exited(s) || cells_[layout_.robot(s)].goal) return true;
   if (!has_deliveries_) return false;
   for (std::size_t i = 0; i < world_.items.size(); ++i) {
-    if (item_present_[i] && world_.items[i].has_destination && !is_delivered(s, i)) return false;
+    if (item_counts_[i] && !is_delivered(s, i)) return false;
   }
   return true;
 }
@@ -164,7 +214,7 @@ Exploration Explorer::explore(std::size_t mdp, std::size_t max_states) {
     for (std::size_t a = 0; a < dynamics_.actions.size(); ++a) {
       const Step step = this->step(found.states[i], dynamics_.actions[a]);
       if (!step.possible) continue;
-      const std::uint32_t row = features_.row_of(step.atoms);
+      const std::uint32_t row = features_.row_of(step.atoms, cells_[layout_.robot(step.next)].counts);
       if (features_.row(row).forbidden) continue;
       found.edges.push_back({number_of(step.next, found), row, static_cast<std::uint8_t>(a)});
     }

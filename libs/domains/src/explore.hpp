@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "dynamics.hpp"
@@ -41,7 +42,10 @@ class Explorer {
     AtomMask enter = 0;
     bool wall = false;
     bool goal = false;
-    std::int32_t station = -1;  // index into World::stations, if it is there
+    bool has_station = false;
+    std::int32_t station = -1;      // index into World::stations, if it is there
+    std::int32_t destination = -1;  // index into World::items: the one that belongs here
+    std::uint32_t counts = 0;       // of rasters that features count, see FeatureTable
   };
   struct Step {
     PackedState next = 0;
@@ -50,6 +54,8 @@ class Explorer {
   };
 
   void set_up(std::size_t mdp);
+  void put(std::size_t cell, std::size_t symbol);
+  void set_up_rasters(std::size_t mdp);
   [[nodiscard]] CellEffect effect_of(const SymbolContent& content) const;
   [[nodiscard]] AtomMask atoms_of(Atom::Kind kind, const std::vector<std::string>& names,
                                   const std::string& name) const;
@@ -73,10 +79,14 @@ class Explorer {
   std::vector<AtomMask> deliver_atoms_;        // per item
   std::vector<AtomMask> station_leave_atoms_;  // per station
   std::vector<AtomMask> station_enter_atoms_;
+  std::vector<std::pair<AtomMask, AtomMask>> raster_atoms_;  // per raster: leave, enter
+  std::vector<std::size_t> counted_rasters_;                 // per feature that counts one
 
   // Of the MDP at hand.
   std::vector<CellEffect> cells_;
   std::vector<bool> item_present_;
+  std::vector<bool> item_counts_;  // it is there and has a destination
+  std::vector<bool> station_present_;
   bool has_deliveries_ = false;
 
   StateNumbers numbers_;  // of the states found so far

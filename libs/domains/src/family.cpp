@@ -153,12 +153,12 @@ class FamilyBuilder {
     std::sort(member.by_state.begin(), member.by_state.end(),
               [&](std::uint32_t a, std::uint32_t b) { return member.states[a] < member.states[b]; });
     for (const Item& item : world_.items) {
-      member.item_present.push_back(item.home && world_.is_present(*item.home, mdp));
+      member.item_present.push_back(world_.find(item.homes, mdp).has_value());
     }
     for (std::size_t group = 0; group < world_.groups.size(); ++group) {
       if (!world_.is_on(group, mdp)) continue;
-      for (const std::size_t cell : world_.groups[group].cells) {
-        SymbolContent rest = world_.content(cell);
+      for (const MapThing& thing : world_.groups[group].things) {
+        SymbolContent rest = world_.symbols[thing.symbol].content;
         rest.station.clear();
         member.num_toggled += rest.is_floor() ? 0 : 1;
       }
@@ -166,9 +166,7 @@ class FamilyBuilder {
     return member;
   }
 
-  [[nodiscard]] TomlPlace goal_place() const {
-    return world_.some_goal ? place_of_cell(world_, *world_.some_goal) : world_.map_place;
-  }
+  [[nodiscard]] TomlPlace goal_place() const { return world_.some_goal ? world_.goal_place : world_.map_place; }
 
   void report_failures(std::size_t num_mdps) {
     const auto in_some = [&](std::size_t number) {
@@ -182,7 +180,7 @@ class FamilyBuilder {
                          first(*first_unreachable_));
     }
     if (num_finished_ > 0) {
-      report_.infeasible("E0221", place_of_cell(world_, world_.start),
+      report_.infeasible("E0221", world_.start_place,
                          "there is nothing to do: the episode ends at the start" + in_some(num_finished_),
                          first(*first_finished_));
     }

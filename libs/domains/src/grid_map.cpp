@@ -25,7 +25,7 @@ char glyph_for(const World& world, std::size_t cell, const SymbolContent& conten
   for (const detail::Symbol& symbol : world.symbols) {
     if (symbol.content == content) return symbol.glyph;
   }
-  return content.is_floor() ? ' ' : own.glyph;
+  return content.is_floor() ? ' ' : world.symbols[world.things_on(cell).back().symbol].glyph;
 }
 
 }  // namespace
@@ -52,15 +52,24 @@ std::vector<LegendEntry> GridMap::legend() const {
 std::size_t GridMap::legend_index(Cell cell) const {
   const auto index = family_->world.index_of(cell);
   if (!index) throw std::invalid_argument{"GridMap::legend_index: the cell is off the map"};
-  return family_->world.symbol_of[*index];
+  // What has a name of its own is looked up here: stations and goals.
+  const detail::World& world = family_->world;
+  std::size_t found = world.symbol_of[*index];
+  for (const detail::MapThing& thing : world.things_on(*index)) {
+    const auto has_name = [&](std::size_t symbol) {
+      const SymbolContent& content = world.symbols[symbol].content;
+      return content.goal || !content.station.empty();
+    };
+    if (!has_name(found) || has_name(thing.symbol)) found = thing.symbol;
+  }
+  return found;
 }
 
 CellContent GridMap::content(MdpIndex m, Cell cell) const {
   (void)member_of(*family_, m, "GridMap::content");
   const auto index = family_->world.index_of(cell);
   if (!index) throw std::invalid_argument{"GridMap::content: the cell is off the map"};
-  if (!family_->world.is_present(*index, m.value())) return {};
-  const detail::SymbolContent& content = family_->world.content(*index);
+  const detail::SymbolContent content = family_->world.content_in(*index, m.value());
   return {content.wall, content.goal, content.terrain, content.destination};
 }
 
@@ -129,10 +138,11 @@ std::vector<std::string> GridMap::draw(MdpIndex m, std::optional<StateIndex> s) 
   std::vector<std::string> rows(static_cast<std::size_t>(world.height));
   for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
     const Cell at = world.cell_at(cell);
-    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
+    SymbolContent content = world.content_in(cell, m.value());
     bool moved_here = false;
     if (s) {
       content.start = false;
+      content.carried = false;
       if (std::ranges::find(now.stations, at) == now.stations.end()) content.station.clear();
       for (std::size_t i = 0; i < items.size(); ++i) {
         const std::string& name = family_->item_names[items[i]];
@@ -153,8 +163,9 @@ std::vector<std::string> GridMap::draw_bare(MdpIndex m, StateIndex s) const {
   const GridState now = state(m, s);
   std::vector<std::string> rows(static_cast<std::size_t>(world.height));
   for (std::size_t cell = 0; cell < world.num_cells(); ++cell) {
-    SymbolContent content = world.is_present(cell, m.value()) ? world.content(cell) : SymbolContent{};
+    SymbolContent content = world.content_in(cell, m.value());
     content.start = false;
+    content.carried = false;
     content.item.clear();
     if (std::ranges::find(now.stations, world.cell_at(cell)) == now.stations.end()) content.station.clear();
     rows[cell / static_cast<std::size_t>(world.width)] += glyph_for(world, cell, content);

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -86,8 +85,8 @@ struct RawMdp {
 
 // What the files of a model say, whatever their format, before it is checked.
 struct RawModel {
-  std::vector<std::unique_ptr<ModelText>> files;
-  std::vector<std::string> variables;  // integer variables that states have
+  const ModelText* last_file = nullptr;  // that was opened for it
+  std::vector<std::string> variables;    // integer variables that states have
   Names actions;
   bool actions_are_declared = false;  // by the domain file: no others may come
   FeatureRows features;

@@ -70,6 +70,12 @@ class LegendReader {
     content.station = name(reader, "station");
     content.item = name(reader, "item");
     content.destination = name(reader, "destination");
+    content.carried = reader.boolean("carried", Presence::kOptional).value_or(false);
+    if (content.carried && content.item.empty()) {
+      report_.error("E0272", table.find("carried")->place(), "there is no item on the symbol that could be carried",
+                    "write it beside item = \"NAME\"");
+      content.carried = false;
+    }
     if (const auto [set, word] = flag_or_name(reader, "goal"); set) {
       content.goal = true;
       content.goal_name = word;
@@ -139,7 +145,7 @@ class LegendReader {
       if (known) {
         report_.error("E0211", symbol.place, "item '" + content.item + "' has two symbols; an item lies on one cell");
       } else {
-        world_.items.push_back({content.item, std::nullopt, false});
+        world_.items.push_back({content.item, {}, {}, content.carried});
       }
     }
     for (const Symbol& symbol : world_.symbols) check_references(symbol);
@@ -154,7 +160,10 @@ class LegendReader {
     }
     std::vector<std::string> items;
     for (const Item& item : world_.items) items.push_back(item.name);
-    if (!content.destination.empty() && std::find(items.begin(), items.end(), content.destination) == items.end()) {
+    const auto is_in = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), content.destination) != names.end();
+    };
+    if (!content.destination.empty() && !is_in(items) && !is_in(world_.absent)) {
       report_.error("E0212", symbol.place, "destination of an unknown item '" + content.destination + "'",
                     suggestion(content.destination, items));
     }

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <system_error>
 #include <utility>
 
 #include "model_formats.hpp"
 
 namespace kith::detail {
 namespace {
-
-namespace fs = std::filesystem;
 
 const std::vector<std::string>& formats() {
   static const std::vector<std::string> kFormats{"csv", "json", "prism", "gym-json"};
@@ -24,7 +20,7 @@ std::string reward_name(double reward) { return "reward " + to_toml(TomlValue{re
 
 class ModelReader {
  public:
-  ModelReader(TomlReader& file, const DomainFiles& files, ModelReport& report)
+  ModelReader(TomlReader& file, NamedFiles& files, ModelReport& report)
       : file_{file}, report_{file.report()}, files_{files}, model_report_{report} {}
 
   ModelReading read() {
@@ -126,63 +122,9 @@ class ModelReader {
   // The text of a file of the model; nothing after reporting why not.
   const ModelText* open(const std::optional<std::string>& name, const TomlPlace& place) {
     if (!name) return nullptr;
-    for (const auto& known : reading_.model.files) {
-      if (known->name == *name) return known.get();
-    }
-    if (!check_name(*name, place)) return nullptr;
-    auto text = text_of(*name, place);
-    if (!text) return nullptr;
-    reading_.files.push_back({*name, *text});
-    reading_.model.files.push_back(
-        std::make_unique<ModelText>(ModelText{*name, (files_.folder / *name).string(), *std::move(text)}));
-    return reading_.model.files.back().get();
-  }
-
-  // A study keeps copies of all files beside that of the domain file, so they lie there or below. What is wrong with a
-  // file is shown with its lines, and whoever runs a study need not have written it: only files that look like the data
-  // of models are opened, so that none can be made to show others.
-  bool check_name(const std::string& name, const TomlPlace& place) {
-    const fs::path path{name};
-    const auto is_hidden = [](const fs::path& part) { return part.native().starts_with('.') && part != "."; };
-    const bool lies_below = !name.empty() && path.is_relative() &&
-                            std::none_of(path.begin(), path.end(), is_hidden);  // ".." is hidden, too
-    const bool is_plain =
-        std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-    if (!lies_below || !is_plain) {
-      report_.error("E0232", place, "'" + name + "' cannot be a file of a model",
-                    "give a path relative to the domain file, to a file in its folder or below that is not hidden");
-      return false;
-    }
-    static const std::vector<std::string> kEndings{".csv", ".json", ".tra", ".sta", ".lab", ".srew", ".trew"};
-    if (std::find(kEndings.begin(), kEndings.end(), path.extension()) != kEndings.end()) return true;
-    report_.error("E0232", place, "'" + name + "' cannot be a file of a model",
-                  "its name ends in .csv, .json, .tra, .sta, .lab, .srew or .trew");
-    return false;
-  }
-
-  std::optional<std::string> text_of(const std::string& name, const TomlPlace& place) {
-    for (const DomainFile& known : files_.known) {
-      if (known.name == name) return known.text;
-    }
-    const fs::path path = files_.folder / name;
-    std::error_code failure;
-    std::string text;
-    std::ifstream in;
-    if (fs::is_regular_file(path, failure)) in.open(path, std::ios::binary);
-    const auto size = in.is_open() ? fs::file_size(path, failure) : 0;
-    if (!failure && size > kMaxModelBytes) {
-      report_.error("E0233", place, "the file '" + name + "' is larger than 64 MiB",
-                    "leave out what the robot cannot reach, or split the model into several domains");
-      return std::nullopt;
-    }
-    text.resize(size);
-    if (in.is_open()) in.read(text.data(), static_cast<std::streamsize>(size));
-    if (in.is_open() && !in.bad()) {
-      text.resize(static_cast<std::size_t>(in.gcount()));
-      return text;
-    }
-    report_.error("E0233", place, "the file '" + name + "' cannot be read", "it is expected at " + path.string());
-    return std::nullopt;
+    const ModelText* text = files_.open(*name, place, model_files());
+    if (text != nullptr) reading_.model.last_file = text;
+    return text;
   }
 
   const ModelText* file_of(TomlReader& table, const char* key, Presence presence) {
@@ -209,6 +151,7 @@ class ModelReader {
   // visit(reader, name) for each [[model.mdp]], whose names must differ.
   template <typename Visit>
   void for_each_mdp(TomlReader& table, const Visit& visit) {
+    if (!table.has("mdp")) return report_missing_mdp(table);
     const TomlArray* list = table.array("mdp", Presence::kRequired);
     if (list == nullptr) return;
     if (list->size() > kMaxModelMdps || list->empty()) {
@@ -229,6 +172,19 @@ class ModelReader {
       visit(reader, name.value_or(""));
       reader.finish();
     }
+  }
+
+  // The files of these layouts are often written under [model] itself.
+  void report_missing_mdp(TomlReader& table) {
+    const bool is_gym = table.content().find("format")->string()->starts_with("gym");
+    std::string file = is_gym ? "file = \"model.json\"" : "transitions = \"model.tra\"";
+    for (const char* key : {"name", "file", "initial", "transitions", "states", "labels", "rewards"}) {
+      if (!table.has(key)) continue;
+      const TomlValue& value = *table.content().find(key);
+      if (std::string_view{key} == (is_gym ? "file" : "transitions")) file = std::string{key} + " = " + to_toml(value);
+    }
+    report_.error("E0109", table.place(), "key 'mdp' is missing in [model]: each MDP needs a table of its own",
+                  "write [[model.mdp]] below [model], and in it " + file);
   }
 
   void read_prism(TomlReader& table) {
@@ -394,7 +350,7 @@ class ModelReader {
 
   TomlReader& file_;
   TomlReport& report_;
-  const DomainFiles& files_;
+  NamedFiles& files_;
   ModelReport& model_report_;
   ModelReading reading_;
   std::vector<std::optional<double>> rewards_;  // per feature, where the file says one
@@ -402,7 +358,7 @@ class ModelReader {
 
 }  // namespace
 
-ModelReading read_model(TomlReader& file, const DomainFiles& files, ModelReport& report) {
+ModelReading read_model(TomlReader& file, NamedFiles& files, ModelReport& report) {
   return ModelReader{file, files, report}.read();
 }
 

@@ -6,8 +6,8 @@
 
 #include "dynamics.hpp"
 #include "explicit_family.hpp"
-#include "kith/domains/domain_file.hpp"
 #include "kith/toml/reader.hpp"
+#include "named_files.hpp"
 
 namespace kith::detail {
 
@@ -17,10 +17,9 @@ struct ModelReading {
   RawModel model;
   std::optional<std::vector<double>> weights;  // where the rewards of the model are the weights
   TomlPlace place;                             // of [model]
-  std::vector<DomainFile> files;
 };
 
 // Reads [mdp], [model] and [[feature]], and the files.
-[[nodiscard]] ModelReading read_model(TomlReader& file, const DomainFiles& files, ModelReport& report);
+[[nodiscard]] ModelReading read_model(TomlReader& file, NamedFiles& files, ModelReport& report);
 
 }  // namespace kith::detail

@@ -18,7 +18,7 @@ std::vector<std::uint64_t> masks_of_kinds(const World& world) {
   std::vector<std::string> names;
   std::vector<std::uint64_t> masks;
   for (std::size_t group = 0; group < world.groups.size(); ++group) {
-    const std::string name = symbol_name(world.symbols[world.symbol_of[world.groups[group].cells.front()]]);
+    const std::string name = symbol_name(world.symbols[world.groups[group].things.front().symbol]);
     const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     if (at == names.size()) {
       names.push_back(name);
@@ -91,6 +91,17 @@ Thinning read_thinning(TomlReader& file) {
   }
   if (const auto n = family->integer("starts", Presence::kOptional, {1, kMostStarts})) {
     thinning.starts = static_cast<std::size_t>(*n);
+  }
+  if (const TomlArray* listed = family->array("world", Presence::kOptional)) {
+    thinning.listed = listed;
+    thinning.listed_place = family->content().find("world")->place();
+    for (const char* key : {"worlds", "seed"}) {
+      const TomlValue* value = family->content().find(key);
+      if (value == nullptr) continue;
+      file.report().error("E0271", value->place(),
+                          std::string{"'"} + key + "' draws worlds, but [[family.world]] lists them",
+                          "remove one of them");
+    }
   }
   family->finish();
   return thinning;

@@ -8,6 +8,7 @@
 
 #include "kith/domains/domain.hpp"
 #include "kith/toml/reader.hpp"
+#include "named_files.hpp"
 
 namespace kith::detail {
 
@@ -21,6 +22,7 @@ struct SymbolContent {
   std::string station;
   std::string item;
   std::string destination;  // the item that belongs here
+  bool carried = false;     // the item: by the robot, from the beginning
 
   [[nodiscard]] bool is_floor() const { return *this == SymbolContent{}; }
   friend bool operator==(const SymbolContent&, const SymbolContent&) = default;
@@ -36,20 +38,47 @@ struct Symbol {
   [[nodiscard]] bool is_optional() const { return toggles_each_cell || !toggle.empty(); }
 };
 
-// Cells that are there or not together: one bit of a variant.
+// What a symbol stands for, on one cell: in all MDPs, or in those in which a group is on.
+struct MapThing {
+  std::size_t cell = 0;
+  std::uint8_t symbol = 0;  // index into World::symbols
+  std::int32_t group = -1;  // index into World::groups; -1: always there
+};
+
+// Things that are there or not together: one bit of a variant.
 struct CellGroup {
-  std::vector<std::size_t> cells;
+  std::string name;  // optional = "NAME"; empty: a thing by itself
+  std::vector<MapThing> things;
+};
+
+// A cell, in the MDPs in which a group is on.
+struct Spot {
+  std::size_t cell = 0;
+  std::int32_t group = -1;
 };
 
 struct Item {
   std::string name;
-  std::optional<std::size_t> home;  // cell; nothing if the symbol is not on the map
-  bool has_destination = false;
+  std::vector<Spot> homes;  // none if the symbol is not on the map; at most one in each MDP
+  std::vector<Spot> destinations;
+  bool carried = false;  // from the beginning
 };
 
 struct Station {
   std::string name;
   std::size_t cell = 0;
+};
+
+// A number for every cell, computed from what is on the map or read from an image.
+struct Raster {
+  enum class Kind : std::uint8_t { kNear, kDistance, kSeen, kImage };
+  std::string name;
+  Kind kind = Kind::kNear;
+  std::vector<std::string> of;        // names of things
+  std::size_t reach = 0;              // cells: how far, or the largest distance
+  std::vector<std::uint16_t> values;  // kImage: shape [cells]
+  std::int32_t symbol = -1;  // how cells are drawn where it is not 0, index into World::symbols; -1: not at all
+  TomlPlace place;           // of the name
 };
 
 // What a file says about how much of its family is built.
@@ -58,33 +87,43 @@ struct Thinning {
   std::uint64_t seed = 1;             // of the worlds that are drawn
   TomlPlace worlds_place;             // of `worlds`, if given
   std::optional<std::size_t> starts;  // per world; nothing: every state
+  const TomlArray* listed = nullptr;  // [[family.world]]
+  TomlPlace listed_place;
 };
 
-// The map with everything optional on it. Cells are numbered in reading order:
-// top row first, left to right.
+// The map with everything optional on it. Cells are numbered in reading order: top row first, left to right. The lowest
+// layer has a symbol on every cell; further layers put things on top of it.
 struct World {
   int width = 0;
   int height = 0;
-  std::vector<Symbol> symbols;             // legend order
-  std::vector<std::uint8_t> symbol_of;     // per cell, index into symbols
+  std::vector<Symbol> symbols;             // legend order; then those of rasters and of cells that hold several things
+  std::vector<std::uint8_t> symbol_of;     // per cell, index into symbols: the lowest layer
   std::vector<CellGroup> groups;           // index order, most significant first
-  std::vector<std::int32_t> group_of;      // per cell; -1: always there
+  std::vector<std::int32_t> group_of;      // per cell, of the lowest layer; -1: always there
+  std::vector<MapThing> painted;           // the other layers, by cell and then by layer
   std::vector<Item> items;                 // legend order
-  std::vector<Station> stations;           // reading order
+  std::vector<Station> stations;           // reading order; one per cell
   std::vector<std::string> terrain_names;  // legend order, as are the two below
   std::vector<std::string> station_names;
   std::vector<std::string> goal_names;
-  std::size_t start = 0;
+  std::vector<std::string> absent;  // names that conditions may use although nothing is called so
+  std::vector<Spot> starts;         // one in each MDP
+  std::vector<Raster> rasters;
+  std::vector<std::vector<std::uint16_t>> raster_grids;  // shape [?, cells]
+  std::vector<std::uint32_t> raster_grid_of;             // shape [rasters, MDPs], indices into raster_grids
   Thinning thinning;
-  std::vector<std::uint64_t> variants;   // of a thinned family: the groups that are on, per MDP; else empty
-  TomlPlace map_place;                   // of [map]
-  std::vector<TomlPlace> row_places;     // of the strings in rows
+  std::vector<std::uint64_t> variants;     // of a thinned family: the groups that are on, per MDP; else empty
+  std::vector<std::string> variant_names;  // of a family whose worlds are listed, per MDP; else empty
+  TomlPlace map_place;                     // of [map]
+  TomlPlace source_place;                  // of what the lowest layer is read from
+  TomlPlace start_place;
+  TomlPlace goal_place;                  // of a goal or destination
+  std::vector<TomlPlace> row_places;     // of the strings in rows; empty: read from an image
   std::optional<std::size_t> some_goal;  // cell of a goal or destination, for messages
   bool legend_is_sound = false;          // else names may be missing
   bool is_sound = false;                 // legend and rows
 
   [[nodiscard]] std::size_t num_cells() const { return symbol_of.size(); }
-  [[nodiscard]] const SymbolContent& content(std::size_t cell) const { return symbols[symbol_of[cell]].content; }
   [[nodiscard]] Cell cell_at(std::size_t index) const {
     const auto w = static_cast<std::size_t>(width);
     return {static_cast<int>(index % w) + 1, height - static_cast<int>(index / w)};
@@ -104,9 +143,23 @@ struct World {
   }
   [[nodiscard]] std::uint64_t variant(std::size_t mdp) const { return variants.empty() ? mdp : variants[mdp]; }
   [[nodiscard]] bool is_on(std::size_t group, std::size_t mdp) const { return (variant(mdp) & bit_of(group)) != 0; }
-  // Whether what is on the cell is there in MDP `mdp`.
-  [[nodiscard]] bool is_present(std::size_t cell, std::size_t mdp) const {
-    return group_of[cell] < 0 || is_on(static_cast<std::size_t>(group_of[cell]), mdp);
+  [[nodiscard]] bool is_there(std::int32_t group, std::size_t mdp) const {
+    return group < 0 || is_on(static_cast<std::size_t>(group), mdp);
+  }
+  // The cell in MDP `mdp`, if any.
+  [[nodiscard]] std::optional<std::size_t> find(const std::vector<Spot>& spots, std::size_t mdp) const {
+    for (const Spot& spot : spots) {
+      if (is_there(spot.group, mdp)) return spot.cell;
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] std::size_t start_in(std::size_t mdp) const { return find(starts, mdp).value_or(0); }
+  // The things on the cell, of all layers.
+  [[nodiscard]] std::vector<MapThing> things_on(std::size_t cell) const;
+  // Those that are there in MDP `mdp`, taken together, and areas that are drawn.
+  [[nodiscard]] SymbolContent content_in(std::size_t cell, std::size_t mdp) const;
+  [[nodiscard]] std::uint16_t raster_value(std::size_t raster, std::size_t cell, std::size_t mdp) const {
+    return raster_grids[raster_grid_of[raster * num_mdps() + mdp]][cell];
   }
 };
 
@@ -122,13 +175,19 @@ struct World {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
+// Several things on one cell. A wall hides the others; terrains are named together: "rubble and smoke".
+[[nodiscard]] SymbolContent together(const std::vector<const SymbolContent*>& contents);
+
+// What conditions and rasters call the things of a symbol.
+[[nodiscard]] bool is_called(const SymbolContent& content, const std::string& name);
+
 // Reads the symbols of [map.legend] and the names that they declare.
 void read_legend(const TomlTable& legend, World& world, TomlReport& report);
 
-// Reads [map] and [map.legend]. Reports everything that is wrong.
-[[nodiscard]] World read_world(TomlReader& file);
+// Reads [map], its layers and rasters, and [family]. Reports everything that is wrong.
+[[nodiscard]] World read_world(TomlReader& file, NamedFiles& files, ModelReport& report);
 
-// Where cell `cell` stands in the file.
+// Where cell `cell` of the lowest layer stands in the file.
 [[nodiscard]] TomlPlace place_of_cell(const World& world, std::size_t cell);
 
 }  // namespace kith::detail

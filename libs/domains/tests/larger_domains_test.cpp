@@ -131,6 +131,38 @@ TEST(RescueFloor, LeavesNothingToChance) {
   for (const Diagnostic& d : reading.diagnostics) ADD_FAILURE() << to_text(d);
 }
 
+TEST(Warehouse, ComesFromAnOccupancyGrid) {
+  const Domain domain = load_domain("warehouse");
+  EXPECT_EQ(domain.map()->width(), 60);
+  EXPECT_EQ(domain.map()->height(), 40);
+  EXPECT_EQ(domain.num_mdps(), 7u);
+  EXPECT_EQ(domain.num_starts(), 84u);
+  EXPECT_TRUE(domain.is_exact());
+  const auto rows = domain.map()->draw(MdpIndex{0}, std::nullopt);
+  EXPECT_EQ(rows[2].substr(0, 10), "########..") << "the office was never mapped";
+  EXPECT_EQ(rows[37][2], 'S');
+  const auto first = domain.map()->state(MdpIndex{0}, domain.initial_state(MdpIndex{0}));
+  EXPECT_THAT(first.carried, ::testing::ElementsAre(true));
+  EXPECT_EQ(from_file("warehouse").mdp(MdpIndex{6}).num_states(), domain.mdp(MdpIndex{6}).num_states());
+}
+
+TEST(Warehouse, TeachesEveryFeature) {
+  const Domain domain = from_file("warehouse");
+  expect_every_feature_is_bounded(domain, what_is_said(domain));
+}
+
+TEST(Warehouse, LeavesNothingToChance) {
+  const auto reading = read_domain(KITH_SOURCE_DIR "/domains/warehouse.toml");
+  for (const Diagnostic& d : reading.diagnostics) ADD_FAILURE() << to_text(d);
+  EXPECT_EQ(reading.files.size(), 3u);
+}
+
+TEST(IcyCrossing, IsBuiltInWithItsFiles) {
+  const Domain domain = load_domain("icy-crossing");
+  EXPECT_EQ(domain.num_mdps(), 3u);
+  EXPECT_EQ(domain.num_starts(), from_file("icy_crossing").num_starts());
+}
+
 TEST(RescueFloor, PutsThingsDownOnlyWhereTheyBelong) {
   const Domain domain = from_file("rescue_floor");
   const MdpIndex m{15};

@@ -50,6 +50,8 @@ std::vector<ModelCase> model_cases() {
       {"map_and_model", csv, toml, "[model]", "[map]\nrows = [\"SG\"]\n[model]", "E0230 domain.toml 7:2", "not both"},
       {"feature_like_a_column", csv, toml, "\"slip\"", "\"next\"", "E0231 domain.toml 10:8", "cannot be called"},
       {"no_mdp", prism, toml, "[[model.mdp]]\ntransitions", "mdp = []\n[more]\ntransitions", "E0231 domain.toml 7:7"},
+      {"mdp_not_in_a_table", gym, toml, "[[model.mdp]]\nfile", "file", "E0109 domain.toml 5:1",
+       "each MDP needs a table of its own", "write [[model.mdp]] below [model], and in it file = \"ice.json\""},
       {"mdp_twice", gym, toml, "[[model.mdp]]",
        "[[model.mdp]]\nname = \"a\"\nfile = \"ice.json\"\n[[model.mdp]]\nname = \"a\"", "E0231 domain.toml 11:8",
        "twice", "line 7"},
@@ -284,7 +286,7 @@ TEST(ModelErrors, StopAtTwentyOfTheFiles) {
 
 // Those of this page of the documentation; the others are those of grids.
 bool is_of_models(const std::string& id) {
-  return (id >= "E0230" && id < "E0300") || id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205";
+  return (id >= "E0230" && id < "E0265") || id == "E0323" || id == "E0324" || id == "W0204" || id == "W0205";
 }
 
 TEST(ModelErrorIds, AreAllTriggeredHere) {

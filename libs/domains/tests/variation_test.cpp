@@ -13,6 +13,7 @@ using ::testing::Not;
 
 TEST(WithOneMap, MakesAFamilyOfOneOutOfEveryWorldOfTheBuiltIns) {
   for (const auto& built_in : built_in_domains()) {
+    if (!built_in.files.empty()) continue;  // a model, or a map that is not drawn in the file
     const auto domain = load_domain(std::string{built_in.name});
     for (const std::size_t m : {std::size_t{0}, domain.num_mdps() - 1}) {
       const auto rows = domain.map()->draw(MdpIndex{m}, std::nullopt);

@@ -84,20 +84,19 @@ void Answerer::how_much() {
   const auto name = domain_.wording(k).one;
   const bool is_cost = domain_.weights().integer[k] < 0;
   reply_.question = "How much " + std::string{is_cost ? "does " : "is "} + name + (is_cost ? " cost?" : " worth?");
-  std::vector<std::string> sentences;
-  bool is_told = false;
+  std::vector<HalfSpace> told;
   for (const auto& constraint : atlas_.policy_bec_half_spaces()) {
-    if (constraint.normal()[k] == 0) continue;
-    is_told = true;
-    const auto sentence = in_words(domain_, constraint, atlas_.policy_bec_half_spaces());
-    if (sentence.empty() || std::find(sentences.begin(), sentences.end(), sentence) != sentences.end()) continue;
-    sentences.push_back(sentence);
-    if (atlas_.prior_cone().implies(constraint)) continue;
-    if (const auto demo = demonstration_of(constraint)) {
-      show(*demo, sentence, contrast_for(atlas_, *demo, constraint));
-    }
+    if (constraint.normal()[k] != 0) told.push_back(constraint);
   }
-  if (sentences.empty() && is_told) {
+  std::vector<std::string> sentences;
+  const auto each = each_in_words(domain_, told, atlas_.policy_bec_half_spaces());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (each[i].empty() || std::find(sentences.begin(), sentences.end(), each[i]) != sentences.end()) continue;
+    sentences.push_back(each[i]);
+    if (atlas_.prior_cone().implies(told[i])) continue;
+    if (const auto demo = demonstration_of(told[i])) show(*demo, each[i], contrast_for(atlas_, *demo, told[i]));
+  }
+  if (sentences.empty() && !told.empty()) {
     reply_.text = "What it does limits how much " + name + (is_cost ? " costs" : " is worth") +
                   ", but there is no short and true sentence about it; 'kith inspect' shows the numbers.";
     return;

@@ -107,7 +107,8 @@ std::string Answerer::because(const std::optional<Contrast>& contrast, const std
   if (!contrast) return nothing;
   if (contrast->robot_counts == contrast->alternative_counts) return "both paths count the same";
   if (!conveyed_by(domain_, *contrast)) return "both paths are worth the same";
-  return has_several(*contrast) && is_detour(domain_, *contrast) ? detour(*contrast) : reason(atlas_, *contrast);
+  return has_several(*contrast) && is_detour(domain_, *contrast) ? detour(*contrast)
+                                                                 : reason_in_tries(atlas_, *contrast);
 }
 
 bool Answerer::has_several(const Contrast& contrast) const {

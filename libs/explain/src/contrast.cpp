@@ -74,6 +74,19 @@ std::string reason(const Atlas& atlas, const Contrast& contrast, std::span<const
          (sentence.empty() ? "" : "; " + sentence);
 }
 
+std::string reason_in_tries(const Atlas& atlas, const Contrast& contrast) {
+  const auto& domain = atlas.domain();
+  const auto conveyed = domain.is_exact() ? std::nullopt : conveyed_by(domain, contrast);
+  if (!conveyed) return reason(atlas, contrast);
+  const auto world = atlas.id(contrast.demo).mdp;
+  const auto difference = contrast.robot_counts - contrast.alternative_counts;
+  const auto risks = risks_of(domain, world, difference);
+  const auto statement = statement_in_tries(domain, difference, *conveyed, risks, atlas.policy_bec_half_spaces());
+  if (!statement) return reason(atlas, contrast);
+  const auto risk = risk_in_words(domain, world, difference);
+  return (risk.empty() ? "" : risk + ": ") + in_words(domain, *statement, risks);
+}
+
 bool is_detour(const Domain& domain, const Contrast& contrast) {
   const auto more = contrast.alternative_counts - contrast.robot_counts;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {

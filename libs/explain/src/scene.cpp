@@ -113,6 +113,17 @@ std::optional<Contrast> Scene::contrast_to(DemoIndex demo, const Happening& happ
     const auto more = other.alternative_counts[happening.feature] - other.robot_counts[happening.feature];
     return happens ? more > 0 : more < 0;
   };
+  // Where chance has a part, a way on which it happens hardly less often would explain little.
+  const auto is_clear = [&](const Contrast& other) {
+    constexpr std::int64_t kOnceIn = 50;
+    const auto robot = other.robot_counts[happening.feature];
+    const auto there = other.alternative_counts[happening.feature];
+    return admits(other) &&
+           (happens ? there >= 2 * robot && kOnceIn * there >= domain_.count_scale() : 2 * there <= robot);
+  };
+  if (!domain_.is_exact() && !happening.action) {
+    if (auto best = best_way(demo, is_clear)) return best;
+  }
   if (auto best = best_way(demo, admits)) return best;
   if (!happening.action) {
     if (auto best = way_of_others(demo, happening, happens)) return best;

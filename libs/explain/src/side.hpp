@@ -15,6 +15,7 @@ enum class Number { kSingular, kPlural, kUnknown };
 // One thing of the robot's reward, several times: "crossing rubble", "2 steps".
 struct Thing {
   std::string words;
+  std::string fewer;  // so many fewer: "2 fewer steps", "not crossing rubble"
   Number number = Number::kUnknown;
 };
 
@@ -52,6 +53,13 @@ struct Side {
     if (!costs.empty()) parts.push_back("the cost of " + Side{costs, {}}.words());
     if (!gains.empty()) parts.push_back("the gain of " + Side{{}, gains}.words());
     return listed(parts);
+  }
+  // What is good about it, with costs spared: "going by road and 2 fewer steps".
+  [[nodiscard]] std::string benefits() const {
+    std::vector<std::string> words;
+    for (const auto& one : gains) words.push_back(one.words);
+    for (const auto& one : costs) words.push_back(one.fewer);
+    return listed(words);
   }
   // The verb of amount().
   [[nodiscard]] std::string is() const { return mixed() ? " together are " : " is "; }

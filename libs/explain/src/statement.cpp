@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -13,28 +16,44 @@ namespace kith {
 namespace {
 
 constexpr std::int64_t kLargest = 1000;  // beyond that nobody compares numbers
-constexpr std::int64_t kTwoDigits = 100;
 constexpr std::int64_t kMultiples = 3;
 
-// The smallest number with at most two significant digits that is at least n (`up`), or the largest that is at most n.
-std::int64_t two_digits(std::int64_t n, bool up) {
-  std::int64_t unit = 1;
-  while (n / unit >= kTwoDigits) unit *= 10;
+// The smallest round number that is at least n (`up`), or the largest that is at most n: whole numbers up to 20, then
+// multiples of 5 up to 100, of 50 up to 1000.
+std::int64_t round_number(std::int64_t n, bool up) {
+  constexpr std::int64_t kAny = 20, kHundred = 100, kStep = 5;
+  std::int64_t unit = n <= kAny ? 1 : kStep;
+  for (auto end = kHundred; n > end; end *= 10) unit *= 10;
   return (n / unit + (up && n % unit != 0 ? 1 : 0)) * unit;
 }
 
-bool is_short(const IntegerVector& normal) {
-  return std::all_of(normal.begin(), normal.end(), [](std::int64_t entry) {
-    const auto size = entry < 0 ? -entry : entry;
-    return size <= kLargest && two_digits(size, false) == size;
-  });
+// Whether people can keep the numbers in mind: one may be large. Beside it another up to 10, or if there are three or
+// more things another up to 3, and each of the rest once.
+bool is_light(const IntegerVector& normal) {
+  constexpr std::int64_t kSecondOfTwo = 10, kSecondOfMore = 3;
+  std::vector<std::int64_t> sizes;
+  for (const auto entry : normal) {
+    if (entry != 0) sizes.push_back(std::abs(entry));
+  }
+  std::sort(sizes.begin(), sizes.end(), std::greater<>{});
+  if (sizes.size() < 2) return true;
+  if (sizes.size() == 2) return sizes[1] <= kSecondOfTwo;
+  return sizes[1] <= kSecondOfMore && sizes[2] == 1;
 }
 
-// n * multiple / unit for n >= 0, down or up, to two digits.
+bool is_short(const IntegerVector& normal) {
+  const bool is_round = std::all_of(normal.begin(), normal.end(), [](std::int64_t entry) {
+    const auto size = std::abs(entry);
+    return size <= kLargest && round_number(size, false) == size;
+  });
+  return is_round && is_light(normal);
+}
+
+// n * multiple / unit for n >= 0, down or up, as a round number.
 std::int64_t scaled(std::int64_t n, std::int64_t multiple, std::int64_t unit, bool up) {
   const Int128 product = Int128{n} * multiple;
   const auto whole = static_cast<std::int64_t>((product + (up ? unit - 1 : 0)) / unit);
-  return two_digits(whole, up);
+  return round_number(whole, up);
 }
 
 // The weights that satisfy all of them; nothing if there are none, or their rays are too long to compute with.
@@ -206,6 +225,121 @@ std::optional<ShortStatement> short_statement(const Domain& domain, const HalfSp
   }
   if (!best) return std::nullopt;
   return statement(*best, condition);
+}
+
+namespace {
+
+// Whether whoever knows one statement, and what is known beforehand, knows the other one too.
+bool implies(const Domain& domain, const ShortStatement& one, const ShortStatement& other) {
+  if (one.condition && one.condition != other.condition) return false;
+  const auto known = other.condition ? with(domain.prior(), *other.condition)
+                                     : std::vector<HalfSpace>{domain.prior().begin(), domain.prior().end()};
+  const std::array<HalfSpace, 1> said{one.said};
+  const auto region = region_of(known, said, domain.num_features());
+  return region && region->implies(other.said);
+}
+
+// Whether two statements compare the same things, with numbers that differ by a quarter at most.
+bool are_nearly_equal(const ShortStatement& one, const ShortStatement& other) {
+  constexpr double kQuarter = 1.25;
+  const auto& a = one.said.normal();
+  const auto& b = other.said.normal();
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if ((a[k] > 0) != (b[k] > 0) || (a[k] < 0) != (b[k] < 0)) return false;
+    if (a[k] == 0) continue;
+    const double ratio = static_cast<double>(a[k]) / static_cast<double>(b[k]);
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  return most <= kQuarter * least;
+}
+
+}  // namespace
+
+std::vector<std::optional<ShortStatement>> short_statements(const Domain& domain,
+                                                            std::span<const HalfSpace> half_spaces,
+                                                            std::span<const HalfSpace> together) {
+  auto all = std::vector<HalfSpace>{half_spaces.begin(), half_spaces.end()};
+  all.insert(all.end(), together.begin(), together.end());
+  std::vector<std::optional<ShortStatement>> statements;
+  for (const auto& half_space : half_spaces) statements.push_back(short_statement(domain, half_space, all));
+  if (domain.is_exact()) return statements;  // they are the constraints themselves
+  for (std::size_t i = 0; i < statements.size(); ++i) {
+    for (std::size_t j = 0; j < statements.size() && statements[i]; ++j) {
+      if (i == j || !statements[j]) continue;
+      const bool adds_a_condition = statements[i]->condition && !statements[j]->condition;
+      if (adds_a_condition && are_nearly_equal(*statements[i], *statements[j])) {
+        statements[i].reset();
+        continue;
+      }
+      if (!implies(domain, *statements[j], *statements[i])) continue;
+      // Of two that say the same the first stays.
+      if (j < i || !implies(domain, *statements[i], *statements[j])) statements[i].reset();
+    }
+  }
+  return statements;
+}
+
+namespace {
+
+struct InTries {
+  StatementInTries statement;
+  double rank = 0.0;
+};
+
+// What happens in some tries, each number rounded up or down; nothing if too little of it is left.
+std::optional<InTries> rounded(const Domain& domain, const IntegerVector& difference, int tries, std::size_t ups) {
+  constexpr double kWeakest = 0.35, kWorth = 0.05;
+  constexpr std::int64_t kMost = 100;
+  InTries result{{tries, IntegerVector(difference.size())}, 0.0};
+  double gap = 0.0, weight = 0.0, length = std::log2(static_cast<double>(tries));
+  for (std::size_t k = 0; k < difference.size(); ++k) {
+    const double exact =
+        tries * std::abs(static_cast<double>(difference[k])) / static_cast<double>(domain.count_scale());
+    const bool up = (ups >> k & 1U) != 0;
+    const auto size = round_number(static_cast<std::int64_t>(up ? std::ceil(exact) : std::floor(exact)), up);
+    if (size > kMost) return std::nullopt;
+    result.statement.counts[k] = difference[k] < 0 ? -size : size;
+    const double own = std::abs(domain.weights().unit[static_cast<Eigen::Index>(k)]);
+    gap += own * std::abs(static_cast<double>(size) - exact);
+    weight += own * exact;
+    length += std::log2(1.0 + static_cast<double>(size));
+  }
+  if (gap > kWeakest * weight || result.statement.counts.is_zero() || !is_light(result.statement.counts)) {
+    return std::nullopt;
+  }
+  result.rank = gap / weight + kWorth * length;
+  return result;
+}
+
+}  // namespace
+
+std::optional<StatementInTries> statement_in_tries(const Domain& domain, const IntegerVector& difference,
+                                                   const HalfSpace& half_space, std::span<const std::size_t> named,
+                                                   std::span<const HalfSpace> together) {
+  constexpr std::array kTries{2, 3, 4, 5, 10, 20, 50, 100};
+  const auto d = domain.num_features();
+  std::vector<InTries> candidates;
+  for (const int tries : kTries) {
+    for (std::size_t ups = 0; ups < (std::size_t{1} << d); ++ups) {
+      auto candidate = rounded(domain, difference, tries, ups);
+      const auto is_told = [&](std::size_t k) { return candidate->statement.counts[k] != 0; };
+      if (candidate && std::all_of(named.begin(), named.end(), is_told)) candidates.push_back(*candidate);
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const InTries& a, const InTries& b) { return a.rank < b.rank; });
+  const std::array<HalfSpace, 1> alone{half_space};
+  const auto before = region_of(domain.prior(), {}, d);
+  for (const auto& region :
+       {region_of(domain.prior(), alone, d), region_of(domain.prior(), with(together, half_space), d)}) {
+    for (const auto& candidate : candidates) {
+      const HalfSpace said{candidate.statement.counts};
+      if (region && region->implies(said) && !(before && before->implies(said))) return candidate.statement;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace kith

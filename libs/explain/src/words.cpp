@@ -73,6 +73,9 @@ std::string compared(const Side& more, const Side& less, bool even) {
              (even ? "at least as good as " : "better than ") + more.only_costs().words();
     }
     if (more.mixed() && !less.mixed()) return compared_with_mixed(less, even ? "no more than" : "less than", more);
+    if (more.mixed() && less.mixed()) {
+      return more.benefits() + " are worth " + (even ? "at least as much as " : "more than ") + less.benefits();
+    }
     if (less.mixed() && !more.mixed())
       return compared_with_mixed(more, even ? "at least as much as" : "more than", less);
   }
@@ -81,7 +84,8 @@ std::string compared(const Side& more, const Side& less, bool even) {
     if (even) return more.amount() + more.is() + "no less than " + less.amount();
     return more.amount() + (more.mixed() ? " outweigh " : " outweighs ") + less.amount();
   }
-  const auto start = more.words() + " " + more.verb();
+  const std::string together = less.empty() && more.things().size() > 1 ? " together " : " ";
+  const auto start = more.words() + together + more.verb();
   if (less.empty()) return start + (even ? " nothing or more" : " something");
   const bool same_verb = more.costs.empty() == less.costs.empty();
   return start + (even ? " at least as much as " : " more than ") + less.words() + (same_verb ? "" : " " + less.verb());
@@ -103,6 +107,17 @@ std::string times(const Wording& wording, std::int64_t n) {
 
 std::string times_more(const Wording& wording, std::int64_t n) {
   return n == 1 ? one_more(wording.one) : several(wording.many, n, true);
+}
+
+std::string times_fewer(const Wording& wording, std::int64_t n) {
+  const auto is_counted = wording.many.find("{n} times") == std::string::npos;
+  if (is_counted && n != 1 && wording.many.find(kNumber) != std::string::npos) {
+    return with_number(wording.many, std::to_string(n) + " fewer");
+  }
+  auto text = n == 1 ? one_more(wording.one) : std::string{};
+  if (text.find("one more ") == std::string::npos || !is_counted) return "not " + times(wording, n);
+  replace_first(text, "one more ", "one fewer ");
+  return text;
 }
 
 std::string doing(const Wording& wording, std::int64_t n, bool more) {
@@ -137,18 +152,33 @@ std::string sentence_of(const Domain& domain, const IntegerVector& normal) {
 
 }  // namespace
 
-std::string in_words(const Domain& domain, const HalfSpace& half_space, std::span<const HalfSpace> together) {
-  const auto statement = short_statement(domain, half_space, together);
+namespace {
+
+std::string sentence_of(const Domain& domain, const std::optional<ShortStatement>& statement) {
   if (!statement) return "";
   const auto sentence = sentence_of(domain, statement->said.normal());
   if (!statement->condition) return sentence;
   return "if " + sentence_of(domain, statement->condition->normal()) + ", " + sentence;
 }
 
+}  // namespace
+
+std::string in_words(const Domain& domain, const HalfSpace& half_space, std::span<const HalfSpace> together) {
+  return sentence_of(domain, short_statement(domain, half_space, together));
+}
+
+std::vector<std::string> each_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces,
+                                       std::span<const HalfSpace> together) {
+  std::vector<std::string> sentences;
+  for (const auto& statement : short_statements(domain, half_spaces, together)) {
+    sentences.push_back(sentence_of(domain, statement));
+  }
+  return sentences;
+}
+
 std::vector<std::string> all_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces) {
   std::vector<std::string> sentences;
-  for (const auto& half_space : half_spaces) {
-    auto sentence = in_words(domain, half_space, half_spaces);
+  for (auto& sentence : each_in_words(domain, half_spaces)) {
     if (sentence.empty() || std::find(sentences.begin(), sentences.end(), sentence) != sentences.end()) continue;
     sentences.push_back(std::move(sentence));
   }
@@ -213,13 +243,13 @@ std::string more_or_fewer(const Wording& wording, std::int64_t n, bool more) {
 }
 
 // What is left of a difference in so many tries once it is rounded, and whether it still speaks for the robot's choice.
-struct InTries {
+struct RoundedDifference {
   std::vector<std::string> parts;
   double value = 0.0;
 };
 
-InTries in_tries(const Domain& domain, const IntegerVector& difference, double tries) {
-  InTries result;
+RoundedDifference in_tries(const Domain& domain, const IntegerVector& difference, double tries) {
+  RoundedDifference result;
   std::vector<std::string> less, more;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const double n = tries * static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
@@ -265,17 +295,45 @@ std::string on_average_in_words(const Domain& domain, const IntegerVector& diffe
   return kNoDifference;
 }
 
-std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVector& difference) {
+std::vector<std::size_t> risks_of(const Domain& domain, MdpIndex world, const IntegerVector& difference) {
   constexpr double kNothing = 0.0005;
-  if (on_average_in_words(domain, difference) == kNoDifference) return "";
-  std::vector<std::string> risked, avoided;
+  if (on_average_in_words(domain, difference) == kNoDifference) return {};
+  std::vector<std::size_t> risked, avoided;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     const double n = static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
     if (domain.weights().integer[k] >= 0 || std::abs(n) < kNothing || !is_by_chance(domain.mdp(world), k)) continue;
-    (n > 0.0 ? risked : avoided).push_back(domain.wording(k).one);
+    (n > 0.0 ? risked : avoided).push_back(k);
   }
-  if (!risked.empty()) return "it risks " + listed(risked);
-  return avoided.empty() ? "" : "it avoids the risk of " + listed(avoided);
+  return risked.empty() ? avoided : risked;
+}
+
+std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVector& difference) {
+  const auto risks = risks_of(domain, world, difference);
+  if (risks.empty()) return "";
+  std::vector<std::string> names;
+  names.reserve(risks.size());
+  for (const auto k : risks) names.push_back(domain.wording(k).one);
+  return (difference[risks.front()] > 0 ? "it risks " : "it avoids the risk of ") + listed(names);
+}
+
+std::string in_words(const Domain& domain, const StatementInTries& statement, std::span<const std::size_t> risks) {
+  Side more, less;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    const auto entry = statement.counts[k];
+    if (entry == 0) continue;
+    const bool is_cost = domain.weights().integer[k] < 0;
+    const bool is_risk = std::find(risks.begin(), risks.end(), k) != risks.end();
+    const auto& wording = domain.wording(k);
+    auto what = thing(wording, std::abs(entry));
+    if (!is_risk) what.words = times_more(wording, std::abs(entry));
+    if (is_risk && std::abs(entry) == 1 && wording.many.find("{n} times") != std::string::npos) what.words += " once";
+    (is_cost == (entry < 0) ? more : less).add(std::move(what), is_cost);
+  }
+  const bool is_discounted =
+      domain.mdp(MdpIndex{0}).discount() < 1.0 &&
+      std::any_of(statement.counts.begin(), statement.counts.end(), [](std::int64_t n) { return std::abs(n) > 1; });
+  return "in " + std::to_string(statement.tries) + " tries, " +
+         (is_discounted ? "with later steps counting less, " : "") + compared(more, less, false);
 }
 
 std::string counts_text(const Domain& domain, const IntegerVector& counts) {

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
 
 #include "atlases.hpp"
+#include "kith/bec/comparison.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "lake.hpp"
@@ -131,6 +136,119 @@ TEST(ShortStatement, LeavesOutNoTermThatMatters) {
   if (statement) {
     EXPECT_NE(statement->said.normal()[1], 0) << in_words(domain, constraint);
   }
+}
+
+// One number may be large.
+void expect_light(const IntegerVector& counts) {
+  std::vector<std::int64_t> sizes;
+  for (const auto entry : counts) {
+    if (entry != 0) sizes.push_back(std::abs(entry));
+  }
+  std::sort(sizes.begin(), sizes.end(), std::greater<>{});
+  if (sizes.size() == 2) {
+    EXPECT_LE(sizes[1], 10);
+  }
+  if (sizes.size() > 2) {
+    EXPECT_LE(sizes[1], 3);
+    EXPECT_EQ(sizes[2], 1);
+  }
+  for (const auto size : sizes) {
+    EXPECT_EQ(size % (size <= 20 ? 1 : size <= 100 ? 5 : 50), 0) << size;
+    EXPECT_LE(size, 1000);
+  }
+}
+
+// It became "150 steps cost less than falling into the water 11 times plus what coming home 3 times is worth".
+TEST(ShortStatement, HasNumbersThatPeopleCanKeepInMind) {
+  for (const auto& name : uncertain_domains()) {
+    const auto& atlas = atlas_of(name);
+    for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+      const auto statement = short_statement(atlas.domain(), atlas.constraints()[c]);
+      if (!statement) continue;
+      SCOPED_TRACE(in_words(atlas.domain(), atlas.constraints()[c]));
+      expect_light(statement->said.normal());
+    }
+  }
+}
+
+// Whether one statement follows from another and the prior.
+bool follows(const Domain& domain, const ShortStatement& one, const ShortStatement& other) {
+  if (other.condition && other.condition != one.condition) return false;
+  auto known = Constraints{domain.prior().begin(), domain.prior().end()};
+  if (one.condition) known.push_back(*one.condition);
+  known.push_back(other.said);
+  const auto region = Cone::intersection(known);
+  return region && region->implies(one.said);
+}
+
+// With a condition, beside nearly the same without one: "if coming home is worth something, 16 steps cost more than
+// falling into the water" beside "19 steps cost more than falling into the water".
+bool adds_little(const ShortStatement& one, const ShortStatement& other) {
+  if (!one.condition || other.condition) return false;
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < one.said.normal().size(); ++k) {
+    const auto a = one.said.normal()[k], b = other.said.normal()[k];
+    if (a == 0 && b == 0) continue;
+    if (a == 0 || b == 0 || (a < 0) != (b < 0)) return false;
+    ratios.push_back(static_cast<double>(a) / static_cast<double>(b));
+  }
+  return *std::max_element(ratios.begin(), ratios.end()) <= 1.25 * *std::min_element(ratios.begin(), ratios.end());
+}
+
+TEST(ShortStatements, LeaveOutWhatAnotherSaysAndNothingElse) {
+  std::size_t left_out = 0;
+  for (const auto& name : uncertain_domains()) {
+    SCOPED_TRACE(name);
+    const auto& domain = atlas_of(name).domain();
+    const auto policy = as_vector(atlas_of(name).policy_bec_half_spaces());
+    const auto all = short_statements(domain, policy);
+    ASSERT_EQ(all.size(), policy.size());
+    for (std::size_t i = 0; i < policy.size(); ++i) {
+      const auto own = short_statement(domain, policy[i], policy);
+      const auto implies_own = [&](std::size_t j) {
+        return j != i && all[j] && own && (follows(domain, *own, *all[j]) || adds_little(*own, *all[j]));
+      };
+      bool is_implied = false;
+      for (std::size_t j = 0; j < policy.size(); ++j) is_implied = is_implied || implies_own(j);
+      EXPECT_EQ(all[i].has_value(), own.has_value() && !is_implied) << in_words(domain, policy[i], policy);
+      left_out += own && !all[i] ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(left_out, 0u);
+}
+
+// For every demonstration's comparisons with one other action.
+TEST(StatementInTries, FollowsFromThePolicy) {
+  const auto& atlas = atlas_of(uncertain_domains().front());
+  const auto& domain = atlas.domain();
+  const auto policy = as_vector(atlas.policy_bec_half_spaces());
+  const auto known = Cone::intersection(joined(policy, {domain.prior().begin(), domain.prior().end()}));
+  ASSERT_TRUE(known.has_value());
+  std::size_t tried = 0, said = 0;
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    const auto choices = domain.mdp(atlas.id(demo).mdp).choices(atlas.id(demo).start);
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+      const auto difference = atlas.feature_counts(demo) - atlas.deviation_counts(demo, c);
+      const auto conveyed = preference_of_robot(domain, difference);
+      if (!conveyed || !is_trade(domain, *conveyed)) continue;
+      ++tried;
+      const auto risks = risks_of(domain, atlas.id(demo).mdp, difference);
+      const auto statement = statement_in_tries(domain, difference, *conveyed, risks, policy);
+      if (!statement) continue;
+      ++said;
+      SCOPED_TRACE(in_words(domain, *statement, risks));
+      EXPECT_TRUE(known->implies(HalfSpace{statement->counts}));
+      expect_light(statement->counts);
+      for (std::size_t k = 0; k < domain.num_features(); ++k) {
+        const double exact =
+            statement->tries * static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
+        // Next to it: the next round number is at most 5 away.
+        EXPECT_LT(std::abs(static_cast<double>(statement->counts[k]) - exact), 5.0);
+      }
+      for (const auto risk : risks) EXPECT_NE(statement->counts[risk], 0);
+    }
+  }
+  EXPECT_GT(2 * said, tried);  // most can be said
 }
 
 TEST(ShortStatement, SaysShortConstraintsAsTheyAre) {

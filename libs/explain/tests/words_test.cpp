@@ -136,6 +136,17 @@ TEST(OnAverage, RoundsToTwoDigitsAndKeepsWhatDecides) {
             "times and about 30 more steps");
 }
 
+TEST(InTries, ComparesWhatHappensInAFewTries) {
+  const std::vector<std::size_t> mud{0}, none;
+  EXPECT_EQ(in_words(mud_and_dock(), StatementInTries{10, {1, 0, -30}}, mud),
+            "in 10 tries, 30 more steps cost more than crossing mud once");
+  EXPECT_EQ(in_words(mud_and_dock(), StatementInTries{3, {-2, 1, 3}}, mud),
+            "in 3 tries, 3 more steps cost less than crossing mud twice plus what stopping at the dock once more is "
+            "worth");
+  EXPECT_EQ(in_words(mud_and_dock(), StatementInTries{2, {0, 1, 1}}, none),
+            "in 2 tries, stopping at the dock once more is worth more than one more step costs");
+}
+
 TEST(Risk, IsNamedWhereChanceDecides) {
   const auto icy = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
   EXPECT_EQ(risk_in_words(icy, MdpIndex{1}, thousandths(icy, {50, 0, -1000})), "it risks falling into the water");
@@ -172,6 +183,25 @@ TEST(Times, CountsNounsAndVerbs) {
   EXPECT_EQ(times_more(rubble, 2), "crossing rubble 2 more times");
   EXPECT_EQ(doing(rubble, 2, false), "cross rubble twice");
   EXPECT_EQ(doing(Wording{"a step", "{n} steps", "", ""}, 2, false), "");
+}
+
+TEST(TimesFewer, SparesNounsAndDeeds) {
+  const Wording step{"a step on the path", "{n} steps on the path", "take a step", "take {n} steps"};
+  EXPECT_EQ(times_fewer(step, 1), "one fewer step on the path");
+  EXPECT_EQ(times_fewer(step, 3), "3 fewer steps on the path");
+  const Wording rubble{"crossing rubble", "crossing rubble {n} times", "cross rubble", "cross rubble {n} times"};
+  EXPECT_EQ(times_fewer(rubble, 1), "not crossing rubble");
+  EXPECT_EQ(times_fewer(rubble, 2), "not crossing rubble twice");
+}
+
+// It was "the cost of 3 steps and the gain of stopping at the dock outweigh the cost of crossing mud and the gain of
+// ...".
+TEST(InWords, ComparesBenefitsWhereBothSidesHaveCostsAndGains) {
+  const auto domain = load_domain("navigation");  // gravel, grass, road, recharge, board, car, step
+  EXPECT_EQ(in_words(domain, HalfSpace{{0, 1, 1, 0, -7, 0, -3}}),
+            "going by road and 3 fewer steps are worth more than 7 moves on the board and not crossing grass");
+  EXPECT_EQ(in_words(domain, HalfSpace{{-2, -1, 0, 0, 0, 0, 0}}),
+            "crossing gravel twice and crossing grass together cost something");
 }
 
 TEST(InGeneral, LeavesOutTheNumber) {

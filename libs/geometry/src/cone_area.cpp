@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "exact.hpp"
+#include "guide_table.hpp"
 #include "kith/geometry/cone_sampler.hpp"
 #include "nearest_point.hpp"
 #include "simplex_points.hpp"
@@ -82,9 +83,9 @@ std::vector<double> ConeSampler::shares(std::size_t points) const {
   double sum = 0.0;
   for (const Part& part : parts_) cumulative.push_back(sum += likely(part) / all_likely + most(part) / all_most);
 
+  const detail::GuideTable guide{cumulative};
   const auto contribution = [&](double which, std::span<const double> lambda) {
-    const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, which * sum);
-    const auto i = static_cast<std::size_t>(found - cumulative.begin());
+    const std::size_t i = guide.find(which);
     const Part& part = parts_[i];
     Direction x = Direction::Zero(static_cast<Eigen::Index>(rank_));
     for (std::size_t k = 0; k < rank_; ++k) x += lambda[k] * rays_.col(static_cast<Eigen::Index>(part.rays[k]));

@@ -6,12 +6,16 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <queue>
 #include <stdexcept>
 #include <utility>
 
+#include "guide_table.hpp"
+#include "kith/core/assert.hpp"
 #include "kith/geometry/cover.hpp"
 #include "nearest_point.hpp"
 #include "simplex_points.hpp"
@@ -36,6 +40,47 @@ Eigen::MatrixXd columns(std::span<const IntegerVector> vectors, std::size_t dime
   Eigen::MatrixXd result(static_cast<Eigen::Index>(dimension), static_cast<Eigen::Index>(vectors.size()));
   for (std::size_t i = 0; i < vectors.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = real(vectors[i]);
   return result;
+}
+
+// How far half_power may be from the power, relative to it, and much more.
+constexpr double kRoughly = 1e-12;
+
+// x^(n/2)
+double half_power(double x, std::size_t n) {
+  double result = n % 2 == 0 ? 1.0 : std::sqrt(x);
+  for (std::size_t k = 0; k < n / 2; ++k) result *= x;
+  return result;
+}
+
+// The sum of n rays, columns of a matrix of n rows, each times its lambda.
+template <std::size_t n>
+void combine_in(const double* rays, const std::array<std::uint32_t, 8>& which, std::span<const double> lambda,
+                double* out) {
+  std::array<double, n> sum{};
+  for (std::size_t k = 0; k < n; ++k) {
+    const double* const ray = rays + which[k] * n;
+    const double factor = lambda[k];
+    for (std::size_t i = 0; i < n; ++i) sum[i] += factor * ray[i];
+  }
+  std::copy(sum.begin(), sum.end(), out);
+}
+
+void combine(const double* rays, const std::array<std::uint32_t, 8>& which, std::span<const double> lambda,
+             double* out) {
+  switch (lambda.size()) {
+    case 4:
+      return combine_in<4>(rays, which, lambda, out);
+    case 5:
+      return combine_in<5>(rays, which, lambda, out);
+    case 6:
+      return combine_in<6>(rays, which, lambda, out);
+    case 7:
+      return combine_in<7>(rays, which, lambda, out);
+    case 8:
+      return combine_in<8>(rays, which, lambda, out);
+    default:
+      KITH_ASSERT(false);
+  }
 }
 
 }  // namespace
@@ -215,10 +260,25 @@ Eigen::MatrixXd ConeSampler::cover(std::size_t n) const {
     }
     return points;
   }
+  // Most proposals are rejected, so the power is computed only where a rough one cannot tell.
+  const detail::GuideTable guide{envelope_};
+  const bool is_pointed = rank_ == dimension();
   Eigen::Index found = 0;
+  Direction point(static_cast<Eigen::Index>(dimension()));
   const auto take = [&](double which, std::span<const double> lambda, double last) {
-    const Proposal proposal = propose(which, lambda);
-    if (last < proposal.acceptance) points.col(found++) = proposal.point;
+    if (!is_pointed) {
+      const Proposal proposal = propose(which, lambda);
+      if (last < proposal.acceptance) points.col(found++) = proposal.point;
+      return;
+    }
+    const Part& part = parts_[guide.find(which)];
+    combine(rays_.data(), part.rays, lambda, point.data());
+    const double square = point.squaredNorm();
+    const double likely = 1.0 / (part.peak * square);
+    const double rough = half_power(likely, dimension());
+    const bool is_clear = std::abs(last - rough) > kRoughly * rough;
+    const double power = 0.5 * static_cast<double>(dimension());
+    if (last < (is_clear ? rough : std::pow(likely, power))) points.col(found++) = point / std::sqrt(square);
   };
   const auto& first = detail::cover_points(dimension());
   for (std::size_t i = 0; i < first.size() && found < points.cols(); ++i) {

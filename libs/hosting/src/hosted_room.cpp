@@ -11,7 +11,7 @@
 namespace kith {
 namespace {
 
-constexpr std::size_t kMostLessons = 4;  // kept for a room: each holds two sessions
+constexpr std::size_t kMostAhead = 4;  // lessons that are begun ahead of time for each one that is taken
 
 // Whether other lessons may be likely after such an event.
 bool changes_lessons(const RoomEvent& event) {
@@ -68,6 +68,7 @@ void HostedRoom::rebuild(std::vector<StoredEvent> events) {
                     if (event.message) messages.push_back(mark_of(event.actor, *event.message));
                     last = event.at_us;
                   }
+                  rebuilt.release();
                   room = std::move(rebuilt);
                 } catch (const std::exception& error) {
                   problem = error.what();
@@ -83,7 +84,8 @@ void HostedRoom::rebuild(std::vector<StoredEvent> events) {
 void HostedRoom::finish_rebuild(std::optional<Room> room, std::vector<std::uint64_t> messages,
                                 const std::string& problem) {
   room_ = std::move(room);
-  messages_.insert(messages.begin(), messages.end());
+  messages_ = std::move(messages);
+  std::sort(messages_.begin(), messages_.end());
   if (!room_) {
     broken_ = problem;
     host_.on_trouble(number(), "room " + setup_.code + " cannot be rebuilt: " + problem);
@@ -112,8 +114,14 @@ void HostedRoom::abandon() {
   saving_.reset();
 }
 
-// Does what can be done now, until something is being saved or nothing is left.
 void HostedRoom::advance() {
+  do_what_can_be_done();
+  const auto ahead = std::count_if(lessons_.begin(), lessons_.end(), [](const auto& entry) { return entry.second; });
+  num_sessions_ = static_cast<std::size_t>(ahead) + (room_ && room_->holds_session() ? 1 : 0);
+}
+
+// Until something is being saved or nothing is left.
+void HostedRoom::do_what_can_be_done() {
   if (!broken_.empty()) {
     may_have_free_seat_ = false;
     for (auto& asked : std::exchange(asked_, {}))
@@ -147,7 +155,7 @@ bool HostedRoom::begin_next() {
   auto asked = std::move(asked_.front());
   asked_.pop_front();
   const auto& id = asked.command.id;
-  if (!id.empty() && messages_.count(mark_of(asked.command.actor, id)) != 0) {
+  if (!id.empty() && std::binary_search(messages_.begin(), messages_.end(), mark_of(asked.command.actor, id))) {
     asked.done({});
     return true;
   }
@@ -204,11 +212,26 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
   if (done->lesson) {
     lessons_.clear();
     wanted_.clear();
+    num_ahead_ = 0;
   }
-  if (!done->message.empty()) messages_.insert(mark_of(done->events.front().actor, done->message));
+  if (!done->message.empty()) keep_mark(mark_of(done->events.front().actor, done->message));
+  release();
   if (done->done) done->done({.events = done->events, .refusal = {}});
   host_.on_applied(*this, done->events);
   advance();
+}
+
+// A room whose group is not taught any more stays for its pages; what only teaching needs does not.
+void HostedRoom::release() {
+  if (!room_->holds_session()) return;
+  room_->release();
+  if (room_->holds_session()) return;
+  lessons_.clear();
+  wanted_.clear();
+}
+
+void HostedRoom::keep_mark(std::uint64_t mark) {
+  messages_.insert(std::upper_bound(messages_.begin(), messages_.end(), mark), mark);
 }
 
 // Asks for the lesson that the room waits for, or takes it if it is there.
@@ -229,9 +252,16 @@ void HostedRoom::seek_lesson() {
 
 void HostedRoom::look_ahead() {
   if (room_->stage() != RoomStage::kRunning || !wanted_.empty()) return;
-  for (const auto& task : room_->likely_teaching()) {
-    if (lessons_.size() >= kMostLessons) return;
-    if (lessons_.find(task.key()) == lessons_.end()) start_task(TeachingPool::Urgency::kAhead, task);
+  const auto likely = room_->likely_teaching();
+  // A lesson that is no longer likely is not kept: it holds a session.
+  std::erase_if(lessons_, [&](const auto& entry) {
+    return std::none_of(likely.begin(), likely.end(), [&](const auto& task) { return task.key() == entry.first; });
+  });
+  for (const auto& task : likely) {
+    if (num_ahead_ >= kMostAhead) return;
+    if (lessons_.find(task.key()) != lessons_.end()) continue;
+    ++num_ahead_;
+    start_task(TeachingPool::Urgency::kAhead, task);
   }
 }
 

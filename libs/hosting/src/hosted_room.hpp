@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "kith/hosting/event_file.hpp"
@@ -62,6 +61,9 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   [[nodiscard]] std::int64_t next_due_us() const noexcept { return next_due_us_.load(); }
   // From any thread: whether somebody may find a seat; as long as nobody knows, yes.
   [[nodiscard]] bool may_have_free_seat() const noexcept { return may_have_free_seat_.load(); }
+  // From any thread: how many sessions it has in memory, those of lessons that were chosen ahead of time included; none
+  // once teaching is over.
+  [[nodiscard]] std::size_t num_sessions() const noexcept { return num_sessions_.load(); }
   // From any thread: whether events wait for a disk that refused them.
   [[nodiscard]] bool is_unsaved() const noexcept { return is_unsaved_.load(); }
 
@@ -100,6 +102,9 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
 
   void finish_rebuild(std::optional<Room> room, std::vector<std::uint64_t> messages, const std::string& problem);
   void advance();
+  void do_what_can_be_done();
+  void release();
+  void keep_mark(std::uint64_t mark);
   [[nodiscard]] bool begin_next();
   void save(Saving saving);
   void hand_in();
@@ -116,18 +121,20 @@ class HostedRoom : public std::enable_shared_from_this<HostedRoom> {
   RoomSetup setup_;
   std::atomic<std::int64_t> next_due_us_ = std::numeric_limits<std::int64_t>::max();
   std::atomic<bool> is_unsaved_ = false;
+  std::atomic<std::size_t> num_sessions_ = 0;
   std::atomic<bool> may_have_free_seat_ = true;
 
   std::optional<Room> room_;
-  std::string broken_;                          // why it cannot go on
-  std::int64_t last_us_ = 0;                    // of the last event
-  std::unordered_set<std::uint64_t> messages_;  // whose effects are saved
+  std::string broken_;                   // why it cannot go on
+  std::int64_t last_us_ = 0;             // of the last event
+  std::vector<std::uint64_t> messages_;  // whose effects are saved; sorted
   std::deque<Asked> asked_;
   std::optional<Saving> saving_;
   std::uint64_t sought_ = 0;  // one more than the number of the event after which a lesson was last asked for
   std::string wanted_;        // key of the lesson that is waited for
   std::map<std::string, std::shared_ptr<const TaughtLesson>> lessons_;  // by key; null: somebody is at it
-  bool has_changed_ = false;                                            // so that other lessons are likely
+  std::size_t num_ahead_ = 0;  // lessons that were begun ahead of time since the last one was taken
+  bool has_changed_ = false;   // so that other lessons are likely
 };
 
 }  // namespace kith

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <numeric>
 #include <system_error>
 #include <utility>
 
@@ -164,6 +165,12 @@ LiveService::~LiveService() { stop(); }
 std::size_t LiveService::num_rooms() const {
   const std::lock_guard lock{state_->mutex};
   return state_->num_groups();
+}
+
+std::size_t LiveService::num_sessions() const {
+  const std::lock_guard lock{state_->mutex};
+  return std::accumulate(state_->rooms.begin(), state_->rooms.end(), std::size_t{0},
+                         [](std::size_t sum, const auto& entry) { return sum + entry.second->num_sessions(); });
 }
 
 void LiveService::set_base_url(std::string url) {

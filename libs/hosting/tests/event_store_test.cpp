@@ -131,35 +131,56 @@ void check_after(const std::filesystem::path& folder, const Attempt& outcome, co
     EXPECT_EQ(stored.count({room, seq % 2 == 1 ? seq + 1 : seq - 1}), 1u) << story << ": half of a batch";
 }
 
-// Cases number `first` to `last`, from 0. @param fewest  in how many of them an operation must have failed.
-void fail_every_nth(std::size_t first, std::size_t last, std::size_t fewest) {
-  const FaultyDisk disk;
-  std::size_t struck = 0;
-  for (std::size_t i = first; i <= last; ++i) {
-    const auto n = 1 + i / 2;
-    const std::size_t times = i % 2 == 0 ? 1 : 3;
-    const auto fault = i % 3 == 0   ? FaultyDisk::Fault::kInputOutput
-                       : i % 3 == 1 ? FaultyDisk::Fault::kFull
-                                    : FaultyDisk::Fault::kShortWrite;
-    const auto story =
-        "operation " + std::to_string(n) + ", " + std::to_string(times) + " failures, kind " + std::to_string(i % 3);
-    const ScratchFolder scratch;
-    const auto before = FaultyDisk::num_failed();
-    const auto outcome = write_to_failing_disk(scratch.path() / "session", n, times, fault);
-    struck += FaultyDisk::num_failed() > before ? 1u : 0u;
-    check_after(scratch.path() / "session", outcome, story);
+// How many operations the same takes on a disk that does not fail.
+std::size_t num_operations() {
+  const ScratchFolder scratch;
+  const auto before = FaultyDisk::count();
+  const auto outcome = write_to_failing_disk(scratch.path() / "session", 0, 0, FaultyDisk::Fault::kFull);
+  EXPECT_EQ(outcome.acknowledged.size(), 20u);
+  return FaultyDisk::count() - before;
+}
+
+// Case number i, from 0, begins to fail at operation 1 + i / 2.
+// @return whether an operation failed.
+bool fail_in_case(std::size_t i) {
+  const auto n = 1 + i / 2;
+  const std::size_t times = i % 2 == 0 ? 1 : 3;
+  const auto fault = i % 3 == 0   ? FaultyDisk::Fault::kInputOutput
+                     : i % 3 == 1 ? FaultyDisk::Fault::kFull
+                                  : FaultyDisk::Fault::kShortWrite;
+  const auto story =
+      "operation " + std::to_string(n) + ", " + std::to_string(times) + " failures, kind " + std::to_string(i % 3);
+  const ScratchFolder scratch;
+  const auto before = FaultyDisk::num_failed();
+  const auto outcome = write_to_failing_disk(scratch.path() / "session", n, times, fault);
+  const bool has_failed = FaultyDisk::num_failed() > before;
+  check_after(scratch.path() / "session", outcome, story);
+  return has_failed;
+}
+
+// Until the operation that fails, a run is like any other: every failure up to the last operation of an undisturbed run
+// must hit one.
+void fail_in_cases(std::size_t first, std::size_t end, std::size_t operations) {
+  for (std::size_t i = first; i < end; ++i) {
+    EXPECT_EQ(fail_in_case(i), 1 + i / 2 <= operations) << "case " << i << " of " << operations << " operations";
     if (::testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_GE(struck, fewest) << "the failures must hit something";
 }
 
 class FailingDisk : public ::testing::TestWithParam<std::size_t> {};
-TEST_P(FailingDisk, NeverHasWhatWasNotSavedAcknowledged) { fail_every_nth(GetParam(), GetParam() + 49, 25); }
+TEST_P(FailingDisk, NeverHasWhatWasNotSavedAcknowledged) {
+  const FaultyDisk disk;
+  fail_in_cases(GetParam(), GetParam() + 50, num_operations());
+}
 INSTANTIATE_TEST_SUITE_P(Cases, FailingDisk, ::testing::Values(0u, 50u, 100u, 150u));
 
-// Beyond the last operation of the scenario. How many there are depends on how many batches are saved together, so on a
-// busy machine most of these cases may not fail at all.
-TEST(SlowFailingDisk, NeverHasWhatWasNotSavedAcknowledged) { fail_every_nth(200, 399, 1); }
+// From there to the last operation, and a few beyond it.
+TEST(SlowFailingDisk, NeverHasWhatWasNotSavedAcknowledged) {
+  const FaultyDisk disk;
+  const auto operations = num_operations();
+  ASSERT_GT(operations, 100u) << "nothing is left to fail";
+  fail_in_cases(200, 2 * operations + 10, operations);
+}
 
 }  // namespace
 }  // namespace kith

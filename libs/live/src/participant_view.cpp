@@ -1,14 +1,12 @@
 #include <algorithm>
 
-#include "kith/explain/words.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 namespace {
-
-constexpr std::size_t kMostSummary = 8;  // sentences
 
 // Why a person's session ended early, in their words.
 std::string end_text(const LiveSeat& seat, const std::string& group_text) {
@@ -254,18 +252,9 @@ class ParticipantPage {
   }
 
   [[nodiscard]] Json debrief() const {
-    std::vector<std::string> sentences;
-    for (const auto& past : state_.session->history()) {
-      if (!past.feedback.component_learned) continue;
-      for (const auto& words : all_in_words(room_.study.atlas->domain(), past.lesson.taught)) {
-        auto text = sentence(words);
-        if (std::find(sentences.begin(), sentences.end(), text) == sentences.end() && sentences.size() < kMostSummary)
-          sentences.push_back(std::move(text));
-      }
-    }
-    Json json{{"summary", sentences},
+    Json json{{"summary", learned_sentences(room_)},
               {"code", code()},
-              {"rounds", state_.session->periods()},
+              {"rounds", num_periods(state_)},
               {"right", seat_.right},
               {"tests", seat_.tests}};
     if (auto redirect = redirect_json(room_.study, code(), seat_.query); !redirect.is_null()) {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/bytes.hpp"
 #include "kith/files/sha256.hpp"
 #include "kith/study/team_streams.hpp"
 #include "room_stepper.hpp"
 #include "room_view.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 namespace {
@@ -135,7 +137,19 @@ Room::Room(std::shared_ptr<const LiveStudy> study, RoomSetup setup, TeachingCach
 const RoomSetup& Room::setup() const noexcept { return *setup_; }
 const LiveStudy& Room::study() const noexcept { return *study_; }
 std::uint64_t Room::seq() const noexcept { return state_->seq; }
-const Session& Room::session() const noexcept { return *state_->session; }
+bool Room::holds_session() const noexcept { return state_->session != nullptr; }
+const Session& Room::session() const noexcept {
+  KITH_ASSERT(holds_session());
+  return *state_->session;
+}
+
+void Room::release() {
+  const bool is_over = state_->phase == RoomPhase::kQuestions || state_->phase == RoomPhase::kEnded;
+  if (is_over && holds_session()) {
+    state_ = std::make_shared<const State>(released_state({*study_, *setup_, *state_}));
+  }
+}
+
 std::size_t Room::num_seats() const noexcept { return state_->seats.size(); }
 
 RoomStage Room::stage() const noexcept {

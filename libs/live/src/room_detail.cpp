@@ -4,32 +4,14 @@
 
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/files/base64.hpp"
 #include "kith/geometry/outline.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 namespace {
-
-constexpr std::size_t kNumPoints = 300;
-
-// Points drawn evenly by weight, always the same ones: int16 little endian x, y, z.
-std::string points_text(const ParticleBelief& belief) {
-  std::string bytes;
-  for (const auto& draw : belief.systematic_draws(kNumPoints, RandomStream{0})) {
-    for (std::size_t repeat = 0; repeat < draw.count; ++repeat) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto value = static_cast<std::int16_t>(std::lround(belief.axis(k)[draw.index] * 32767.0));
-        const auto bits = static_cast<std::uint16_t>(value);
-        bytes += static_cast<char>(bits & 255u);
-        bytes += static_cast<char>(bits >> 8u);
-      }
-    }
-  }
-  return base64(bytes);
-}
 
 Json outline_json(const Cone& cone) {
   Json corners = Json::array();
@@ -62,7 +44,7 @@ class RoomDetailPage {
  private:
   [[nodiscard]] Json session() const {
     Json components = Json::array();
-    const auto all = state_.session->components();
+    const auto all = components_of(state_);
     for (std::size_t i = 0; i < all.size(); ++i) {
       constexpr std::array kWords{"open", "learned", "skipped"};
       components.push_back(
@@ -70,7 +52,7 @@ class RoomDetailPage {
     }
     constexpr std::array kPhases{"lobby", "teacher", "watch", "predict", "feedback", "questions", "ended"};
     const auto* lesson = current_lesson();
-    return {{"period", state_.session->periods()},
+    return {{"period", num_periods(state_)},
             {"component", lesson != nullptr ? Json(lesson->component + 1) : Json{}},
             {"components", components},
             {"phase", kPhases[static_cast<std::size_t>(state_.phase)]}};
@@ -78,9 +60,8 @@ class RoomDetailPage {
 
   // The one that people see; while they read the feedback that of the period behind them.
   [[nodiscard]] const Lesson* current_lesson() const {
-    const auto& session = *state_.session;
-    if (state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting) return &session.lesson();
-    return session.history().empty() ? nullptr : &session.history().back().lesson;
+    const bool is_taught = state_.phase == RoomPhase::kWatching || state_.phase == RoomPhase::kTesting;
+    return is_taught ? &state_.session->lesson() : last_lesson(state_);
   }
 
   [[nodiscard]] std::string why(const Lesson& lesson) const {
@@ -163,15 +144,8 @@ class RoomDetailPage {
 
   [[nodiscard]] Json beliefs() const {
     Json list = Json::array();
-    if (domain_.num_features() != 3 || room_.setup.is_waiting_list) return list;
-    const auto& session = *state_.session;
-    for (std::size_t m = 0; m < session.num_members(); ++m) {
-      list.push_back(
-          {{"name", "member " + std::to_string(m + 1)}, {"points", points_text(session.belief().member(m))}});
-    }
-    for (const auto& rule : session.options().rules) {
-      list.push_back(
-          {{"name", std::string{rule.name}}, {"points", points_text(session.belief().aggregate(rule.name))}});
+    for (auto& [name, points] : belief_points(room_)) {
+      list.push_back({{"name", std::move(name)}, {"points", std::move(points)}});
     }
     return list;
   }

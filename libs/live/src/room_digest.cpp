@@ -1,6 +1,6 @@
 #include "kith/files/bytes.hpp"
 #include "kith/files/sha256.hpp"
-#include "room_state.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 namespace {
@@ -23,24 +23,33 @@ class RoomBytes {
     bytes_.text(state_.end_reason);
     bytes_.text(state_.next_strategy ? state_.next_strategy->name : "");
     for (const auto& seat : state_.seats) add(seat);
-    for (const auto& member : state_.members) {
+    for (std::size_t m = 0; m < state_.members.size(); ++m) {
+      const auto& member = state_.members[m];
       bytes_.count(member.seat ? *member.seat + 1 : 0);
       bytes_.flag(member.is_away);
-      bytes_.flag(member.learner != nullptr);
+      bytes_.flag(state_.summary ? state_.summary->has_learner[m] : member.learner != nullptr);
       add(member.response.answers);
     }
     for (const auto& [cell, count] : state_.groups) {
       bytes_.text(cell);
       bytes_.count(count);
     }
-    bytes_.text(digest_of(*state_.session));
-    bytes_.text(state_.before ? digest_of(*state_.before) : "");
+    add_session();
     bytes_.count(state_.answers.size());
     bytes_.count(state_.notices.size());
     return std::move(bytes_).take();
   }
 
  private:
+  void add_session() {
+    if (state_.summary) {
+      bytes_.text(state_.summary->digest);
+      bytes_.text(state_.summary->digest_before);
+      return;
+    }
+    bytes_.text(digest_of(*state_.session));
+    bytes_.text(state_.before ? digest_of(*state_.before) : "");
+  }
   void add(const std::vector<Answer>& answers) {
     bytes_.count(answers.size());
     for (const auto& answer : answers) {

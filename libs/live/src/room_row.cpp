@@ -4,6 +4,7 @@
 #include "kith/live/screening.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
+#include "session_summary.hpp"
 
 namespace kith {
 namespace {
@@ -18,17 +19,16 @@ class RoomRowPage {
     for (std::size_t i = 0; i < state_.seats.size(); ++i) {
       if (state_.seats[i].last_page != "moved") seats.push_back(seat_row(i));
     }
-    const auto& session = *state_.session;
     const bool is_list = room_.setup.is_waiting_list;
     Json row{{"id", room_.setup.id}};
     if (is_facilitator_) row["code"] = room_.setup.code;
     row["stage"] = stage_word();
-    row["strategy"] = is_list ? "waiting list" : session.strategy().name;
+    row["strategy"] = is_list ? "waiting list" : strategy_name(state_);
     row["composition"] = room_.setup.composition;
     if (is_list) row["waiting_list"] = true;
     row["replicate"] = room_.setup.replicate;
     row["seats"] = std::move(seats);
-    row["period"] = session.periods() + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
+    row["period"] = num_periods(state_) + (is_running(state_) && state_.phase != RoomPhase::kFeedback ? 1u : 0u);
     row["component"] = component();
     if (state_.started_us) row["started_ms"] = in_ms(*state_.started_us);
     if (!state_.end_reason.empty()) row["ended"] = state_.end_reason;
@@ -54,7 +54,7 @@ class RoomRowPage {
 
   // The one under way, or the next one, from 1.
   [[nodiscard]] std::size_t component() const {
-    const auto components = state_.session->components();
+    const auto components = components_of(state_);
     const auto open = std::find(components.begin(), components.end(), ComponentStatus::kOpen);
     const auto index = static_cast<std::size_t>(open - components.begin());
     return std::min(index + 1, components.size());

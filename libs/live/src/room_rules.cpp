@@ -40,6 +40,8 @@ bool is_running(const Room::State& state) noexcept {
 std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat) {
   if (!seat.is_person) return {};
   if (seat.status == SeatStatus::kGone) return seat.last_page;
+  // Somebody who opens their link when it is all over.
+  if (seat.status == SeatStatus::kEmpty && room.state.phase == RoomPhase::kEnded) return "ended";
   if (seat.status == SeatStatus::kEmpty || seat.readiness == Readiness::kConsent) return "consent";
   if (seat.readiness == Readiness::kCheck) return "check";
   if (seat.readiness == Readiness::kScreening) return "screening";

@@ -99,6 +99,8 @@ struct LiveCurvePoint {
   std::vector<std::pair<std::size_t, double>> right;  ///< By seat (index).
 };
 
+struct SessionSummary;
+
 struct Room::State {
   std::uint64_t seq = 0;
   std::int64_t last_us = 0;
@@ -108,6 +110,7 @@ struct Room::State {
   std::vector<LiveMember> members;
 
   std::shared_ptr<const Session> session;
+  std::shared_ptr<const SessionSummary> summary;  ///< In place of the session, once that was released.
   // From the proposal of a lesson until its feedback: what was before, should the lesson be of no use any more.
   std::shared_ptr<const Session> before;
   std::vector<LiveMember> members_before;

@@ -1,6 +1,7 @@
 #include "kith/live/teaching_task.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "kith/files/bytes.hpp"
@@ -76,7 +77,6 @@ bool component_is_over(const Session& session) {
 TaughtLesson::TaughtLesson(const TaughtLesson& other)
     : key{other.key},
       digest{other.digest},
-      before{other.before},
       after{other.after},
       learners{copies_of(other.learners)},
       responses{other.responses},
@@ -114,7 +114,8 @@ TaughtLesson TeachingTask::run(TeachingCache& cache, std::size_t num_runners_up)
     }
   }
   if (content_.strategy && component_is_over(session)) session.change_strategy(*content_.strategy);
-  taught.before = std::make_shared<const Session>(session);
+  std::optional<Session> before;
+  if (num_runners_up > 0) before = session;
   const bool has_lesson = session.propose(cache);
   taught.responses.resize(taught.learners.size());
   taught.abilities.resize(taught.learners.size());
@@ -134,7 +135,7 @@ TaughtLesson TeachingTask::run(TeachingCache& cache, std::size_t num_runners_up)
       taught.responses[m] = learner->answer(cache.behaviours(), tests, lesson.period);
       taught.abilities[m] = learner->ability();
     }
-    taught.runners_up = runners_up(*taught.before, lesson, cache, num_runners_up);
+    if (before) taught.runners_up = runners_up(*before, lesson, cache, num_runners_up);
   }
   taught.digest = digest_of(session);
   taught.after = std::make_shared<const Session>(std::move(session));

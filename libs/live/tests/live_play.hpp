@@ -12,10 +12,11 @@
 #include "kith/live/room.hpp"
 #include "kith/live/world_json.hpp"
 #include "kith/study/study_file.hpp"
+#include "study_texts.hpp"
 
 namespace kith::testing {
 
-inline constexpr const char* kLiveStudy = R"(schema = "kith.study/1"
+inline const std::string kLiveStudy = R"(schema = "kith.study/1"
 id = "live"
 domain = "item-delivery"
 seed = 11
@@ -23,15 +24,7 @@ replicates = 3
 [design]
 strategies = ["common", "joint", "individual-low", "baseline"]
 compositions = ["NNP", "NN", "N"]
-[learner.N]
-ability = { mean = 0.703, sd = 0.034 }
-confirm_gain = { half_normal = 0.033 }
-correct_gain = { half_normal = 0.056 }
-[learner.P]
-ability = { mean = 0.809, sd = 0.025 }
-confirm_gain = { half_normal = 0.022 }
-correct_gain = { half_normal = 0.052 }
-[teacher]
+)" + kPaperLearners + R"([teacher]
 particles = 120
 counterfactuals = 4
 )";

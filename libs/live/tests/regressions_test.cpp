@@ -46,6 +46,20 @@ TEST(LobbyRegression, SomebodyElseTakesTheSeatOfAMemberWhoClosedTheBrowser) {
   EXPECT_EQ(play.room().stage_of(3), "replaced");  // the old link does not show the new person's page
 }
 
+// Consenting led to a refusal, and nothing else was possible.
+TEST(LobbyRegression, WhoeverOpensALinkAfterTheEndIsToldSo) {
+  Play play{live_study()};
+  ASSERT_EQ(play.send("server", "join", {{"seat", 1}}), "");
+  play.get_ready(1);
+  ASSERT_EQ(play.facilitator("end"), "");
+  EXPECT_EQ(play.send("server", "join", {{"seat", 2}}), "started");
+  EXPECT_EQ(play.room().stage_of(2), "ended");
+  EXPECT_TRUE(play.room().is_done(2));
+  EXPECT_EQ(page_of(play, 2)["end"]["text"], "The session was ended by the people who run it.");
+  EXPECT_FALSE(page_of(play, 2)["end"].contains("code"));
+  play.expect_replay();
+}
+
 // deliberate-lab #335: everyone stuck after a kick.
 TEST(PlayRegression, AKickedMemberDoesNotLeaveTheGroupStuck) {
   for (int watched = 0; watched < 2; ++watched) {

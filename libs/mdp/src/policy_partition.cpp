@@ -48,6 +48,7 @@ class PolicyPartition::Body {
       if (dot_of(&gains_[i], weights) > clear_by_) return false;
     }
     rewards_.clear();
+    follower_.reset();
     paths_.reset();
     loose_.clear();
     key_.clear();
@@ -250,7 +251,9 @@ class PolicyPartition::Body {
     if (rewards_.empty()) {
       rewards_ = detail::row_rewards(mdp_, weights_);
       paths_.emplace(mdp_, rewards_, options_.tolerance);
-      counts_.assign(mdp_.num_states() + mdp_.num_terminals(), IntegerVector(mdp_.num_features()));
+      follower_.reset();
+      // Whatever is read of it later is written before.
+      counts_.resize(mdp_.num_states() + mdp_.num_terminals(), IntegerVector(mdp_.num_features()));
     }
     for (const std::uint32_t exit : component.exits) {
       counts_[exit] = counts_at(exit) - base;
@@ -262,9 +265,9 @@ class PolicyPartition::Body {
       return false;
     }
     if (found == detail::PathsFound::kTightCycle) return false;
-    detail::PathFollower follower{mdp_, rewards_, paths_->values(), options_.tolerance};
-    for (const StateIndex s : members(c)) follower.find_step(s.value());
-    for (const std::uint32_t s : paths_->order()) follower.follow(s, std::span<const double>{robot_}, counts_);
+    if (!follower_) follower_.emplace(mdp_, rewards_, paths_->values(), options_.tolerance);
+    for (const StateIndex s : members(c)) follower_->find_step(s.value());
+    for (const std::uint32_t s : paths_->order()) follower_->follow(s, std::span<const double>{robot_}, counts_);
     places_[c] = {keep(c), base};
     return true;
   }
@@ -313,13 +316,14 @@ class PolicyPartition::Body {
         part.reach[k] = std::max(part.reach[k], std::abs(static_cast<double>(counts_[s.value()][k])));
       }
     }
+    std::unordered_set<IntegerVector> met;
     std::unordered_set<IntegerVector> losses;
     for (const StateIndex s : members(c)) {
       for (const Choice& choice : mdp_.choices(s)) {
         const Outcome& outcome = mdp_.outcomes(choice).front();
         auto loss = counts_[s.value()] - mdp_.integer_features(outcome);
         loss -= counts_[outcome.next.value()];
-        if (!loss.is_zero()) losses.insert(primitive(loss));
+        if (!loss.is_zero() && met.insert(loss).second) losses.insert(primitive(loss));
       }
     }
     // Those that hold by least first: they are the first to fail elsewhere.
@@ -357,6 +361,7 @@ class PolicyPartition::Body {
   std::vector<std::pair<IntegerVector, double>> ways_;
   std::vector<double> rewards_;  // empty until something is planned
   std::optional<detail::ComponentPaths> paths_;
+  std::optional<detail::PathFollower> follower_;  // of paths_
   std::vector<IntegerVector> counts_;
 };
 

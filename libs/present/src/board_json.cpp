@@ -76,7 +76,11 @@ Json board_domain_json(const Domain& domain) {
 
 Json board_json(const Domain& domain, DemoId id) {
   Json json{{"world", id.mdp.value()}};
-  if (const auto map = domain.map()) json["map"] = map->draw(id.mdp, std::nullopt);
+  if (const auto map = domain.map()) {
+    json["map"] = map->draw(id.mdp, std::nullopt);
+  } else if (const auto name = domain.describe_variant(id.mdp); !name.empty()) {
+    json["world_name"] = name;
+  }
   json["start"] = frame_json(domain, id.mdp, id.start);
   return json;
 }
@@ -99,10 +103,11 @@ Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std
 
 Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces) {
   Json sentences = Json::array();
-  for (const auto& half_space : half_spaces) {
+  const auto texts = each_in_words(domain, half_spaces);
+  for (std::size_t i = 0; i < half_spaces.size(); ++i) {
     Json normal = Json::array();
-    for (std::size_t k = 0; k < domain.num_features(); ++k) normal.push_back(half_space.normal()[k]);
-    sentences.push_back({{"normal", normal}, {"text", in_words(domain, half_space, half_spaces)}});
+    for (std::size_t k = 0; k < domain.num_features(); ++k) normal.push_back(half_spaces[i].normal()[k]);
+    sentences.push_back({{"normal", normal}, {"text", texts[i]}});
   }
   return sentences;
 }

@@ -16,6 +16,7 @@
 #include "kith/study/observed_team.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/team_run.hpp"
+#include "study_texts.hpp"
 
 namespace kith {
 namespace {
@@ -73,16 +74,7 @@ PlantedStudy planted_study(const std::string& strategy, const std::string& stop,
   }
   const auto text = "schema = \"kith.study/1\"\nid = \"planted\"\ndomain = \"item-delivery\"\nseed = 7\nreplicates = " +
                     std::to_string(replicates) + "\n[design]\nstrategies = [\"" + strategy + "\"]\ncompositions = [" +
-                    compositions + "]\n" + types + R"(
-[learner.N]
-ability = { mean = 0.703, sd = 0.034 }
-confirm_gain = { half_normal = 0.033 }
-correct_gain = { half_normal = 0.056 }
-[learner.P]
-ability = { mean = 0.809, sd = 0.025 }
-confirm_gain = { half_normal = 0.022 }
-correct_gain = { half_normal = 0.052 }
-[stop]
+                    compositions + "]\n" + types + testing::kPaperLearners + R"([stop]
 max_periods = 12
 )" + stop;
   result.study = parse_study(text, "planted.toml").study.value();

@@ -95,6 +95,7 @@ TEST(BoardJson, LeavesOutMapsWhereThereAreNone) {
   const auto start = domain.initial_state(world);
   const auto board = board_json(domain, {world, start});
   EXPECT_FALSE(board.contains("map"));
+  EXPECT_EQ(board.at("world_name"), "firm ice");
   EXPECT_EQ(board.at("start"), Json({{"state", domain.state_name(world, start)}}));
   const Trajectory nowhere{{start}, {}};
   EXPECT_EQ(step_json(domain, world, nowhere, 0), parsed(R"({"frame": 0})"));

@@ -158,6 +158,12 @@ void NormalPairs::fill(std::uint64_t block, Block& cosine, Block& sine) const no
   transform(radius.data(), angle.data(), cosine.data(), sine.data());
 }
 
+WordPairs::WordPairs(RandomStream& random) noexcept : key_{random(), random()} {}
+
+void WordPairs::fill(std::uint64_t block, Block& first, Block& second) const noexcept {
+  fill_words(block * kHalf, key_[0], key_[1], first.data(), second.data());
+}
+
 void batch_standard_normal(std::span<float> out, RandomStream& random) noexcept {
   const NormalPairs normal{random};
   const std::span<float> first = out.first((out.size() + 1) / 2);

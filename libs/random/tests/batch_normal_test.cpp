@@ -110,5 +110,27 @@ TEST(BatchStandardNormal, HasIndependentBranchesAndNeighbours) {
   EXPECT_LT(std::abs(neighbours), bound);
 }
 
+// The words are those of Threefry, so every pair of NormalPairs comes from one pair of words.
+TEST(WordPairs, AreTheWordsOfThreefry) {
+  RandomStream random{7};
+  RandomStream same{7};
+  const WordPairs words{random};
+  const std::uint32_t k0 = same();
+  const std::uint32_t k1 = same();
+  WordPairs::Block first;
+  WordPairs::Block second;
+  for (const std::uint64_t block : {std::uint64_t{0}, std::uint64_t{3}, std::uint64_t{1} << 33u}) {
+    words.fill(block, first, second);
+    for (std::uint64_t i = 0; i < WordPairs::kBlock; ++i) {
+      const std::uint64_t counter = block * 128 + i % 128;
+      const auto expected = r123::Threefry4x32_R<20>{}(
+          {{static_cast<std::uint32_t>(counter), static_cast<std::uint32_t>(counter >> 32u), 0, 0}}, {{k0, k1, 0, 0}});
+      const std::size_t half = i / 128;
+      ASSERT_EQ(first[i], expected[2 * half]) << block << ' ' << i;
+      ASSERT_EQ(second[i], expected[2 * half + 1]) << block << ' ' << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kith

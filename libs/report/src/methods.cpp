@@ -311,6 +311,10 @@ class Paragraph {
       say("Minutes assume " + shortest(spec_.pace.demonstration_s) + " s per demonstration, " +
           shortest(spec_.pace.test_s) + " s per test and " + shortest(spec_.pace.feedback_s) + " s for its feedback.");
     }
+    if (spec_.estimates) {
+      say("Estimates of abilities and of mastery are posterior means over hypotheses about "
+          "each person, and are compared with what the simulated people really believed.");
+    }
     if (spec_.forecast_sessions > 0) {
       say("Forecasts are distributions over " + counted(spec_.forecast_sessions, "imagined session") +
           " of the same strategy and composition, taught to other people.");

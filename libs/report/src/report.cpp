@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "beliefs.hpp"
+#include "estimate_tables.hpp"
 #include "exam_tables.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/belief/particle_belief.hpp"
@@ -88,6 +89,13 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
                      {"forecast_mean", "Forecast, mean"},
                      {"forecast_low", "Forecast, 80 % low"},
                      {"forecast_high", "Forecast, 80 % high"},
+                     {"predicted", "Predicted"},
+                     {"actual", "Actual"},
+                     {"actual_low", "Actual, 95 % low"},
+                     {"actual_high", "Actual, 95 % high"},
+                     {"correlation", "Correlation"},
+                     {"told", "Told"},
+                     {"told_correctly", "Of these, correctly"},
                      {"within", "Within"},
                      {"within_low", "Within, 95 % low"},
                      {"within_high", "Within, 95 % high"},
@@ -187,6 +195,10 @@ Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& d
   if (data.has_forecasts) {
     tables["forecasts"] = forecasts_table(design, data);
     if (data.has_periods) tables["forecast_calibration"] = forecast_calibration_table(data);
+  }
+  if (data.has_estimates && data.has_periods) {
+    if (auto table = mastery_calibration_table(data)) tables["mastery_calibration"] = *std::move(table);
+    if (!data.ability_estimates.empty()) tables["ability_estimates"] = ability_estimates_table(design, data);
   }
   if (auto timings = timings_table(run, notes)) tables["timings"] = *std::move(timings);
   tables["parameters"] = parameters_table(run);

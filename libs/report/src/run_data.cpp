@@ -26,6 +26,7 @@ class DataReader {
       read_progress();
       read_responses();
       if (run_.spec().exam == ExamLevel::kPeriod) read_exams();
+      if (data_.has_estimates) read_estimates();
     }
     return std::move(data_);
   }
@@ -56,6 +57,8 @@ class DataReader {
     data_.has_costs = std::any_of(variants.begin(), variants.end(), has_costs);
     data_.has_forecasts =
         std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.forecast_sessions > 0; });
+    data_.has_estimates =
+        std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.estimates; });
     Names wanted{"completed", "periods", "knowledge", "area_sr", "demonstrations", "tests"};
     const auto costs = wanted.size();
     if (data_.has_costs) wanted.insert(wanted.end(), {"minutes", "person_minutes"});
@@ -101,6 +104,8 @@ class DataReader {
     Names wanted{"period", "kc", "area_sr", "demonstrations", "tests"};
     if (data_.has_costs) wanted.emplace_back("members");
     if (data_.has_forecasts) wanted.insert(wanted.end(), {"forecast_done_1", "forecast_done_2", "forecast_done_3"});
+    const auto mastery = wanted.size();
+    if (data_.has_estimates) wanted.insert(wanted.end(), {"p_mastery", "mastery"});
     const bool keeps_costs = run_.spec().exam == ExamLevel::kPeriod;
     if (keeps_costs) costs_.resize(data_.teams.size());
     std::size_t taught = 0;  // periods of the team, over all its sessions
@@ -115,6 +120,9 @@ class DataReader {
                                       static_cast<double>(row.count(5, 0, row.address().composition.size()))});
       }
       if (data_.has_forecasts && row.has(6)) calibrate(row, taught);
+      if (data_.has_estimates && row.has(mastery) && row.has(mastery + 1)) {
+        add_mastery(fraction(row, mastery), fraction(row, mastery + 1));
+      }
       const auto period = period_of(row, 0);
       const auto kc = component_of(row, 1);
       // In the baseline the periods of the next member begin at 1 again.
@@ -147,6 +155,33 @@ class DataReader {
       ++bin.n;
       bin.done += team.completed && left <= k + 1 ? 1u : 0u;
     }
+  }
+
+  void add_mastery(double predicted, double actual) {
+    const auto tenth = static_cast<std::size_t>(predicted * static_cast<double>(data_.mastery.size()));
+    auto& bin = data_.mastery[std::min(tenth, data_.mastery.size() - 1)];
+    bin.predicted += predicted;
+    bin.actual += actual;
+    bin.actual_squares += actual * actual;
+    ++bin.n;
+  }
+
+  void read_estimates() {
+    const Names wanted{"period", "kc", "ability", "ability_mean", "ability_low", "ability_high", "proficiency"};
+    read_table("estimates.csv", wanted, [&](const StudyRow& row) {
+      if (row.has(1) || !row.has(2) || !row.has(3)) return;
+      const auto series = design_.cells[design_.cell_of_team[row.team()]].series;
+      auto& estimates = data_.ability_estimates[{series, row.count(0, 0, max_period(row))}];
+      const double ability = fraction(row, 2);
+      estimates.actual.push_back(ability);
+      estimates.estimated.push_back(fraction(row, 3));
+      estimates.within += ability >= row.real(4) && ability <= row.real(5) ? 1u : 0u;
+      const auto word = row.text(6);
+      if (word != "proficient" && word != "not proficient") return;
+      const double from = run_.study.variants[row.address().variant].proficient_ability;
+      ++estimates.told;
+      estimates.told_correctly += (ability >= from) == (word == "proficient") ? 1u : 0u;
+    });
   }
 
   void read_exams() {

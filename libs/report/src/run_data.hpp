@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "design.hpp"
@@ -49,6 +50,23 @@ struct ForecastBin {
   std::size_t done = 0;
 };
 
+// Predicted probabilities of mastery of about the same size, and the true ones.
+struct MasteryBin {
+  double predicted = 0.0;  // sums
+  double actual = 0.0;
+  double actual_squares = 0.0;
+  std::size_t n = 0;
+};
+
+// Estimates of the abilities of people at one time, beside the truth.
+struct AbilityEstimates {
+  std::vector<double> actual;
+  std::vector<double> estimated;
+  std::size_t within = 0;  // central 80 % intervals that contain the truth
+  std::size_t told = 0;    // said to be proficient or not
+  std::size_t told_correctly = 0;
+};
+
 // What periods.csv says of one component of one team.
 struct ComponentValues {
   std::size_t periods = 0;  // summed over members in the baseline
@@ -85,6 +103,9 @@ struct RunData {
   bool has_forecasts = false;
   std::vector<std::vector<ExamPoint>> exam_paths;  // by team: before teaching, after each period; may be empty
   std::array<std::array<ForecastBin, 10>, 3> calibration{};  // done after 1, 2, 3 more periods, by tenths
+  bool has_estimates = false;
+  std::array<MasteryBin, 10> mastery{};                                               // by tenths
+  std::map<std::pair<std::size_t, std::size_t>, AbilityEstimates> ability_estimates;  // by series and period
   std::vector<std::string> notes;
 };
 

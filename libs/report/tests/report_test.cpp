@@ -235,6 +235,27 @@ TEST_F(RealReport, RefusesTablesThatWereChanged) {
   }
 }
 
+TEST(Report, ShowsEstimatesBesideTheTruth) {
+  const ScratchFolder scratch;
+  run_tiny_study(scratch / "few", {"record.estimates=true", "replicates=4"});
+  const auto few = Json::parse(build_report(scratch / "few")).at("tables");
+  std::size_t periods = 0;
+  for (const auto& row : few.at("mastery_calibration").at("rows")) {
+    EXPECT_GE(row.at(1).get<double>(), row.at(2).get<double>());
+    EXPECT_LE(row.at(1).get<double>(), row.at(3).get<double>());
+    periods += row.at(4).get<std::size_t>();
+  }
+  EXPECT_GT(periods, 16u);                                      // of 8 teams
+  EXPECT_TRUE(few.at("ability_estimates").at("rows").empty());  // of 8 people with each strategy
+
+  run_tiny_study(scratch / "more", {"record.estimates=true", "replicates=6"});
+  const auto more = Json::parse(build_report(scratch / "more")).at("tables");
+  const auto& first = more.at("ability_estimates").at("rows").at(0);
+  EXPECT_EQ(first.at(1), 0);  // before the first period
+  EXPECT_EQ(first.at(2), 12);
+  EXPECT_TRUE(first.at(3).is_null());  // all estimates are the same
+}
+
 TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
   const ScratchFolder scratch;
   run_tiny_study(scratch / "run", {"record.level=\"team\""});

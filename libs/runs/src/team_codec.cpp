@@ -11,7 +11,7 @@
 namespace kith {
 namespace {
 
-constexpr char kVersion = 5;  // of the layout; another layout gets another number
+constexpr char kVersion = 6;  // of the layout; another layout gets another number
 constexpr std::size_t kChecksumSize = 8;
 
 std::string checksum(std::size_t team, std::string_view content, std::string_view key) {
@@ -55,6 +55,24 @@ void code(Coder& coder, X& x) {
   coder.optional_real(x.p_bec);
 }
 
+template <typename Coder, Is<EstimateRecord> X>
+void code(Coder& coder, X& x) {
+  coder.count(x.period);
+  coder.count(x.component);
+  coder.count(x.member);
+  coder.letter(x.type);
+  for (auto* value : {&x.ability, &x.ability_mean, &x.ability_low, &x.ability_high, &x.p_proficient, &x.p_knew, &x.knew,
+                      &x.p_right, &x.right}) {
+    coder.optional_real(*value);
+  }
+}
+
+template <typename Coder, Is<PeriodMastery> X>
+void code(Coder& coder, X& x) {
+  coder.real(x.predicted);
+  coder.optional_real(x.actual);
+}
+
 template <typename Coder, Is<TeamExam> X>
 void code(Coder& coder, X& x) {
   coder.real(x.share_right);
@@ -95,6 +113,7 @@ void code(Coder& coder, X& x) {
   coder.count(x.untested);
   coder.real(x.gain);
   coder.optional_part(x.forecast);
+  coder.optional_part(x.mastery);
   coder.reals(x.p_bec);
 }
 
@@ -166,6 +185,7 @@ void code(Coder& coder, X& x) {
   coder.list(x.responses);
   coder.list(x.progress);
   coder.list(x.exams);
+  coder.list(x.estimates);
   coder.optional_part(x.exam);
 }
 

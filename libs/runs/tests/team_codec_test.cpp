@@ -25,6 +25,7 @@ std::vector<TeamRecord> teams(RecordLevel level) {
   const auto reading = testing::quick_study({"replicates=1", "design.strategies=[\"baseline\",\"joint\"]"});
   auto study = *reading.study;
   study.variants[0].record = level;
+  study.variants[0].estimates = level != RecordLevel::kTeam;
   study.variants[0].teaching.filter.particles = 60;
   for (auto& type : study.variants[0].learner_types) type.parameters.set("particles", std::int64_t{50});
   return run_teams(testing::item_delivery(), study, team_addresses(study)).teams;
@@ -34,6 +35,7 @@ TEST(TeamCodec, GivesEveryRecordBack) {
   for (const auto level : {RecordLevel::kTeam, RecordLevel::kPeriod, RecordLevel::kParticles}) {
     auto study = *testing::quick_study().study;
     study.variants[0].record = level;
+    study.variants[0].estimates = level != RecordLevel::kTeam;
     for (const auto& team : teams(level)) {
       const auto bytes = encode_team(team, kKey);
       const auto again = decode_team(team.address, bytes, kKey);

@@ -238,6 +238,11 @@ void Bot::finish() {
   connecting_.cancel();
   ticking_.cancel();
   if (socket_) socket_->cut();
+  // A long rehearsal has many people who have finished: only their records are kept.
+  socket_.reset();
+  view_ = {};
+  pending_.reset();
+  --group_->unfinished;
   --world_.unfinished;
 }
 

@@ -24,6 +24,7 @@ namespace kith {
 /// What the people of a group share.
 struct BotGroup {
   std::atomic<std::int64_t> last_continue_ns{0};
+  std::atomic<std::size_t> unfinished{0};
 };
 
 /// What all people share.

@@ -1,7 +1,6 @@
 #include "bot_facilitator.hpp"
 
 #include <algorithm>
-#include <set>
 #include <thread>
 #include <utility>
 
@@ -114,7 +113,8 @@ void BotFacilitator::say(const std::string& type, Json body) {
 }
 
 std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, std::size_t people,
-                                                             const std::string& strategy) {
+                                                             const std::string& strategy,
+                                                             std::set<std::string> earlier) {
   const auto fail = [&] {
     const std::lock_guard lock{shared_->mutex};
     throw Error{ErrorKind::kIo, "the rehearsal cannot make its rooms: " +
@@ -123,11 +123,17 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
   auto& view = shared_->view;
   const auto has_rooms = [&view] { return view.is_object() && view.contains("rooms"); };
   if (!wait(kPatience, has_rooms)) fail();
-  std::set<std::string> old;
   {
     const std::lock_guard lock{shared_->mutex};
-    for (const auto& room : view["rooms"]) old.insert(room.value("id", ""));
+    for (const auto& room : view["rooms"]) earlier.insert(room.value("id", ""));
   }
+  // Rooms of before a restart have no links that the server knows.
+  const auto is_made = [&](const Json& room) {
+    if (earlier.count(room.value("id", "")) > 0) return false;
+    const auto& seats = room.at("seats");
+    return !seats.empty() && std::all_of(seats.begin(), seats.end(),
+                                         [](const Json& seat) { return is_simulated(seat) || seat.contains("link"); });
+  };
   for (std::size_t made = 0; made < count;) {
     const auto now = std::min(kRoomsAtOnce, count - made);
     Json body{{"count", now}};
@@ -135,22 +141,16 @@ std::vector<BotFacilitator::Room> BotFacilitator::make_rooms(std::size_t count, 
     if (!strategy.empty()) body["strategy"] = strategy;
     say("room-make", std::move(body));
     made += now;
-    const auto links_of_all = [&] {
-      if (!has_rooms() || view["rooms"].size() < old.size() + made) return false;
-      return std::all_of(view["rooms"].begin(), view["rooms"].end(), [&](const Json& room) {
-        if (old.count(room.value("id", "")) > 0) return true;
-        const auto& seats = room.at("seats");
-        return !seats.empty() && std::all_of(seats.begin(), seats.end(), [](const Json& seat) {
-          return is_simulated(seat) || seat.contains("link");
-        });
-      });
+    const auto has_all = [&] {
+      const auto& rooms = view["rooms"];
+      return static_cast<std::size_t>(std::count_if(rooms.begin(), rooms.end(), is_made)) >= made;
     };
-    if (!wait(kPatience, links_of_all)) fail();
+    if (!wait(kPatience, has_all)) fail();
   }
   std::vector<Room> rooms;
   const std::lock_guard lock{shared_->mutex};
   for (const auto& room : view["rooms"]) {
-    if (old.count(room.value("id", "")) > 0) continue;
+    if (!is_made(room)) continue;
     Room one{.id = room.value("id", ""), .tokens = {}};
     for (const auto& seat : room["seats"]) {
       if (!is_simulated(seat)) one.tokens.push_back(token_of(seat.value("link", "")));

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,9 @@ class BotFacilitator {
   BotFacilitator& operator=(const BotFacilitator&) = delete;
 
   /// Makes rooms for so many people each; 0: as the study says. @throws kith::Error (kIo) if that fails.
-  [[nodiscard]] std::vector<Room> make_rooms(std::size_t count, std::size_t people, const std::string& strategy);
+  /// @param earlier  ids of rooms that were made before; the server may not show all of them yet if it was restarted.
+  [[nodiscard]] std::vector<Room> make_rooms(std::size_t count, std::size_t people, const std::string& strategy,
+                                             std::set<std::string> earlier = {});
   /// Asks for the end of rooms, at a pace that the server allows, and waits for the replies.
   void end_rooms(const std::vector<Room>& rooms);
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
+#include <optional>
+#include <set>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -19,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr milliseconds kPollTime{100};
 constexpr milliseconds kTimeToEnd{20'000};
+constexpr milliseconds kTimeToStop{5'000};
 
 void append(std::vector<double>& all, const std::vector<double>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -70,6 +74,78 @@ class Handlers {
   std::vector<std::jthread> threads_;
 };
 
+// The groups of a rehearsal and the people in them.
+class Groups {
+ public:
+  Groups(asio::io_context& io, const tcp::endpoint& server, const RehearsalOptions& options, WorldBook& book)
+      : io_{io},
+        server_{server},
+        options_{options},
+        world_{.options = options, .server = server, .book = book},
+        seed_{options.seed} {
+    facilitator_.emplace(io_, server_, options_.facilitator);
+    add(options_.groups);
+  }
+
+  [[nodiscard]] std::size_t num_unfinished() const { return world_.unfinished; }
+  [[nodiscard]] std::size_t size() const { return groups_.size(); }
+  [[nodiscard]] const std::vector<std::shared_ptr<Bot>>& people() const { return people_; }
+
+  // A new group for every one that has finished.
+  void replace_finished() {
+    const auto unfinished = static_cast<std::size_t>(
+        std::count_if(groups_.begin(), groups_.end(), [](const Group& group) { return group.shared->unfinished > 0; }));
+    if (unfinished >= options_.groups) return;
+    try {
+      if (!facilitator_) facilitator_.emplace(io_, server_, options_.facilitator);
+      add(options_.groups - unfinished);
+    } catch (const Error&) {
+      facilitator_.reset();  // the server was restarted: once more, over a new connection
+    }
+  }
+  void end() {
+    std::vector<BotFacilitator::Room> rooms;
+    for (const auto& group : groups_) {
+      if (group.shared->unfinished > 0) rooms.push_back(group.room);
+    }
+    // Another connection: the first may not have survived, for instance because the server was restarted.
+    BotFacilitator{io_, server_, options_.facilitator}.end_rooms(rooms);
+  }
+  void stop() {
+    for (const auto& person : people_) person->stop();
+  }
+
+ private:
+  struct Group {
+    BotFacilitator::Room room;
+    std::shared_ptr<BotGroup> shared;
+  };
+
+  void add(std::size_t count) {
+    std::set<std::string> earlier;
+    for (const auto& group : groups_) earlier.insert(group.room.id);
+    for (auto& room : facilitator_->make_rooms(count, options_.people, options_.strategy, std::move(earlier))) {
+      const auto shared = std::make_shared<BotGroup>();
+      shared->unfinished = room.tokens.size();
+      world_.unfinished += room.tokens.size();
+      for (const auto& token : room.tokens) {
+        people_.push_back(std::make_shared<Bot>(io_, world_, shared, token, ++seed_));
+        people_.back()->start();
+      }
+      groups_.push_back({std::move(room), shared});
+    }
+  }
+
+  asio::io_context& io_;
+  tcp::endpoint server_;
+  const RehearsalOptions& options_;
+  BotWorld world_;
+  std::uint64_t seed_;
+  std::optional<BotFacilitator> facilitator_;
+  std::vector<Group> groups_;
+  std::vector<std::shared_ptr<Bot>> people_;
+};
+
 }  // namespace
 
 std::size_t RehearsalResult::num_finished() const {
@@ -83,53 +159,48 @@ RehearsalResult rehearse(const RehearsalOptions& options) {
   const auto address = asio::ip::make_address(options.address, error);
   if (error) throw Error{ErrorKind::kUsage, "'" + options.address + "' is no IP address"};
   const tcp::endpoint server{address, options.port};
+  const bool is_timed = options.duration.count() > 0;
 
   WorldBook book{[server](const std::string& key, const std::string& token) {
     return http_get(server, "/api/world/" + key, token);
   }};
   asio::io_context io;
-  BotWorld world{.options = options, .server = server, .book = book};
-  std::vector<std::shared_ptr<Bot>> bots;
-  Clock::time_point start;
-  RehearsalResult result;
+  std::optional<Groups> groups;
+  double seconds = 0.0;
   {
     Handlers handlers{io, std::max<std::size_t>(options.threads, 1)};
-    BotFacilitator facilitator{io, server, options.facilitator};
-    const auto rooms = facilitator.make_rooms(options.groups, options.people, options.strategy);
-    std::uint64_t seed = options.seed;
-    for (const auto& room : rooms) {
-      const auto group = std::make_shared<BotGroup>();
-      for (const auto& token : room.tokens) bots.push_back(std::make_shared<Bot>(io, world, group, token, ++seed));
-    }
-    world.unfinished = bots.size();
-    start = Clock::now();
-    for (const auto& bot : bots) bot->start();
-
+    groups.emplace(io, server, options, book);
+    const auto start = Clock::now();
     const auto wait = [&](auto&& goes_on) {
-      while (world.unfinished > 0 && goes_on(std::chrono::duration_cast<milliseconds>(Clock::now() - start))) {
+      while (goes_on(std::chrono::duration_cast<milliseconds>(Clock::now() - start))) {
         std::this_thread::sleep_for(kPollTime);
       }
     };
     bool is_stopped = false;
     wait([&](milliseconds elapsed) {
       is_stopped = options.on_tick && !options.on_tick(elapsed);
-      return !is_stopped && (options.duration.count() == 0 || elapsed < options.duration);
+      if (is_stopped) return false;
+      if (!is_timed) return groups->num_unfinished() > 0;
+      if (elapsed >= options.duration) return false;
+      groups->replace_finished();
+      return true;
     });
-    result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (!is_stopped && world.unfinished > 0) {
-      // Another connection: the first may not have survived, for instance because the server was restarted.
-      BotFacilitator{io, server, options.facilitator}.end_rooms(rooms);
-      const auto ended = Clock::now();
-      wait([&](milliseconds) { return Clock::now() - ended < kTimeToEnd; });
+    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const auto wait_for_all = [&](milliseconds patience) {
+      const auto from = Clock::now();
+      wait([&](milliseconds) { return groups->num_unfinished() > 0 && Clock::now() - from < patience; });
+    };
+    if (!is_stopped && groups->num_unfinished() > 0) {
+      groups->end();
+      wait_for_all(kTimeToEnd);
     }
-    for (const auto& bot : bots) bot->stop();
-    wait([stopped = Clock::now()](milliseconds) { return Clock::now() - stopped < std::chrono::seconds{5}; });
-    result.groups = rooms.size();
+    groups->stop();
+    wait_for_all(kTimeToStop);
   }
-  auto summary = result_of(bots);
-  summary.groups = result.groups;
-  summary.seconds = result.seconds;
-  return summary;
+  auto result = result_of(groups->people());
+  result.groups = groups->size();
+  result.seconds = seconds;
+  return result;
 }
 
 }  // namespace kith

@@ -106,13 +106,15 @@ class FakeApplication final : public LiveApplication {
   std::map<ConnectionId, std::shared_ptr<Socket>> sockets_;
 };
 
-/// A server on any free port, with two pages.
+/// A server on any free port, with two pages and a large script.
 struct Served {
   explicit Served(ServerOptions options = {}) : server{filled(std::move(options)), application} {}
   static ServerOptions filled(ServerOptions options) {
+    static const std::string kLarge(300'000, 'x');  // more than any real one
     static const std::vector<Asset> kAssets{
         {"/assets/live/index.html", "text/html; charset=utf-8", "aaaa", "<!doctype html><p>page", ""},
-        {"/assets/live/app.js", "text/javascript; charset=utf-8", "bbbb", "let script = 1;", "COMPRESSED"}};
+        {"/assets/live/app.js", "text/javascript; charset=utf-8", "bbbb", "let script = 1;", "COMPRESSED"},
+        {"/assets/live/large.js", "text/javascript; charset=utf-8", "cccc", kLarge, ""}};
     options.assets = kAssets;
     options.pages = {{"/", "/assets/live/index.html"}, {"/j", "/assets/live/index.html"}};
     return options;

@@ -74,6 +74,21 @@ class FakeLesson final : public LiveApplication {
     return {.body = R"({"next":[[1,-1],[2,0],[-1,-1]],"end":[false,false,true]})"};
   }
 
+  [[nodiscard]] std::size_t num_rooms() {
+    const std::lock_guard lock{mutex_};
+    return rooms_.size();
+  }
+
+  /// Those in which somebody has not come to an end.
+  [[nodiscard]] std::size_t num_unfinished_rooms() {
+    const std::lock_guard lock{mutex_};
+    return static_cast<std::size_t>(std::count_if(rooms_.begin(), rooms_.end(), [&](const auto& room) {
+      return std::any_of(room.second.begin(), room.second.end(), [&](const auto& token) {
+        return people_[token].stage != "debrief" && people_[token].stage != "ended";
+      });
+    }));
+  }
+
   std::vector<std::string> answers;  ///< Ids, in order.
   std::set<std::string> paths;
   std::set<std::string> seen;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -70,6 +71,38 @@ TEST(Rehearsal, EndsGroupsWhenTimeIsUp) {
   options.duration = milliseconds{1500};
   const auto result = rehearse(options);
   EXPECT_THAT(result.stages, ElementsAre(Pair("ended", 12)));
+}
+
+// So that the load stays the same, however soon groups finish.
+TEST(Rehearsal, FollowsGroupsThatFinishByNewOnesUntilTimeIsUp) {
+  FakeLesson lesson{1};
+  Server server{for_many(), lesson};
+  auto options = quick(server);
+  options.groups = 2;
+  options.duration = milliseconds{4000};
+  const auto result = rehearse(options);
+  EXPECT_GE(result.seconds, 4.0);
+  EXPECT_GT(result.groups, 2U);
+  EXPECT_EQ(result.groups, lesson.num_rooms());
+  EXPECT_EQ(result.people, 3 * result.groups);
+  EXPECT_EQ(result.num_finished(), result.people) << ::testing::PrintToString(result.stages);
+}
+
+// Each group that has finished is followed by one other.
+TEST(Rehearsal, TeachesAsManyGroupsAtOnceAsItIsAskedFor) {
+  FakeLesson lesson{1};
+  Server server{for_many(), lesson};
+  auto options = quick(server);
+  options.groups = 3;
+  options.duration = std::chrono::minutes{5};
+  std::size_t most = 0;
+  options.on_tick = [&](milliseconds) {
+    most = std::max(most, lesson.num_unfinished_rooms());
+    return lesson.num_rooms() < 10;
+  };
+  const auto result = rehearse(options);
+  EXPECT_GE(result.groups, 10U);
+  EXPECT_EQ(most, 3U);
 }
 
 TEST(Rehearsal, CanBeGivenRightAnswers) {

@@ -336,7 +336,7 @@ class SpecReader {
     set_if(options.objective, teacher.word("objective", Presence::kOptional, kObjectiveWords));
     set_if(options.hypotheses_about, teacher.word("hypotheses", Presence::kOptional, kHypothesesWords));
     set_if(options.placement_tests, teacher.integer("placement_tests", Presence::kOptional, {0, 100}));
-    if (options.placement_tests > 0 && options.hypotheses_about == HypothesesAbout::kAbility) {
+    if (options.placement_tests > 0 && options.hypotheses_about != HypothesesAbout::kKnownComponents) {
       report_.error("E0423", teacher.value("placement_tests", Presence::kOptional)->place(),
                     "before the first lesson no test can tell how well people learn",
                     "write hypotheses = \"known-components\" under [teacher], or remove placement_tests");
@@ -373,6 +373,8 @@ class SpecReader {
     set_if(spec_.exam, record.word("exam", Presence::kOptional, kExamWords));
     set_if(spec_.forecast_sessions, record.integer("forecast", Presence::kOptional, {0, 100'000}));
     set_if(spec_.exam_questions, record.integer("exam_questions", Presence::kOptional, {0, 1000}));
+    set_if(spec_.estimates, record.boolean("estimates", Presence::kOptional));
+    set_if(spec_.proficient_ability, record.real("proficient_ability", Presence::kOptional, {0.5, 1.0}));
     record.finish();
   }
 

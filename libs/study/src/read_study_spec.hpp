@@ -15,7 +15,7 @@ inline const std::vector<std::string> kObjectiveWords{"right", "regret", "worst-
 inline const std::vector<std::string> kMasteryWords{"all-right", "fixed", "posterior", "exam"};
 inline const std::vector<std::string> kReleaseWords{"none", "all-right", "posterior"};
 inline const std::vector<std::string> kGroupingWords{"together", "by-type"};
-inline const std::vector<std::string> kHypothesesWords{"ability", "known-components"};
+inline const std::vector<std::string> kHypothesesWords{"ability", "known-components", "average"};
 inline const std::vector<std::string> kSamplingWords{"systematic", "spread"};
 inline const std::vector<std::string> kLikelihoodWords{"discontinuous", "continuous"};
 inline const std::vector<std::string> kCounterfactualWords{"teacher", "self"};

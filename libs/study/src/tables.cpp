@@ -41,6 +41,9 @@ bool writes_costs(const Study& study) { return any_variant(study, has_costs); }
 bool has_forecasts(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.forecast_sessions > 0; });
 }
+bool has_estimates(const Study& study) {
+  return any_variant(study, [](const StudySpec& spec) { return spec.estimates; });
+}
 bool has_subgroups(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.grouping != Grouping::kTogether; });
 }
@@ -154,6 +157,42 @@ Columns exam_columns() {
                           "only.")};
 }
 
+Columns estimate_columns() {
+  constexpr auto kAboutPerson = " In the row of the person only.";
+  constexpr auto kAboutComponent = " In the rows of components only.";
+  Columns columns{
+      column("period", kInteger, "Number of the period after which these are the estimates; 0 before the first."),
+      optional_column("kc", kInteger, "Number of the knowledge component; missing in the row about the person."),
+      column("member", kInteger, "Number of the member, from 1."),
+      column("type", kText, "Letter of the learner type."),
+      measure("ability",
+              std::string{"True ability with which the member learns when a component begins, after ability_scale."} +
+                  kAboutPerson),
+      measure("ability_mean", std::string{"The teacher's estimate of this ability: posterior mean."} + kAboutPerson),
+      measure("ability_low", std::string{"Lower limit of the central 80 % of the posterior."} + kAboutPerson),
+      measure("ability_high", std::string{"Upper limit of the central 80 % of the posterior."} + kAboutPerson),
+      measure(
+          "p_proficient",
+          std::string{"Posterior probability that the ability is at least record.proficient_ability."} + kAboutPerson),
+      column("proficiency", kText,
+             std::string{"'proficient' if p_proficient is at least 0.8, 'not proficient' if it is at most 0.2, else "
+                         "'cannot tell yet'."} +
+                 kAboutPerson),
+      measure("p_knew",
+              std::string{"Posterior probability that the member knew the component before the first lesson; with "
+                          "teacher.hypotheses = \"known-components\"."} +
+                  kAboutComponent),
+      measure("knew", std::string{"Mass of the member's belief before the first lesson in the component's constraints; "
+                                  "where p_knew is."} +
+                          kAboutComponent),
+      measure("p_right",
+              std::string{"Predicted probability that the member answers a random test of the component correctly."} +
+                  kAboutComponent),
+      measure("right", std::string{"The same probability under the member's own belief."} + kAboutComponent)};
+  for (std::size_t i = 4; i < columns.size(); ++i) columns[i].required = false;
+  return columns;
+}
+
 Columns learner_columns(const Study& study) {
   const Columns first{column("member", kInteger, "Number of the member, from 1."),
                       column("type", kText, "Letter of the learner type.")};
@@ -203,6 +242,13 @@ Columns period_columns(const Study& study) {
                                         "Probability that the team is done after at most " + std::string{k} +
                                             " more, as expected after this period."));
     }
+  }
+  if (has_estimates(study)) {
+    columns.push_back(measure("p_mastery",
+                              "Predicted probability that all members who took part answer a random test of the "
+                              "component correctly, after the feedback."));
+    columns.push_back(measure("mastery", "The same probability under the members' own beliefs."));
+    for (std::size_t i = columns.size() - 2; i < columns.size(); ++i) columns[i].required = false;
   }
   for (const auto& rule : study.variants.front().teaching.rules) {
     const std::string name{rule.name};
@@ -309,6 +355,13 @@ std::vector<TableDescription> study_tables(const Study& study) {
     tables.push_back({"exam.csv", "One row per exam of a member, over all starts and over those of every component.",
                       keys + exam_columns()});
   }
+  if (has_estimates(study)) {
+    tables.push_back(
+        {"estimates.csv",
+         "What the teacher can tell from the answers, beside the truth: one row about each member, and one "
+         "about each member and component, per period.",
+         keys + estimate_columns()});
+  }
   for (auto& table : tables) {
     for (auto& one : table.columns) {
       if (one.kind == ColumnKind::kUnspecified) one.kind = kind_of(one.name);
@@ -352,9 +405,12 @@ class Tables {
       : study_{study},
         writes_costs_{writes_costs(study)},
         has_forecasts_{has_forecasts(study)},
+        has_estimates_{has_estimates(study)},
         has_subgroups_{has_subgroups(study)} {
     for (const auto& one : trait_columns(study)) trait_names_.push_back(one.name);
     for (auto& table : study_tables(study)) {
+      if (table.file == "exam.csv") exam_ = writers_.size();
+      if (table.file == "estimates.csv") estimates_ = writers_.size();
       writers_.emplace_back(std::move(table.columns),
                             [sink, file = table.file](std::string_view piece) { sink(file, piece); });
     }
@@ -369,6 +425,7 @@ class Tables {
     for (const auto& progress : team.progress) add_progress(team, progress);
     for (const auto& belief : team.beliefs) add_belief(team, belief);
     for (const auto& exam : team.exams) add_exam(team, exam);
+    for (const auto& estimate : team.estimates) add_estimate(team, estimate);
   }
 
   void flush() {
@@ -457,6 +514,10 @@ class Tables {
       writer.real(ahead ? std::optional{ahead->periods_left} : std::nullopt);
       for (std::size_t k = 0; k < 3; ++k) writer.real(ahead ? std::optional{ahead->done_within.at(k)} : std::nullopt);
     }
+    if (has_estimates_) {
+      writer.real(period.mastery ? std::optional{period.mastery->predicted} : std::nullopt);
+      writer.real(period.mastery ? period.mastery->actual : std::nullopt);
+    }
     for (const double p_bec : period.p_bec) writer.real(p_bec);
     writer.end_row();
   }
@@ -516,7 +577,7 @@ class Tables {
   }
 
   void add_exam(const TeamRecord& team, const ExamRecord& exam) {
-    begin_row(writers_.size() - 1, team.address)
+    begin_row(exam_, team.address)
         .integer(count(exam.period))
         .integer(exam.component == 0 ? std::nullopt : std::optional{count(exam.component)})
         .integer(count(exam.member))
@@ -527,12 +588,35 @@ class Tables {
         .end_row();
   }
 
+  void add_estimate(const TeamRecord& team, const EstimateRecord& estimate) {
+    const auto word =
+        estimate.p_proficient ? std::optional{std::string{proficiency_word(*estimate.p_proficient)}} : std::nullopt;
+    begin_row(estimates_, team.address)
+        .integer(count(estimate.period))
+        .integer(estimate.component == 0 ? std::nullopt : std::optional{count(estimate.component)})
+        .integer(count(estimate.member))
+        .text(std::string_view{&estimate.type, 1})
+        .real(estimate.ability)
+        .real(estimate.ability_mean)
+        .real(estimate.ability_low)
+        .real(estimate.ability_high)
+        .real(estimate.p_proficient)
+        .text_or_missing(word)
+        .real(estimate.p_knew)
+        .real(estimate.knew)
+        .real(estimate.p_right)
+        .real(estimate.right)
+        .end_row();
+  }
+
   const Study& study_;
   bool writes_costs_;
   bool has_forecasts_;
+  bool has_estimates_;
   bool has_subgroups_;
   std::vector<std::string> trait_names_;  // columns of learners.csv
   std::vector<CsvWriter> writers_;        // in the order of study_tables()
+  std::size_t exam_ = 0, estimates_ = 0;  // positions of tables that are not always there
 };
 
 }  // namespace

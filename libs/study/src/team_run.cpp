@@ -8,6 +8,7 @@
 #include "kith/learners/run_period.hpp"
 #include "kith/study/session_forecasts.hpp"
 #include "kith/study/team_streams.hpp"
+#include "team_estimates.hpp"
 #include "team_exam.hpp"
 
 namespace kith {
@@ -41,6 +42,7 @@ class TeamRun {
     const bool periods = everything || spec.record != RecordLevel::kTeam;
     options_.keep_members |= everything;
     options_.keep_rules |= periods;
+    options_.keep_bank |= spec.estimates;
     draw_people();
     if (forecasts == nullptr || spec.forecast_sessions == 0) return;
     like_ = &forecasts->like(atlas, cache, spec, address);
@@ -112,13 +114,17 @@ class TeamRun {
     if (session.awaits_placement()) take_placement(session, learners, rows);
     TeamExaminer exam{cache_, spec_, record_};
     exam.at_start(learners, rows);
+    TeamEstimates estimates{cache_, spec_, record_};
+    estimates.at_start(session, learners, rows);
     while (propose()) {
       was_stopped_ = was_stopped_ || (stopped_ && stopped_());
       if (was_stopped_) return;
       teach_period(session, learners, rows, member);
       exam.after_period(session.periods(), learners, rows);
+      estimates.after_period(session, learners, rows);
     }
     exam.at_end(session, learners, rows, member);
+    estimates.at_end(session, learners, rows);
     if (observer_ != nullptr) observer_->on_end(session, learners);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].p_bec = learners[i]->mass_in(atlas_.policy_bec_half_spaces());
@@ -174,6 +180,7 @@ class TeamRun {
     add_up(lesson, present.size());
     if (spec_.record != RecordLevel::kTeam) {
       write_period(session, lesson, feedback, rows, present, member);
+      record_.period_records.back().mastery = mastery_after(cache_, spec_, session, learners, present);
       write_demonstrations(lesson, rows, present);
       write_responses(lesson, answers, feedback, rows, present);
       write_progress(lesson, learners, period.abilities, feedback, rows, present);

@@ -177,6 +177,8 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   record.add("exam", kExamWords[static_cast<std::size_t>(spec.exam)]);
   record.add_count("exam_questions", spec.exam_questions);
   record.add_count("forecast", spec.forecast_sessions);
+  record.add("estimates", spec.estimates);
+  record.add("proficient_ability", spec.proficient_ability);
   root.add("record", record);
   if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});
   if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});

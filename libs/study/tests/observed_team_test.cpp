@@ -9,6 +9,7 @@
 #include "item_delivery.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/team_run.hpp"
+#include "study_texts.hpp"
 
 namespace kith {
 namespace {
@@ -40,15 +41,8 @@ replicates = 2
 strategies = [")" + strategy +
                     R"("]
 compositions = ["NP"]
-[learner.N]
-ability = { mean = 0.703, sd = 0.034 }
-confirm_gain = { half_normal = 0.033 }
-correct_gain = { half_normal = 0.056 }
-[learner.P]
-ability = { mean = 0.809, sd = 0.025 }
-confirm_gain = { half_normal = 0.022 }
-correct_gain = { half_normal = 0.052 }
-[teacher]
+)" + testing::kPaperLearners +
+                    R"([teacher]
 particles = 100
 [stop]
 max_periods = 4

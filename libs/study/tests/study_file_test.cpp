@@ -106,6 +106,7 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.release, ReleaseRule::kNone);
   EXPECT_EQ(spec.teaching.placement_tests, 0u);
   EXPECT_EQ(spec.forecast_sessions, 0u);
+  EXPECT_FALSE(spec.estimates);
   EXPECT_EQ(spec.pace, Pace{});
   const auto& novice = learner_type(spec, 'N');
   EXPECT_EQ(novice.parameters.real("ability.min"), 0.6);
@@ -162,7 +163,8 @@ TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
   const auto text = study_with("[learner.N]",
                                "[teacher]\ngrouping = \"by-type\"\nhypotheses = \"known-components\"\n"
                                "placement_tests = 4\n[stop]\nrelease = \"posterior\"\n[pace]\ndemonstration_s = 8\n"
-                               "test_s = 12.5\nfeedback_s = 0\n[record]\nforecast = 50\n[learner.N]\nknown = 0.5");
+                               "test_s = 12.5\nfeedback_s = 0\n[record]\nforecast = 50\nestimates = true\n"
+                               "proficient_ability = 0.8\n[learner.N]\nknown = 0.5");
   const auto first = parse(text);
   ASSERT_TRUE(first.study) << ::testing::PrintToString(ids(first));
   for (const auto& reading : {parse(text), parse(to_toml(*first.study, *first.domain))}) {
@@ -174,6 +176,8 @@ TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
     EXPECT_EQ(spec.teaching.release, ReleaseRule::kPosterior);
     EXPECT_EQ(spec.pace, (Pace{8.0, 12.5, 0.0}));
     EXPECT_EQ(spec.forecast_sessions, 50u);
+    EXPECT_TRUE(spec.estimates);
+    EXPECT_EQ(spec.proficient_ability, 0.8);
     EXPECT_EQ(learner_type(spec, 'N').parameters.real("known"), 0.5);
     EXPECT_TRUE(has_costs(spec));
   }

@@ -12,8 +12,9 @@ constexpr std::string_view kAnswers = "answers";
 
 // As plan, for people of all the kinds that the bank holds possible, in proportion to what their answers say.
 //
-// Two beliefs about a member are mixed, because each lacks something: those of the bank know how well the member learns
-// but nothing of the answers; the teacher's knows the answers but assumes one ability.
+// Two kinds of belief about a member are mixed. Those of the hypotheses are what people believe if the model is right,
+// but only the weights of the hypotheses depend on the answers. The informed belief depends on the answers itself, with
+// the expected ability.
 class PlanForWhoTheyAre : public Strategy {
  public:
   explicit PlanForWhoTheyAre(const ParameterValues& parameters)
@@ -31,7 +32,7 @@ class PlanForWhoTheyAre : public Strategy {
     std::vector<std::vector<MemberHypothesis>> members(view.bank->size());
     for (std::size_t i = 0; i < members.size(); ++i) {
       if (!view.belief.present()[i]) continue;
-      MemberHypothesis mean{answers_, &view.belief.member(i), 0.0, 0.0};
+      MemberHypothesis mean{answers_, &view.bank->informed(i), 0.0, 0.0};
       for (auto hypothesis : view.bank->member(i).as_members(view.bank->begins(view.component))) {
         mean.shown_ability += hypothesis.weight * hypothesis.shown_ability;
         mean.feedback_ability += hypothesis.weight * hypothesis.feedback_ability;

@@ -208,6 +208,12 @@ std::vector<MemberHypothesis> LearnerBank::as_members(bool begins) const {
   return members;
 }
 
+double LearnerBank::expected_present_ability() const {
+  double mean = 0.0;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) mean += weights_[h] * abilities_[h];
+  return mean;
+}
+
 double LearnerBank::expected_ability() const {
   double mean = 0.0;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) mean += weights_[h] * hypotheses_[h].ability;

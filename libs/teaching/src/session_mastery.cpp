@@ -22,9 +22,10 @@ void Session::make_bank(TeachingCache& cache) {
     options_.hypotheses = grid_of_known_components(atlas_->knowledge_components().size());
     if (options_.placement_tests > 0) placement_ = cache.placement(options_);
   }
+  if (options_.hypotheses_about == HypothesesAbout::kNothing) options_.hypotheses = one_hypothesis();
   if (!stops && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
   bank_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options_.filter, options_.likelihood,
-                options_.hypotheses, persons_, constraints_of_components(*atlas_));
+                options_.hypotheses, persons_, options_.response_noise, constraints_of_components(*atlas_));
 }
 
 void Session::take_placement(std::vector<std::vector<Answer>> answers) {

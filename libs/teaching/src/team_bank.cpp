@@ -2,20 +2,46 @@
 
 #include <algorithm>
 
+#include "kith/teaching/random_test.hpp"
+
 namespace kith {
 
 TeamBank::TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
                    const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons,
-                   std::span<const std::vector<HalfSpace>> components) {
-  for (const auto& person : persons)
+                   double response_noise, std::span<const std::vector<HalfSpace>> components)
+    : likelihood_{likelihood}, response_noise_{response_noise} {
+  for (const auto& person : persons) {
     members_.emplace_back(cover, filter, likelihood, hypotheses, person.split("bank"), components);
+    informed_.emplace_back(cover, filter);
+    random_.push_back(person.split("informed"));
+  }
+}
+
+void TeamBank::inform(std::size_t i, std::span<const HalfSpace> half_spaces, const RandomStream& random) {
+  constexpr double kSurest = 1.0 - 1e-9;
+  const double ability = std::min(members_[i].expected_present_ability(), kSurest);
+  informed_[i].observe(half_spaces, HalfSpaceLikelihood{ability, likelihood_, informed_[i].dimension()}, random);
+}
+
+// The answers of a member as evidence of what the member believes.
+void TeamBank::take_answers(std::size_t i, std::span<const Verdict> verdicts, std::size_t period) {
+  std::vector<HalfSpace> shown;
+  for (const auto& verdict : verdicts) {
+    for (const auto& half_space : verdict.half_spaces) {
+      if (std::find(shown.begin(), shown.end(), half_space) == shown.end()) shown.push_back(half_space);
+    }
+  }
+  inform(i, shown, random_[i].split(period).split("response"));
+  informed_[i].diffuse(response_noise_, random_[i].split(period).split("response noise"));
 }
 
 void TeamBank::see_placement(const Atlas& atlas, std::span<const Test> tests,
                              std::span<const std::vector<Answer>> answers,
                              std::span<const std::vector<Verdict>> verdicts) {
   for (std::size_t i = 0; i < size(); ++i) {
-    if (!answers[i].empty()) members_[i].see_answers(atlas, tests, answers[i], verdicts[i]);
+    if (answers[i].empty()) continue;
+    members_[i].see_answers(atlas, tests, answers[i], verdicts[i]);
+    take_answers(i, verdicts[i], 0);
   }
 }
 
@@ -26,7 +52,9 @@ void TeamBank::watch(const Lesson& lesson, const std::vector<bool>& present) {
   }
   for (std::size_t i = 0; i < size(); ++i) {
     if (begins(lesson.component)) members_[i].begin_component();
-    if (present[i]) members_[i].watch(conveyed, lesson.period);
+    if (!present[i]) continue;
+    members_[i].watch(conveyed, lesson.period);
+    inform(i, conveyed, random_[i].split(lesson.period).split("demonstration"));
   }
   component_ = lesson.component;
 }
@@ -34,48 +62,24 @@ void TeamBank::watch(const Lesson& lesson, const std::vector<bool>& present) {
 void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<const std::vector<Answer>> answers,
                            const Feedback& feedback, const std::vector<bool>& present) {
   for (std::size_t i = 0; i < size(); ++i) {
-    if (!answers[i].empty()) members_[i].see_answers(atlas, lesson.tests, answers[i], feedback.verdicts[i]);
-    if (present[i]) members_[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
+    if (!answers[i].empty()) {
+      members_[i].see_answers(atlas, lesson.tests, answers[i], feedback.verdicts[i]);
+      take_answers(i, feedback.verdicts[i], lesson.period);
+    }
+    if (!present[i]) continue;
+    members_[i].hear_feedback(feedback.all_correct[i], feedback.half_spaces, lesson.period);
+    inform(i, feedback.half_spaces, random_[i].split(lesson.period).split("feedback"));
   }
 }
 
 double TeamBank::probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
                                         const std::vector<bool>& present) {
-  double expected = 0.0;
-  if (atlas.is_tabulated()) {
-    const auto& table = exam.table();
-    std::vector<std::vector<double>> masses;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (present[i]) masses.push_back(members_[i].cell_masses(atlas));
-    }
-    for (const auto& test : table.tests(component)) {
-      std::vector<double> right;
-      for (const auto& mass : masses) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < mass.size(); ++c) {
-          if (table.is_right(PolicyCellIndex{c}, test.hull)) sum += mass[c];
-        }
-        right.push_back(sum);
-      }
-      std::sort(right.begin(), right.end());  // so that seats do not matter
-      double all = 1.0;
-      for (const double p : right) all *= p;
-      expected += test.weight * all;
-    }
-    return expected;
+  const RandomTest test{atlas, exam, component};
+  std::vector<std::vector<double>> right;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (present[i]) right.push_back(test.right(members_[i]));
   }
-  const auto facets = atlas.constraints().half_spaces(atlas.knowledge_components()[component].constraints);
-  for (const auto& facet : facets) {
-    std::vector<double> right;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (present[i]) right.push_back(members_[i].mass_in({&facet, 1}));
-    }
-    std::sort(right.begin(), right.end());
-    double all = 1.0;
-    for (const double p : right) all *= p;
-    expected += all / static_cast<double>(facets.size());
-  }
-  return expected;
+  return test.all_right(right);
 }
 
 }  // namespace kith

@@ -26,6 +26,18 @@ void check_states(const Domain& domain, MdpIndex m) {
   fuzzing::require(!domain.describe_variant(m).empty() || domain.variant(m).empty(), "variants have a description");
 }
 
+// What the text may name.
+const DomainFiles& files() {
+  static const DomainFiles kFiles{
+      .known = {
+          {"floor.yaml",
+           "image: floor.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: "
+           "0.196\n"},
+          {"floor.pgm", "P2\n4 3\n255\n254 254 254 254\n254 0 205 254\n254 254 254 254\n"},
+          {"zones.pgm", "P2\n4 3\n255\n255 255 64 255\n64 255 255 128\n255 255 255 255\n"}}};
+  return kFiles;
+}
+
 }  // namespace
 
 std::string fuzzing::mutated(std::string_view input, Dice& dice) {
@@ -39,7 +51,7 @@ std::string fuzzing::crossed(std::string_view input, std::string_view other, Dic
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text{reinterpret_cast<const char*>(data), size};
-  const auto reading = parse_domain(text, "domain.toml", {.max_states = 2'000});
+  const auto reading = parse_domain(text, "domain.toml", {.max_states = 2'000}, files());
   fuzzing::require(reading.domain.has_value() != has_errors(reading.diagnostics), "a domain, or errors");
   fuzzing::require_good(reading.diagnostics, text, "domain.toml");
   fuzzing::note(text, fuzzing::outcome_of(reading.diagnostics));

@@ -24,6 +24,13 @@ const std::string kPrism = kHead +
 const std::string kGymVectors = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n" + kTail;
 const std::string kGymNumbers = kHead + "format = \"gym-json\"\n[[model.mdp]]\nfile = \"m.json\"\n";
 
+const std::string kGrid =
+    "schema = \"kith.domain/1\"\nid = \"m\"\n[map]\noccupancy = \"m.yaml\"\nunknown = \"floor\"\n[map.legend]\n"
+    "S = { start = true }\nG = { goal = true }\nz = { terrain = \"z\" }\n[[map.layer]]\nrows = [\"S G\"]\n"
+    "[[map.layer]]\nimage = \"m.pgm\"\ngrey = { 0 = \"z\", 1 = \"z\", 2 = \"z\" }\n[[map.raster]]\nname = \"r\"\n"
+    "image = \"m.pgm\"\nlevels = 3\n[[feature]]\nname = \"f\"\nwhen = \"enter:r\"\ntimes = \"r\"\n[[feature]]\n"
+    "name = \"g\"\nwhen = \"action\"\n[reward]\nweights = { f = -1, g = -2 }\n";
+
 constexpr const char* kSoundJson =
     R"({"schema":"kith.model/1","features":["g","f"],"variables":["x"],"mdps":[{"states":[{"state":"a","variables":[1]},)"
     R"({"state":"c","terminal":true,"variables":[2]}],"transitions":[{"state":"a","action":"go","next":"c",)"
@@ -35,8 +42,8 @@ struct Layout {
   const std::string* domain;  // null: it is what is fuzzed
   const char* fuzzed;         // the name of the file that the bytes are
 };
-const std::array<Layout, 11>& layouts() {
-  static const std::array<Layout, 11> kLayouts{{{&kCsv, "a.csv"},
+const std::array<Layout, 13>& layouts() {
+  static const std::array<Layout, 13> kLayouts{{{&kCsv, "a.csv"},
                                                 {&kCsv, "b.csv"},
                                                 {&kJson, "m.json"},
                                                 {&kPrism, "m.tra"},
@@ -46,7 +53,9 @@ const std::array<Layout, 11>& layouts() {
                                                 {&kPrism, "m.trew"},
                                                 {&kGymVectors, "m.json"},
                                                 {&kGymNumbers, "m.json"},
-                                                {nullptr, kDomainFile}}};
+                                                {nullptr, kDomainFile},
+                                                {&kGrid, "m.pgm"},
+                                                {&kGrid, "m.yaml"}}};
   return kLayouts;
 }
 
@@ -65,16 +74,20 @@ Form form_of(std::string_view head) {
 
 DomainFiles files_with(const char* name, std::string_view text) {
   DomainFiles files;
-  files.known = {{name, std::string{text}},
-                 {"a.csv", "state,terminal,x\na,false,1\nb,false,2\nc,true,3\n"},
-                 {"b.csv", "state,action,next,probability,f,g\na,go,b,1,0,1\nb,go,c,0.5,1,0\nb,go,a,0.5,0,0\n"},
-                 {"m.tra", "3 3 4\n0 0 1 1 go\n1 0 0 0.5 go\n1 0 2 0.5 go\n2 0 2 1\n"},
-                 {"m.sta", "(x)\n0:(1)\n1:(2)\n2:(3)\n"},
-                 {"m.lab", "0=\"init\" 1=\"goal\"\n0: 0\n2: 1\n"},
-                 {"m.json", kSoundJson},
-                 {"g.json", kSoundGym},
-                 {"m.srew", "3 1\n0 1\n"},
-                 {"m.trew", "3 3 1\n1 0 2 1\n"}};
+  files.known = {
+      {name, std::string{text}},
+      {"a.csv", "state,terminal,x\na,false,1\nb,false,2\nc,true,3\n"},
+      {"b.csv", "state,action,next,probability,f,g\na,go,b,1,0,1\nb,go,c,0.5,1,0\nb,go,a,0.5,0,0\n"},
+      {"m.tra", "3 3 4\n0 0 1 1 go\n1 0 0 0.5 go\n1 0 2 0.5 go\n2 0 2 1\n"},
+      {"m.sta", "(x)\n0:(1)\n1:(2)\n2:(3)\n"},
+      {"m.lab", "0=\"init\" 1=\"goal\"\n0: 0\n2: 1\n"},
+      {"m.json", kSoundJson},
+      {"m.yaml",
+       "image: m.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.9\nfree_thresh: 0.2\n"},
+      {"m.pgm", "P2\n3 2\n3\n3 1 3\n0 3 2\n"},
+      {"g.json", kSoundGym},
+      {"m.srew", "3 1\n0 1\n"},
+      {"m.trew", "3 3 1\n1 0 2 1\n"}};
   return files;
 }
 

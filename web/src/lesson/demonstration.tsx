@@ -1,8 +1,8 @@
-import type { JSX } from 'preact';
+import type { ComponentChildren, JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Demonstration, Sentence } from './document';
 import { RunsView } from './runs';
-import { Scene, type Context } from './scene';
+import { Scene, Start, WorldName, type Context } from './scene';
 import { actionsText, upperFirst, withoutCells } from './words';
 
 // Sentences that can be said, each once: of some constraints nothing short is true.
@@ -22,6 +22,7 @@ export function Sentences({ sentences }: { sentences: Sentence[] }): JSX.Element
 // First the robot moves; why it does so, and what it would do elsewhere, is there when the reader asks.
 export function DemonstrationView({ shown, number, ...context }: Context & { shown: Demonstration; number: number }) {
   const [open, setOpen] = useState(false);
+  const [watching, setWatching] = useState(false);
   const { alternative, decisive, flip } = shown;
   // Where chance has a part, the most likely paths can be the same although the decisions differ.
   const isSame = Boolean(shown.runs && alternative && actionsText(shown.frames) === actionsText(alternative.frames));
@@ -31,25 +32,36 @@ export function DemonstrationView({ shown, number, ...context }: Context & { sho
     <article class="demonstration">
       <h3>Example {number}</h3>
       <p class="question">{shown.runs ? 'What will the robot do?' : 'Where will the robot go?'} Decide first, then watch.</p>
-      {shown.runs && <RunsView {...context} board={shown} shown={shown.runs} />}
-      {(!shown.runs || open) && (
-        <Scene
-          {...context}
-          board={shown}
-          title={shown.runs ? 'The most likely path' : 'The robot'}
-          name={shown.runs ? "the robot's most likely path" : "the robot's path"}
-          {...(open && alternative && !isSame ? { other: alternative.frames } : {})}
-          decisive={open && !isSame ? decisive : null}
-        >
-          {open && alternative && decisive && !isSame
-            ? `${shown.map ? 'The dashed path' : 'The other list'} is one that you might have expected. They differ from step ${decisive.frame + 1}.`
-            : null}
-          {open && isSame
-            ? 'On this path the robot does what you might have expected. The difference shows when things turn out otherwise.'
-            : null}
-        </Scene>
-      )}
-      <details class="why" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <WorldName board={shown} />
+      {!shown.map && <Start {...context} board={shown} />}
+      <Watched isList={!shown.map} watching={watching} setWatching={setWatching}>
+        {shown.runs && <RunsView {...context} board={shown} shown={shown.runs} />}
+        {(!shown.runs || open) && (
+          <Scene
+            {...context}
+            board={shown}
+            title={shown.runs ? 'The most likely path' : 'The robot'}
+            name={shown.runs ? "the robot's most likely path" : "the robot's path"}
+            {...(open && alternative && !isSame ? { other: alternative.frames } : {})}
+            decisive={open && !isSame ? decisive : null}
+          >
+            {open && alternative && decisive && !isSame
+              ? `${shown.map ? 'The dashed path' : 'The other list'} is one that you might have expected. They differ from step ${decisive.frame + 1}.`
+              : null}
+            {open && isSame
+              ? 'On this path the robot does what you might have expected. The difference shows when things turn out otherwise.'
+              : null}
+          </Scene>
+        )}
+      </Watched>
+      <details
+        class="why"
+        open={open}
+        onToggle={(event) => {
+          setOpen(event.currentTarget.open);
+          if (event.currentTarget.open) setWatching(true); // the reason is about what the robot does
+        }}
+      >
         <summary>{open ? 'Hide the reason' : 'Why does it do this?'}</summary>
         {open && (
           <>
@@ -69,6 +81,18 @@ export function DemonstrationView({ shown, number, ...context }: Context & { sho
         )}
       </details>
     </article>
+  );
+}
+
+// A board shows the robot only as far as it has gone; a list shows its whole path, so it waits until the reader has decided.
+function Watched(props: { isList: boolean; watching: boolean; setWatching: (open: boolean) => void; children: ComponentChildren }) {
+  const { isList, watching, setWatching, children } = props;
+  if (!isList) return <>{children}</>;
+  return (
+    <details class="watch" open={watching} onToggle={(event) => setWatching(event.currentTarget.open)}>
+      <summary>{watching ? 'Hide what the robot does' : 'Show what the robot does'}</summary>
+      {watching && children}
+    </details>
   );
 }
 

@@ -109,6 +109,11 @@ function InWords(props: SceneProps): JSX.Element | null {
   );
 }
 
+// What the world is called, where nothing is drawn that shows it.
+export function WorldName({ board }: { board: Board }): JSX.Element | null {
+  return board.world_name ? <p class="world-name">This world: {board.world_name}.</p> : null;
+}
+
 // What is to be seen before an answer is given: the board with nobody having moved.
 export function Start({ domain, legend, board }: Context & { board: Board }): JSX.Element {
   const text = mapText(domain, legend, board);

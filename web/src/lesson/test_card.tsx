@@ -3,7 +3,7 @@ import { useState } from 'preact/hooks';
 import { Sentences, textsOf } from './demonstration';
 import type { Test } from './document';
 import { RunsView } from './runs';
-import { Scene, Start, type Context } from './scene';
+import { Scene, Start, WorldName, type Context } from './scene';
 
 export function TestView({ test, number, ...context }: Context & { test: Test; number: number }): JSX.Element {
   const [open, setOpen] = useState(false);
@@ -15,6 +15,7 @@ export function TestView({ test, number, ...context }: Context & { test: Test; n
       <p class="question">
         {test.runs ? 'What will the robot do, here and wherever it may end up?' : 'Which path will the robot take?'}
       </p>
+      <WorldName board={test} />
       {!open && <Start {...context} board={test} />}
       <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
         <summary>{open ? 'Hide the answer' : 'Show the answer'}</summary>

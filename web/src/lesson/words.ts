@@ -32,8 +32,11 @@ export function actionWords(action: string): string {
 }
 
 export function placeOf(frame: Frame): string {
-  return frame.robot ? `at ${cellText(frame.robot)}` : `in ${frame.state ?? 'a state'}`;
+  return frame.robot ? `at ${cellText(frame.robot)}` : stateText(frame.state ?? 'a state');
 }
+
+// "on the bank", "in state 3": many names of states say where they are.
+const stateText = (state: string): string => (/^(on|in|at|by|near|under|behind|beside|inside|outside) /i.test(state) ? state : `in ${state}`);
 
 // What a frame's action does, with what the robot carries: "it goes left, carrying the parcel".
 function moveText(frame: Frame): string {
@@ -68,7 +71,7 @@ export function actionsText(frames: Frame[]): string {
 
 // Sentences about what is on the map and where, while the board is at its start.
 export function mapText(domain: Domain, legend: Legend, board: Board): string[] {
-  if (!board.map) return [`It starts in ${board.start.state ?? 'a state'}.`];
+  if (!board.map) return [`The robot starts here: ${board.start.state ?? 'a state'}.`];
   const places = new Map<string, string[]>();
   const add = (name: string, cell: Place): void => void places.set(name, [...(places.get(name) ?? []), cellText(cell)]);
   board.map.forEach((row, y) => {

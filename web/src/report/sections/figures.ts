@@ -2,6 +2,7 @@
 import { abilityFigures, completionFigures, correctFigures, knowledgeFigures } from '../figures/progress';
 import { areaFigures } from '../figures/area';
 import type { Figure } from '../figures/figure';
+import { estimateFigures } from '../figures/estimates';
 import { examCurveFigures } from '../figures/exam';
 import { forecastFigures } from '../figures/forecasts';
 import { frontFigures } from '../figures/front';
@@ -36,6 +37,7 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
     ],
   },
   { id: 'forecasts', title: 'Forecasts', figures: forecastFigures },
+  { id: 'estimates', title: 'What the teacher can tell', figures: estimateFigures },
   { id: 'time', title: 'Where time goes', figures: timeFigures },
 ];
 

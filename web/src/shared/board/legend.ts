@@ -16,6 +16,8 @@ const kNamed: Record<string, Tint> = {
   ice: 'blue',
   smoke: 'grey',
   fire: 'red',
+  lava: 'red',
+  heat: 'orange',
 };
 export const kPatterns = ['dots', 'lines', 'cross', 'waves'] as const;
 

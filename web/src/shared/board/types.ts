@@ -31,6 +31,7 @@ export interface Frame {
 export interface Board {
   world: number;
   map?: string[]; // absent where the domain has none
+  world_name?: string; // where nothing is drawn, what the world is called
   start: Frame;
   frames: Frame[];
 }

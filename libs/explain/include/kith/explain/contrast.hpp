@@ -43,6 +43,12 @@ struct Contrast {
 [[nodiscard]] std::string reason(const Atlas& atlas, const Contrast& contrast,
                                  std::span<const HalfSpace> together = {});
 
+/// reason(), where counts are expectations in one comparison that people can picture: risk_in_words() and in_words() of
+/// statement_in_tries(), true for all weights that give the robot's policy: "it risks falling into the water: in 10
+/// tries, 30 more steps cost more than falling into the water once". reason() if there is no such statement.
+/// @throws std::invalid_argument as reason().
+[[nodiscard]] std::string reason_in_tries(const Atlas& atlas, const Contrast& contrast);
+
 /// The contrast that conveys a constraint, at the earliest state of the robot's path where there is one: with a path
 /// that somebody expects and that differs from the robot's by a multiple of the constraint's normal; where nobody
 /// knows what people expect (Atlas::is_tabulated()), with the path that such a single other action begins, after which

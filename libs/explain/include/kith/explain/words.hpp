@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kith/domains/domain.hpp"
+#include "kith/explain/statement.hpp"
 #include "kith/geometry/half_space.hpp"
 #include "kith/mdp/planner.hpp"
 
@@ -21,7 +22,12 @@ namespace kith {
 /// @return Nothing if no short statement follows from the constraint.
 [[nodiscard]] std::string in_words(const Domain& domain, const HalfSpace& half_space,
                                    std::span<const HalfSpace> together = {});
-/// Sentences of constraints that are conveyed together, in their order, without empty and repeated ones.
+/// Sentences of constraints that are conveyed together, in their order: of short_statements(), empty where there is
+/// none.
+/// @param together  further constraints that are conveyed at the same time.
+[[nodiscard]] std::vector<std::string> each_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces,
+                                                     std::span<const HalfSpace> together = {});
+/// The same without empty and repeated ones.
 [[nodiscard]] std::vector<std::string> all_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces);
 /// What a choice changes in expectation: "in 100 tries its choice means falling into a hole about 80 fewer times and
 /// about 170 more steps". Numbers have two significant digits; what speaks for the choice comes first. In 1000 tries if
@@ -32,6 +38,13 @@ namespace kith {
 /// outcomes of the world.
 /// @param difference  as above.
 [[nodiscard]] std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVector& difference);
+/// The features that risk_in_words() names, ascending.
+[[nodiscard]] std::vector<std::size_t> risks_of(const Domain& domain, MdpIndex world, const IntegerVector& difference);
+/// "in 10 tries, 30 more steps cost more than falling into the water once". In discounted domains it says that later
+/// steps count less.
+/// @param risks  features that happen so many times, not so many times more.
+[[nodiscard]] std::string in_words(const Domain& domain, const StatementInTries& statement,
+                                   std::span<const std::size_t> risks);
 /// The normal and the words: "(-1,0,2): crossing rubble costs more than 2 steps"; the normal alone if there are none.
 [[nodiscard]] std::string described(const Domain& domain, const HalfSpace& half_space);
 /// "(-1,0,2)", without entries beyond the domain's features.
@@ -40,6 +53,8 @@ namespace kith {
 [[nodiscard]] std::string times(const Wording& wording, std::int64_t n);
 /// A feature n times more than otherwise: "one more step", "2 more steps", "crossing rubble once more".
 [[nodiscard]] std::string times_more(const Wording& wording, std::int64_t n);
+/// A feature n times less than otherwise: "one fewer step", "2 fewer steps", "not crossing rubble".
+[[nodiscard]] std::string times_fewer(const Wording& wording, std::int64_t n);
 /// What the robot does, n times, as a verb: "take 2 steps"; `more`: "take 2 more steps". Empty without such words.
 [[nodiscard]] std::string doing(const Wording& wording, std::int64_t n, bool more);
 /// A feature in general: "steps", "crossing rubble".

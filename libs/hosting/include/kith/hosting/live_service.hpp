@@ -90,6 +90,9 @@ class LiveService {
   [[nodiscard]] StartLinks start_links();
   /// All rooms but the waiting list, also those that are being rebuilt and that views do not show yet.
   [[nodiscard]] std::size_t num_rooms() const;
+  /// Sessions in memory, which is what most of it is for: those of rooms whose group is or will be taught, and those of
+  /// lessons that were chosen ahead of time. Rooms that have ended have none.
+  [[nodiscard]] std::size_t num_sessions() const;
   /// How links begin, such as "http://127.0.0.1:8080"; views show them so.
   void set_base_url(std::string url);
 

@@ -82,8 +82,14 @@ class Room {
   [[nodiscard]] RoomStage stage() const noexcept;
   /// Number of the last applied event; 0: none.
   [[nodiscard]] std::uint64_t seq() const noexcept;
-  /// The session as it is now.
+  /// The session as it is now. @pre holds_session()
   [[nodiscard]] const Session& session() const noexcept;
+  /// Whether the session is in memory: until release().
+  [[nodiscard]] bool holds_session() const noexcept;
+  /// Gives back the memory of what only teaching needs, which is most of it: the session with its beliefs and the
+  /// simulated learners. Views, the digest, and what commands and events lead to stay the same. Does nothing while the
+  /// group may still be taught.
+  void release();
   [[nodiscard]] std::size_t num_seats() const noexcept;
   [[nodiscard]] bool is_person(std::size_t seat) const;
   /// Whether somebody could join now.

@@ -22,9 +22,8 @@ struct RunnerUp {
 /// A lesson that a worker made: what Room::taught() and Room::apply() take. A value; keep it until its event is
 /// applied.
 struct TaughtLesson {
-  std::string key;                        ///< TeachingTask::key of the task.
-  std::string digest;                     ///< Of the session after the proposal: lesson, beliefs and history.
-  std::shared_ptr<const Session> before;  ///< Before the proposal.
+  std::string key;     ///< TeachingTask::key of the task.
+  std::string digest;  ///< Of the session after the proposal: lesson, beliefs and history.
   std::shared_ptr<const Session> after;
   Learners learners;                         ///< Stand-ins after they watched the lesson; null for people.
   std::vector<Learner::Response> responses;  ///< Their answers; empty for people.

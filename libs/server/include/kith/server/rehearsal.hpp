@@ -17,9 +17,11 @@ struct RehearsalOptions {
   std::uint16_t port = 0;
   std::string facilitator;  ///< Token of a facilitator: makes the rooms, and ends them when time is up.
   std::size_t groups = 1;
-  std::size_t people = 0;                         ///< Per group; 0: as the study says.
-  std::string strategy{};                         ///< Of all groups; empty: those of the design in turn.
-  std::chrono::milliseconds duration{0};          ///< After it all groups are ended; 0: when everybody has finished.
+  std::size_t people = 0;  ///< Per group; 0: as the study says.
+  std::string strategy{};  ///< Of all groups; empty: those of the design in turn.
+  /// For how long: groups that finish are followed by new ones, and when time is up all are ended. 0: until everybody
+  /// has finished.
+  std::chrono::milliseconds duration{0};
   std::chrono::milliseconds answer_every{5'000};  ///< How long a person takes for an answer, on average.
   double reconnects = 0.0;                        ///< Share of people who lose their connection, per second.
   double right = 0.8;                             ///< Share of answers for which a right path is used, where known.
@@ -43,8 +45,8 @@ struct LatencySummary {
 
 /// What came of it.
 struct RehearsalResult {
-  std::size_t groups = 0;
-  std::size_t people = 0;
+  std::size_t groups = 0;  ///< All of them, with those that followed others.
+  std::size_t people = 0;  ///< In all of them.
   double seconds = 0.0;
   LatencySummary acknowledgement{};  ///< From sending a message to its acknowledgement, over one connection.
   LatencySummary next_lesson{};      ///< From the last "continue" of a group to each member's first demonstration.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kith/core/integer_vector.hpp"
@@ -71,6 +72,14 @@ struct TeamForecast {
   friend bool operator==(const TeamForecast&, const TeamForecast&) = default;
 };
 
+/// The probability that all members present answer a random test of the period's component correctly, after the
+/// feedback.
+struct PeriodMastery {
+  double predicted = 0.0;          ///< By the teacher's bank of hypotheses.
+  std::optional<double> actual{};  ///< By the members' own beliefs; none if a learner model has none.
+  friend bool operator==(const PeriodMastery&, const PeriodMastery&) = default;
+};
+
 /// A row of periods.csv.
 struct PeriodRecord {
   std::size_t period = 0;
@@ -88,6 +97,7 @@ struct PeriodRecord {
   std::size_t untested = 0;
   double gain = 0.0;
   std::optional<PeriodForecast> forecast{};  ///< If StudySpec::forecast_sessions.
+  std::optional<PeriodMastery> mastery{};    ///< If StudySpec::estimates.
   std::vector<double> p_bec;                 ///< Mass in the policy's BEC, in the order of StudySpec::teaching.rules.
 };
 
@@ -109,6 +119,28 @@ struct ExamRecord {
   double regret = 0.0;            ///< In the units of the weights that the domain file states.
   std::optional<double> p_bec{};  ///< Over all starts: mass of the belief in the policy's BEC.
 };
+
+/// A row of estimates.csv: what the teacher's bank of hypotheses says of one member, beside the truth. The row of the
+/// person has what is about abilities, those of components have the rest.
+struct EstimateRecord {
+  std::size_t period = 0;     ///< After this one; 0 before the first.
+  std::size_t component = 0;  ///< 1-based; 0: about the person.
+  std::size_t member = 0;     ///< 1-based
+  char type = 'N';
+  std::optional<double> ability{};       ///< With which the member really learns when a component begins.
+  std::optional<double> ability_mean{};  ///< Posterior mean, and the limits of the central 80 %.
+  std::optional<double> ability_low{};
+  std::optional<double> ability_high{};
+  std::optional<double> p_proficient{};  ///< That the ability is at least StudySpec::proficient_ability.
+  std::optional<double> p_knew{};        ///< That the member knew the component before the first lesson.
+  std::optional<double> knew{};          ///< Mass of the member's belief then in the component's constraints.
+  std::optional<double> p_right{};       ///< That the member answers a random test of the component correctly.
+  std::optional<double> right{};         ///< The same under the member's own belief.
+  friend bool operator==(const EstimateRecord&, const EstimateRecord&) = default;
+};
+/// What EstimateRecord::p_proficient comes to: "proficient" from 0.8, "not proficient" up to 0.2, else "cannot tell
+/// yet".
+[[nodiscard]] std::string_view proficiency_word(double p_proficient) noexcept;
 
 /// The exam of a team at its end.
 struct TeamExam {
@@ -163,6 +195,7 @@ struct TeamRecord {
   std::vector<ResponseRecord> responses;                   ///< Empty at RecordLevel::kTeam.
   std::vector<ProgressRecord> progress;                    ///< Empty at RecordLevel::kTeam.
   std::vector<ExamRecord> exams;                           ///< Empty at ExamLevel::kNone.
+  std::vector<EstimateRecord> estimates;                   ///< Empty unless StudySpec::estimates.
 };
 
 }  // namespace kith

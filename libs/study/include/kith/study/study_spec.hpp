@@ -106,6 +106,8 @@ struct StudySpec {
   ExamLevel exam = ExamLevel::kNone;   ///< Study files of domains with more than three features: kEnd unless they say.
   std::size_t exam_questions = 0;      ///< Questions that everybody answers at the end, as people would.
   std::size_t forecast_sessions = 0;   ///< Imagined sessions of a cell, for forecasts; 0: none are made.
+  bool estimates = false;              ///< Whether it is recorded what the teacher's LearnerBank says of people.
+  double proficient_ability = 0.735;   ///< With estimates: members who learn with at least this ability are proficient.
   std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
   std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
   bool has_group = false;                  ///< Whether the file has `[group]`.

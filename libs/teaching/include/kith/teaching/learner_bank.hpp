@@ -56,6 +56,8 @@ class LearnerBank {
   /// The hypotheses as a strategy compares units with them. @param begins  whether a component begins.
   [[nodiscard]] std::vector<MemberHypothesis> as_members(bool begins) const;
 
+  /// Posterior mean of the ability now.
+  [[nodiscard]] double expected_present_ability() const;
   /// Posterior mean of the initial ability.
   [[nodiscard]] double expected_ability() const;
   /// The initial ability below which the posterior puts probability q, in [0, 1]; linear between the abilities of the

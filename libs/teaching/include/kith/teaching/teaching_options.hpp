@@ -38,6 +38,7 @@ enum class MasteryRule {
 enum class HypothesesAbout {
   kAbility,          ///< How well people learn: TeachingOptions::hypotheses.
   kKnownComponents,  ///< Which components they know beforehand: grid_of_known_components().
+  kNothing,          ///< Nothing: everybody is taken for a person of average ability, one_hypothesis().
 };
 
 /// Which members are done with a component before the team is. They have no part in its remaining periods and return

@@ -12,13 +12,17 @@ namespace kith {
 /// A LearnerBank about every member of a team.
 class TeamBank {
  public:
-  /// @param persons  one stream per member. @param components  as for LearnerBank.
+  /// @param persons  one stream per member. @param response_noise  radians, >= 0.
+  /// @param components  as for LearnerBank.
   TeamBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
            const std::vector<LearnerHypothesis>& hypotheses, std::span<const RandomStream> persons,
-           std::span<const std::vector<HalfSpace>> components = {});
+           double response_noise, std::span<const std::vector<HalfSpace>> components = {});
 
   [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
   [[nodiscard]] const LearnerBank& member(std::size_t i) const { return members_[i]; }
+  /// What a member believes who learns with the expected ability: as the beliefs of the hypotheses, but the member's
+  /// answers are evidence, too, blurred by `response_noise`.
+  [[nodiscard]] const ParticleBelief& informed(std::size_t i) const { return informed_[i]; }
   /// Whether the component of the coming lesson begins with it.
   [[nodiscard]] bool begins(std::size_t component) const noexcept { return component != component_; }
 
@@ -32,19 +36,27 @@ class TeamBank {
   void close_tests(const Atlas& atlas, const Lesson& lesson, std::span<const std::vector<Answer>> answers,
                    const Feedback& feedback, const std::vector<bool>& present);
 
-  /// The expected probability that all members present answer a random test of the component right,
-  ///   E_t prod_i sum_h w_ih P_ih(right on t),
-  /// t spread evenly over the facets of the component (GradeTable::tests); where behaviours are not tabulated a facet
-  /// itself is the test, and answered right by the weights that satisfy it.
+  /// The probability that all members present answer a random test of the component correctly,
+  ///   E_t prod_i sum_h w_ih P_ih(right on t);
+  /// see RandomTest.
   [[nodiscard]] double probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
                                               const std::vector<bool>& present);
 
-  friend bool operator==(const TeamBank&, const TeamBank&) = default;
+  friend bool operator==(const TeamBank& a, const TeamBank& b) {
+    return a.members_ == b.members_ && a.informed_ == b.informed_ && a.component_ == b.component_;
+  }
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  void take_answers(std::size_t i, std::span<const Verdict> verdicts, std::size_t period);
+  void inform(std::size_t i, std::span<const HalfSpace> half_spaces, const RandomStream& random);
+
+  LikelihoodForm likelihood_;
+  double response_noise_;
   std::vector<LearnerBank> members_;
-  std::size_t component_ = kNone;  // of the last lesson
+  std::vector<ParticleBelief> informed_;
+  std::vector<RandomStream> random_;  // of what moves the points of informed_
+  std::size_t component_ = kNone;     // of the last lesson
 };
 
 }  // namespace kith

@@ -1,0 +1,64 @@
+#include "kith/teaching/random_test.hpp"
+
+#include <algorithm>
+
+namespace kith {
+
+RandomTest::RandomTest(const Atlas& atlas, const Exam& exam, std::size_t component)
+    : atlas_{&atlas}, exam_{&exam}, component_{component} {
+  if (!atlas.is_tabulated()) {
+    facets_ = atlas.constraints().half_spaces(atlas.knowledge_components()[component].constraints);
+  }
+}
+
+std::vector<double> RandomTest::right_in_cells(std::span<const double> masses) const {
+  const auto& table = exam_->table();
+  std::vector<double> right;
+  for (const auto& test : table.tests(component_)) {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < masses.size(); ++c) {
+      if (table.is_right(PolicyCellIndex{c}, test.hull)) sum += masses[c];
+    }
+    right.push_back(sum);
+  }
+  return right;
+}
+
+std::vector<double> RandomTest::right(const ParticleBelief& belief) const {
+  if (!atlas_->is_tabulated()) {
+    std::vector<double> right;
+    for (const auto& facet : facets_) right.push_back(belief.mass_in({&facet, 1}));
+    return right;
+  }
+  std::vector<double> masses(atlas_->cells().size(), 0.0);
+  const auto x = belief.x(), y = belief.y(), z = belief.z(), weights = belief.weights();
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    masses[atlas_->cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value()] += weights[i];
+  }
+  return right_in_cells(masses);
+}
+
+std::vector<double> RandomTest::right(LearnerBank& bank) const {
+  if (atlas_->is_tabulated()) return right_in_cells(bank.cell_masses(*atlas_));
+  std::vector<double> right;
+  for (const auto& facet : facets_) right.push_back(bank.mass_in({&facet, 1}));
+  return right;
+}
+
+double RandomTest::all_right(std::span<const std::vector<double>> people) const {
+  const auto num_tests = atlas_->is_tabulated() ? exam_->table().tests(component_).size() : facets_.size();
+  double expected = 0.0;
+  for (std::size_t t = 0; t < num_tests; ++t) {
+    std::vector<double> right;
+    for (const auto& person : people) right.push_back(person[t]);
+    std::sort(right.begin(), right.end());  // so that seats do not matter
+    double all = 1.0;
+    for (const double p : right) all *= p;
+    const double weight =
+        atlas_->is_tabulated() ? exam_->table().tests(component_)[t].weight : 1.0 / static_cast<double>(num_tests);
+    expected += weight * all;
+  }
+  return expected;
+}
+
+}  // namespace kith
