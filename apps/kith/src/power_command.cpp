@@ -48,8 +48,8 @@ Effect effect_of(const std::string& text, const StudySpec& spec) {
   return *reading.effect;
 }
 
-// What the default analyses test, as far as the design allows. Of more than three features the outcomes of the exam
-// come first and knowledge, which is hardly above 0 there, comes last.
+// What the default analyses test, as far as the design allows. Beyond three features the outcomes of the exam come
+// first and knowledge, which says little there, comes last.
 std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_features) {
   const std::vector<const char*> periods{"periods: strategy", "periods: composition",
                                          "periods: strategy x composition"};

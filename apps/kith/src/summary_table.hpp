@@ -9,7 +9,7 @@
 namespace kith::cli {
 
 /// What came out per cell, and pooled, as a table with notes below. For domains of more than three features the figures
-/// of the exam stand in the place of knowledge, which is hardly above 0 there.
+/// of the exam stand in the place of knowledge, which says little there.
 [[nodiscard]] std::string summary_table(const Study& study, std::size_t num_features, const StudySummary& summary,
                                         const Console& console);
 

@@ -33,7 +33,7 @@ struct RunTeams {
   std::vector<double> exam_worst_share_right;
 
   [[nodiscard]] bool has_exam() const noexcept { return !exam_share_right.empty(); }
-  // Of more than three features knowledge is hardly above 0: the exam says more.
+  // Beyond three features knowledge says little: the exam says more.
   [[nodiscard]] bool leads_with_exam() const noexcept { return has_exam() && num_features > 3; }
   [[nodiscard]] std::size_t size() const noexcept { return team.size(); }
   [[nodiscard]] bool is_baseline(std::size_t i) const { return strategy.levels[strategy.codes[i]] == kBaseline; }

@@ -75,7 +75,7 @@ class RunTest : public ::testing::Test {
                      ("kith analysis " + std::string{::testing::UnitTest::GetInstance()->current_test_info()->name()});
 };
 
-// Of more than three features the exam says more than knowledge does.
+// Beyond three features the exam says more than knowledge does.
 TEST_F(RunTest, LeadsWithTheExamBeyondThreeFeatures) {
   std::string text = teams();
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) {

@@ -97,7 +97,7 @@ struct RunData {
   PeopleValues ability;
   std::map<PeopleKey, Answers> answers;
   bool has_exam = false;
-  // Of more than three features knowledge is hardly above 0, so that the exam leads; set by read_run_data().
+  // Beyond three features knowledge says little, so that the exam leads; set by read_run_data().
   bool leads_with_exam = false;
   bool has_costs = false;
   bool has_forecasts = false;

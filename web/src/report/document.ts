@@ -86,7 +86,7 @@ export interface Report {
     compositions: string[];
     factors?: (string | { key: string })[];
     summary?: string[]; // plain sentences
-    leads?: 'exam'; // its figures come first: knowledge is hardly above 0 with more than three features
+    leads?: 'exam'; // its figures come first: knowledge says little with more than three features
     headlines?: Headline[];
   };
   notes?: string[];

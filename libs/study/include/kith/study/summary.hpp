@@ -49,7 +49,7 @@ struct StudySummary {
 };
 [[nodiscard]] StudySummary summarize(std::span<const TeamRecord> teams);
 
-/// The same for teams that come one by one, in the order of the tables: keeps three numbers of each.
+/// The same for teams that come one by one, in the order of the tables: keeps a few numbers of each.
 class StudySummarizer {
  public:
   StudySummarizer();
