@@ -16,7 +16,7 @@ namespace kith::cli {
 
 int run_merge(const MergeOptions& options, Console& console) {
   if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith merge needs -o DIR, the folder for the results"};
-  const RunPlace place{options.out, std::chrono::steady_clock::now()};
+  RunPlace place{options.out, std::chrono::steady_clock::now()};
   auto facts = facts_of_build();
   facts.started = utc_now();
   const std::vector<std::filesystem::path> folders{options.folders.begin(), options.folders.end()};
@@ -32,6 +32,7 @@ int run_merge(const MergeOptions& options, Console& console) {
   if (freeze(reading) != shards.journals.front().identity().inputs) {
     throw Error{ErrorKind::kMismatch, folders.front().string() + ": its inputs do not match its journal"};
   }
+  place.num_features = reading.domain->num_features();
   StudyRunOptions how;
   how.program = program_name();
   how.replace = options.yes;

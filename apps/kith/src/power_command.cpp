@@ -48,19 +48,35 @@ Effect effect_of(const std::string& text, const StudySpec& spec) {
   return *reading.effect;
 }
 
-// What the default analyses test, as far as the design allows.
-std::vector<Effect> default_effects(const StudySpec& spec) {
-  std::vector<Effect> effects;
-  for (const auto* text : {"periods: strategy", "periods: composition", "periods: strategy x composition",
-                           "knowledge: strategy", "knowledge: composition", "knowledge: strategy x composition",
-                           "area_sr: strategy", "periods: group - baseline", "knowledge: group - baseline"}) {
-    if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
+// What the default analyses test, as far as the design allows. Beyond three features the outcomes of the exam come
+// first and knowledge, which says little there, comes last.
+std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_features) {
+  const std::vector<const char*> periods{"periods: strategy", "periods: composition",
+                                         "periods: strategy x composition"};
+  const std::vector<const char*> knowledge{"knowledge: strategy", "knowledge: composition",
+                                           "knowledge: strategy x composition"};
+  const std::vector<const char*> others{"area_sr: strategy", "periods: group - baseline"};
+  const std::vector<const char*> exam{"exam_share_right: strategy", "exam_regret: strategy",
+                                      "exam_worst_share_right: strategy", "exam_regret: group - baseline"};
+  const bool has_exam = spec.exam != ExamLevel::kNone;
+  std::vector<const char*> texts;
+  const auto add = [&](const std::vector<const char*>& more) { texts.insert(texts.end(), more.begin(), more.end()); };
+  if (has_exam && num_features > 3) {
+    add({"exam_regret: strategy", "exam_regret: composition", "exam_regret: strategy x composition",
+         "exam_share_right: strategy", "exam_worst_share_right: strategy", "exam_regret: group - baseline"});
+    add(periods);
+    add(others);
+    add(knowledge);
+  } else {
+    add(periods);
+    add(knowledge);
+    add(others);
+    add({"knowledge: group - baseline"});
+    if (has_exam) add(exam);
   }
-  if (spec.exam != ExamLevel::kNone) {
-    for (const auto* text : {"exam_share_right: strategy", "exam_regret: strategy", "exam_worst_share_right: strategy",
-                             "exam_regret: group - baseline"}) {
-      if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
-    }
+  std::vector<Effect> effects;
+  for (const auto* text : texts) {
+    if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
   }
   if (!effects.empty()) return effects;
   throw Error{ErrorKind::kUsage, "this study has nothing to compare: it has one cell, or only the baseline"};
@@ -281,7 +297,7 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   const auto& spec = study.variants.front();
   std::vector<Effect> effects;
   for (const auto& text : options.effects) effects.push_back(effect_of(text, spec));
-  if (effects.empty()) effects = default_effects(spec);
+  if (effects.empty()) effects = default_effects(spec, atlas.domain().num_features());
   PowerOptions power;
   power.teams = sizes_of(options);
   if (!options.preregister.empty()) power.teams = with_size(power.teams, spec.replicates);

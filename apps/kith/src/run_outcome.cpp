@@ -37,7 +37,7 @@ int publish_run(StudyRun& run, RunFacts facts, const RunPlace& place, Console& c
     print_summary(run.study(), *summary, run.num_done(), failed, seconds, console);
     return code;
   }
-  console.print(summary_table(run.study(), *summary, console));
+  console.print(summary_table(run.study(), place.num_features, *summary, console));
   console.info(fmt::format("{} in {:.2f} s; tables in {}/tables, columns in codebook.json",
                            counted(run.num_done(), "team"), seconds, place.folder));
   return code;

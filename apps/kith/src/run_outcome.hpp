@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace kith::cli {
 
-/// Where a run goes, and when it began.
+/// Where a run goes, when it began, and how many features its domain has.
 struct RunPlace {
   std::string folder;
   std::chrono::steady_clock::time_point begin;
+  std::size_t num_features = 0;
 };
 
 /// Says which teams failed, and why.

@@ -207,7 +207,7 @@ int run_study(const StudyOptions& options, Console& console) {
   facts.timings.emplace_back("teach", seconds_since(teach_begin));
   note(fmt::format("taught {} teams", run.num_done() - run.num_resumed()));
   if (options.shard.count > 1) return finish_shard(options, run, std::move(facts), seconds_since(begin), console);
-  return publish_run(run, std::move(facts), {options.out, begin}, console);
+  return publish_run(run, std::move(facts), {options.out, begin, atlas.domain().num_features()}, console);
 }
 
 }  // namespace kith::cli

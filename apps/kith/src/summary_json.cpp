@@ -38,6 +38,7 @@ Json group_json(const CellSummary& cell, const Study& study) {
     json["exam"] = {{"share_right", mean_sd_json(cell.exam->share_right)},
                     {"regret", mean_sd_json(cell.exam->regret)},
                     {"worst_share_right", mean_sd_json(cell.exam->worst_share_right)}};
+    if (cell.exam->regret_before) json["exam"]["regret_before"] = mean_sd_json(*cell.exam->regret_before);
   }
   return json;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace kith::cli {
@@ -12,48 +13,93 @@ std::string mean_sd_text(const MeanSd& value, int digits) {
   return fmt::format("{:.{}f} ({:.{}f})", value.mean, digits, *value.sd, digits);
 }
 
-void add_row(TextTable& table, std::vector<std::string> keys, const CellSummary& cell) {
+// What the columns after the keys are.
+enum class Figures {
+  kKnowledge,
+  kExam,        // exam at the end
+  kExamBefore,  // and before the first lesson
+};
+
+Figures figures_of(std::size_t num_features, const StudySummary& summary) {
+  const auto examined = [](const CellSummary& cell) { return cell.exam.has_value(); };
+  if (num_features <= 3 || !std::all_of(summary.cells.begin(), summary.cells.end(), examined))
+    return Figures::kKnowledge;
+  const auto before = [](const CellSummary& cell) { return cell.exam->regret_before.has_value(); };
+  return std::all_of(summary.cells.begin(), summary.cells.end(), before) ? Figures::kExamBefore : Figures::kExam;
+}
+
+std::vector<std::string> header_of(Figures figures) {
+  std::vector<std::string> names{"teams", "completed", "periods"};
+  if (figures == Figures::kKnowledge) {
+    names.insert(names.end(), {"knowledge", "area/sr"});
+    return names;
+  }
+  names.insert(names.end(), {"regret", "share right", "worst member"});
+  if (figures == Figures::kExamBefore) names.insert(names.begin() + 3, "regret before");
+  return names;
+}
+
+void add_row(TextTable& table, std::vector<std::string> keys, const CellSummary& cell, Figures figures) {
   keys.push_back(fmt::format("{}", cell.teams));
   keys.push_back(fmt::format("{}", cell.completed));
   keys.push_back(mean_sd_text(cell.periods, 2));
-  keys.push_back(mean_sd_text(cell.knowledge, 3));
-  keys.push_back(mean_sd_text(cell.area_sr, 3));
+  if (figures == Figures::kKnowledge) {
+    keys.push_back(mean_sd_text(cell.knowledge, 3));
+    keys.push_back(mean_sd_text(cell.area_sr, 3));
+  } else {
+    const auto& exam = *cell.exam;
+    if (figures == Figures::kExamBefore) keys.push_back(fmt::format("{:.3f}", exam.regret_before->mean));
+    keys.push_back(mean_sd_text(exam.regret, 3));
+    keys.push_back(mean_sd_text(exam.share_right, 3));
+    keys.push_back(fmt::format("{:.3f}", exam.worst_share_right.mean));
+  }
   table.add(std::move(keys));
 }
 
 // What the figures are, below the table.
-std::string table_notes(const StudySummary& summary, const Console& console) {
-  std::string text =
-      "\ncells: mean (sd over teams); knowledge: the team's mean mass of final belief in the policy's class;\n"
-      "area/sr: mean solid angle of the weights that fit one period's lesson, in steradians";
+std::string table_notes(const StudySummary& summary, Figures figures, const Console& console) {
+  std::string text = "\ncells: mean (sd over teams); ";
+  if (figures == Figures::kKnowledge) {
+    text +=
+        "knowledge: the team's mean mass of final belief in the policy's class;\n"
+        "area/sr: mean solid angle of the weights that fit one period's lesson, in steradians";
+  } else {
+    text +=
+        "regret: what the members' predictions lose in the exam over all starts,\n"
+        "in the units of the domain's weights; share right: starts where they predict the robot correctly;\n"
+        "worst member: the smallest share right of a member, averaged over teams";
+  }
   if (summary.group) text += "\nall groups: the teams of every strategy but the baseline, together";
   return console.dim(text) + "\n";
 }
 
 }  // namespace
 
-std::string summary_table(const Study& study, const StudySummary& summary, const Console& console) {
+std::string summary_table(const Study& study, std::size_t num_features, const StudySummary& summary,
+                          const Console& console) {
   const auto& factors = study.variants.front().factors;
-  TextTable table{"ll" + std::string(factors.size(), 'l') + "rrrrr"};
+  const auto figures = figures_of(num_features, summary);
+  const auto names = header_of(figures);
+  TextTable table{"ll" + std::string(factors.size(), 'l') + std::string(names.size(), 'r')};
   std::vector<std::string> header{"strategy", "composition"};
   for (const auto& factor : factors) header.push_back(factor.key);
-  for (const auto* name : {"teams", "completed", "periods", "knowledge", "area/sr"}) header.emplace_back(name);
+  header.insert(header.end(), names.begin(), names.end());
   table.add(header);
   for (const auto& cell : summary.cells) {
     std::vector<std::string> keys{*cell.strategy, cell.composition};
     for (const auto& factor : study.variants[cell.variant].factors) keys.push_back(factor.value);
-    add_row(table, keys, cell);
+    add_row(table, keys, cell, figures);
   }
   std::vector<std::string> all(2 + factors.size());
   if (summary.group) {
     all[0] = "all groups";
-    add_row(table, all, *summary.group);
+    add_row(table, all, *summary.group, figures);
   }
   if (summary.baseline) {
     all[0] = "all baseline";
-    add_row(table, all, *summary.baseline);
+    add_row(table, all, *summary.baseline, figures);
   }
-  return table.text(console) + table_notes(summary, console);
+  return table.text(console) + table_notes(summary, figures, console);
 }
 
 }  // namespace kith::cli

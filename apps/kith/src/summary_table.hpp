@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "console.hpp"
@@ -7,7 +8,9 @@
 
 namespace kith::cli {
 
-/// What came out per cell, and pooled, as a table with notes below.
-[[nodiscard]] std::string summary_table(const Study& study, const StudySummary& summary, const Console& console);
+/// What came out per cell, and pooled, as a table with notes below. For domains of more than three features the figures
+/// of the exam stand in the place of knowledge, which says little there.
+[[nodiscard]] std::string summary_table(const Study& study, std::size_t num_features, const StudySummary& summary,
+                                        const Console& console);
 
 }  // namespace kith::cli

@@ -120,6 +120,19 @@ TEST(PowerCommand, DrawsACurveAndPrintsADocument) {
   EXPECT_EQ(document["effects"][0]["points"].size(), 2u);
 }
 
+// Beyond three features knowledge says little, and the exam leads.
+TEST(PowerCommand, BeginsWithTheExamBeyondThreeFeatures) {
+  const auto first = [](const std::string& domain) {
+    const auto ran =
+        run_small({"power", "quick", "--teams", "2", "--pool", "8", "--draws", "10", "--json", "--set",
+                   "domain=\"" + domain + "\"", "--set", "record.exam=\"end\"", "--set", "stop.max_periods=1"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return Json::parse(ran.out).at("effects").at(0).at("effect").get<std::string>();
+  };
+  EXPECT_THAT(first("rescue-floor"), HasSubstr("exam_regret"));
+  EXPECT_THAT(first("item-delivery"), HasSubstr("periods"));
+}
+
 TEST(PowerCommand, StatesWhatItAssumes) {
   std::vector<std::string> arguments{"power", "quick", "--teams", "3", "--pool", "12", "--draws", "20"};
   EXPECT_THAT(run_small(arguments).out,

@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 TEST(StudyCommand, PrintsATableAndSaysWhereTheTablesAre) {
@@ -95,6 +96,33 @@ TEST(StudyCommand, ShowsVariedKeysAsColumns) {
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("stop.max_periods"));
   EXPECT_THAT(tables_in(scratch / "run").at("teams.csv"), HasSubstr("composition,stop.max_periods,replicate,team"));
+}
+
+// Beyond three features knowledge says little, and the exam leads.
+TEST(StudyCommand, LeadsWithTheExamBeyondThreeFeatures) {
+  const Scratch scratch;
+  const auto headed = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> args{"study", "quick",
+                                  "-o",    scratch / name,
+                                  "--set", "replicates=1",
+                                  "--set", "design.strategies=[\"common\"]",
+                                  "--set", "stop.max_periods=1",
+                                  "-q"};
+    for (auto& one : more) args.insert(args.end(), {"--set", std::move(one)});
+    const auto ran = run_kith(args);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.out;
+  };
+  const std::string robot = "domain=\"rescue-floor\"";
+  EXPECT_THAT(headed("period", {robot, "record.exam=\"period\""}),
+              AllOf(HasSubstr("regret before"), HasSubstr("share right"), HasSubstr("worst member"),
+                    Not(HasSubstr("knowledge"))));
+  EXPECT_THAT(headed("end", {robot, "record.exam=\"end\""}),
+              AllOf(HasSubstr("share right"), Not(HasSubstr("regret before")), Not(HasSubstr("knowledge"))));
+  EXPECT_THAT(headed("none", {robot, "record.exam=\"none\""}),
+              AllOf(HasSubstr("knowledge"), Not(HasSubstr("share right"))));
+  EXPECT_THAT(headed("three", {"record.exam=\"period\""}),
+              AllOf(HasSubstr("knowledge"), Not(HasSubstr("share right"))));
 }
 
 TEST(StudyCommand, RunsNothingWhenDry) {

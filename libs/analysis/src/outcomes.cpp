@@ -25,8 +25,15 @@ OutcomeWords outcome_words(std::string_view column) {
 }
 
 std::vector<std::pair<std::string, const std::vector<double>*>> outcomes_of(const RunTeams& teams) {
-  std::vector<std::pair<std::string, const std::vector<double>*>> outcomes{{"periods", &teams.periods},
-                                                                           {"knowledge", &teams.knowledge}};
+  using Outcomes = std::vector<std::pair<std::string, const std::vector<double>*>>;
+  if (teams.leads_with_exam()) {
+    return Outcomes{{"exam_regret", &teams.exam_regret},
+                    {"exam_share_right", &teams.exam_share_right},
+                    {"exam_worst_share_right", &teams.exam_worst_share_right},
+                    {"periods", &teams.periods},
+                    {"knowledge", &teams.knowledge}};
+  }
+  Outcomes outcomes{{"periods", &teams.periods}, {"knowledge", &teams.knowledge}};
   if (!teams.has_exam()) return outcomes;
   outcomes.emplace_back("exam_share_right", &teams.exam_share_right);
   outcomes.emplace_back("exam_regret", &teams.exam_regret);

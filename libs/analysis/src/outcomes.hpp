@@ -19,7 +19,8 @@ struct OutcomeWords {
 // Of a column that is no outcome of teams: its name.
 [[nodiscard]] OutcomeWords outcome_words(std::string_view column);
 
-// The outcomes that a run has, in the order in which they are analysed: columns of teams.csv and their values.
+// The outcomes that a run has, in the order in which they are analysed: columns of teams.csv and their values. Beyond
+// three features those of the exam come first and knowledge, which says little there, comes last.
 [[nodiscard]] std::vector<std::pair<std::string, const std::vector<double>*>> outcomes_of(const RunTeams& teams);
 
 }  // namespace kith

@@ -5,6 +5,7 @@
 #include "kith/core/error.hpp"
 #include "kith/table/csv_reader.hpp"
 #include "kith/table/table_text.hpp"
+#include "kith/toml/document.hpp"
 
 namespace kith {
 namespace {
@@ -48,6 +49,15 @@ std::vector<std::string> required_texts(const Dataset& data, const std::string& 
   return texts;
 }
 
+// How many features inputs/domain.toml declares; 0 if it is not there.
+std::size_t features_of_domain(const PublishedRun& run) {
+  const std::string file = "inputs/domain.toml";
+  if (!run.has(file)) return 0;
+  const auto parsing = parse_toml(run.read(file), file);
+  const auto* value = parsing.document ? parsing.document->root.find("feature") : nullptr;
+  return value != nullptr && value->array() != nullptr ? value->array()->size() : 0;
+}
+
 }  // namespace
 
 RunTeams read_teams(const PublishedRun& run) {
@@ -62,6 +72,7 @@ RunTeams read_teams(const PublishedRun& run) {
   if (has_exam) wanted.insert(wanted.end(), kExamColumns.begin(), kExamColumns.end());
   const auto data = Dataset::parse(text, file.string(), wanted);
   RunTeams teams;
+  teams.num_features = features_of_domain(run);
   teams.strategy = data.factor("strategy");
   teams.composition = data.factor("composition");
   teams.setting.resize(data.num_rows());

@@ -26,12 +26,15 @@ struct RunTeams {
   std::vector<double> periods;
   std::vector<double> knowledge;
   std::vector<double> area_sr;
+  std::size_t num_features = 0;  // of the domain; 0 if the run does not say
   // Of the exam at the end; empty if the teams were not examined.
   std::vector<double> exam_share_right;
   std::vector<double> exam_regret;
   std::vector<double> exam_worst_share_right;
 
   [[nodiscard]] bool has_exam() const noexcept { return !exam_share_right.empty(); }
+  // Beyond three features knowledge says little: the exam says more.
+  [[nodiscard]] bool leads_with_exam() const noexcept { return has_exam() && num_features > 3; }
   [[nodiscard]] std::size_t size() const noexcept { return team.size(); }
   [[nodiscard]] bool is_baseline(std::size_t i) const { return strategy.levels[strategy.codes[i]] == kBaseline; }
 };

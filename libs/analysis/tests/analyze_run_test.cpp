@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -73,6 +74,36 @@ class RunTest : public ::testing::Test {
   fs::path folder_ = fs::path{::testing::TempDir()} /
                      ("kith analysis " + std::string{::testing::UnitTest::GetInstance()->current_test_info()->name()});
 };
+
+// Beyond three features the exam says more than knowledge does.
+TEST_F(RunTest, LeadsWithTheExamBeyondThreeFeatures) {
+  std::string text = teams();
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) {
+    const bool is_header = at == text.find('\n');
+    const auto more = is_header ? std::string{",exam_share_right,exam_regret,exam_worst_share_right"}
+                                : ",0.9,0." + std::to_string(1 + at % 7) + ",0.8";
+    text.insert(at, more);
+    at += more.size() + 1;
+  }
+  write("teams.csv", text);
+  const auto position = [](const Analysis& analysis, const std::string& id) {
+    const auto found = std::find_if(analysis.findings.begin(), analysis.findings.end(),
+                                    [&](const Finding& finding) { return finding.id == id; });
+    return found - analysis.findings.begin();
+  };
+  for (const int features : {3, 4}) {
+    fs::create_directories(folder_ / "inputs");
+    std::string domain;
+    for (int k = 0; k < features; ++k) domain += "[[feature]]\nname = \"f" + std::to_string(k) + "\"\n";
+    write_file_atomically(folder_ / "inputs" / "domain.toml", domain);
+    testing::reseal(folder_);
+    const auto analysis = analyse();
+    ASSERT_TRUE(has_finding(analysis, "exam_regret"));
+    ASSERT_TRUE(has_finding(analysis, "knowledge"));
+    EXPECT_EQ(position(analysis, "exam_regret") < position(analysis, "knowledge"), features > 3);
+    EXPECT_EQ(analysis.findings.front().id, features > 3 ? "exam_regret" : "periods");
+  }
+}
 
 TEST_F(RunTest, AnswersTheQuestionsOfTheStudy) {
   write("teams.csv", teams());

@@ -46,6 +46,11 @@ std::vector<std::vector<std::size_t>> teams_of_cells(const ReportDesign& design)
   return teams;
 }
 
+// What the front compares: knowledge, or the share right where the exam leads.
+double known_at_end(const TeamValues& team, const RunData& data) {
+  return data.leads_with_exam ? team.exam_share_right : team.knowledge;
+}
+
 // How often each cell is on the front of its composition in bootstrap samples of the replicates, which all strategies
 // share.
 Values front_shares(const ReportDesign& design, const RunData& data, std::uint64_t seed) {
@@ -70,7 +75,7 @@ Values front_shares(const ReportDesign& design, const RunData& data, std::uint64
         for (std::size_t c = 0; c < cells.size(); ++c) {
           const auto& team = data.teams[teams[cells[c]][replicate]];
           means[c].first += team.items;
-          means[c].second += team.knowledge;
+          means[c].second += known_at_end(team, data);
         }
       }
       for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -144,8 +149,9 @@ Json efficiency_table(const RunFiles& run, const ReportDesign& design, const Run
     for (std::size_t other = 0; other < design.cells.size(); ++other) {
       if (design.cells[other].composition != design.cells[c].composition || teams[other].empty()) continue;
       if (other == c) own = rivals.size();
-      rivals.emplace_back(mean_of(values_of(teams[other], data, [](const auto& team) { return team.items; })),
-                          mean_of(values_of(teams[other], data, [](const auto& team) { return team.knowledge; })));
+      rivals.emplace_back(
+          mean_of(values_of(teams[other], data, [](const auto& team) { return team.items; })),
+          mean_of(values_of(teams[other], data, [&](const auto& team) { return known_at_end(team, data); })));
     }
     auto row = Json::array({design.series[design.cells[c].series].code, design.cells[c].composition, teams[c].size()});
     add_interval(row, values_of(teams[c], data, [](const auto& team) { return team.items; }));

@@ -37,7 +37,7 @@ std::string simulated(const RunFiles& run, const RunData& data) {
 // What teams needed and knew, of those taught together or of those taught alone.
 struct Outcome {
   std::vector<double> periods;
-  std::vector<double> knowledge;
+  std::vector<double> knowledge;  // share right in the exam where that leads
 };
 
 std::string outcome_text(const Outcome& outcome) {
@@ -50,21 +50,25 @@ std::string together_or_alone(const ReportDesign& design, const RunData& data) {
     const auto& series = design.series[design.cells[design.cell_of_team[i]].series];
     auto& outcome = series.strategy == kBaseline ? alone : together;
     outcome.periods.push_back(data.teams[i].periods);
-    outcome.knowledge.push_back(data.teams[i].knowledge);
+    outcome.knowledge.push_back(data.leads_with_exam ? data.teams[i].exam_share_right : data.teams[i].knowledge);
   }
-  const std::string scale = " (0: nothing, 1: everything)";
+  const std::string scale = data.leads_with_exam ? "" : " (0: nothing, 1: everything)";
+  const std::string known = data.leads_with_exam
+                                ? "the share of starts from which they predicted the robot correctly at "
+                                  "the end was "
+                                : "their knowledge at the end was ";
   const auto knowledge = [](const Outcome& outcome) { return rounded_text(mean(outcome.knowledge), 2); };
   if (together.periods.empty()) {
-    return "Teaching every member alone took " + outcome_text(alone) +
-           " per team, and their knowledge at the end was " + knowledge(alone) + scale + ".";
+    return "Teaching every member alone took " + outcome_text(alone) + " per team, and " + known + knowledge(alone) +
+           scale + ".";
   }
   if (alone.periods.empty()) {
-    return "Teams taught together needed " + outcome_text(together) + ", and their knowledge at the end was " +
-           knowledge(together) + scale + ".";
+    return "Teams taught together needed " + outcome_text(together) + ", and " + known + knowledge(together) + scale +
+           ".";
   }
   return "Teams taught together needed " + outcome_text(together) + ", teams whose members were taught one after the " +
-         "other " + rounded_text(mean(alone.periods), 1) + "; their knowledge at the end was " + knowledge(together) +
-         " and " + knowledge(alone) + scale + ".";
+         "other " + rounded_text(mean(alone.periods), 1) + "; " + known + knowledge(together) + " and " +
+         knowledge(alone) + scale + ".";
 }
 
 // The p-value of a term in the first table of a finding.
@@ -85,23 +89,27 @@ std::optional<double> p_value(const Analysis& analysis, const std::string& id, c
 }
 
 // "affected the number of periods; no effect on knowledge was found"; nothing if it was not tested.
-std::string effect_of(const Analysis& analysis, const std::string& term) {
+std::string effect_of(const Analysis& analysis, const std::string& term, bool leads_with_exam) {
   const double alpha = AnalysisOptions{}.alpha;
-  const auto periods = p_value(analysis, "periods", term), knowledge = p_value(analysis, "knowledge", term);
+  const auto periods = p_value(analysis, "periods", term);
+  const auto knowledge = p_value(analysis, leads_with_exam ? "exam_regret" : "knowledge", term);
+  const std::string known = leads_with_exam ? "regret in the exam" : "knowledge";
   if (!periods && !knowledge) return "";
   const bool on_periods = periods && *periods < alpha, on_knowledge = knowledge && *knowledge < alpha;
-  if (on_periods && on_knowledge) return "affected both the number of periods and knowledge";
-  if (on_periods) return "affected the number of periods, with no detectable effect on knowledge";
-  if (on_knowledge) return "affected knowledge, with no detectable effect on the number of periods";
+  if (on_periods && on_knowledge) return "affected both the number of periods and " + known;
+  if (on_periods) return "affected the number of periods, with no detectable effect on " + known;
+  if (on_knowledge) return "affected " + known + ", with no detectable effect on the number of periods";
   return "made no detectable difference";
 }
 
-std::string differences(const RunFiles& run, const ReportDesign& design, const Analysis& analysis) {
+std::string differences(const RunFiles& run, const ReportDesign& design, const RunData& data,
+                        const Analysis& analysis) {
   std::set<std::string> strategies;
   for (const auto& series : design.series) {
     if (series.strategy != kBaseline) strategies.insert(series.strategy);
   }
-  const auto strategy = effect_of(analysis, "strategy"), composition = effect_of(analysis, "composition");
+  const auto strategy = effect_of(analysis, "strategy", data.leads_with_exam);
+  const auto composition = effect_of(analysis, "composition", data.leads_with_exam);
   std::string text;
   if (!strategy.empty()) {
     text = "Which of the " + std::to_string(strategies.size()) + " strategies for teaching a team together was used " +
@@ -118,7 +126,7 @@ std::string differences(const RunFiles& run, const ReportDesign& design, const A
 
 Json plain_summary(const RunFiles& run, const ReportDesign& design, const RunData& data, const Analysis& analysis) {
   Json sentences = Json::array({simulated(run, data), together_or_alone(design, data)});
-  if (auto text = differences(run, design, analysis); !text.empty()) sentences.push_back(std::move(text));
+  if (auto text = differences(run, design, data, analysis); !text.empty()) sentences.push_back(std::move(text));
   return sentences;
 }
 

@@ -128,16 +128,18 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
   for (const auto& factor : run.spec().factors) factors.push_back(factor.key);
   const auto completed =
       std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.completed; });
-  return {{"teams", data.teams.size()},
-          {"people", design.people},
-          {"completed", completed},
-          {"replicates", run.spec().replicates},
-          {"seed", std::to_string(run.spec().seed)},
-          {"strategies", std::move(strategies)},
-          {"compositions", run.spec().compositions},
-          {"factors", std::move(factors)},
-          {"summary", plain_summary(run, design, data, analysis)},
-          {"headlines", headlines(design, data)}};
+  Json overview{{"teams", data.teams.size()},
+                {"people", design.people},
+                {"completed", completed},
+                {"replicates", run.spec().replicates},
+                {"seed", std::to_string(run.spec().seed)},
+                {"strategies", std::move(strategies)},
+                {"compositions", run.spec().compositions},
+                {"factors", std::move(factors)},
+                {"summary", plain_summary(run, design, data, analysis)},
+                {"headlines", headlines(design, data)}};
+  if (data.leads_with_exam) overview["leads"] = "exam";
+  return overview;
 }
 
 // timings.csv, if there is one; it does not bear on results, so that a run may come without it.

@@ -52,6 +52,7 @@ class DataReader {
     data_.teams.resize(num_teams);
     std::size_t last = kNoTeam;
     data_.has_exam = run_.spec().exam != ExamLevel::kNone;
+    data_.leads_with_exam = data_.has_exam && run_.domain.num_features() > 3;
     const auto& variants = run_.study.variants;
     data_.has_costs = std::any_of(variants.begin(), variants.end(), has_costs);
     data_.has_forecasts =

@@ -97,6 +97,8 @@ struct RunData {
   PeopleValues ability;
   std::map<PeopleKey, Answers> answers;
   bool has_exam = false;
+  // Beyond three features knowledge says little, so that the exam leads; set by read_run_data().
+  bool leads_with_exam = false;
   bool has_costs = false;
   bool has_forecasts = false;
   std::vector<std::vector<ExamPoint>> exam_paths;  // by team: before teaching, after each period; may be empty

@@ -78,6 +78,11 @@ Json headlines(const ReportDesign& design, const RunData& data) {
     if (!values.empty()) result.push_back(headline(label + (baseline ? ", baseline" : ", group strategies"), values));
   };
   for (const bool baseline : {false, true}) add("Periods", &TeamValues::periods, baseline);
+  if (data.leads_with_exam) {
+    for (const bool baseline : {false, true}) add("Regret in the exam", &TeamValues::exam_regret, baseline);
+    for (const bool baseline : {false, true}) add("Share right in the exam", &TeamValues::exam_share_right, baseline);
+    return result;
+  }
   for (const bool baseline : {false, true}) add("Knowledge", &TeamValues::knowledge, baseline);
   if (data.has_exam) {
     for (const bool baseline : {false, true}) add("Regret in the exam", &TeamValues::exam_regret, baseline);

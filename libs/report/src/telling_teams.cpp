@@ -30,9 +30,8 @@ class Choice {
   }
 
   std::vector<TellingTeam> take() {
-    add_extreme(
-        [&](std::size_t team) { return data_.teams[team].knowledge; },
-        [&](std::size_t team) { return "the lowest final knowledge (" + rounded(data_.teams[team].knowledge) + ")"; });
+    add_extreme(known_,
+                [&](std::size_t team) { return "the lowest " + name_of_known() + " (" + rounded(known_(team)) + ")"; });
     add_extreme([&](std::size_t team) { return -data_.teams[team].periods; },
                 [&](std::size_t team) { return "the slowest (" + counted_periods(data_.teams[team].periods) + ")"; });
     add_typical();
@@ -72,31 +71,40 @@ class Choice {
     chosen_.push_back({best, why(best) + all_of_them(size(best) <= size(overall) ? candidates_ : among)});
   }
 
+  [[nodiscard]] std::string name_of_known() const {
+    return data_.leads_with_exam ? "share right in the exam" : "final knowledge";
+  }
+
   // Of the teams with the median number of periods the one whose knowledge is nearest to the median.
   void add_typical() {
     const auto among = others();
     if (among.empty()) return;
-    const auto median = [&](double TeamValues::*quantity) {
+    const auto median = [&](const std::function<double(std::size_t)>& quantity) {
       std::vector<double> values;
-      for (const auto team : candidates_) values.push_back(data_.teams[team].*quantity);
+      for (const auto team : candidates_) values.push_back(quantity(team));
       std::sort(values.begin(), values.end());
       return values[(values.size() - 1) / 2];
     };
-    const double periods = median(&TeamValues::periods), knowledge = median(&TeamValues::knowledge);
+    const double periods = median([&](std::size_t team) { return data_.teams[team].periods; });
+    const double known = median(known_);
     const auto distance = [&](std::size_t team) {
-      return std::pair{std::abs(data_.teams[team].periods - periods),
-                       std::abs(data_.teams[team].knowledge - knowledge)};
+      return std::pair{std::abs(data_.teams[team].periods - periods), std::abs(known_(team) - known)};
     };
     const auto team = *std::min_element(among.begin(), among.end(),
                                         [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
     const std::string near = distance(team).first == 0.0 ? "" : "near ";
-    chosen_.push_back({team, "typical: " + near + "the median of " + counted_periods(periods) + ", and knowledge (" +
-                                 rounded(data_.teams[team].knowledge) + ") near the median of " + rounded(knowledge)});
+    chosen_.push_back({team, "typical: " + near + "the median of " + counted_periods(periods) + ", and " +
+                                 (data_.leads_with_exam ? "share right" : "knowledge") + " (" + rounded(known_(team)) +
+                                 ") near the median of " + rounded(known)});
   }
 
   const ReportDesign& design_;
   const RunData& data_;
   std::vector<std::size_t> candidates_;
+  // What a team knows at the end: its share right where the exam leads.
+  std::function<double(std::size_t)> known_ = [this](std::size_t team) {
+    return data_.leads_with_exam ? data_.teams[team].exam_share_right : data_.teams[team].knowledge;
+  };
   bool together_ = true;
   std::vector<TellingTeam> chosen_;
 };

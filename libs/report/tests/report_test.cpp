@@ -268,6 +268,21 @@ TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
   EXPECT_TRUE(document.contains("beliefs"));  // these are computed again
 }
 
+TEST(Report, LeadsWithTheExamBeyondThreeFeatures) {
+  const ScratchFolder scratch;
+  run_tiny_study(scratch / "run", {"domain=\"rescue-floor\"", "replicates=1", "design.strategies=[\"common\"]",
+                                   "record.level=\"team\"", "stop.max_periods=1"});
+  const auto overview = Json::parse(build_report(scratch / "run")).at("overview");
+  EXPECT_EQ(overview.at("leads"), "exam");
+  std::vector<std::string> labels;
+  for (const auto& headline : overview.at("headlines")) labels.push_back(headline.at("label"));
+  EXPECT_EQ(labels, (std::vector<std::string>{"Periods, group strategies", "Regret in the exam, group strategies",
+                                              "Share right in the exam, group strategies"}));
+  EXPECT_THAT(overview.at("summary").dump(), HasSubstr("the share of starts from which they predicted the robot"));
+  run_tiny_study(scratch / "three", {"replicates=1", "record.level=\"team\"", "record.exam=\"end\""});
+  EXPECT_FALSE(Json::parse(build_report(scratch / "three")).at("overview").contains("leads"));
+}
+
 TEST(Report, TellsSettingsOfVariedKeysApart) {
   const ScratchFolder scratch;
   run_tiny_study(scratch / "run",

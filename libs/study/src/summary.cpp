@@ -12,6 +12,7 @@ struct GatheredTeams {
   std::vector<double> periods, knowledge, area_sr;
   std::vector<double> person_periods, minutes, person_minutes;
   std::vector<double> share_right, regret, worst_share_right;  // of those that were examined
+  std::vector<double> regret_before;                           // of those that were examined before the first lesson
 
   void add(const TeamRecord& team) {
     ++cell.teams;
@@ -27,6 +28,15 @@ struct GatheredTeams {
     share_right.push_back(team.exam->share_right);
     regret.push_back(team.exam->regret);
     worst_share_right.push_back(team.exam->worst_share_right);
+    double before = 0.0;
+    std::size_t members = 0;
+    for (const auto& row : team.exams) {
+      if (row.period != 0 || row.component != 0) continue;
+      before += row.regret;
+      ++members;
+    }
+    // Teams that were examined at the end only have no rows of period 0, unless nothing was taught.
+    if (members == team.learners.size() && members > 0) regret_before.push_back(before / static_cast<double>(members));
   }
   [[nodiscard]] bool contains(const TeamAddress& address) const {
     return cell.variant == address.variant && cell.strategy == address.strategy &&
@@ -76,7 +86,11 @@ std::optional<CellSummary> pooled(const Cells& cells) {
   if (examined == summary.teams) {
     summary.exam = ExamSummary{mean_sd(cells, examined, &GatheredTeams::share_right),
                                mean_sd(cells, examined, &GatheredTeams::regret),
-                               mean_sd(cells, examined, &GatheredTeams::worst_share_right)};
+                               mean_sd(cells, examined, &GatheredTeams::worst_share_right),
+                               {}};
+    std::size_t before = 0;
+    for (const auto* cell : cells) before += cell->regret_before.size();
+    if (before == summary.teams) summary.exam->regret_before = mean_sd(cells, before, &GatheredTeams::regret_before);
   }
   return summary;
 }

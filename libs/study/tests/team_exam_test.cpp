@@ -106,6 +106,21 @@ TEST(TeamExam, IsSummarized) {
   EXPECT_NEAR(summary.cells.front().exam->regret.mean, (teams[0].exam->regret + teams[1].exam->regret) / 2.0, 1e-12);
   EXPECT_TRUE(summary.group->exam);
   EXPECT_FALSE(summarize(teams_of(examined_study(ExamLevel::kNone))).group->exam);
+  EXPECT_FALSE(summary.group->exam->regret_before);
+}
+
+TEST(TeamExam, SummaryHasTheRegretBeforeTheFirstLesson) {
+  const auto teams = teams_of(examined_study(ExamLevel::kPeriod));
+  double before = 0.0;
+  for (const auto& team : teams) {
+    for (const auto& row : team.exams) {
+      if (row.period == 0 && row.component == 0) before += row.regret / 4.0;  // two teams of two
+    }
+  }
+  const auto exam = *summarize(teams).group->exam;
+  ASSERT_TRUE(exam.regret_before);
+  EXPECT_NEAR(exam.regret_before->mean, before, 1e-12);
+  EXPECT_GT(exam.regret_before->mean, exam.regret.mean);
 }
 
 // Strategies that look ahead leave people better prepared than those of the paper.

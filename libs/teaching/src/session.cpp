@@ -21,8 +21,8 @@ constexpr double kSurest = 1.0 - 1e-9;
 // Returns that differ by less than this, relative to the robot's, are equal where they are expectations.
 constexpr double kReturnTolerance = 1e-6;
 
-TeamBelief::Options belief_options(const TeachingOptions& options, const StrategyChoice& choice, std::size_t dimension,
-                                   bool reads_members) {
+TeamBelief::Options belief_options(const TeachingOptions& options, const StrategyChoice& choice,
+                                   std::size_t dimension) {
   const auto needs = choice.kind.needs(choice.parameters);
   const auto is_needed = [&](const AggregationRule& rule) {
     return options.keep_rules || std::find(needs.rules.begin(), needs.rules.end(), rule.name) != needs.rules.end();
@@ -37,7 +37,7 @@ TeamBelief::Options belief_options(const TeachingOptions& options, const Strateg
           .likelihood = HalfSpaceLikelihood{std::min(options.assumed_ability, kSurest), options.likelihood, dimension},
           .response_noise = options.response_noise,
           .reduce_before_update = options.reduce_before_update,
-          .members = options.keep_members || needs.members || reads_members,
+          .members = options.keep_members || needs.members,
           .rules = std::move(rules)};
 }
 
@@ -49,6 +49,17 @@ void update_with(TeamBelief& belief, const std::vector<bool>& present, Update up
   trial.set_present(present);
   update(trial);
   belief = std::move(trial);
+}
+
+// The same for the belief by which a teacher teaches and the one by which it judges, if there is one. The one by which
+// it teaches comes last, so that it is the one whose results remain.
+template <typename Update>
+void update_both(TeamBelief& belief, std::optional<TeamBelief>& judged, const std::vector<bool>& present,
+                 Update update) {
+  auto trial = judged;
+  if (trial) update_with(*trial, present, update);
+  update_with(belief, present, update);
+  judged = std::move(trial);
 }
 
 // Adds what is not there yet: a constraint that several test sets examine is shown once.
@@ -95,7 +106,7 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
       persons_{std::move(persons)},
       teacher_{teacher},
       belief_{cache.cover(atlas_->prior_cone(), options_.filter.particles),
-              belief_options(options_, choice_, atlas_->domain().num_features(), reads_beliefs()), persons_,
+              belief_options(options_, choice_, atlas_->domain().num_features()), persons_,
               teacher.split("team belief")},
       right_in_a_row_(persons_.size(), 0),
       components_(atlas_->knowledge_components().size(), ComponentStatus::kOpen),
@@ -114,9 +125,7 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
   require(options_.duplicate_sets >= 1, "duplicate_sets must be at least 1");
   taught_before_ = cache.constraints().half_spaces(cache.regions().minimal(atlas_->prior()));
   taught_with_unit_ = taught_before_;
-  for (std::size_t k = 0; reads_beliefs() && k < components_.size(); ++k) {
-    starts_.push_back(options_.mastery == MasteryRule::kExam ? cache.starts_of(k) : cache.tests_of(k));
-  }
+  make_judged(cache);
   make_bank(cache);
   if (options_.scaffold == Scaffold::kNone && !components_.empty()) {
     component_ = components_.size() - 1;
@@ -273,7 +282,8 @@ void Session::show() {
     conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
   }
   make_room(events_);
-  update_with(belief_, present, [&](TeamBelief& belief) { belief.observe_demonstrations(conveyed, lesson_.period); });
+  update_both(belief_, judged_, present,
+              [&](TeamBelief& belief) { belief.observe_demonstrations(conveyed, lesson_.period); });
   if (bank_) bank_->watch(lesson_, present);
   events_.emplace_back(LessonShown{});
   phase_ = SessionPhase::kTests;
@@ -354,10 +364,10 @@ const Feedback& Session::close_tests() {
   if (nobody(counts)) throw Error{ErrorKind::kUsage, "the tests cannot be closed: everybody is away"};
   for (const auto& test : lesson_.tests) add_new(feedback.half_spaces, test.covered);
   make_room(events_);
-  update_with(belief_, counts,
+  update_both(belief_, judged_, counts,
               [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
   inform_bank(feedback, counts);
-  if (reads_beliefs()) judge_beliefs(feedback, counts);
+  if (judged_) judge_beliefs(feedback, counts);
   auto done = done_members(feedback, counts);
   const auto num_counted = static_cast<std::size_t>(std::count(counts.begin(), counts.end(), true));
   feedback.component_learned = is_enough(everybody) || done.size() == num_counted;
@@ -388,7 +398,7 @@ const Feedback& Session::give_feedback() {
   }
   make_room(events_);
   make_room(history_);
-  update_with(belief_, present,
+  update_both(belief_, judged_, present,
               [&](TeamBelief& belief) { belief.observe_feedback(feedback_.half_spaces, lesson_.period); });
   events_.emplace_back(FeedbackGiven{});
   history_.push_back({std::move(lesson_), std::move(answers), std::move(feedback_)});

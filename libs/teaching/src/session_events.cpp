@@ -71,7 +71,8 @@ bool operator==(const Session& a, const Session& b) {
          a.components_ == b.components_ && a.seats_ == b.seats_ && a.visited_ == b.visited_ &&
          a.taught_before_ == b.taught_before_ && a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ &&
          a.pending_ == b.pending_ && a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ &&
-         a.belief_ == b.belief_ && a.bank_ == b.bank_ && a.placement_verdicts_ == b.placement_verdicts_;
+         a.belief_ == b.belief_ && a.judged_ == b.judged_ && a.bank_ == b.bank_ &&
+         a.placement_verdicts_ == b.placement_verdicts_;
 }
 
 }  // namespace kith

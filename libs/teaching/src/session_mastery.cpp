@@ -50,7 +50,10 @@ void Session::take_placement(std::vector<std::vector<Answer>> answers) {
     }
   }
   events_.reserve(events_.size() + 1);
+  auto judged = judged_;
+  if (judged) static_cast<void>(judged->observe_responses(shown, 0));
   static_cast<void>(belief_.observe_responses(shown, 0));
+  judged_ = std::move(judged);
   if (bank_) bank_->see_placement(*atlas_, placement_, answers, verdicts);
   placement_verdicts_ = std::move(verdicts);
   events_.emplace_back(PlacementTaken{std::move(answers)});
@@ -86,9 +89,24 @@ bool Session::reads_beliefs() const {
   return stops && !atlas_->is_tabulated();
 }
 
+// The beliefs by which components are left, and the starts at which they are judged. They are not blurred after
+// answers: in many dimensions a region is narrower than `response_noise`, so that blurred mass never gathers in it.
+void Session::make_judged(TeachingCache& cache) {
+  if (!reads_beliefs()) return;
+  auto options = belief_.options();
+  options.response_noise = 0.0;
+  options.members = true;
+  options.rules.clear();
+  judged_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options, persons_,
+                  teacher_.split("judged belief"));
+  for (std::size_t k = 0; k < components_.size(); ++k) {
+    starts_.push_back(options_.mastery == MasteryRule::kExam ? cache.starts_of(k) : cache.tests_of(k));
+  }
+}
+
 // What the members present are expected to predict right after the feedback that they are about to get.
 void Session::judge_beliefs(const Feedback& feedback, const std::vector<bool>& present) {
-  TeamBelief after = belief_;
+  TeamBelief after = *judged_;
   if (after.present() != present) after.set_present(present);
   after.observe_feedback(feedback.half_spaces, lesson_.period);
   const auto& sample = *starts_[lesson_.component];

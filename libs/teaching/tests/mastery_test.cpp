@@ -78,16 +78,25 @@ TEST(Mastery, ExamStopsOnceEverybodyIsExpectedToPredictEnoughStarts) {
       }
       return session;
     };
-    const auto lenient = taught(0.5, true), strict = taught(0.97, true);
+    const auto lenient = taught(0.5, true), strict = taught(0.999, true);
     EXPECT_LT(lenient.periods(), strict.periods());
     EXPECT_EQ(lenient.status(), SessionStatus::kComplete);
     EXPECT_GE(taught(0.5, false).periods(), lenient.periods());
     auto again =
-        session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .max_periods = 20, .share_right = 0.97});
+        session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .max_periods = 20, .share_right = 0.999});
     for (const auto& event : strict.events()) again.apply(event, cache);
     EXPECT_EQ(again, strict);
     EXPECT_EQ(again.least_share_right(), strict.least_share_right());
   }
+}
+
+// Blurred mass never gathers in a region that is narrower than the blur.
+TEST(Mastery, ExamJudgesBeliefsWithoutResponseNoise) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of_two(
+      cache, "joint", {.response_noise = 0.5, .mastery = MasteryRule::kExam, .max_periods = 20, .share_right = 0.9});
+  while (session.propose(cache)) session.submit(answers_to(session, true));
+  EXPECT_EQ(session.status(), SessionStatus::kComplete);
 }
 
 TEST(Mastery, MinPeriodsHoldsBackTheExam) {

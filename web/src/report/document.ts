@@ -86,6 +86,7 @@ export interface Report {
     compositions: string[];
     factors?: (string | { key: string })[];
     summary?: string[]; // plain sentences
+    leads?: 'exam'; // its figures come first: knowledge says little with more than three features
     headlines?: Headline[];
   };
   notes?: string[];

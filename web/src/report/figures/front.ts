@@ -1,4 +1,4 @@
-// Knowledge against items shown: which strategies are on the efficiency front.
+// Knowledge, or the share right where the exam leads, against items shown: which strategies are on the efficiency front.
 import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import { strategyLegend } from '../legend';
@@ -6,7 +6,20 @@ import { extent, panels, roundTicks, yAxis } from '../panels';
 import { type Study, rowsOf } from '../study';
 import type { Figure } from './figure';
 
-function spec(study: Study, rows: Row[], width: number): Spec {
+// What counts: its column, its name on an axis, and in a sentence.
+interface Known {
+  column: string;
+  name: string;
+  reading: string;
+}
+
+function knownOf(study: Study): Known {
+  return study.report.overview.leads === 'exam'
+    ? { column: 'share_right', name: 'Share right', reading: 'as large a share right' }
+    : { column: 'knowledge', name: 'Knowledge', reading: 'as much knowledge' };
+}
+
+function spec(study: Study, rows: Row[], known: Known, width: number): Spec {
   const looks = study.looks(rows);
   const labels = looks.map((look) => look.label);
   const scale = (range: (string | number)[]): Spec => ({ domain: labels, range });
@@ -14,7 +27,7 @@ function spec(study: Study, rows: Row[], width: number): Spec {
   const ends = (name: string): (number | null)[] =>
     rows.flatMap((row) => [num(row[name]), num(row[`${name}_low`]), num(row[`${name}_high`])]);
   const xs = roundTicks(extent(ends('items')));
-  const ys = roundTicks(extent(ends('knowledge')));
+  const ys = roundTicks(extent(ends(known.column)));
   const grid = { left: 52, min: 190, max: 2, gap: 22, rowGap: 54 };
   const concat = panels(compositions.length, width, grid, (i, place) => {
     const values = rows
@@ -24,9 +37,9 @@ function spec(study: Study, rows: Row[], width: number): Spec {
         items: num(row.items),
         itemsLow: num(row.items_low),
         itemsHigh: num(row.items_high),
-        knowledge: num(row.knowledge),
-        knowledgeLow: num(row.knowledge_low),
-        knowledgeHigh: num(row.knowledge_high),
+        known: num(row[known.column]),
+        knownLow: num(row[`${known.column}_low`]),
+        knownHigh: num(row[`${known.column}_high`]),
         front: row.on_front === true,
         share: num(row.front_share),
       }));
@@ -38,7 +51,7 @@ function spec(study: Study, rows: Row[], width: number): Spec {
     const y: Spec = {
       type: 'quantitative',
       scale: { domain: ys.domain, zero: false, nice: false },
-      axis: yAxis(place, { title: 'Knowledge', values: ys.values, domain: false, format: '.3~f' }, true),
+      axis: yAxis(place, { title: known.name, values: ys.values, domain: false, format: '.3~f' }, true),
     };
     const color: Spec = {
       field: 'strategy',
@@ -60,7 +73,7 @@ function spec(study: Study, rows: Row[], width: number): Spec {
     const tooltip = [
       { field: 'strategy', title: 'Strategy' },
       { field: 'items', title: 'Items shown', format: '.3~r' },
-      { field: 'knowledge', title: 'Knowledge', format: '.3~r' },
+      { field: 'known', title: known.name, format: '.3~r' },
       { field: 'share', title: 'On the front, share of samples', format: '.2~r' },
     ];
     return {
@@ -72,21 +85,21 @@ function spec(study: Study, rows: Row[], width: number): Spec {
         {
           transform: [{ filter: 'datum.front' }],
           mark: { type: 'line', stroke: 'var(--text)', strokeWidth: 1, strokeDash: [4, 3], opacity: 0.6 },
-          encoding: { x: { ...x, field: 'items' }, y: { ...y, field: 'knowledge' } },
+          encoding: { x: { ...x, field: 'items' }, y: { ...y, field: 'known' } },
         },
         rule('isValid(datum.itemsLow)', {
           x: { ...x, field: 'itemsLow' },
           x2: { field: 'itemsHigh' },
-          y: { ...y, field: 'knowledge' },
+          y: { ...y, field: 'known' },
         }),
-        rule('isValid(datum.knowledgeLow)', {
+        rule('isValid(datum.knownLow)', {
           x: { ...x, field: 'items' },
-          y: { ...y, field: 'knowledgeLow' },
-          y2: { field: 'knowledgeHigh' },
+          y: { ...y, field: 'knownLow' },
+          y2: { field: 'knownHigh' },
         }),
         {
           mark: { type: 'point', filled: true, size: 62, opacity: 1, stroke: 'var(--ground)', strokeWidth: 1 },
-          encoding: { x: { ...x, field: 'items' }, y: { ...y, field: 'knowledge' }, color, shape, tooltip },
+          encoding: { x: { ...x, field: 'items' }, y: { ...y, field: 'known' }, color, shape, tooltip },
         },
       ],
     };
@@ -98,7 +111,8 @@ export function frontFigures(study: Study): Figure[] {
   const table = study.table('efficiency');
   if (!table) return [];
   const rows = rowsOf(table);
-  const title = 'Efficiency: knowledge and items shown';
+  const known = knownOf(study);
+  const title = `Efficiency: ${known.name.toLowerCase()} and items shown`;
   const fronts = study.compositions(rows).map((code) => {
     const names = rows
       .filter((row) => row.composition === code && row.on_front === true)
@@ -109,11 +123,10 @@ export function frontFigures(study: Study): Figure[] {
     {
       id: 'efficiency',
       title,
-      reading:
-        'Higher and further left is better. The broken line joins the strategies of the efficiency front: no other strategy leads to as much knowledge with fewer demonstrations and tests. Means with 95\u00a0% intervals; the data say how often a strategy is on the front in bootstrap samples.',
+      reading: `Higher and further left is better. The broken line joins the strategies of the efficiency front: no other strategy leads to ${known.reading} with fewer demonstrations and tests. Means with 95\u00a0% intervals; the data say how often a strategy is on the front in bootstrap samples.`,
       gist: `${title}. On the front: ${fronts.join('; ')}.`,
       table,
-      spec: (width) => spec(study, rows, width),
+      spec: (width) => spec(study, rows, known, width),
     },
   ];
 }

@@ -41,10 +41,17 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
   { id: 'time', title: 'Where time goes', figures: timeFigures },
 ];
 
+// The exam first where it leads.
+function inOrder(study: Study): typeof kSections {
+  if (study.report.overview.leads !== 'exam') return kSections;
+  const leads = (id: string): boolean => id === 'exam';
+  return [...kSections.filter(({ id }) => leads(id)), ...kSections.filter(({ id }) => !leads(id))];
+}
+
 export function figureSections(study: Study): Section[] {
   let number = 0;
   const sections: Section[] = [];
-  for (const { id, title, figures } of kSections) {
+  for (const { id, title, figures } of inOrder(study)) {
     const views = figures(study)
       .map((figure) => ({ ...figure, ...study.report.labels?.figures?.[figure.id] }))
       .map((figure) => figureView(figure, ++number, study.report.study, study.words));

@@ -21,6 +21,7 @@ struct ExamSummary {
   MeanSd share_right;
   MeanSd regret;
   MeanSd worst_share_right;
+  std::optional<MeanSd> regret_before;  ///< Before the first lesson, of ExamLevel::kPeriod.
 };
 
 /// What the teams of one cell, or of several pooled, came to.
@@ -48,7 +49,7 @@ struct StudySummary {
 };
 [[nodiscard]] StudySummary summarize(std::span<const TeamRecord> teams);
 
-/// The same for teams that come one by one, in the order of the tables: keeps three numbers of each.
+/// The same for teams that come one by one, in the order of the tables: keeps a few numbers of each.
 class StudySummarizer {
  public:
   StudySummarizer();

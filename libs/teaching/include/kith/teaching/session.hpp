@@ -175,6 +175,7 @@ class Session {
   void make_bank(TeachingCache& cache);
   void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
   [[nodiscard]] bool reads_beliefs() const;
+  void make_judged(TeachingCache& cache);
   void judge_beliefs(const Feedback& feedback, const std::vector<bool>& present);
   [[nodiscard]] std::size_t periods_of_component() const;
   [[nodiscard]] bool is_enough(bool everybody_right) const;
@@ -189,6 +190,7 @@ class Session {
   std::vector<std::uint64_t> tie_breaks_;
   RandomStream teacher_;
   TeamBelief belief_;
+  std::optional<TeamBelief> judged_;  // about every member, without response noise; if reads_beliefs()
   std::optional<TeamBank> bank_;
   std::vector<Test> placement_;
   std::vector<std::vector<Verdict>> placement_verdicts_;

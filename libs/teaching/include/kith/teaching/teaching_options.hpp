@@ -31,7 +31,8 @@ enum class MasteryRule {
   kPosterior,  ///< When the probability that all members answer a random test of the component right is at least
                ///< `probability`; see TeamBank.
   kExam,       ///< When every member is expected to predict the robot right from at least `share_right` of the
-               ///< component's starts, under the teacher's belief about the member; see StartSample.
+               ///< component's starts, under the teacher's belief about the member without `response_noise`; see
+               ///< StartSample.
 };
 
 /// What the hypotheses of a LearnerBank differ in.
