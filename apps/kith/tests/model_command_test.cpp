@@ -111,7 +111,7 @@ TEST_F(Model, IsInfeasibleWhereRewardGrowsForEver) {
   edit("icy_crossing.toml", "{ step = -1 } ]", "{ step = 1 } ]");
   const auto ran = run_kith({"validate", scratch_ / "icy_crossing.toml"});
   EXPECT_EQ(ran.code, 4) << ran.err;
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing.toml:30:11: error[E0323]"),
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("icy_crossing.toml:39:11: error[E0323]"),
                              HasSubstr("in 3 of 3 MDPs, first in 'firm ice'"), HasSubstr("cost")));
 }
 

@@ -91,7 +91,7 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
 
 INSTANTIATE_TEST_SUITE_P(Domains, WorldTables,
                          ::testing::Values("item-delivery", "domains/icy_crossing.toml", "two-goals",
-                                           "docs/examples/cliff.toml"),
+                                           "domains/gallery/taxi.toml"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            std::replace_if(
