@@ -11,6 +11,7 @@
 #include "kith/core/integer_vector.hpp"
 #include "kith/core/vector_clones.hpp"
 #include "kith/random/batch_normal.hpp"
+#include "kith/random/eighth_turn.hpp"
 
 namespace kith::detail {
 namespace {
@@ -176,8 +177,7 @@ KITH_VECTOR_CLONES void set_levels(const float* first, const float* second, Lane
   }
 }
 
-// cos and sin of angles in (-1, 1] turns: an angle a in [-pi/4, pi/4] about the nearest axis, by the Chebyshev
-// interpolants of cos a and sin a / a in a^2, errors 4e-8 and 4e-9 before rounding.
+// cos and sin of angles in (-1, 1] turns: of an angle a in [-pi/4, pi/4] about the nearest axis.
 KITH_VECTOR_CLONES void turn(Lanes& lanes) {
   KITH_INDEPENDENT_LOOP
   for (std::size_t i = 0; i < kLanes; ++i) {
@@ -185,15 +185,7 @@ KITH_VECTOR_CLONES void turn(Lanes& lanes) {
     const float half = quarters < 0.0f ? -0.5f : 0.5f;
     const auto axis = static_cast<std::int32_t>(quarters + half);
     const float a = (quarters - static_cast<float>(axis)) * (0.5f * std::numbers::pi_v<float>);
-    const float q = a * a;
-    float s = -0.00019503904f;
-    s = s * q + 0.0083320358f;
-    s = s * q - 0.16666651f;
-    s = a + a * q * s;
-    float c = -0.0013585779f;
-    c = c * q + 0.041655015f;
-    c = c * q - 0.49999857f;
-    c = c * q + 1.0f;
+    const auto [s, c] = sine_cosine_in_eighth_turn(a);
     const float x = (axis & 1) != 0 ? s : c;
     const float y = (axis & 1) != 0 ? c : s;
     lanes.cosine[i] = ((axis + 1) & 2) != 0 ? -x : x;

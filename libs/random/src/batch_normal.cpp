@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kith/core/vector_clones.hpp"
+#include "kith/random/eighth_turn.hpp"
 
 namespace kith {
 namespace {
@@ -112,19 +113,10 @@ struct Direction {
 };
 
 // An angle that is uniform on the circle: the upper two bits choose the
-// quadrant, the rest an angle a in [-pi/4, pi/4) about its axis. The Chebyshev
-// interpolants of cos a and sin a / a in a^2, errors 4e-8 and 4e-9 before rounding.
+// quadrant, the rest an angle a in [-pi/4, pi/4) about its axis.
 [[gnu::always_inline]] inline Direction direction_of(std::uint32_t word) noexcept {
   const float a = to_float((word << 2) ^ 0x80000000u) * (0.25f * std::numbers::pi_v<float> * 0x1.0p-31f);
-  const float q = a * a;
-  float s = -0.00019503904f;
-  s = s * q + 0.0083320358f;
-  s = s * q - 0.16666651f;
-  s = a + a * q * s;
-  float c = -0.0013585779f;
-  c = c * q + 0.041655015f;
-  c = c * q - 0.49999857f;
-  c = c * q + 1.0f;
+  const auto [s, c] = sine_cosine_in_eighth_turn(a);
   // A quarter turn maps (c, s) to (-s, c), a half turn negates both: swap on
   // bit 30, then flip signs, all on the bit patterns so that nothing branches.
   constexpr std::uint32_t kSign = 0x80000000u;
