@@ -161,29 +161,6 @@ void BM_StepOfParticles(benchmark::State& state) {
 }
 BENCHMARK(BM_StepOfParticles)->Arg(250)->Arg(500)->Arg(1000)->Arg(2000)->Arg(4000)->Arg(16000)->Complexity();
 
-// What does a step above three dimensions cost, which moves 1 000 particles twice along great circles, after 40
-// different half-spaces?
-void BM_StepInMoreDimensions(benchmark::State& state) {
-  const auto d = static_cast<std::size_t>(state.range(0));
-  RandomStream random{4};
-  std::vector<HalfSpace> list;
-  while (list.size() < 40) {
-    IntegerVector normal(d);
-    for (std::size_t k = 0; k < d; ++k) normal[k] = static_cast<std::int64_t>(uniform_index(9, random)) - 4;
-    if (normal[0] + 2 * normal[1] - 4 * normal[2] > 0) list.emplace_back(normal);
-  }
-  const HalfSpaceLikelihood likelihood{0.8, LikelihoodForm::kDiscontinuous, d};
-  ParticleBelief belief{Cone{d}, {.resample_below = 1.0}};
-  std::uint64_t n = 0;
-  for (auto _ : state) {
-    belief.observe({&list[n % list.size()], 1}, likelihood, random.split(n));
-    ++n;
-    benchmark::DoNotOptimize(belief.weights().data());
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(belief.size()));
-}
-BENCHMARK(BM_StepInMoreDimensions)->Arg(4)->Arg(5)->Arg(7)->Iterations(200);
-
 void BM_CopyABelief(benchmark::State& state) {
   const ParticleBelief belief{prior(), {}};
   for (auto _ : state) benchmark::DoNotOptimize(ParticleBelief{belief});
