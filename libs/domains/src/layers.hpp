@@ -72,13 +72,4 @@ inline constexpr std::size_t kMaxCells = 1'000'000;
 // The cells of an image in which a cell has n x n pixels, and the most frequent grey of each, the darkest of several.
 [[nodiscard]] GreyImage scaled_down(const GreyImage& image, std::size_t n);
 
-// A character that no symbol has yet; nothing if there is none left.
-[[nodiscard]] std::optional<char> unused_glyph(const World& world, std::string_view preferred);
-
-// Gives every combination of things that can share a cell a symbol, so that it can be drawn.
-void name_combinations(World& world);
-
-// [[family.world]]: the worlds that are built, in place of all.
-void list_worlds(World& world, TomlReport& report);
-
 }  // namespace kith::detail

@@ -7,6 +7,7 @@
 #include "rasters.hpp"
 #include "thinning.hpp"
 #include "world.hpp"
+#include "world_combinations.hpp"
 
 namespace kith::detail {
 namespace {

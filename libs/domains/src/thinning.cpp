@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <optional>
+#include <string>
 #include <unordered_set>
 
 #include "kith/random/distributions.hpp"
@@ -105,6 +108,73 @@ Thinning read_thinning(TomlReader& file) {
   }
   family->finish();
   return thinning;
+}
+
+namespace {
+
+// "NAME" or "NAME(3,2)": the groups of that name, or of things of that name; or the one with that cell.
+std::optional<std::uint64_t> groups_called(const World& world, const std::string& text) {
+  const std::size_t open = text.find('(');
+  const std::string name = text.substr(0, open);
+  const std::string cell = open == std::string::npos ? "" : text.substr(open);
+  std::uint64_t mask = 0;
+  for (std::size_t group = 0; group < world.groups.size(); ++group) {
+    const auto fits = [&](const MapThing& thing) {
+      const bool named = world.groups[group].name == name || is_called(world.symbols[thing.symbol].content, name);
+      return named && (cell.empty() || cell_text(world, thing.cell) == cell);
+    };
+    if (std::ranges::any_of(world.groups[group].things, fits)) mask |= world.bit_of(group);
+  }
+  return mask == 0 ? std::nullopt : std::optional{mask};
+}
+
+std::vector<std::string> names_of_groups(const World& world) {
+  std::vector<std::string> names;
+  for (const CellGroup& group : world.groups) {
+    std::string name = group.name;
+    if (name.empty()) name = symbol_name(world.symbols[group.things.front().symbol]);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+}  // namespace
+
+void list_worlds(World& world, TomlReport& report) {
+  if (world.thinning.listed == nullptr) return;
+  const TomlArray& list = *world.thinning.listed;
+  if (list.empty() || list.size() > static_cast<std::size_t>(kMostWorlds)) {
+    report.error("E0271", world.thinning.listed_place, "a family has 1 to 65536 worlds",
+                 "list each as [[family.world]] with present = [...]");
+    return;
+  }
+  std::map<std::uint64_t, std::size_t> line_of;
+  for (const TomlValue& value : list) {
+    if (read_table(value, "a world", report) == nullptr) continue;
+    TomlReader reader{*value.table(), value.place(), "[[family.world]]", report};
+    world.variant_names.push_back(reader.string("name", Presence::kOptional).value_or(""));
+    std::uint64_t mask = 0;
+    if (const TomlArray* present = reader.array("present", Presence::kRequired)) {
+      for (const TomlValue& element : *present) {
+        const auto name = read_string(element, "every element of 'present'", report);
+        if (!name) continue;
+        const auto groups = groups_called(world, *name);
+        mask |= groups.value_or(0);
+        if (groups) continue;
+        report.error("E0271", element.place(), "nothing optional is called '" + *name + "'",
+                     world.groups.empty() ? "mark something on the map or a layer as optional"
+                                          : suggestion(*name, names_of_groups(world)));
+      }
+      const auto [at, is_new] = line_of.try_emplace(mask, value.place().line);
+      if (!is_new) {
+        report.error("E0271", value.place(),
+                     "this world has the same things as the one at line " + std::to_string(at->second),
+                     "remove one of them");
+      }
+    }
+    reader.finish();
+    world.variants.push_back(mask);
+  }
 }
 
 std::vector<std::uint64_t> choose_variants(const World& world, std::size_t num_worlds, std::uint64_t seed) {

@@ -12,6 +12,9 @@ namespace kith::detail {
 // Reads [family]: how many of the worlds are built, and how many starts each has.
 [[nodiscard]] Thinning read_thinning(TomlReader& file);
 
+// [[family.world]]: the worlds that are built, in place of all.
+void list_worlds(World& world, TomlReport& report);
+
 // Which groups are on in each MDP of a thinned family: none, each kind of
 // optional thing alone, each pair of kinds, then random subsets until there are
 // enough, and all in the last one. Nothing is repeated. A kind is what the
