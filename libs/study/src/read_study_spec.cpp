@@ -1,7 +1,6 @@
 #include "read_study_spec.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include "kith/core/error.hpp"
 #include "kith/random/stream.hpp"
 #include "parameters_toml.hpp"
+#include "read_contrasts.hpp"
 #include "read_group.hpp"
 #include "read_prior.hpp"
 
@@ -46,7 +46,9 @@ class SpecReader {
     if (auto pace = root_.table("pace", Presence::kOptional)) read_pace(*pace);
     if (auto record = root_.table("record", Presence::kOptional)) read_record(*record);
     if (auto group = root_.table("group", Presence::kOptional)) read_group_table(*group);
-    if (const auto* contrasts = root_.array("contrast", Presence::kOptional)) read_contrasts(*contrasts);
+    if (const auto* contrasts = root_.array("contrast", Presence::kOptional)) {
+      spec_.contrasts = read_contrasts(*contrasts, spec_, report_);
+    }
     root_.finish();
     return std::move(spec_);
   }
@@ -407,84 +409,6 @@ class SpecReader {
   [[nodiscard]] static TomlPlace place_of_group_key(const TomlReader& group, std::string_view key) {
     const auto* value = group.content().find(key);
     return value != nullptr ? value->place() : group.place();
-  }
-
-  // --- contrasts -------------------------------------------------------------
-
-  void read_contrasts(const TomlArray& list) {
-    for (const auto& element : list) {
-      const auto* content = read_table(element, "an element of 'contrast'", report_);
-      if (content == nullptr) continue;
-      TomlReader table{*content, element.place(), "[[contrast]]", report_};
-      StudyContrast contrast;
-      set_if(contrast.name, table.string("name", Presence::kRequired));
-      if (const auto factor = table.word("factor", Presence::kOptional, kContrastFactorWords))
-        contrast.factor = kContrastFactorWords[*factor];
-      if (const auto response = table.word("response", Presence::kOptional, kContrastResponseWords))
-        contrast.response = kContrastResponseWords[*response];
-      if (contrast.response.rfind("exam_", 0) == 0 && spec_.exam == ExamLevel::kNone) {
-        report_.error("E0420", element.place(),
-                      "contrast '" + contrast.name + "' is about an exam, but nobody is examined",
-                      "write exam = \"end\" under [record]");
-      }
-      contrast.weights = read_weights(table);
-      table.finish();
-      const auto same = [&](const auto& other) { return other.name == contrast.name; };
-      if (std::any_of(spec_.contrasts.begin(), spec_.contrasts.end(), same))
-        report_.error("E0403", element.place(), "contrast '" + contrast.name + "' is listed twice");
-      if (check_weights(contrast, element.place())) spec_.contrasts.push_back(std::move(contrast));
-    }
-  }
-
-  // `weights`, or the mean of the levels `of` less that of the levels `against`.
-  [[nodiscard]] std::vector<std::pair<std::string, double>> read_weights(TomlReader& table) {
-    std::vector<std::pair<std::string, double>> weights;
-    if (table.has("weights")) {
-      auto levels = table.table("weights", Presence::kRequired);
-      if (!levels) return weights;
-      for (const auto& entry : levels->content().entries()) {
-        if (const auto weight = levels->real(entry.key, Presence::kRequired)) weights.emplace_back(entry.key, *weight);
-      }
-      return weights;
-    }
-    const auto of = table.strings("of", Presence::kRequired), against = table.strings("against", Presence::kRequired);
-    if (!of || !against) return weights;
-    for (const auto& level : *of) weights.emplace_back(level, 1.0 / static_cast<double>(of->size()));
-    for (const auto& level : *against) weights.emplace_back(level, -1.0 / static_cast<double>(against->size()));
-    return weights;
-  }
-
-  [[nodiscard]] bool check_weights(const StudyContrast& contrast, const TomlPlace& place) {
-    std::vector<std::string> levels;
-    if (contrast.factor == "composition") {
-      levels = spec_.compositions;
-    } else {
-      for (const auto& strategy : spec_.strategies) levels.push_back(strategy.name);
-    }
-    double sum = 0.0, largest = 0.0;
-    std::set<std::string> seen;
-    bool is_good = true;
-    for (const auto& [level, weight] : contrast.weights) {
-      sum += weight;
-      largest = std::max(largest, std::abs(weight));
-      if (std::find(levels.begin(), levels.end(), level) == levels.end()) {
-        report_.error(
-            "E0420", place,
-            "contrast '" + contrast.name + "' names '" + level + "', no " + contrast.factor + " of this study",
-            suggestion(level, levels));
-        is_good = false;
-      } else if (!seen.insert(level).second) {
-        report_.error("E0420", place, "contrast '" + contrast.name + "' names '" + level + "' twice");
-        is_good = false;
-      }
-    }
-    constexpr double kZeroSum = 1e-6;  // of the largest weight
-    if (is_good && (largest == 0.0 || std::abs(sum) > kZeroSum * largest)) {
-      report_.error("E0420", place, "contrast '" + contrast.name + "' compares nothing: its weights do not sum to 0",
-                    "write of = [...] and against = [...], or weights that sum to 0");
-      is_good = false;
-    }
-    return is_good;
   }
 
   TomlReader root_;

@@ -28,6 +28,15 @@ Column measure(std::string name, std::string description, std::string unit = "")
   return result;
 }
 
+// Columns that several tables have.
+Column period_column() {
+  return column("period", kInteger, "Number of the period, from 1; for the baseline within the member.");
+}
+Column component_column() { return column("kc", kInteger, "Number of the knowledge component, from 1."); }
+Column member_column() { return column("member", kInteger, "Number of the member, from 1."); }
+Column type_column() { return column("type", kText, "Letter of the learner type."); }
+Column start_column() { return column("start", kInteger, "Number of the start state in the MDP, from 0."); }
+
 using Columns = std::vector<Column>;
 
 bool has_exam(const Study& study) { return study.variants.front().exam != ExamLevel::kNone; }
@@ -145,8 +154,8 @@ Columns exam_columns() {
   return {column("period", kInteger, "Number of the period after which the exam took place; 0 before the first."),
           optional_column("kc", kInteger,
                           "Number of the knowledge component whose starts the exam is about; missing for all starts."),
-          column("member", kInteger, "Number of the member, from 1."),
-          column("type", kText, "Letter of the learner type."),
+          member_column(),
+          type_column(),
           measure("share_right", "Expected share of the starts where the member predicts the robot."),
           measure("regret",
                   "Expected loss of the member's predictions against the robot's paths, in the units of the domain "
@@ -162,8 +171,8 @@ Columns estimate_columns() {
   Columns columns{
       column("period", kInteger, "Number of the period after which these are the estimates; 0 before the first."),
       optional_column("kc", kInteger, "Number of the knowledge component; missing in the row about the person."),
-      column("member", kInteger, "Number of the member, from 1."),
-      column("type", kText, "Letter of the learner type."),
+      member_column(),
+      type_column(),
       measure("ability",
               std::string{"True ability with which the member learns when a component begins, after ability_scale."} +
                   kAboutPerson),
@@ -193,8 +202,7 @@ Columns estimate_columns() {
 }
 
 Columns learner_columns(const Study& study) {
-  const Columns first{column("member", kInteger, "Number of the member, from 1."),
-                      column("type", kText, "Letter of the learner type.")};
+  const Columns first{member_column(), type_column()};
   const Columns last{column("p_bec", kReal, "Mass of the final belief in the policy's behaviour equivalence class."),
                      column("periods", kInteger, "Periods the member took part in."),
                      column("tests", kInteger, "Tests the member was asked."),
@@ -212,8 +220,8 @@ Columns learner_columns(const Study& study) {
 
 Columns period_columns(const Study& study) {
   Columns columns{
-      column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
-      column("kc", kInteger, "Number of the knowledge component, from 1."),
+      period_column(),
+      component_column(),
       column("source", kText, "Whose belief the lesson was chosen for: 'common', 'joint' or 'member N'."),
       column("demonstrations", kInteger, "Demonstrations shown."),
       column("area_sr", kReal, "Solid angle of the weights that satisfy what was shown, with the prior.", "sr"),
@@ -258,12 +266,12 @@ Columns period_columns(const Study& study) {
 }
 
 Columns response_columns() {
-  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
-          column("kc", kInteger, "Number of the knowledge component, from 1."),
+  return {period_column(),
+          component_column(),
           column("test", kInteger, "Number of the test in the period, from 1."),
-          column("member", kInteger, "Number of the member, from 1."),
+          member_column(),
           column("mdp", kInteger, "Number of the MDP of the test, from 0."),
-          column("start", kInteger, "Number of the start state in the MDP, from 0."),
+          start_column(),
           column("correct", kBoolean, "Whether the answer is as good as the robot's path."),
           optional_column("regret", kReal,
                           "Return of the robot's path minus that of the answer; missing without an answer."),
@@ -276,12 +284,12 @@ Columns response_columns() {
 }
 
 Columns demonstration_columns() {
-  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
+  return {period_column(),
           optional_column("member", kInteger, "Who watched, for the baseline; missing if everybody did."),
-          column("kc", kInteger, "Number of the knowledge component, from 1."),
+          component_column(),
           column("demonstration", kInteger, "Number of the demonstration in the period, from 1."),
           column("mdp", kInteger, "Number of the MDP, from 0."),
-          column("start", kInteger, "Number of the start state in the MDP, from 0."),
+          start_column(),
           column("constraint", kText,
                  "Half-spaces that it conveys: entries of a normal separated by blanks, normals by ';'.")};
 }
@@ -290,10 +298,10 @@ Columns progress_columns(const Study& study) {
   const auto types = types_of(study);
   const bool all_have_ability =
       std::all_of(types.begin(), types.end(), [](const auto* one) { return one->model->has_ability; });
-  return {column("period", kInteger, "Number of the period, from 1; for the baseline within the member."),
-          column("kc", kInteger, "Number of the knowledge component, from 1."),
-          column("member", kInteger, "Number of the member, from 1."),
-          column("type", kText, "Letter of the learner type."),
+  return {period_column(),
+          component_column(),
+          member_column(),
+          type_column(),
           {"ability", kReal, "Ability while watching the demonstrations, before ability_scale.", "", all_have_ability},
           column("p_bec", kReal,
                  "Mass of the member's own belief in the policy's behaviour equivalence class, after the feedback."),

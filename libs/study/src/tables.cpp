@@ -208,26 +208,24 @@ class Tables {
     }
   }
 
+  // Of what is about a member: over all components if the record's component is 0.
+  template <typename Record>
+  CsvWriter& begin_member_row(std::size_t table, const TeamAddress& address, const Record& record) {
+    return begin_row(table, address)
+        .integer(count(record.period))
+        .integer(record.component == 0 ? std::nullopt : std::optional{count(record.component)})
+        .integer(count(record.member))
+        .text(std::string_view{&record.type, 1});
+  }
+
   void add_exam(const TeamRecord& team, const ExamRecord& exam) {
-    begin_row(exam_, team.address)
-        .integer(count(exam.period))
-        .integer(exam.component == 0 ? std::nullopt : std::optional{count(exam.component)})
-        .integer(count(exam.member))
-        .text(std::string_view{&exam.type, 1})
-        .real(exam.share_right)
-        .real(exam.regret)
-        .real(exam.p_bec)
-        .end_row();
+    begin_member_row(exam_, team.address, exam).real(exam.share_right).real(exam.regret).real(exam.p_bec).end_row();
   }
 
   void add_estimate(const TeamRecord& team, const EstimateRecord& estimate) {
     const auto word =
         estimate.p_proficient ? std::optional{std::string{proficiency_word(*estimate.p_proficient)}} : std::nullopt;
-    begin_row(estimates_, team.address)
-        .integer(count(estimate.period))
-        .integer(estimate.component == 0 ? std::nullopt : std::optional{count(estimate.component)})
-        .integer(count(estimate.member))
-        .text(std::string_view{&estimate.type, 1})
+    begin_member_row(estimates_, team.address, estimate)
         .real(estimate.ability)
         .real(estimate.ability_mean)
         .real(estimate.ability_low)
