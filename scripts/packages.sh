@@ -12,7 +12,8 @@ packages_to_build=(
   nodejs npm
 )
 packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
-packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev)
+packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
+  slowhttptest)
 
 # is_installed NAME: as a package; or, where people often have another source than Debian, as a command.
 is_installed() {
