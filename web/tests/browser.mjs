@@ -3,6 +3,8 @@
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 
+const kPatience = 120_000; // milliseconds: the machine may be busy; nothing here is about time
+
 const kFlags = [
   '--headless',
   '--no-sandbox',
@@ -39,6 +41,7 @@ export async function openPage(browser, address, { width, dark, reducedMotion = 
     return route.abort();
   });
   const page = await context.newPage();
+  page.setDefaultTimeout(kPatience);
   page.on('console', (message) => {
     if (['error', 'warning'].includes(message.type())) trouble.push(`console: ${message.text()}`);
   });

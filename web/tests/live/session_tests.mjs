@@ -120,6 +120,7 @@ export function sessionTests(setting) {
         await pressButton('Continue');
         await person.at('Try the controls');
         await person.until(() => room.seats[0].name === 'Ada');
+        await page.waitForSelector('.drive-area'); // the robot can be driven once its world has loaded
         await press('ArrowUp', 2);
         await press('Backspace');
         await press('ArrowUp');
@@ -137,6 +138,7 @@ export function sessionTests(setting) {
         }
         await person.at('What will the robot do?');
         const names = await person.best();
+        await page.waitForSelector('.drive-area');
         for (const name of names) {
           await press(name.match(/pickup|dropoff/) ? ' ' : `Arrow${name[0].toUpperCase()}${name.slice(1)}`);
         }
