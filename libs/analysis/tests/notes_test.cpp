@@ -42,5 +42,14 @@ TEST(Notes, SayOnceWhyLevelsCannotBeCompared) {
   EXPECT_LE(std::count_if(found.warnings.begin(), found.warnings.end(), about_pairs), 2);
 }
 
+// R: rstudent(lm(y ~ g)) of the last value is 105.695.
+TEST(Notes, NameFarValues) {
+  std::string text = "g,y\n";
+  for (int i = 0; i < 40; ++i) text += (i % 2 == 0 ? "a," : "b,") + std::to_string(50 + i * 7 % 11) + "\n";
+  EXPECT_THAT(analysis_of(text, {"y ~ g"}).findings.front().warnings, Not(Contains(HasSubstr("far from the others"))));
+  const auto found = analysis_of(text + "b,412\n", {"y ~ g"}).findings.front();
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("the value 412.0 is far from the others: 105.7 standard deviations")));
+}
+
 }  // namespace
 }  // namespace kith
