@@ -142,6 +142,13 @@ bool are_ratings(const std::vector<double>& values) {
   return distinct.size() >= 3;
 }
 
+// Intercepts of the formula replace those that were found, so the latter have to be written with the new one.
+std::vector<std::vector<std::string>> with_item(std::vector<std::vector<std::string>> intercepts,
+                                                const std::string& item) {
+  intercepts.push_back({item});
+  return intercepts;
+}
+
 // The random intercepts: those of the formula, or of identifiers that repeat.
 void find_groups(const Dataset& data, const Formula& formula, const ModelQuestion& question, PreparedModel& prepared) {
   for (const auto& column : question.identifiers) prepared.rows.set_kind(column, ColumnKind::kIdentifier);
@@ -150,6 +157,19 @@ void find_groups(const Dataset& data, const Formula& formula, const ModelQuestio
   auto groups = find_row_groups(prepared.rows, used);
   auto& notes = prepared.notes;
   const bool is_asked = !formula.random_intercepts.empty();
+  for (const auto& item : groups.items) {
+    const auto in_intercept = [&](const auto& columns) {
+      return std::find(columns.begin(), columns.end(), item) != columns.end();
+    };
+    const auto& asked = formula.random_intercepts;
+    if (std::any_of(asked.begin(), asked.end(), in_intercept) || question.independent) continue;
+    notes.push_back(fmt::format(
+        "rows with the same {0} may be alike, too, which the model ignores: the tests are about these values of {0} "
+        "only; to draw conclusions about others, write + {1} into the formula",
+        item,
+        intercepts_text(is_asked || groups.intercepts.empty() ? std::vector<std::vector<std::string>>{{item}}
+                                                              : with_item(groups.intercepts, item))));
+  }
   if (!is_asked) notes.insert(notes.end(), groups.notes.begin(), groups.notes.end());
   if (is_asked) {
     prepared.intercepts = formula.random_intercepts;

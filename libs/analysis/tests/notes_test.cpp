@@ -51,5 +51,26 @@ TEST(Notes, NameFarValues) {
   EXPECT_THAT(found.warnings, Contains(HasSubstr("the value 412.0 is far from the others: 105.7 standard deviations")));
 }
 
+// Every subject sees every item; difficulty is a property of items.
+std::string people_and_items() {
+  std::string text = "subject,item,difficulty,y\n";
+  for (int i = 0; i < 60; ++i)
+    text += std::to_string(i / 6) + "," + std::to_string(i % 6) + (i % 2 == 0 ? ",easy," : ",hard,") +
+            std::to_string(i * 13 % 17) + "\n";
+  return text;
+}
+
+TEST(Notes, NameItemsThatTheModelIgnores) {
+  const auto notes_of = [](const char* formula) { return analysis_of(people_and_items(), {formula}).notes; };
+  EXPECT_THAT(notes_of("y ~ difficulty"),
+              Contains(AllOf(HasSubstr("rows with the same item may be alike, too"),
+                             HasSubstr("write + (1|subject) + (1|item) into the formula"))));
+  EXPECT_THAT(notes_of("y ~ difficulty + (1|subject)"), Contains(HasSubstr("write + (1|item) into the formula")));
+  EXPECT_THAT(notes_of("y ~ difficulty + (1|subject) + (1|item)"), Not(Contains(HasSubstr("same item"))));
+  EXPECT_THAT(notes_of("y ~ item"), Not(Contains(HasSubstr("same item"))));
+  EXPECT_THAT(analysis_of(people_and_items(), {.formula = "y ~ difficulty", .identifiers = {"item"}}).notes,
+              Not(Contains(HasSubstr("same item"))));
+}
+
 }  // namespace
 }  // namespace kith
