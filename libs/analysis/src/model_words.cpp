@@ -200,6 +200,14 @@ std::string empty_cells_text(std::size_t empty_cells, const std::string& observa
                      number_and_noun(empty_cells, "combination"), empty_cells == 1 ? "has" : "have", observations);
 }
 
+std::string unbalanced_text(const FactorDesign& design, const std::string& observations) {
+  if (design.counts.empty() || design.factors.empty()) return {};
+  const auto [least, most] = std::minmax_element(design.counts.begin(), design.counts.end());
+  if (*least == 0 || *least == *most) return {};
+  return fmt::format("the design is unbalanced (cells have {} to {} {}){}", *least, *most, observations,
+                     design.factors.size() > 1 ? ": raw means mix the effects of several factors" : "");
+}
+
 std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,
                               const Estimable<TestResult>& type_three, double alpha) {
   if (!type_two || !type_three || (type_two->p < alpha) == (type_three->p < alpha)) return {};

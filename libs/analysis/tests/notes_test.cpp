@@ -72,5 +72,29 @@ TEST(Notes, NameItemsThatTheModelIgnores) {
               Not(Contains(HasSubstr("same item"))));
 }
 
+// Rows of a subject are alike, so not all tests take rows as independent.
+TEST(Notes, SayWhichRowsAreTakenAsNoMoreAlike) {
+  std::string text = "subject,team,g,y\n";
+  for (int i = 0; i < 96; ++i) {
+    const int subject = i / 4;
+    text += std::to_string(subject) + "," + std::to_string(subject % 12) + (i % 2 == 0 ? ",a," : ",b,") +
+            std::to_string((subject / 12 == 0 ? 20 : -20) + i * 7 % 11) + "\n";
+  }
+  const auto warnings = analysis_of(text, {"y ~ g"}).findings.front().warnings;
+  EXPECT_THAT(warnings, Contains(HasSubstr("the variance of team is estimated as 0, so the tests treat rows with the "
+                                           "same team as no more alike than others")));
+  EXPECT_THAT(warnings, Not(Contains(HasSubstr("as independent"))));
+}
+
+TEST(Notes, OfMixedModelsNameUnbalancedDesigns) {
+  std::string text = "person,g,h,y\n";
+  for (int i = 0; i < 40; ++i)
+    text += "p" + std::to_string(i / 4) + (i % 3 == 0 ? ",a," : ",b,") + (i % 2 == 0 ? "c," : "d,") +
+            std::to_string(i * 7 % 11) + "\n";
+  EXPECT_THAT(analysis_of(text, {"y ~ g + h"}).findings.front().warnings,
+              Contains("the design is unbalanced (cells have 7 to 13 rows): raw means mix the effects of several "
+                       "factors"));
+}
+
 }  // namespace
 }  // namespace kith
