@@ -94,6 +94,11 @@ std::string missing_text(const Dataset& data, const std::vector<std::string>& co
   return text;
 }
 
+bool is_constant(const std::vector<double>& values) {
+  return values.size() > 1 &&
+         std::all_of(values.begin(), values.end(), [&](double value) { return value == values[0]; });
+}
+
 bool is_binary(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0 || value == 1.0; });
 }
@@ -226,6 +231,9 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   if (const auto dropped = data.num_rows() - complete.num_rows(); dropped > 0)
     prepared.notes.push_back(fmt::format("{} of {} rows left out because of missing values ({})", dropped,
                                          data.num_rows(), missing_text(data, columns)));
+  if (is_constant(model.values))
+    prepared.notes.push_back(
+        fmt::format("{} is {} in every row, so there is nothing to explain", formula.response, model.values.front()));
   for (const auto& factor : model.factors) {
     if (auto note = note_on_numbers_as_levels(factor)) prepared.notes.push_back(std::move(*note));
   }

@@ -96,5 +96,20 @@ TEST(Notes, OfMixedModelsNameUnbalancedDesigns) {
                        "factors"));
 }
 
+TEST(Notes, SayThatAResponseIsConstant) {
+  EXPECT_THAT(analysis_of("g,y\na,5\na,5\nb,5\nb,5\n", {"y ~ g"}).notes,
+              Contains("y is 5 in every row, so there is nothing to explain"));
+}
+
+TEST(Notes, SayHowToWriteYesAndNo) {
+  try {
+    (void)analysis_of("g,y\na,yes\na,no\nb,yes\n", {"y ~ g"});
+    ADD_FAILURE() << "text was taken for numbers";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.diagnostics().front().hint,
+                HasSubstr("write 0 and 1 (or false and true) instead of 'no' and 'yes'"));
+  }
+}
+
 }  // namespace
 }  // namespace kith
