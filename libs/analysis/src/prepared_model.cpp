@@ -239,8 +239,13 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   }
   find_groups(data, formula, question, prepared);
   auto kind = kind_of_response(data, formula, question);
-  if (kind == ColumnKind::kUnspecified && is_named_rating(formula.response) && are_ratings(model.values))
+  if (kind == ColumnKind::kUnspecified && is_named_rating(formula.response) && are_ratings(model.values)) {
     kind = ColumnKind::kOrdinal;
+    prepared.notes.push_back(fmt::format(
+        "{} is taken for ratings because of its name, so only their order counts; a codebook with \"kind\": "
+        "\"number\" makes them measurements",
+        formula.response));
+  }
   model.is_count = kind == ColumnKind::kCount;
   model.is_ordinal = kind == ColumnKind::kOrdinal;
   if (model.is_count) check_counts(complete, formula.response, model.values);

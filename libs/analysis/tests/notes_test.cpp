@@ -111,5 +111,24 @@ TEST(Notes, SayHowToWriteYesAndNo) {
   }
 }
 
+std::string ratings(const std::string& name) {
+  std::string text = "g," + name + "\n";
+  for (int i = 0; i < 60; ++i) text += (i % 2 == 0 ? "a," : "b,") + std::to_string(1 + (i * i * 7 + i) % 11 % 5) + "\n";
+  return text + "c,3\n";
+}
+
+TEST(Notes, OfRatingsNameTheirReasonAndSmallCells) {
+  const auto named = analysis_of(ratings("ease_rating"), {"ease_rating ~ g"});
+  EXPECT_THAT(named.notes, Contains(HasSubstr("ease_rating is taken for ratings because of its name")));
+  EXPECT_THAT(named.findings.front().warnings, Contains(HasSubstr("the smallest cell has 1 row, so p-values")));
+  const auto said = analysis_of(ratings("y"), {.formula = "y ~ g", .response_kind = ColumnKind::kOrdinal});
+  EXPECT_THAT(said.notes, Not(Contains(HasSubstr("because of its name"))));
+}
+
+TEST(Notes, ResultsOfRatingsAreReportedForPapers) {
+  const auto found = analysis_of(ratings("ease_rating"), {"ease_rating ~ g"}).findings.front();
+  EXPECT_THAT(results_paragraph(found, 0.05), HasSubstr("The effect of g was not significant, chi-squared(2) = "));
+}
+
 }  // namespace
 }  // namespace kith
