@@ -1,10 +1,11 @@
 // The tables and claims of docs/teachers.md.
 import { study } from './runs.mjs';
 import { areaUnderCurve, correlation, errorOfMean, groupBy, mean, share } from './statistics.mjs';
-import { figure, withError } from './format.mjs';
+import { figure, fixed, withError } from './format.mjs';
 
 const TEACHERS = 'studies/teachers.toml';
 const MIXED = 'studies/teachers-mixed.toml';
+const ROBOTS = 'studies/robots.toml';
 const PAPER = ['individual-low', 'individual-high', 'common', 'joint'];
 const RIVALS = ['joint', 'plan', 'set-cover', 'highlights', 'random'];
 const DOMAINS = ['item-delivery', 'colored-tiles', 'skateboard'];
@@ -13,6 +14,7 @@ const FEW = 'replicates=50';
 const HUNDRED = 'replicates=100';
 const TWO_DEMONSTRATIONS = 'teacher.max_demonstrations=2';
 const PAPER_STOP = 'stop.mastery="all-right"';
+const EXAM_STOP = 'stop.mastery="exam"';
 const TAKE_IN_TWO = ['learner.N.capacity=2', 'learner.P.capacity=2'];
 const MIXED_TAKE_IN_TWO = ['learner.L.capacity=2', 'learner.H.capacity=2'];
 const PLAN_FOR_TWO = ['strategy.plan.capacity=2', 'strategy.adaptive.capacity=2', 'strategy.oracle.capacity=2'];
@@ -76,6 +78,9 @@ export const COMMANDS = {
       study(TEACHERS, FEW, only(...RIVALS.slice(1)), 'stop.periods_per_component=2', `domain="${domain}"`),
     ]),
   ),
+  navigation: study(ROBOTS, only('plan')),
+  'stop by the exam, navigation': study(ROBOTS, 'replicates=10', only('joint', 'plan'), EXAM_STOP),
+  'stop by the exam, warehouse': study(ROBOTS, 'replicates=10', only('plan'), EXAM_STOP, 'domain="warehouse"'),
   'capacity 2': study(TEACHERS, FEW, only('joint', ...PLANNERS), ...TAKE_IN_TWO),
   'capacity 2, review': study(TEACHERS, FEW, only('joint'), 'teacher.review=true', ...TAKE_IN_TWO),
   'capacity 2, planned for': study(TEACHERS, FEW, only(...PLANNERS), ...TAKE_IN_TWO, ...PLAN_FOR_TWO),
@@ -388,6 +393,12 @@ export function makeContent(runs) {
   };
   const doneShare = (rows) => share(rows.reduce((sum, row) => sum + row.done, 0), rows.length);
   const forecastMean = (rows) => mean(rows.map((row) => row.forecast));
+  // The smallest and the largest value of a team; of all strategies without one.
+  const rangeOf = (run, strategy, measure, digits) => {
+    const teams = runs.table(run, 'teams').filter((team) => !strategy || team.strategy === strategy);
+    const values = teams.map(MEASURES[measure][0]);
+    return `${fixed(Math.min(...values), digits)} to ${fixed(Math.max(...values), digits)}`;
+  };
   const knewArea = (period) => {
     const rows = knowers(period);
     const of = (holds) => rows.filter((row) => holds(row.knew)).map((row) => row.p_knew);
@@ -402,6 +413,13 @@ export function makeContent(runs) {
     'low-forecast-share': () => figure(doneShare(lowForecasts()), 3),
     'knew-first': () => figure(knewArea(1), 2),
     'knew-last': () => figure(knewArea(4), 2),
+    'navigation-right': () => figure(of('navigation', 'plan', 'share right'), 2),
+    'navigation-knowledge': () => figure(of('navigation', 'plan', 'p_BEC'), 2),
+    'exam-stop-plan-periods': () => rangeOf('stop by the exam, navigation', 'plan', 'periods', 0),
+    'exam-stop-joint-periods': () => rangeOf('stop by the exam, navigation', 'joint', 'periods', 0),
+    'exam-stop-right': () => rangeOf('stop by the exam, navigation', undefined, 'share right', 2),
+    'exam-stop-warehouse-periods': () => rangeOf('stop by the exam, warehouse', 'plan', 'periods', 0),
+    'exam-stop-warehouse-right': () => rangeOf('stop by the exam, warehouse', 'plan', 'share right', 2),
   };
   return { tables, figures, claims };
 }

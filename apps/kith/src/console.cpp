@@ -109,15 +109,20 @@ std::string Console::styled(std::string_view text, std::string_view code) const 
 }
 
 std::string TextTable::text(const Console& console, bool header) const {
+  // Characters of UTF-8: bytes but those that continue one.
+  const auto width_of = [](const std::string& text) {
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+    return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues));
+  };
   std::vector<std::size_t> widths(alignment_.size(), 0);
   for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
   }
   std::string all;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     std::string line;
     for (std::size_t i = 0; i < rows_[r].size(); ++i) {
-      const std::string blank(widths[i] - rows_[r][i].size(), ' ');
+      const std::string blank(widths[i] - width_of(rows_[r][i]), ' ');
       line += (i > 0 ? "  " : "") + (alignment_[i] == 'r' ? blank + rows_[r][i] : rows_[r][i] + blank);
     }
     line.erase(line.find_last_not_of(' ') + 1);

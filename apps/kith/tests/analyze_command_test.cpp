@@ -74,6 +74,19 @@ TEST_F(AnalyzeCommand, PrintsOneDocument) {
   EXPECT_TRUE(table.at("rows").at(0).at("partial_eta_squared").is_number());
 }
 
+TEST_F(AnalyzeCommand, AlignsLettersOfSeveralBytes) {
+  const auto table = file("letters.csv",
+                          "g,y\nS\xC3\xBC"
+                          "d,1\nS\xC3\xBC"
+                          "d,2\nS\xC3\xBC"
+                          "d,3\nOst,4\nOst,5\nOst,7\n");
+  const auto ran = run_kith({"analyze", table, "--model", "y ~ g"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("S\xC3\xBC"
+                                       "d  3  2.000"),
+                             HasSubstr("Ost  3  5.333")));
+}
+
 TEST_F(AnalyzeCommand, TestsAModelOnATableOfARun) {
   const auto ran = run_kith(
       {"analyze", folder(), "--table", "learners", "--model", "p_bec ~ type", "--where", "strategy!=baseline"});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
@@ -134,7 +135,14 @@ std::vector<std::optional<double>> Dataset::numbers(std::string_view column) con
     const auto text = std::find_if(texts.begin(), texts.end(), [](const auto& cell) { return cell.has_value(); });
     diagnostics.front().message =
         "column '" + std::string{column} + "' holds text, such as '" + **text + "', no numbers";
+    std::set<std::string> distinct;
+    for (const auto& cell : texts) {
+      if (cell && distinct.size() < 3) distinct.insert(*cell);
+    }
     diagnostics.front().hint = "choose a column of numbers";
+    if (distinct.size() == 2)
+      diagnostics.front().hint += ", or write 0 and 1 (or false and true) instead of '" + *distinct.begin() +
+                                  "' and '" + *distinct.rbegin() + "'";
   }
   throw Error{std::move(diagnostics)};
 }

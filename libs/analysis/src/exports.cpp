@@ -80,7 +80,19 @@ std::string sentence_start(std::string text) {
   return text;
 }
 
+// Of a likelihood-ratio test.
+std::string chi_squared_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
+  const auto* const statistic = number_at(row, column_of(table, "chi-squared"));
+  const auto* const p = number_at(row, column_of(table, "p-value"));
+  const auto df = column_of(table, "df");
+  if (statistic == nullptr || p == nullptr || !df) return "";
+  return fmt::format("{} {} significant, chi-squared({}) = {:.2f}, {}.",
+                     sentence_start(term_words(table, text_at(row, 0))), *p < alpha ? "was" : "was not",
+                     text_at(row, *df), *statistic, apa_p(*p));
+}
+
 std::string test_sentence(const ResultTable& table, const std::vector<TableCell>& row, double alpha) {
+  if (column_of(table, "chi-squared")) return chi_squared_sentence(table, row, alpha);
   const auto f = column_of(table, "F"), p = column_of(table, "p-value"), df = column_of(table, "df");
   if (!f || !p || !df || number_at(row, f) == nullptr || number_at(row, p) == nullptr) return "";
   const auto below = residual_df(table, row);

@@ -277,7 +277,12 @@ class Writer {
     for (const auto& group : means_of(f, by).groups) {
       auto pairs = estimate_contrasts(model_, group, pairwise_contrasts(group),
                                       is_family ? Adjustment::kTukey : Adjustment::kNone, 1.0 - options_.alpha);
-      if (!any_estimate(pairs)) continue;
+      if (!any_estimate(pairs)) {
+        finding_.warnings.push_back(fmt::format("the levels of {} cannot be compared{}: {}", factor.name,
+                                                by ? " at " + group.name : std::string{},
+                                                pairs.front().estimate.reason()));
+        continue;
+      }
       for (auto& pair : pairs) comparisons.push_back({std::move(pair), group.name});
     }
     const auto by_name = by ? model_.design.factors[*by].name : std::string{};
@@ -358,13 +363,29 @@ class Writer {
                  const std::vector<Comparison>& comparisons, bool is_corrected) {
     if (comparisons.empty()) return;
     auto table = comparison_table(caption, first, by, model_.link, with_d_, is_corrected);
-    for (const auto& one : comparisons) {
-      add_row(one, model_, !by.empty(), with_d_, table);
-      if (!one.estimate.estimate)
-        finding_.warnings.push_back(
-            fmt::format("{} cannot be compared: {}", one.estimate.name, one.estimate.estimate.reason()));
-    }
+    for (const auto& one : comparisons) add_row(one, model_, !by.empty(), with_d_, table);
+    warn_of_missing(comparisons);
     tables_.push_back(std::move(table));
+  }
+
+  // One note for all comparisons that cannot be made for the same reason.
+  void warn_of_missing(const std::vector<Comparison>& comparisons) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+    for (const auto& one : comparisons) {
+      if (one.estimate.estimate) continue;
+      const auto& reason = one.estimate.estimate.reason();
+      auto found =
+          std::find_if(reasons.begin(), reasons.end(), [&](const auto& known) { return known.first == reason; });
+      if (found == reasons.end()) found = reasons.insert(reasons.end(), {reason, {}});
+      found->second.push_back(one.group.empty() ? one.estimate.name : one.group + ": " + one.estimate.name);
+    }
+    for (auto& [reason, names] : reasons) {
+      constexpr std::size_t kMostNames = 6;
+      const auto more = names.size() > kMostNames ? names.size() - kMostNames : 0;
+      if (more > 0) names.resize(kMostNames);
+      if (more > 0) names.push_back(number_and_noun(more, "other comparison"));
+      finding_.warnings.push_back(fmt::format("{} cannot be estimated: {}", with_and(names), reason));
+    }
   }
 
   const FixedEffects& model_;

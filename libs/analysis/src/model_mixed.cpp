@@ -87,10 +87,15 @@ void add_mixed_warnings(const MixedModel& model, const ModelData& data, Finding&
   const auto empty = std::count(model.fixed.design.counts.begin(), model.fixed.design.counts.end(), std::size_t{0});
   if (empty > 0 && std::any_of(data.terms.begin(), data.terms.end(), is_interaction))
     finding.warnings.push_back(empty_cells_text(static_cast<std::size_t>(empty), data.observations));
+  if (auto text = unbalanced_text(model.fixed.design, data.observations); !text.empty())
+    finding.warnings.push_back(std::move(text));
+  const auto is_zero = [](const VarianceComponent& one) { return one.variance == 0.0; };
+  const bool all_zero = std::all_of(model.components.begin(), model.components.end(), is_zero);
   for (const auto& one : model.components) {
-    if (one.variance == 0.0) {
+    if (is_zero(one)) {
       finding.warnings.push_back(fmt::format(
-          "the variance of {} is estimated as 0, so the tests treat {} as independent{}", one.name, data.observations,
+          "the variance of {0} is estimated as 0, so the tests treat {1} {2}{3}", one.name, data.observations,
+          all_zero ? "as independent" : fmt::format("with the same {} as no more alike than others", one.name),
           one.intraclass_interval
               ? fmt::format("; the data allow an intraclass correlation of up to {:.2f}", one.intraclass_interval->high)
               : ""));

@@ -11,6 +11,8 @@ namespace {
 
 using Kind = ResultKind;
 
+constexpr std::size_t kFewRatings = 5;  // in a cell: below it the tests' chi-squared distributions are rough
+
 // The ratings in ascending order, as levels.
 Factor ratings_of(const ModelData& data) {
   std::map<double, std::size_t> positions;
@@ -73,6 +75,14 @@ Finding analyze_ordinal_model(const ModelData& data, const AnalysisOptions& opti
       finding.sentence += " An odds ratio above 1 stands for higher ratings.";
     }
     add_method(finding, {"proportional odds model with likelihood-ratio tests", "mccullagh1980"});
+    const auto& counts = model->fixed.design.counts;
+    std::size_t least = kFewRatings;
+    for (const auto count : counts) least = count > 0 ? std::min(least, count) : least;
+    if (!data.factors.empty() && least < kFewRatings) {
+      finding.warnings.push_back(
+          fmt::format("the smallest cell has {}, so p-values and intervals, which assume many, are rough",
+                      number_and_noun(least, data.observations.substr(0, data.observations.size() - 1))));
+    }
     if (model->proportional_odds && model->proportional_odds->p < options.alpha) {
       finding.warnings.push_back(
           fmt::format("odds ratios differ between steps of the scale (Brant's test: {}), so one odds ratio per level "

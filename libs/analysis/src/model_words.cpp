@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kith/stats/distributions.hpp"
 #include "kith/stats/moments.hpp"
 #include "model_means.hpp"
 
@@ -96,6 +97,47 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
   }
 }
 
+// The value that is furthest from what the model says of it, if chance hardly explains that: by its studentised
+// residual of the model that is fitted without it, with Bonferroni's correction for the search (R: car::outlierTest).
+void add_far_value(const ModelData& data, const ModelResult& result, std::vector<std::string>& warnings) {
+  constexpr double kHardlyByChance = 0.001;
+  const auto& residuals = result.table.residuals;
+  if (data.is_binary || !result.linear || !result.linear->effects.residual_sd || residuals.empty()) return;
+  const auto& effects = result.linear->effects;
+  const auto& design = effects.design;
+  const auto columns = design.columns.size();
+  const double variance = std::pow(*effects.residual_sd, 2);
+  const auto df = static_cast<double>(result.linear->residual_df);
+  if (df < 2.0) return;
+  std::vector<double> leverages(design.counts.size(), 0.0);
+  for (std::size_t cell = 0; cell < leverages.size(); ++cell) {
+    const double* const row = &design.grid[cell * columns];
+    for (std::size_t i = 0; i < columns; ++i) {
+      for (std::size_t j = 0; j < columns; ++j)
+        leverages[cell] += row[i] * effects.covariance[i * columns + j] * row[j] / variance;
+    }
+  }
+  std::size_t furthest = 0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    const double free = 1.0 - leverages[design.cell_of[i]];
+    if (free < 1e-9) continue;  // fitted exactly, whatever its value
+    const double square = std::pow(residuals[i], 2) / free;
+    const double rest = (df * variance - square) / (df - 1.0);
+    const double size = rest > 0.0 ? std::sqrt(square / rest) : std::numeric_limits<double>::infinity();
+    if (size <= largest) continue;
+    largest = size;
+    furthest = i;
+  }
+  const double p = std::min(1.0, static_cast<double>(residuals.size()) * student_t_two_sided(largest, df - 1.0));
+  if (p >= kHardlyByChance) return;
+  warnings.push_back(
+      fmt::format("the value {} is far from the others: {:.1f} standard deviations from what the model says without "
+                  "it; see whether "
+                  "it is an error, and what is found without it",
+                  formatted(data.values[furthest], ResultKind::kNumber), largest));
+}
+
 void add_shape_warnings(const ModelResult& result, double alpha, std::vector<std::string>& warnings) {
   const auto shape = check_normality(result.table.residuals);
   if (!shape || shape->test.p >= alpha) return;
@@ -158,6 +200,14 @@ std::string empty_cells_text(std::size_t empty_cells, const std::string& observa
                      number_and_noun(empty_cells, "combination"), empty_cells == 1 ? "has" : "have", observations);
 }
 
+std::string unbalanced_text(const FactorDesign& design, const std::string& observations) {
+  if (design.counts.empty() || design.factors.empty()) return {};
+  const auto [least, most] = std::minmax_element(design.counts.begin(), design.counts.end());
+  if (*least == 0 || *least == *most) return {};
+  return fmt::format("the design is unbalanced (cells have {} to {} {}){}", *least, *most, observations,
+                     design.factors.size() > 1 ? ": raw means mix the effects of several factors" : "");
+}
+
 std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,
                               const Estimable<TestResult>& type_three, double alpha) {
   if (!type_two || !type_three || (type_two->p < alpha) == (type_three->p < alpha)) return {};
@@ -182,6 +232,7 @@ std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& r
   if (data.factors.empty()) return warnings;
   add_cell_warnings(data, result, alpha, warnings);
   add_shape_warnings(result, alpha, warnings);
+  add_far_value(data, result, warnings);
   add_disagreements(result, alpha, warnings);
   return warnings;
 }

@@ -94,6 +94,11 @@ std::string missing_text(const Dataset& data, const std::vector<std::string>& co
   return text;
 }
 
+bool is_constant(const std::vector<double>& values) {
+  return values.size() > 1 &&
+         std::all_of(values.begin(), values.end(), [&](double value) { return value == values[0]; });
+}
+
 bool is_binary(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0 || value == 1.0; });
 }
@@ -142,6 +147,13 @@ bool are_ratings(const std::vector<double>& values) {
   return distinct.size() >= 3;
 }
 
+// Intercepts of the formula replace those that were found, so the latter have to be written with the new one.
+std::vector<std::vector<std::string>> with_item(std::vector<std::vector<std::string>> intercepts,
+                                                const std::string& item) {
+  intercepts.push_back({item});
+  return intercepts;
+}
+
 // The random intercepts: those of the formula, or of identifiers that repeat.
 void find_groups(const Dataset& data, const Formula& formula, const ModelQuestion& question, PreparedModel& prepared) {
   for (const auto& column : question.identifiers) prepared.rows.set_kind(column, ColumnKind::kIdentifier);
@@ -150,6 +162,19 @@ void find_groups(const Dataset& data, const Formula& formula, const ModelQuestio
   auto groups = find_row_groups(prepared.rows, used);
   auto& notes = prepared.notes;
   const bool is_asked = !formula.random_intercepts.empty();
+  for (const auto& item : groups.items) {
+    const auto in_intercept = [&](const auto& columns) {
+      return std::find(columns.begin(), columns.end(), item) != columns.end();
+    };
+    const auto& asked = formula.random_intercepts;
+    if (std::any_of(asked.begin(), asked.end(), in_intercept) || question.independent) continue;
+    notes.push_back(fmt::format(
+        "rows with the same {0} may be alike, too, which the model ignores: the tests are about these values of {0} "
+        "only; to draw conclusions about others, write + {1} into the formula",
+        item,
+        intercepts_text(is_asked || groups.intercepts.empty() ? std::vector<std::vector<std::string>>{{item}}
+                                                              : with_item(groups.intercepts, item))));
+  }
   if (!is_asked) notes.insert(notes.end(), groups.notes.begin(), groups.notes.end());
   if (is_asked) {
     prepared.intercepts = formula.random_intercepts;
@@ -206,13 +231,21 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   if (const auto dropped = data.num_rows() - complete.num_rows(); dropped > 0)
     prepared.notes.push_back(fmt::format("{} of {} rows left out because of missing values ({})", dropped,
                                          data.num_rows(), missing_text(data, columns)));
+  if (is_constant(model.values))
+    prepared.notes.push_back(
+        fmt::format("{} is {} in every row, so there is nothing to explain", formula.response, model.values.front()));
   for (const auto& factor : model.factors) {
     if (auto note = note_on_numbers_as_levels(factor)) prepared.notes.push_back(std::move(*note));
   }
   find_groups(data, formula, question, prepared);
   auto kind = kind_of_response(data, formula, question);
-  if (kind == ColumnKind::kUnspecified && is_named_rating(formula.response) && are_ratings(model.values))
+  if (kind == ColumnKind::kUnspecified && is_named_rating(formula.response) && are_ratings(model.values)) {
     kind = ColumnKind::kOrdinal;
+    prepared.notes.push_back(fmt::format(
+        "{} is taken for ratings because of its name, so only their order counts; a codebook with \"kind\": "
+        "\"number\" makes them measurements",
+        formula.response));
+  }
   model.is_count = kind == ColumnKind::kCount;
   model.is_ordinal = kind == ColumnKind::kOrdinal;
   if (model.is_count) check_counts(complete, formula.response, model.values);

@@ -21,6 +21,8 @@ constexpr std::array<std::string_view, 9> kIdentifierWords{"team",    "person", 
 // Of people, who may be numbered anew in every one of the others.
 constexpr std::array<std::string_view, 6> kPeople{"person", "member", "participant", "subject", "learner", "student"};
 constexpr std::array<std::string_view, 2> kCollectives{"team", "group"};
+// Of what people are asked or shown. No random intercepts are made of them unasked: the tests may be about just these.
+constexpr std::array<std::string_view, 6> kItems{"item", "stimulus", "task", "question", "problem", "scenario"};
 // In kith's own tables, the address of the random numbers that draw the people of a team.
 constexpr std::string_view kSeedAddress = "seed_address";
 
@@ -45,6 +47,13 @@ bool has_word(const std::string& column, const std::array<std::string_view, n>& 
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
     return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
   });
+}
+
+// Whether one of these is the last word of a column's name.
+template <std::size_t n>
+bool ends_in(const std::string& column, const std::array<std::string_view, n>& wanted) {
+  const auto words = words_of(column);
+  return !words.empty() && std::find(wanted.begin(), wanted.end(), words.back()) != wanted.end();
 }
 
 struct Identifier {
@@ -83,6 +92,18 @@ std::vector<Identifier> identifiers_of(const Dataset& rows, const std::vector<st
     identifiers.push_back({column, is_stated, row_factor(rows, {column})});
   }
   return identifiers;
+}
+
+// Columns of items that occur in several rows each.
+std::vector<std::string> items_of(const Dataset& rows, const std::vector<std::string>& used) {
+  constexpr std::size_t kFewestItems = 3;
+  std::vector<std::string> items;
+  for (const auto& column : rows.columns()) {
+    if (std::find(used.begin(), used.end(), column) != used.end() || !ends_in(column, kItems)) continue;
+    const auto num_items = row_factor(rows, {column}).levels.size();
+    if (num_items >= kFewestItems && num_items < rows.num_rows()) items.push_back(column);
+  }
+  return items;
 }
 
 // In kith's own tables without that address: replicates of a composition are the same people under every strategy,
@@ -170,6 +191,11 @@ RowGroups find_row_groups(const Dataset& rows, const std::vector<std::string>& u
     add({outer->column, inner->column});
   }
   for (const auto& people : shared_people_of(rows, used)) add(people);
+  for (const auto& item : items_of(rows, used)) {
+    const std::vector<std::string> alone{item};
+    if (std::find(groups.intercepts.begin(), groups.intercepts.end(), alone) == groups.intercepts.end())
+      groups.items.push_back(item);
+  }
   return groups;
 }
 

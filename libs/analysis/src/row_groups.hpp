@@ -13,6 +13,7 @@ struct RowGroups {
   // "member"}. Empty if the rows are independent as far as the columns tell.
   std::vector<std::vector<std::string>> intercepts;
   std::vector<std::string> notes;  // what should be said about columns that look like identifiers but are not used
+  std::vector<std::string> items;  // columns of repeated tasks or questions, whose rows may be alike as well
 };
 
 // Whether a column of this name holds identifiers: "team", "participant_id", "personId".

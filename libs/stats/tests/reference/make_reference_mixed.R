@@ -3,8 +3,7 @@
 #   Rscript libs/stats/tests/reference/make_reference_mixed.R libs/stats/tests/reference/mixed.json
 #
 # Needs R >= 4.1 with lme4, lmerTest and numDeriv (Debian: r-cran-lme4, r-cran-lmertest). Data sets are drawn here with
-# fixed seeds and stored with the results, so that neither the build nor the tests need R. lme4's optimisers stop at
-# about 1e-5 of theta; here Newton's method goes on from there, with lme4's own deviance.
+# fixed seeds and stored with the results, so that neither the build nor the tests need R.
 
 suppressPackageStartupMessages({
   library(lme4)
@@ -19,37 +18,7 @@ source(file.path(folder, "common.R"))
 
 # ---- fits ----
 
-# theta below this is 0.
-kSingular <- 1e-4
-
-polished <- function(devfun, theta) {
-  theta[theta < kSingular] <- 0
-  free <- theta > 0
-  if (any(free)) {
-    f <- function(x) { full <- theta; full[free] <- x; devfun(full) }
-    x <- theta[free]
-    for (i in 1:8) {
-      step <- solve(hessian(f, x), grad(f, x, method.args = list(r = 6)))
-      x <- x - step
-      if (max(abs(step / x)) < 1e-10) break
-    }
-    theta[free] <- x
-  }
-  theta
-}
-
-fit <- function(formula, d, reml) {
-  control <- lmerControl(check.conv.singular = "ignore", check.conv.grad = "ignore", check.conv.hess = "ignore",
-                         check.rankX = "silent.drop.cols")
-  parts <- lFormula(formula, d, REML = reml, control = control)
-  devfun <- do.call(mkLmerDevfun, parts)
-  start <- optimizeLmer(devfun, control = list(xtol_abs = 1e-10, ftol_abs = 1e-12))
-  theta <- polished(devfun, start$par)
-  value <- devfun(theta)
-  model <- mkMerMod(environment(devfun), list(par = theta, fval = value, conv = 0, feval = 0), parts$reTrms,
-                    fr = parts$fr, mc = call("lmer", formula = formula))
-  list(model = as(model, "lmerMod"), devfun = devfun, theta = theta, value = value)
-}
+source(file.path(folder, "lmer.R"))
 
 # The interval of the intraclass correlation of a single random intercept, by the profile of theta.
 profile_icc <- function(f, level = 0.9) {
