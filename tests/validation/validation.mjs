@@ -4,7 +4,7 @@
 //   node tests/validation/validation.mjs KITH --check
 //
 //   --page FILE   only this page, or a copy of one by the same name (all of them)
-//   --only NAMES  only these tables and figures, separated by commas
+//   --only NAMES  only these tables, figures, claims and files that quote figures, separated by commas
 //   --keep DIR    keep the runs, and use those of the same program that are there
 //
 // Exits with 0 if the pages agree, 1 if one does not, 2 for a wrong command line. Results are
@@ -65,6 +65,20 @@ function regenerate(parts, content, wanted) {
   return { fresh, differences, broken: fresh.filter((part) => part.broken).map((part) => part.name) };
 }
 
+// Other files quote figures of this program: what is missing of the sentences {file: [text]} that their comments must
+// have, whatever their line breaks.
+function missingQuotes(quotes, wanted) {
+  const problems = [];
+  for (const [file, sentencesOf] of Object.entries(quotes)) {
+    if (!wanted(file)) continue;
+    const comments = readFileSync(join(source, file), 'utf8').replace(/^[^#\n]*#?/gm, ' ').replace(/\s+/g, ' ');
+    for (const sentence of sentencesOf()) {
+      if (!comments.includes(sentence)) problems.push(`${file} does not say, but should: ${sentence}`);
+    }
+  }
+  return problems;
+}
+
 function update(page, folder, { kith, write, only }) {
   const content = CONTENT[basename(page)];
   if (!content) throw new Error(`no content is known for a page '${basename(page)}', only for ${Object.keys(CONTENT).join(', ')}`);
@@ -72,8 +86,13 @@ function update(page, folder, { kith, write, only }) {
   const names = only?.split(',');
   const wanted = (name) => !names || names.includes(name);
   const runs = new Runs(content.COMMANDS, kith, source, folder, (line) => console.error(line));
-  const { fresh, differences, broken } = regenerate(parsePage(before), content.makeContent(runs, source), wanted);
-  const problems = [...findTypedFigures(before), ...broken.map((name) => `the sentence before 'holds: ${name}' is no longer true`)];
+  const made = content.makeContent(runs, source);
+  const { fresh, differences, broken } = regenerate(parsePage(before), made, wanted);
+  const problems = [
+    ...findTypedFigures(before),
+    ...broken.map((name) => `the sentence before 'holds: ${name}' is no longer true`),
+    ...missingQuotes(made.quotes ?? {}, wanted),
+  ];
   if (write) writeFileSync(page, printPage(fresh));
   for (const line of [...differences.map((one) => one.line), ...problems]) console.log(line);
   const beyond = differences.filter((one) => one.beyond).length;

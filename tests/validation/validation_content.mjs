@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { study } from './runs.mjs';
-import { calibrationFigures, calibrationTables } from './calibration_tables.mjs';
+import { calibrationFigures, calibrationQuotes, calibrationTables } from './calibration_tables.mjs';
 import { figure, fixed, grouped, interval, percent, probability, signed, withError, withInterval } from './format.mjs';
 import {
   errorOfMean, errorOfSd, groupBy, jackknife, mean, Moments, partialEtaSquared,
@@ -485,6 +485,16 @@ export function makeContent(runs, source) {
       [['periods', 'mean', 'group'], ['periods', 'sd', 'baseline'], ['knowledge', 'sd', 'baseline']].every((one) => Math.abs(misfit(...one).value) < 2) &&
       misfit('knowledge', 'mean', 'group').value > 2 && misfit('knowledge', 'mean', 'baseline').value < -2 &&
       misfit('periods', 'mean', 'baseline').value < -2,
+    'within-tolerances': () =>
+      OUTCOMES.every((outcome) =>
+        Object.keys(POOLS).every((teams) =>
+          ['mean', 'sd'].every((statistic) => {
+            const { value, tolerance, within_factor: factor } = target(outcome, statistic, teams);
+            const here = summary('large', outcome)[`${statistic} ${teams}`].value;
+            return factor ? Math.abs(Math.log(here / value)) <= Math.log(factor) : Math.abs(here - value) <= tolerance;
+          }),
+        ),
+      ),
     'ranges-agree': () => Math.abs(large('periods', 'range difference').value) < 1.96 * large('periods', 'range difference').se,
     'all-complete': () => runs.table('large', 'teams').every((row) => row.status === 'complete'),
     'never-all-findings': () => runs.json('findings, paired').replication.all_agree === 0 && runs.json('findings, unpaired').replication.all_agree === 0,
@@ -502,5 +512,11 @@ export function makeContent(runs, source) {
     'prior-matters-little': () =>
       ['less known', 'more known'].every((run) => Math.abs(summary(run, 'knowledge')['mean group'].value - large('knowledge', 'mean group').value) < 0.02),
   };
-  return { tables, figures, claims };
+  // "sd of knowledge, group": the figure of the large run.
+  const named = (name) => {
+    const [, deviation, outcome, teams] = /^(sd of )?(\w+), (\w+)$/.exec(name);
+    return summary('large', outcome)[`${deviation ? 'sd' : 'mean'} ${teams}`].value;
+  };
+  const quotes = { 'studies/paper.toml': () => calibrationQuotes(runs, named) };
+  return { tables, figures, claims, quotes };
 }
