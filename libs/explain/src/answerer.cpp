@@ -47,7 +47,7 @@ std::string Answerer::from_the_start() const {
 }
 
 std::string Answerer::on_the_way() const {
-  return (domain_.is_exact() ? "on the way from " : "on the likeliest way from ") + start();
+  return (domain_.is_exact() ? "on the way from " : "on the most likely path from ") + start();
 }
 
 std::string Answerer::verb_of(const Happening& happening) const {
@@ -105,16 +105,17 @@ std::string Answerer::it_does(const World& world) {
 std::string Answerer::nothing_else(MdpIndex world, const Happening& happening, bool happens) const {
   if (happens && !happening.action && !domain_.mdp(world).has_feature(happening.feature)) return "this world has none";
   if (!is_exact(domain_.mdp(world))) {
-    return happens ? "no other single step would make it likelier" : "no other single step would make it less likely";
+    return happens ? "no other single step would make it more likely"
+                   : "no other single step would make it less likely";
   }
-  if (atlas_.is_tabulated()) return happens ? "no sensible path has it" : "every sensible path has it";
+  if (atlas_.is_tabulated()) return happens ? "it happens on no sensible path" : "it happens on every sensible path";
   const bool tried_others = !happening.action && !question_.is_about_a_step();
   if (!tried_others) {
     return happens ? "no other single step would lead to it" : "no other single step would avoid it";
   }
-  if (!happens) return "every sensible path has it";
+  if (!happens) return "it happens on every sensible path";
   return domain_.weights().integer[happening.feature] < 0 ? "it would not, even if that were free"
-                                                          : "no sensible path has it";
+                                                          : "it happens on no sensible path";
 }
 
 std::string Answerer::because(const std::optional<Contrast>& contrast, const std::string& nothing) const {

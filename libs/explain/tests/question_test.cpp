@@ -90,7 +90,7 @@ TEST(AskWhen, SaysSoWhereItIsTheSameEverywhere) {
   const auto reply = ask("when pickup");
   EXPECT_EQ(reply.text, "It picks it up in 64 of 64 worlds on the way from the map's start.");
   ASSERT_EQ(reply.examples.size(), 1u);
-  EXPECT_THAT(reply.examples[0].text, HasSubstr("world 63, it does: every sensible path has it"));
+  EXPECT_THAT(reply.examples[0].text, HasSubstr("world 63, it does: it happens on every sensible path"));
 }
 
 TEST(AskWhere, ListsCellsWithAPathForEach) {
@@ -193,7 +193,7 @@ TEST(AskOnDemand, ComparesWithThoseToWhomAFeatureMeansMore) {
             "cost more than going through smoke.");
   const auto& mdp = atlas.domain().mdp(MdpIndex{8});
   EXPECT_TRUE(mdp.is_terminal(reply.examples.at(0).alternative->states.back()));
-  EXPECT_THAT(ask("why recharge in world 15", "rescue-floor").text, HasSubstr("; every sensible path has it."));
+  EXPECT_THAT(ask("why recharge in world 15", "rescue-floor").text, HasSubstr("; it happens on every sensible path."));
   EXPECT_THAT(ask("why not rubble in world 0", "rescue-floor").text, HasSubstr("; this world has none."));
 }
 
