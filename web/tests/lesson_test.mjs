@@ -10,7 +10,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
 import { launch, openPage, requireFrom } from './browser.mjs';
-import { drawn, largeLesson, mapless, uncertain } from './lessons.mjs';
+import { drawn, hugeLesson, largeLesson, mapless, uncertain } from './lessons.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
@@ -41,6 +41,7 @@ function addressOf(name, lesson) {
 const pages = {
   sample: addressOf('sample', sample),
   large: addressOf('large', largeLesson()),
+  huge: addressOf('huge', hugeLesson()),
   mapless: addressOf('mapless', mapless()),
   uncertain: addressOf('uncertain', uncertain()),
   drawn: addressOf('drawn', drawn()),
@@ -215,6 +216,64 @@ describe('a lesson', () => {
       await page.click('.why summary');
       assert.match(await page.textContent('.steps .parting'), /dock: wait.*here they separate/);
     });
+  });
+
+  it('enlarges small cells, and shows the part of the map around the robot', async () => {
+    await withLesson('huge', { width: 390, dark: false, reducedMotion: true }, async (page) => {
+      const shown = page.locator('.demonstration');
+      const look = () =>
+        shown.evaluate((card) => {
+          const box = (selector) => card.querySelector(selector).getBoundingClientRect();
+          const [pan, svg, robot, seen] = [box('.pan'), box('.pan svg'), box('.mover'), card.querySelector('.overview .seen')];
+          return {
+            cell: svg.width / 60,
+            isRobotInside: robot.left >= pan.left && robot.right <= pan.right && robot.top >= pan.top && robot.bottom <= pan.bottom,
+            left: card.querySelector('.pan').scrollLeft,
+            seen: Number(seen.getAttribute('x')),
+          };
+        });
+      const first = await look();
+      assert.ok(first.cell >= 16, `cells of ${first.cell} px`);
+      assert.ok(first.isRobotInside);
+      for (let step = 1; step < 50; step += 1) {
+        await shown.locator('button[aria-label="Next step"]').click();
+        assert.ok((await look()).isRobotInside, `step ${step}`);
+      }
+      const last = await look();
+      assert.ok(last.left > first.left && last.seen > first.seen);
+      await shown.locator('.pan').focus();
+      await page.keyboard.press('ArrowLeft');
+      await page.waitForFunction((left) => document.querySelector('.demonstration .pan').scrollLeft < left, last.left);
+      const { x, y } = await shown.locator('.pan').boundingBox();
+      const before = (await look()).left;
+      await page.mouse.move(x + 100, y + 100);
+      await page.mouse.down();
+      await page.mouse.move(x + 200, y + 100, { steps: 4 });
+      await page.mouse.up();
+      await page.waitForFunction((left) => document.querySelector('.demonstration .pan').scrollLeft <= left - 80, before);
+      await shown.locator('.overview').click({ position: { x: 4, y: 4 } });
+      await page.waitForFunction(() => document.querySelector('.demonstration .pan').scrollLeft === 0);
+      await page.emulateMedia({ media: 'print' });
+      const printed = await shown.evaluate((card) => ({
+        svg: card.querySelector('.pan svg').getBoundingClientRect().width,
+        card: card.getBoundingClientRect().width,
+        bar: getComputedStyle(card.querySelector('.pan-bar')).display,
+      }));
+      assert.ok(printed.svg <= printed.card && printed.bar === 'none', 'all of the map is printed');
+      await page.emulateMedia({ media: 'screen' });
+      await shown.getByRole('button', { name: 'Show the whole map' }).click();
+      assert.equal(await shown.locator('.pan.enlarged').count(), 0);
+      await shown.getByRole('button', { name: 'Enlarge the map' }).click();
+      assert.equal(await shown.locator('.pan.enlarged').count(), 1);
+    });
+  });
+
+  it('shows all of a map where its cells are large enough', async () => {
+    for (const [name, width] of [['sample', 320], ['large', 768], ['huge', 1280]]) {
+      await withLesson(name, { width, dark: false }, async (page) => {
+        assert.equal(await page.locator('.pan.enlarged, .pan-bar').count(), 0, `${name} at ${width} px`);
+      });
+    }
   });
 
   it('shows several runs where chance has a part, and the most likely path only with the reason', async () => {

@@ -68,6 +68,23 @@ export function largeLesson() {
   };
 }
 
+// 60 columns, 40 rows: on most screens only a part of it can be seen with cells of a readable size.
+export function hugeLesson() {
+  const lesson = largeLesson();
+  const [columns, rows] = [60, 40];
+  const map = Array.from({ length: rows }, (_, y) =>
+    Array.from({ length: columns }, (_, x) => (y % 6 === 3 && x % 10 > 2 ? '#' : (x + 2 * y) % 17 === 0 ? 'r' : '.')).join(''),
+  );
+  const along = Array.from({ length: 50 }, (_, i) => [i + 3, 36]);
+  const frames = robotAlong(along, Array.from({ length: 49 }, () => 'right'));
+  const board = { world: 1, map, start: frames[0], frames };
+  Object.assign(lesson.domain, { width: columns, height: rows });
+  const [component] = lesson.components;
+  component.demonstrations = component.demonstrations.map((shown) => ({ ...shown, ...board, alternative: null, decisive: null, flip: null }));
+  component.tests = component.tests.map((test) => ({ ...test, ...board }));
+  return lesson;
+}
+
 export function mapless() {
   const frames = (...steps) => steps.map(([state, action]) => ({ state, action: action ?? null }));
   const own = frames(['dock', 'wait'], ['dock, charged', 'leave'], ['hall', 'forward'], ['done']);

@@ -17,16 +17,30 @@
 namespace kith::cli {
 namespace {
 
+// Nothing where nothing is left to chance.
+std::vector<PolicyRun> runs_from(const Atlas& atlas, DemoIndex demo) {
+  constexpr std::size_t kRuns = 10;
+  if (atlas.domain().is_exact()) return {};
+  auto random = RandomStream{1}.split("runs").split(demo.value());
+  return several_runs(atlas, demo, kRuns, random);
+}
+
+Json path_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  const auto chance = chance_of_path(domain, world, path);
+  return {{"frames", frames_json(domain, world, path)}, {"chance", chance ? Json(*chance) : Json{}}};
+}
+
 Json reply_json(const Atlas& atlas, const Reply& reply) {
   const auto& domain = atlas.domain();
   Json examples = Json::array();
   for (const auto& example : reply.examples) {
     const auto id = atlas.id(example.demo);
     auto json = board_json(domain, id);
-    json["frames"] = frames_json(domain, id.mdp, example.path);
+    json.update(path_json(domain, id.mdp, example.path));
     json["text"] = example.text;
     json["alternative"] = nullptr;
-    if (example.alternative) json["alternative"] = {{"frames", frames_json(domain, id.mdp, *example.alternative)}};
+    if (example.alternative) json["alternative"] = path_json(domain, id.mdp, *example.alternative);
+    json["runs"] = runs_json(domain, id.mdp, runs_from(atlas, example.demo));
     json["decisive"] = example.decisive ? step_json(domain, id.mdp, example.path, *example.decisive) : Json{};
     examples.push_back(std::move(json));
   }
@@ -40,15 +54,6 @@ std::string path_text(const Domain& domain, MdpIndex world, const Trajectory& pa
   return actions_text(domain, path.actions) + (chance.empty() ? "" : " (" + chance + ")");
 }
 
-// What happens in several runs; nothing where chance has no part.
-std::string runs_text(const Atlas& atlas, DemoIndex demo) {
-  constexpr std::size_t kRuns = 10;
-  if (atlas.domain().is_exact()) return "";
-  auto random = RandomStream{1}.split("runs").split(demo.value());
-  const auto runs = several_runs(atlas, demo, kRuns, random);
-  return runs.empty() ? "" : runs_in_words(atlas.domain(), atlas.id(demo).mdp, runs);
-}
-
 std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& console) {
   const auto& domain = atlas.domain();
   std::string text = console.dim(reply.question) + "\n" + wrapped(reply.text, kTextWidth) + "\n";
@@ -57,9 +62,9 @@ std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& co
             start_and_path(domain, atlas.id(example.demo), example.path, 2);
     const auto world = atlas.id(example.demo).mdp;
     const auto add = [&](const std::string& line) { text += "  " + wrapped(line, kTextWidth - 2, "  ") + "\n"; };
-    const auto runs = runs_text(atlas, example.demo);
+    const auto runs = runs_from(atlas, example.demo);
     if (example.alternative || !runs.empty()) add("the robot: " + path_text(domain, world, example.path));
-    if (!runs.empty()) add(runs);
+    if (!runs.empty()) add(runs_in_words(domain, world, runs));
     if (example.alternative) add("otherwise: " + path_text(domain, world, *example.alternative));
   }
   return text + "\n" + legend(domain, 0);

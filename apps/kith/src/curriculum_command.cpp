@@ -57,7 +57,7 @@ class CurriculumText {
     line("the robot: " + with_chance(world, contrast.robot), 5);
     runs(shown.demo, shown.runs);
     if (contrast.robot.actions == contrast.alternative.actions) {
-      line("someone missing this fact would predict the same likeliest path, with other chances", 5);
+      line("someone missing this fact would predict the same most likely path, but with other chances", 5);
     } else {
       const auto fork = contrast.robot.states[contrast.decisive];
       line("someone missing this fact would predict: " + with_chance(world, contrast.alternative), 5);

@@ -46,6 +46,29 @@ TEST_F(Model, IsValidAndShown) {
   }
 }
 
+TEST_F(Model, IsAskedAboutWithItsChances) {
+  const std::vector<std::string> question{"ask", scratch_ / "icy_crossing.toml", "why right at 'a1' in world 0?"};
+  const auto said = run_kith(question);
+  ASSERT_EQ(said.code, 0) << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr("the robot: right x5 (most likely path, 66 % chance)"),
+                              HasSubstr("falling into the water in "), HasSubstr(" of 10 runs"),
+                              HasSubstr("otherwise: down x2, right x5, up x2\n")));
+  auto as_json = question;
+  as_json.emplace_back("--json");
+  const auto document = Json::parse(run_kith(as_json).out);
+  const auto& example = document.at("examples").at(0);
+  EXPECT_NEAR(example.at("chance").get<double>(), 0.66, 0.005);
+  EXPECT_TRUE(example.at("alternative").at("chance").is_null()) << "nobody slips on the bank";
+  ASSERT_EQ(example.at("runs").at("runs").size(), 10u);
+  for (const auto& run : example.at("runs").at("runs")) {
+    EXPECT_EQ(run.at("frames").at(0).at("robot"), example.at("start").at("robot"));
+    EXPECT_TRUE(run.at("ended").is_boolean());
+  }
+  const auto certain = Json::parse(run_kith({"ask", "item-delivery", "when does it recharge?", "--json"}).out);
+  EXPECT_TRUE(certain.at("examples").at(0).at("chance").is_null());
+  EXPECT_TRUE(certain.at("examples").at(0).at("runs").is_null());
+}
+
 struct Malformed {
   std::string file, from, to;
   std::string place;  // "_states.csv:3:1: error[E0241]"

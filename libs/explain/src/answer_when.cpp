@@ -29,11 +29,9 @@ void Answerer::when() {
   }
   if (possible == 0) static_cast<void>(scene_.needed_start(last_world()));
   const auto n = question_.negated ? possible - yes : yes;
-  const std::string verb = question_.negated ? " does not happen in " : most > 0.0 ? " can happen in " : " happens in ";
-  reply_.text = first_upper(scene_.name_of(happening)) + verb + worlds_text(n, possible) + from_the_start();
-  if (most > 0.0 && !question_.negated) {
-    reply_.text += chance_text({std::nullopt, true, std::nullopt, most}) + (yes > 1 ? " at most" : "");
-  }
+  const auto how = question_.negated ? Happens::kNo : most > 0.0 ? Happens::kMaybe : Happens::kYes;
+  reply_.text = first_upper(says_that(happening, how)) + " in " + worlds_text(n, possible) + from_the_start();
+  if (most > 0.0 && !question_.negated) reply_.text += chance_text({std::nullopt, true, std::nullopt, most}, yes > 1);
   reply_.text += ".";
   if (yes == 0 || yes == possible) {
     when_alike(worlds);
@@ -45,15 +43,9 @@ void Answerer::when() {
 void Answerer::when_in(MdpIndex number) {
   const auto& happening = *question_.happening;
   const auto world = look_at(scene_.needed_start(number));
-  reply_.text = first_upper(scene_.name_of(happening));
-  if (!world.happens) {
-    reply_.text += " does not happen there.";
-  } else if (world.chance) {
-    reply_.text += " can happen there" + chance_text(world) + ".";
-  } else {
-    reply_.text +=
-        " happens there" + (world.step ? ", in step " + std::to_string(*world.step + 1) : std::string{}) + ".";
-  }
+  reply_.text = first_upper(says_that(happening, world.how())) + " there" + chance_text(world);
+  if (world.happens && !world.chance && world.step) reply_.text += ", in step " + std::to_string(*world.step + 1);
+  reply_.text += ".";
   show_world(world);
 }
 

@@ -48,17 +48,17 @@ void Answerer::where() {
   const auto end = question_.world ? first + 1 : domain_.num_mdps();
   for (MdpIndex m{first}; m.value() < end; ++m) add_places(m, places);
   std::erase_if(places, [](const auto& entry) { return entry.second.worlds == 0; });
-  const auto name = first_upper(scene_.name_of(happening));
   if (places.empty()) {
-    reply_.text = name + (question_.negated ? " happens everywhere " : " happens nowhere ") + on_the_way() + ".";
+    reply_.text = first_upper(says_that(happening, Happens::kYes)) +
+                  (question_.negated ? " everywhere " : " nowhere ") + on_the_way() + ".";
     return show_world(look_at(scene_.needed_start(question_.world.value_or(last_world()))));
   }
   std::vector<Place> sorted;
   sorted.reserve(places.size());
   for (const auto& [spot, place] : places) sorted.push_back(place);
   std::stable_sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) { return a.worlds > b.worlds; });
-  const std::string verb = question_.negated ? " does not happen " : domain_.is_exact() ? " happens " : " can happen ";
-  reply_.text = name + verb + listed(place_texts(sorted)) + ", " + on_the_way() + ".";
+  const auto how = question_.negated ? Happens::kNo : domain_.is_exact() ? Happens::kYes : Happens::kMaybe;
+  reply_.text = first_upper(says_that(happening, how)) + " " + listed(place_texts(sorted)) + ", " + on_the_way() + ".";
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxCells); ++i) {
     const auto& place = sorted[i];
     show(place.demo,

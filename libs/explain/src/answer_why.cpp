@@ -53,9 +53,7 @@ void Answerer::why_path(DemoIndex demo) {
   if (!question_.happening) std::swap(question_.happening, question_.instead);  // look_at() takes the happening
   const auto world = look_at(demo);
   const bool does = world.happens;
-  const auto what = scene_.name_of(asked) +
-                    (does ? (world.chance ? " can happen in " : " happens in ") : " does not happen in ") +
-                    scene_.name_of(number) + chance_text(world);
+  const auto what = says_that(asked, world.how()) + " in " + scene_.name_of(number) + chance_text(world);
   if (question_.happening && question_.instead && does) {
     return conclude(demo, what, scene_.contrast_to(demo, *question_.instead, true),
                     nothing_else(number, *question_.instead, true));

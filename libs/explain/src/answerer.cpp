@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kith/explain/words.hpp"
+#include "kith/mdp/behaviour.hpp"
 
 namespace kith::detail {
 
@@ -46,12 +47,24 @@ std::string Answerer::from_the_start() const {
 }
 
 std::string Answerer::on_the_way() const {
-  return (domain_.is_exact() ? "on the way from " : "on the likeliest way from ") + start();
+  return (domain_.is_exact() ? "on the way from " : "on the most likely path from ") + start();
 }
 
 std::string Answerer::verb_of(const Happening& happening) const {
   return happening.action ? action_infinitive(scene_.action(*happening.action))
                           : doing(domain_.wording(happening.feature), 1, false);
+}
+
+std::string Answerer::says_that(const Happening& happening, Happens how) const {
+  if (happening.action) {
+    const auto& name = scene_.action(*happening.action);
+    return how == Happens::kYes ? "it " + action_words(name)
+                                : (how == Happens::kMaybe ? "it may " : "it does not ") + action_infinitive(name);
+  }
+  const char* const verb = how == Happens::kYes     ? " happens"
+                           : how == Happens::kMaybe ? " can happen"
+                                                    : " does not happen";
+  return scene_.name_of(happening) + verb;
 }
 
 std::string Answerer::does(const Happening& happening, bool negated) const {
@@ -74,39 +87,41 @@ Answerer::World Answerer::look_at(std::optional<DemoIndex> start) const {
   return world;
 }
 
-std::string Answerer::chance_text(const World& world, const std::string& before) {
+std::string Answerer::chance_text(const World& world, bool at_most) {
   if (!world.chance) return "";
   constexpr double kSmall = 0.01;
   const double percent = 100.0 * *world.chance;
-  if (*world.chance < kSmall) return before + "with a chance below 1 %";
-  if (*world.chance > 1.0 - kSmall) return before + "with a chance above 99 %";
-  return before + "with a chance of " + std::to_string(std::llround(percent)) + " %";
+  if (*world.chance < kSmall) return ", with a chance below 1 %";
+  if (*world.chance > 1.0 - kSmall) return ", with a chance above 99 %";
+  return std::string{", with a chance of "} + (at_most ? "at most " : "") + std::to_string(std::llround(percent)) +
+         " %";
 }
 
 std::string Answerer::it_does(const World& world) {
   if (!world.happens) return ", it does not: ";
-  return (world.chance ? ", it may" + chance_text(world, " ") : std::string{", it does"}) + ": ";
+  return (world.chance ? ", it may" + chance_text(world) : std::string{", it does"}) + ": ";
 }
 
 std::string Answerer::nothing_else(MdpIndex world, const Happening& happening, bool happens) const {
-  if (happens && !happening.action && !domain_.mdp(world).has_feature(happening.feature)) return "there is none";
-  if (!domain_.is_exact()) {
-    return happens ? "no other single step would make it likelier" : "no other single step would make it less likely";
+  if (happens && !happening.action && !domain_.mdp(world).has_feature(happening.feature)) return "this world has none";
+  if (!is_exact(domain_.mdp(world))) {
+    return happens ? "no other single step would make it more likely"
+                   : "no other single step would make it less likely";
   }
-  if (atlas_.is_tabulated()) return happens ? "no sensible path has it" : "every sensible path has it";
+  if (atlas_.is_tabulated()) return happens ? "it happens on no sensible path" : "it happens on every sensible path";
   const bool tried_others = !happening.action && !question_.is_about_a_step();
   if (!tried_others) {
     return happens ? "no other single step would lead to it" : "no other single step would avoid it";
   }
-  if (!happens) return "every sensible path has it";
+  if (!happens) return "it happens on every sensible path";
   return domain_.weights().integer[happening.feature] < 0 ? "it would not, even if that were free"
-                                                          : "no sensible path has it";
+                                                          : "it happens on no sensible path";
 }
 
 std::string Answerer::because(const std::optional<Contrast>& contrast, const std::string& nothing) const {
   if (!contrast) return nothing;
-  if (contrast->robot_counts == contrast->alternative_counts) return "both paths count the same";
-  if (!conveyed_by(domain_, *contrast)) return "both paths are worth the same";
+  if (contrast->robot_counts == contrast->alternative_counts) return "the other path is just as good";
+  if (!conveyed_by(domain_, *contrast)) return "the other path is worth just as much to it";
   return has_several(*contrast) && is_detour(domain_, *contrast) ? detour(*contrast)
                                                                  : reason_in_tries(atlas_, *contrast);
 }
@@ -117,13 +132,14 @@ bool Answerer::has_several(const Contrast& contrast) const {
 }
 
 std::string Answerer::detour(const Contrast& contrast) const {
-  if (!domain_.is_exact()) {
+  if (!is_exact(domain_.mdp(atlas_.id(contrast.demo).mdp))) {
     return "the best other step has no advantage: " +
            on_average_in_words(domain_, contrast.robot_counts - contrast.alternative_counts);
   }
   std::vector<std::string> added, missed;
+  const auto counts = whole_counts(domain_, contrast.alternative_counts - contrast.robot_counts);
   for (std::size_t k = 0; k < domain_.num_features(); ++k) {
-    const auto more = contrast.alternative_counts[k] - contrast.robot_counts[k];
+    const auto more = counts[k];
     if (more > 0) added.push_back(times(domain_.wording(k), more));
     if (more < 0) missed.push_back(times(domain_.wording(k), -more));
   }

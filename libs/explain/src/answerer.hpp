@@ -42,18 +42,24 @@ class Answerer {
   [[nodiscard]] std::string does(const Happening& happening, bool negated) const;
 
   // --- chances ----------------------------------------------------------------
+  enum class Happens : std::uint8_t { kNo, kMaybe, kYes };
+
+  // "stopping at the charger happens", "falling into the water can happen", "it does not go up".
+  [[nodiscard]] std::string says_that(const Happening& happening, Happens how) const;
+
   // How it goes in one world: whether it happens, at which step of the path shown, and with which chance.
   struct World {
     std::optional<DemoIndex> start;   // nothing: the robot is never there
     bool happens = false;             // or can happen
     std::optional<std::size_t> step;  // of the path shown
     std::optional<double> chance;     // where chance has a part in it
+    [[nodiscard]] Happens how() const { return !happens ? Happens::kNo : chance ? Happens::kMaybe : Happens::kYes; }
   };
 
   [[nodiscard]] World look_at(std::optional<DemoIndex> start) const;
 
-  // ", with a chance of 18 %"; nothing where it is certain.
-  [[nodiscard]] static std::string chance_text(const World& world, const std::string& before = ", ");
+  // ", with a chance of 18 %", "... of at most 18 %"; nothing where it is certain.
+  [[nodiscard]] static std::string chance_text(const World& world, bool at_most = false);
 
   [[nodiscard]] static std::string it_does(const World& world);
 

@@ -1,6 +1,7 @@
 #include "kith/explain/contrast.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -62,23 +63,37 @@ std::optional<HalfSpace> conveyed_by(const Domain& domain, const Contrast& contr
   return preference_of_robot(domain, contrast.robot_counts - contrast.alternative_counts);
 }
 
+IntegerVector whole_counts(const Domain& domain, const IntegerVector& counts) {
+  IntegerVector whole(counts.size());
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    whole[k] = std::llround(static_cast<double>(counts[k]) / static_cast<double>(domain.count_scale()));
+  }
+  return whole;
+}
+
 std::string reason(const Atlas& atlas, const Contrast& contrast, std::span<const HalfSpace> together) {
   const auto& domain = atlas.domain();
   if (domain.is_exact()) return reason(domain, contrast.robot_counts, contrast.alternative_counts);
   const auto conveyed = conveyed_by(domain, contrast);
   if (!conveyed) throw std::invalid_argument{"reason: both paths are worth the same"};
-  const auto difference = contrast.robot_counts - contrast.alternative_counts;
-  const auto risk = risk_in_words(domain, atlas.id(contrast.demo).mdp, difference);
+  const auto world = atlas.id(contrast.demo).mdp;
   const auto sentence = in_words(domain, *conveyed, together);
+  if (is_exact(domain.mdp(world))) {
+    return choice_in_words(domain, whole_counts(domain, contrast.robot_counts),
+                           whole_counts(domain, contrast.alternative_counts)) +
+           (sentence.empty() ? "" : ": " + sentence);
+  }
+  const auto difference = contrast.robot_counts - contrast.alternative_counts;
+  const auto risk = risk_in_words(domain, world, difference);
   return (risk.empty() ? "" : risk + ": ") + on_average_in_words(domain, difference) +
          (sentence.empty() ? "" : "; " + sentence);
 }
 
 std::string reason_in_tries(const Atlas& atlas, const Contrast& contrast) {
   const auto& domain = atlas.domain();
-  const auto conveyed = domain.is_exact() ? std::nullopt : conveyed_by(domain, contrast);
-  if (!conveyed) return reason(atlas, contrast);
   const auto world = atlas.id(contrast.demo).mdp;
+  const auto conveyed = is_exact(domain.mdp(world)) ? std::nullopt : conveyed_by(domain, contrast);
+  if (!conveyed) return reason(atlas, contrast);
   const auto difference = contrast.robot_counts - contrast.alternative_counts;
   const auto risks = risks_of(domain, world, difference);
   const auto statement = statement_in_tries(domain, difference, *conveyed, risks, atlas.policy_bec_half_spaces());

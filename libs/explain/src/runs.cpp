@@ -76,24 +76,30 @@ std::vector<PolicyRun> several_runs(const Atlas& atlas, DemoIndex start, std::si
 }
 
 std::string runs_in_words(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs) {
+  const auto all = counted(runs.size(), "run");
   std::vector<std::string> told;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     if (!domain.mdp(world).has_feature(k)) continue;
     const auto n = static_cast<std::size_t>(
         std::count_if(runs.begin(), runs.end(), [&](const PolicyRun& run) { return run.times[k] > 0; }));
-    if (n > 0 && n < runs.size()) told.push_back(domain.wording(k).one + " in " + std::to_string(n));
+    if (n == 0 || n == runs.size()) continue;
+    told.push_back(domain.wording(k).one + " in " + std::to_string(n) + (told.empty() ? " of " + all : ""));
   }
+  std::string text = listed(told);
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   const auto unfinished = static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [](const PolicyRun& run) { return !run.has_ended; }));
-  if (unfinished > 0)
-    told.push_back("no end within " + counted(domain.max_steps(), "step") + " in " +
-                   (unfinished == runs.size() ? "all" : std::to_string(unfinished)));
-  const auto ways = different_ways(runs);
-  if (ways.size() > 1) {
-    told.push_back(ways.front().times > 1 ? "the most common path in " + std::to_string(ways.front().times)
-                                          : std::string{"a different path in each"});
+  if (unfinished > 0) {
+    add((unfinished == runs.size() ? "none of " + all : std::to_string(unfinished) + " of " + all + " not") +
+        " finished within " + counted(domain.max_steps(), "step"));
   }
-  return "in " + counted(runs.size(), "run") + ": " + (told.empty() ? "the same path each time" : listed(told));
+  const auto ways = different_ways(runs);
+  if (ways.front().times > 1) {
+    add("the same path in " + (ways.size() == 1 ? "all " : std::to_string(ways.front().times) + " of ") + all);
+  } else if (runs.size() > 1) {
+    add("a different path in each of " + all);
+  }
+  return text;
 }
 
 std::vector<Way> different_ways(const std::vector<PolicyRun>& runs) {

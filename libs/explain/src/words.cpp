@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "kith/explain/statement.hpp"
@@ -248,11 +249,15 @@ struct RoundedDifference {
   double value = 0.0;
 };
 
+double per_try(const Domain& domain, std::int64_t count) {
+  return static_cast<double>(count) / static_cast<double>(domain.count_scale());
+}
+
 RoundedDifference in_tries(const Domain& domain, const IntegerVector& difference, double tries) {
   RoundedDifference result;
   std::vector<std::string> less, more;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    const double n = tries * static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
+    const double n = tries * per_try(domain, difference[k]);
     const auto rounded = about(std::abs(n));
     if (rounded == 0) continue;
     result.value +=
@@ -265,44 +270,55 @@ RoundedDifference in_tries(const Domain& domain, const IntegerVector& difference
   return result;
 }
 
-// Whether some action brings the feature in less than half of the cases: an accident, or a lucky chance.
+// Whether some action brings the feature in less than half of the cases, and most actions do not bring it in half of
+// them: an accident, or a lucky chance. A step that is not taken because the robot falls is none.
 bool is_by_chance(const Mdp& mdp, std::size_t feature) {
   constexpr double kHalf = 0.5;
+  bool has_chance = false;
+  std::size_t usual = 0, all = 0;
   for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
     for (const auto& choice : mdp.choices(s)) {
       double chance = 0.0;
       for (const auto& outcome : mdp.outcomes(choice)) {
         if (mdp.features(outcome)[feature] != 0.0) chance += outcome.probability;
       }
-      if (chance > 0.0 && chance < kHalf) return true;
+      has_chance = has_chance || (chance > 0.0 && chance < kHalf);
+      usual += chance >= kHalf ? 1U : 0U;
+      ++all;
     }
   }
-  return false;
+  return has_chance && 2 * usual < all;
 }
 
-constexpr const char* kNoDifference = "in 100 tries its choice makes almost no difference";
+// In how many tries a difference can be told: in 1000 if in 100 what decides would be rounded away; nothing if it makes
+// almost no difference in either.
+std::optional<int> tries_to_tell(const Domain& domain, const IntegerVector& difference) {
+  for (const int tries : {100, 1000}) {
+    const auto told = in_tries(domain, difference, tries);
+    if (!told.parts.empty() && told.value > 0.0) return tries;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
 std::string on_average_in_words(const Domain& domain, const IntegerVector& difference) {
   const bool is_discounted = domain.mdp(MdpIndex{0}).discount() < 1.0;
   const std::string later = is_discounted ? ", with later steps counting less," : "";
-  for (const int tries : {100, 1000}) {
-    const auto told = in_tries(domain, difference, tries);
-    if (told.parts.empty() || told.value <= 0.0) continue;  // what decides would be rounded away
-    return "in " + std::to_string(tries) + " tries" + later + " its choice means " + listed(told.parts);
-  }
-  return kNoDifference;
+  const auto tries = tries_to_tell(domain, difference);
+  if (!tries) return "in 100 tries the robot's choice makes almost no difference";
+  return "in " + std::to_string(*tries) + " tries" + later + " the robot's choice means " +
+         listed(in_tries(domain, difference, *tries).parts);
 }
 
 std::vector<std::size_t> risks_of(const Domain& domain, MdpIndex world, const IntegerVector& difference) {
-  constexpr double kNothing = 0.0005;
-  if (on_average_in_words(domain, difference) == kNoDifference) return {};
+  const auto tries = tries_to_tell(domain, difference);
+  if (!tries) return {};
   std::vector<std::size_t> risked, avoided;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    const double n = static_cast<double>(difference[k]) / static_cast<double>(domain.count_scale());
-    if (domain.weights().integer[k] >= 0 || std::abs(n) < kNothing || !is_by_chance(domain.mdp(world), k)) continue;
-    (n > 0.0 ? risked : avoided).push_back(k);
+    const bool is_told = about(*tries * std::abs(per_try(domain, difference[k]))) > 0;
+    if (domain.weights().integer[k] >= 0 || !is_told || !is_by_chance(domain.mdp(world), k)) continue;
+    (difference[k] > 0 ? risked : avoided).push_back(k);
   }
   return risked.empty() ? avoided : risked;
 }
@@ -353,13 +369,13 @@ std::string counted(std::size_t n, const std::string& noun) {
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
-std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajectory& path) {
+std::optional<double> chance_of_path(const Domain& domain, MdpIndex world, const Trajectory& path) {
   const auto& mdp = domain.mdp(world);
   double chance = 1.0;
   for (std::size_t t = 0; t < path.actions.size(); ++t) {
     const auto choices = mdp.choices(path.states[t]);
     const auto choice = std::ranges::find(choices, path.actions[t], &Choice::action);
-    if (choice == choices.end()) return "";
+    if (choice == choices.end()) return std::nullopt;
     double step = 0.0;
     for (const auto& outcome : mdp.outcomes(*choice)) {
       if (outcome.next == path.states[t + 1]) step += outcome.probability;
@@ -367,9 +383,15 @@ std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajecto
     chance *= step;
   }
   constexpr double kCertain = 1.0 - 1e-9;
+  if (chance > kCertain) return std::nullopt;
+  return chance;
+}
+
+std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajectory& path) {
   constexpr double kSmall = 0.01;
-  if (chance > kCertain) return "";
-  return "likeliest path, chance " + (chance < kSmall ? "below 1" : fixed(100.0 * chance, 0)) + " %";
+  const auto chance = chance_of_path(domain, world, path);
+  if (!chance) return "";
+  return "most likely path, " + (*chance < kSmall ? "less than 1" : fixed(100.0 * *chance, 0)) + " % chance";
 }
 
 std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions) {

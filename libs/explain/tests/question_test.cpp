@@ -88,9 +88,9 @@ TEST(AskWhen, LooksAtTheNextStepWhereACellIsNamed) {
 
 TEST(AskWhen, SaysSoWhereItIsTheSameEverywhere) {
   const auto reply = ask("when pickup");
-  EXPECT_EQ(reply.text, "'pickup' happens in 64 of 64 worlds on the way from the map's start.");
+  EXPECT_EQ(reply.text, "It picks it up in 64 of 64 worlds on the way from the map's start.");
   ASSERT_EQ(reply.examples.size(), 1u);
-  EXPECT_THAT(reply.examples[0].text, HasSubstr("world 63, it does: every sensible path has it"));
+  EXPECT_THAT(reply.examples[0].text, HasSubstr("world 63, it does: it happens on every sensible path"));
 }
 
 TEST(AskWhere, ListsCellsWithAPathForEach) {
@@ -193,8 +193,8 @@ TEST(AskOnDemand, ComparesWithThoseToWhomAFeatureMeansMore) {
             "cost more than going through smoke.");
   const auto& mdp = atlas.domain().mdp(MdpIndex{8});
   EXPECT_TRUE(mdp.is_terminal(reply.examples.at(0).alternative->states.back()));
-  EXPECT_THAT(ask("why recharge in world 15", "rescue-floor").text, HasSubstr("; every sensible path has it."));
-  EXPECT_THAT(ask("why not rubble in world 0", "rescue-floor").text, HasSubstr("; there is none."));
+  EXPECT_THAT(ask("why recharge in world 15", "rescue-floor").text, HasSubstr("; it happens on every sensible path."));
+  EXPECT_THAT(ask("why not rubble in world 0", "rescue-floor").text, HasSubstr("; this world has none."));
 }
 
 TEST(AskOnDemand, ShowsWorldsThatDifferAsLittleAsAnyDo) {
@@ -225,11 +225,34 @@ TEST(AskOfAModel, GivesChances) {
               HasSubstr("Falling into the water can happen in 1 of 3 worlds on the way from the first state, "
                         "with a chance of "));
   for (const auto& example : reply.examples) {
-    EXPECT_THAT(example.text, ::testing::AnyOf(HasSubstr(", it may with a chance of "), HasSubstr(", it does not: ")));
+    EXPECT_THAT(example.text, ::testing::AnyOf(HasSubstr(", it may, with a chance of "), HasSubstr(", it does not: ")));
     EXPECT_THAT(example.text, ::testing::Not(HasSubstr("a single other step")));
   }
   const auto world = std::to_string(atlas_of(pond).id(reply.examples.at(0).demo).mdp.value());
   EXPECT_THAT(ask("when water in world " + world, pond).text, HasSubstr("can happen there, with a chance of "));
+}
+
+// One world of the lake is firm ice: nothing is left to chance there, although it is in the other worlds.
+TEST(AskOfAModel, SpeaksOfNoTriesWhereNothingIsLeftToChance) {
+  const std::string gallery = std::string{KITH_SOURCE_DIR} + "/domains/gallery/";
+  EXPECT_EQ(
+      ask("why left at 'on the ice at (3,1)' in world 0", gallery + "frozen_lake.toml").text,
+      "It does not: in state 'on the ice at (3,1)' in world 0 (firm ice) it goes down; it would rather not take 2 "
+      "more steps: a step costs something.");
+  EXPECT_EQ(
+      ask("why not hole in world 0", gallery + "frozen_lake.toml").text,
+      "Falling into a hole does not happen in world 0 (firm ice); it would rather take 4 more steps than fall into "
+      "a hole: falling into a hole costs more than 4 steps.");
+  EXPECT_EQ(
+      ask("why right, not down, at 'on the path at (5,3)' in world 0", gallery + "cliff_walking.toml").text,
+      "In state 'on the path at (5,3)' in world 0 (firm path) it goes right; the best other path has no advantage: "
+      "it adds falling off the cliff and 5 steps.");
+  for (const char* const action : {"left", "right", "up", "down"}) {
+    for (const auto& example :
+         ask(std::string{"why "} + action + " in world 0", gallery + "cliff_walking.toml").examples) {
+      EXPECT_EQ(example.text.find("tries"), std::string::npos) << example.text;
+    }
+  }
 }
 
 TEST(AskOfAModel, TakesNamesOfStatesWithoutQuotes) {
@@ -275,8 +298,8 @@ TEST(AskWhere, AnswersTheNegatedQuestion) {
   const auto up = ask("where does it go left in world 63");
   const auto not_up = ask("where does it not go left in world 63?");
   EXPECT_EQ(not_up.question, "Where does it not go left in world 63?");
-  EXPECT_THAT(up.text, HasSubstr("'left' happens at "));
-  EXPECT_THAT(not_up.text, HasSubstr("'left' does not happen at "));
+  EXPECT_THAT(up.text, HasSubstr("It goes left at "));
+  EXPECT_THAT(not_up.text, HasSubstr("It does not go left at "));
   for (const auto& example : not_up.examples) {
     const auto action = example.path.actions.at(example.decisive.value());
     EXPECT_NE(atlas.domain().action_names()[action.value()], "left") << example.text;

@@ -71,8 +71,14 @@ TEST(Runs, AreCountedInWords) {
     return result;
   };
   EXPECT_EQ(runs_in_words(domain, MdpIndex{0}, {run(1, 0), run(0, 1), run(0, 1)}),
-            "in 3 runs: falling into a hole in 1, reaching the goal in 2 and the most common path in 2");
-  EXPECT_EQ(runs_in_words(domain, MdpIndex{0}, {run(0, 1), run(0, 1)}), "in 2 runs: the same path each time");
+            "falling into a hole in 1 of 3 runs and reaching the goal in 2; the same path in 2 of 3 runs");
+  EXPECT_EQ(runs_in_words(domain, MdpIndex{0}, {run(0, 1), run(0, 1)}), "the same path in all 2 runs");
+  EXPECT_EQ(runs_in_words(domain, MdpIndex{0}, {run(0, 1), run(0, 2)}), "a different path in each of 2 runs");
+  auto endless = run(0, 2);
+  endless.has_ended = false;
+  EXPECT_EQ(runs_in_words(domain, MdpIndex{0}, {run(1, 1), endless}),
+            "falling into a hole in 1 of 2 runs and reaching the goal in 1; 1 of 2 runs not finished within 200 steps; "
+            "a different path in each of 2 runs");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "atlases.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/reason.hpp"
 #include "kith/random/distributions.hpp"
@@ -113,15 +114,15 @@ IntegerVector thousandths(const Domain& domain, const IntegerVector& n) {
 TEST(OnAverage, CountsInAHundredTries) {
   const auto& domain = mud_and_dock();  // its counts are whole
   EXPECT_EQ(on_average_in_words(domain, {-1, 0, 1}),
-            "in 100 tries its choice means crossing mud about 100 fewer times and about 100 more steps");
+            "in 100 tries the robot's choice means crossing mud about 100 fewer times and about 100 more steps");
   EXPECT_EQ(on_average_in_words(domain, {0, 2, 5}),
-            "in 100 tries its choice means stopping at the dock about 200 more times and about 500 more steps");
-  EXPECT_EQ(on_average_in_words(domain, {0, 0, 0}), "in 100 tries its choice makes almost no difference");
+            "in 100 tries the robot's choice means stopping at the dock about 200 more times and about 500 more steps");
+  EXPECT_EQ(on_average_in_words(domain, {0, 0, 0}), "in 100 tries the robot's choice makes almost no difference");
 }
 
 TEST(OnAverage, RoundsToTwoDigitsAndKeepsWhatDecides) {
   const auto icy = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
-  const std::string in_100 = "in 100 tries, with later steps counting less, its choice means ";
+  const std::string in_100 = "in 100 tries, with later steps counting less, the robot's choice means ";
   EXPECT_EQ(on_average_in_words(icy, thousandths(icy, {-226, 94, 2714})),
             in_100 +
                 "falling into the water about 23 fewer times, coming home about 9 more times and about 270 more "
@@ -131,9 +132,10 @@ TEST(OnAverage, RoundsToTwoDigitsAndKeepsWhatDecides) {
   EXPECT_EQ(on_average_in_words(icy, thousandths(icy, {-10, 0, 10})),
             in_100 + "falling into the water about once less and about one more step");
   // In 100 tries it would only cost 3 steps.
-  EXPECT_EQ(on_average_in_words(icy, thousandths(icy, {-4, 0, 30})),
-            "in 1000 tries, with later steps counting less, its choice means falling into the water about 4 fewer "
-            "times and about 30 more steps");
+  EXPECT_EQ(
+      on_average_in_words(icy, thousandths(icy, {-4, 0, 30})),
+      "in 1000 tries, with later steps counting less, the robot's choice means falling into the water about 4 fewer "
+      "times and about 30 more steps");
 }
 
 TEST(InTries, ComparesWhatHappensInAFewTries) {
@@ -158,6 +160,41 @@ TEST(Risk, IsNamedWhereChanceDecides) {
   EXPECT_EQ(risk_in_words(cliff, MdpIndex{0}, thousandths(cliff, {-1000, 1000})),
             "it avoids the risk of falling off the cliff");
   EXPECT_EQ(risk_in_words(mud_and_dock(), MdpIndex{0}, {-1, 0, 1}), "");
+  // Only what the numbers tell: 2 more falls in 10000 tries are none in 100.
+  EXPECT_EQ(risk_in_words(cliff, MdpIndex{0}, {cliff.count_scale() / 5000, -5 * cliff.count_scale()}), "");
+}
+
+// Where one move in five goes wrong, a jump off the cliff brings a step in one of five cases only.
+TEST(Risk, IsNoStepThatAFallTakesThePlaceOf) {
+  const auto cliff = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/gallery/cliff_walking.toml");
+  for (MdpIndex world{0}; world.value() < cliff.num_mdps(); ++world) {
+    EXPECT_EQ(risk_in_words(cliff, world, thousandths(cliff, {0, -840})), "");
+    EXPECT_EQ(risk_in_words(cliff, world, thousandths(cliff, {-100, -840})),
+              world.value() == 0 ? "" : "it avoids the risk of falling off the cliff");
+  }
+}
+
+// On very slippery ice most moves may end in a hole, but hardly any in half of the cases.
+TEST(Risk, IsAnAccidentHoweverManyActionsMayBringIt) {
+  const auto lake = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/gallery/frozen_lake.toml");
+  const std::vector<std::string> risks{"", "it risks falling into a hole", "it risks falling into a hole"};
+  for (MdpIndex world{0}; world.value() < lake.num_mdps(); ++world) {
+    EXPECT_EQ(risk_in_words(lake, world, thousandths(lake, {40, -5000})), risks[world.value()]);
+  }
+}
+
+TEST(Chance, OfAPathIsAProductAndIsLeftOutWhereItIsCertain) {
+  const auto icy = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
+  const Atlas& atlas = testing::atlas_of(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
+  const MdpIndex firm{0}, glaze{2};
+  const auto across = atlas.trajectory(atlas.index({firm, icy.initial_state(firm)}));
+  const auto chance = chance_of_path(icy, firm, across);
+  ASSERT_TRUE(chance.has_value());
+  EXPECT_EQ(chance_in_words(icy, firm, across),
+            "most likely path, " + std::to_string(std::llround(100.0 * *chance)) + " % chance");
+  const auto around = atlas.trajectory(atlas.index({glaze, icy.initial_state(glaze)}));
+  EXPECT_FALSE(chance_of_path(icy, glaze, around).has_value());
+  EXPECT_EQ(chance_in_words(icy, glaze, around), "");
 }
 
 TEST(InWords, AvoidsTheVerbWhereWordsDoNotTellTheirNumber) {

@@ -2,23 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "kith/explain/runs.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/present/board_json.hpp"
 
 namespace kith {
 namespace {
-
-// Null where chance has no part.
-Json runs_json(const Atlas& atlas, DemoIndex demo, const std::vector<PolicyRun>& runs) {
-  if (runs.empty()) return nullptr;
-  const auto world = atlas.id(demo).mdp;
-  Json all = Json::array();
-  for (const auto& run : runs) {
-    all.push_back({{"frames", frames_json(atlas.domain(), world, run.path)}, {"ended", run.has_ended}});
-  }
-  return {{"text", runs_in_words(atlas.domain(), world, runs)}, {"runs", std::move(all)}};
-}
 
 Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown) {
   const auto& domain = atlas.domain();
@@ -29,7 +17,7 @@ Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown
   json["conveys"] = sentences_json(domain, shown.conveys);
   json["alternative"] = {{"frames", frames_json(domain, world, shown.contrast.alternative)}};
   json["decisive"] = step_json(domain, world, shown.contrast.robot, shown.contrast.decisive);
-  json["runs"] = runs_json(atlas, shown.demo, shown.runs);
+  json["runs"] = runs_json(domain, world, shown.runs);
   json["flip"] = nullptr;
   if (shown.flip) {
     const auto id = atlas.id(shown.flip->demo);
@@ -44,7 +32,7 @@ Json test_json(const Atlas& atlas, const CurriculumTest& test) {
   const auto id = atlas.id(test.demo);
   auto json = board_json(atlas.domain(), id);
   json["frames"] = frames_json(atlas.domain(), id.mdp, atlas.trajectory(test.demo));
-  json["runs"] = runs_json(atlas, test.demo, test.runs);
+  json["runs"] = runs_json(atlas.domain(), id.mdp, test.runs);
   json["difficulty"] = name_of(test.difficulty);
   json["share_right"] = test.share_right;
   json["covers"] = sentences_json(atlas.domain(), test.covers);

@@ -185,7 +185,7 @@ TEST(CurriculumJson, HasRunsWhereChanceHasAPart) {
   const auto json = curriculum_json(atlas, make_curriculum(atlas), 7, "kith test");
   for (const auto& shown : json.at("components").at(0).at("demonstrations")) {
     const auto& runs = shown.at("runs");
-    EXPECT_EQ(runs.at("text").get<std::string>().rfind("in 10 runs: ", 0), 0u);
+    EXPECT_NE(runs.at("text").get<std::string>().find("10 runs"), std::string::npos);
     ASSERT_EQ(runs.at("runs").size(), 10u);
     for (const auto& run : runs.at("runs")) {
       EXPECT_EQ(look_of(run.at("frames").at(0)), shown.at("start"));

@@ -8,6 +8,14 @@ import type { Domain } from './document';
 import { Player } from './player';
 import { actionsText, cellText, listed, mapText, placedStepText, placeOf, upperFirst } from './words';
 
+// What is said about a map of which only a part is shown.
+const kWindow = {
+  part: 'This is a part of the map. Drag it, press on the small map, or use the arrow keys to see the rest.',
+  label: 'A part of the map. The arrow keys move it.',
+  whole: 'Show the whole map',
+  enlarge: 'Enlarge the map',
+};
+
 export interface Context {
   domain: Domain;
   legend: Legend;
@@ -50,7 +58,7 @@ function PlayedBoard(props: SceneProps): JSX.Element {
   const step = Math.min(playback.step, board.frames.length - 1);
   return (
     <>
-      <BoardView {...props} step={step} walked={playback.step} label={labelOf(props)} path />
+      <BoardView {...props} step={step} walked={playback.step} label={labelOf(props)} path texts={kWindow} />
       <Player frames={step < playback.step ? holding(board.frames, longer) : board.frames} playback={playback} what={props.name} isCutOff={props.isCutOff} />
     </>
   );
@@ -119,6 +127,13 @@ export function Start({ domain, legend, board }: Context & { board: Board }): JS
   const text = mapText(domain, legend, board);
   if (!board.map) return <p>{listed(text)}</p>;
   return (
-    <BoardView domain={domain} legend={legend} board={board} step={0} label={`Map before the robot moves. ${text.join(' ')}`} />
+    <BoardView
+      domain={domain}
+      legend={legend}
+      board={board}
+      step={0}
+      label={`Map before the robot moves. ${text.join(' ')}`}
+      texts={kWindow}
+    />
   );
 }

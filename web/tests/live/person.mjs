@@ -7,7 +7,7 @@ const kPatience = 120_000; // milliseconds: the machine may be busy; nothing her
 // A page in a context of its own; requests to elsewhere, console messages and uncaught errors are collected. With
 // `stopped`, time passes on the page only when `pass` says so.
 export async function openPerson(browser, address, look = {}) {
-  const { width = 1280, height = 900, dark = false, reducedMotion = false, scale = 1, offline = false, stopped = false, locale = 'en-US' } = look;
+  const { width = 1280, height = 900, dark = false, reducedMotion = false, scale = 1, offline = false, stopped = false, hasTouch = false, locale = 'en-US' } = look;
   const context = await browser.newContext({
     viewport: { width, height },
     deviceScaleFactor: scale,
@@ -15,6 +15,7 @@ export async function openPerson(browser, address, look = {}) {
     reducedMotion: reducedMotion ? 'reduce' : 'no-preference',
     acceptDownloads: true,
     offline,
+    hasTouch,
     locale,
   });
   if (stopped) {

@@ -174,6 +174,42 @@ export function screenTests(setting) {
       );
     });
 
+    it('shows the part of a large board around the robot, which can be driven and looked past', async () => {
+      await withViews(
+        setting,
+        async ({ views, mock, person, page }) => {
+          await show({ mock, page }, views['predict-huge']);
+          await page.waitForSelector('.pad-row');
+          const look = () =>
+            page.evaluate(() => {
+              const [pan, robot] = ['.pan', '.mover'].map((selector) => document.querySelector(selector).getBoundingClientRect());
+              const isInside = robot.left >= pan.left && robot.right <= pan.right && robot.top >= pan.top && robot.bottom <= pan.bottom;
+              return { isInside, cell: document.querySelector('.pan svg').getBoundingClientRect().width / 60 };
+            });
+          const start = await look();
+          assert.ok(start.isInside && start.cell >= 16, JSON.stringify(start));
+          await person.drive(Array.from({ length: 30 }, () => 'down'));
+          assert.ok((await look()).isInside);
+          const steps = await page.textContent('.submit p');
+          assert.doesNotMatch(steps, /^0 /);
+          const left = await page.$eval('.pan', ({ scrollLeft }) => scrollLeft);
+          await page.keyboard.press('Shift+ArrowRight');
+          await page.waitForFunction((x) => document.querySelector('.pan').scrollLeft > x, left);
+          assert.equal(await page.textContent('.submit p'), steps, 'only the board has moved');
+          await page.locator('.overview').click({ position: { x: 40, y: 30 } });
+          await page.waitForFunction(() => document.querySelector('.pan').scrollTop > 0);
+          await person.button('Show the whole board').click();
+          await person.button('Enlarge the board').click();
+          assert.equal(await page.textContent('.submit p'), steps, 'nothing below the board drives the robot');
+          assert.ok((await look()).isInside);
+          const { x, y, width, height } = await page.locator('.mover').boundingBox();
+          await page.touchscreen.tap(x + width / 2 + 20, y + height / 2); // the next cell
+          await page.waitForFunction((text) => document.querySelector('.submit p').textContent !== text, steps);
+        },
+        { width: 390, height: 844, hasTouch: true },
+      );
+    });
+
     it('calls nothing saved while nothing is stored', async () => {
       await withViews(setting, async ({ views, mock, page }) => {
         for (const name of ['consent', 'declined', 'full']) {

@@ -38,13 +38,13 @@ const kMaplessWorld = {
   chance: true,
 };
 
-function largeBoard(domain) {
-  const map = Array.from({ length: 12 }, (_, y) =>
-    Array.from({ length: 20 }, (_, x) => (x === 0 && y === 11 ? 'G' : (x * 7 + y * 5) % 11 === 0 ? '#' : (x + 2 * y) % 7 === 0 ? 'r' : '.')).join(''),
+function largeBoard(domain, columns = 20, rows = 12) {
+  const map = Array.from({ length: rows }, (_, y) =>
+    Array.from({ length: columns }, (_, x) => (x === 0 && y === 11 ? 'G' : (x * 7 + y * 5) % 11 === 0 ? '#' : (x + 2 * y) % 7 === 0 ? 'r' : '.')).join(''),
   );
   map[3] = `${map[3].slice(0, 15)}B${map[3].slice(16)}`;
   const start = { robot: [10, 7], items: [{ name: 'parcel', cell: [18, 2], carried: false }], stations: [[16, 4]] };
-  const legendOnly = { id: domain.id, legend: domain.legend, width: 20, height: 12 };
+  const legendOnly = { id: domain.id, legend: domain.legend, width: columns, height: rows };
   return { domain: legendOnly, world: 1, map, start };
 }
 
@@ -97,6 +97,9 @@ export function makeViews(lesson, now = Date.now()) {
   const large = largeBoard(lesson.domain);
   views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
   room.worlds.set('large', makeWorld(large.domain, large, 'large'));
+  const huge = largeBoard(lesson.domain, 60, 40);
+  views['predict-huge'] = { ...views.predict, predict: { ...views.predict.predict, board: huge, world: 'huge' } };
+  room.worlds.set('huge', makeWorld(huge.domain, huge, 'huge'));
   room.worlds.set('mapless', { table: kMaplessWorld });
   const frame = (state, action) => ({ state, action });
   const way = [frame('far from the dock', 'drive'), frame('at the dock', 'wait'), frame('at the dock', 'dock'), frame('docked', null)];

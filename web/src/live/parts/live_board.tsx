@@ -32,6 +32,7 @@ interface Props {
 
 export function LiveBoardView({ board, legend, frames, step, trail, onCell, ...rest }: Props): JSX.Element {
   const clicked = (event: MouseEvent): void => {
+    if (event.target instanceof Element && event.target.closest('.pan-bar')) return; // what is below the board
     const cell = cellUnder(event);
     if (cell) onCell?.(cell);
   };
@@ -48,6 +49,17 @@ export function LiveBoardView({ board, legend, frames, step, trail, onCell, ...r
         path
         kind={trail}
         fill
+        hasArrows
+        texts={{
+          part: (
+            <>
+              {t('board.part')} <span class="for-keys">{t('board.part_keys')}</span>
+            </>
+          ),
+          label: t('board.part_label'),
+          whole: t('board.whole'),
+          enlarge: t('board.enlarge'),
+        }}
         {...rest}
       />
     </div>

@@ -1,9 +1,12 @@
 // A map with what is on it, the paths, and the robot at one step.
 import type { JSX } from 'preact';
-import { centre, kUnit, lineOf } from './geometry';
+import { useMemo } from 'preact/hooks';
+import { centre, kMargin, kUnit, lineOf } from './geometry';
 import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
+import { OverviewMap } from './overview';
 import type { Board, Frame, Item, MapDomain, Place } from './types';
+import { BoardWindow, type WindowTexts } from './window';
 
 export const kFew = 12; // columns of a map that is drawn in full size
 const kRobotLane = 0.08;
@@ -21,6 +24,8 @@ export interface BoardProps {
   walked?: number; // steps of the longer path that have been walked; the robot's step if absent
   other?: Frame[]; // the path that somebody might expect
   decisive?: { frame: number; cell?: Place } | null;
+  texts?: WindowTexts; // if present, small cells are enlarged, and a window shows a part of the map
+  hasArrows?: boolean; // the arrow keys do something else, and move the window only together with Shift
 }
 
 export function BoardView(props: BoardProps): JSX.Element {
@@ -29,29 +34,48 @@ export function BoardView(props: BoardProps): JSX.Element {
   const columns = domain.width ?? 0;
   const rows = domain.height ?? 0;
   const isLarge = columns > kFew || rows > kFew;
-  const margin = 4;
-  const [width, height] = [2 * margin + columns * kUnit, 2 * margin + rows * kUnit];
+  const [width, height] = [2 * kMargin + columns * kUnit, 2 * kMargin + rows * kUnit];
   const frame = board.frames[step] ?? board.start;
   const size = props.fill ? {} : { style: { maxWidth: `${isLarge ? width : width * 1.45}px` } };
+  const kind = props.kind ?? 'own';
+  const own = path && step > 0 ? board.frames.slice(0, step + 1) : [];
+  const first = decisive?.frame ?? 0;
+  const ground = useMemo(() => <Ground domain={domain} legend={props.legend} board={board} />, [domain, props.legend, board.map, board.fences]);
+  const others = other && walked > first ? other.slice(0, walked + 1) : [];
+  const drawing = (
+    <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} role="img" aria-label={label}>
+      {ground}
+      {decisive?.cell && walked > decisive.frame && <Decisive cell={decisive.cell} />}
+      {others.length > 0 && <Way frames={others} first={first} lane={kOtherLane} kind="other" />}
+      {own.length > 0 && <Way frames={own} first={0} lane={kRobotLane} kind={kind} />}
+      <Things {...props} frame={frame} />
+      {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} />}
+      <Mover frame={frame} legend={props.legend} />
+    </svg>
+  );
+  const overview = { domain, legend: props.legend, board, frame, own, other: others.slice(first), kind };
   return (
     <div class={`board${isLarge ? ' large' : ''}${props.fill ? ' fill' : ''}`} {...size}>
-      <svg viewBox={`${-margin} ${-margin} ${width} ${height}`} role="img" aria-label={label}>
-        <Ground {...props} />
-        {decisive?.cell && walked > decisive.frame && <Decisive cell={decisive.cell} />}
-        {other && walked > (decisive?.frame ?? 0) && (
-          <Way frames={other.slice(0, walked + 1)} first={decisive?.frame ?? 0} lane={kOtherLane} kind="other" />
-        )}
-        {path && step > 0 && <Way frames={board.frames.slice(0, step + 1)} first={0} lane={kRobotLane} kind={props.kind ?? 'own'} />}
-        <Things {...props} frame={frame} />
-        {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} />}
-        <Mover frame={frame} legend={props.legend} />
-      </svg>
+      {isLarge && props.texts ? (
+        <BoardWindow
+          domain={domain}
+          robot={frame.robot}
+          texts={props.texts}
+          isHeightLimited={props.fill ?? false}
+          hasArrows={props.hasArrows ?? false}
+          overview={(seen) => <OverviewMap {...overview} seen={seen} />}
+        >
+          {drawing}
+        </BoardWindow>
+      ) : (
+        drawing
+      )}
     </div>
   );
 }
 
-// What covers cells: walls and terrain.
-function Ground({ domain, legend, board }: BoardProps): JSX.Element {
+// What covers cells, walls and terrain, and stays the same whatever the robot does.
+function Ground({ domain, legend, board }: { domain: MapDomain; legend: Legend; board: Board }): JSX.Element {
   const [width, height] = [(domain.width ?? 0) * kUnit, (domain.height ?? 0) * kUnit];
   const lines = [
     ...Array.from({ length: (domain.width ?? 0) - 1 }, (_, i) => `M${(i + 1) * kUnit} 0v${height}`),

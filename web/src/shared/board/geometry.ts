@@ -2,6 +2,7 @@
 import type { Frame, Place } from './types';
 
 export const kUnit = 40; // of a cell's side in the drawing
+export const kMargin = 4; // around the map
 
 export interface Point {
   x: number;

@@ -36,8 +36,11 @@ struct Contrast {
 /// nothing about what the robot prefers to what.
 [[nodiscard]] bool is_detour(const Domain& domain, const Contrast& contrast);
 
-/// What the robot does, rather than what, because of what: reason() of both counts. Where counts are expectations,
-/// risk_in_words(), on_average_in_words() and, if there is a short one, in_words() of what is conveyed.
+/// Counts of a path in a world where nothing is left to chance, as whole numbers, whatever Domain::count_scale() is.
+[[nodiscard]] IntegerVector whole_counts(const Domain& domain, const IntegerVector& counts);
+
+/// What the robot does, rather than what, because of what: reason() of both counts. In worlds where counts are
+/// expectations, risk_in_words(), on_average_in_words() and, if there is a short one, in_words() of what is conveyed.
 /// @param together  other constraints that are conveyed at the same time; see short_statement().
 /// @throws std::invalid_argument if both paths count the same, or the alternative is worth more to the robot.
 [[nodiscard]] std::string reason(const Atlas& atlas, const Contrast& contrast,

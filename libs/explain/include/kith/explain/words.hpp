@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,13 +30,13 @@ namespace kith {
                                                      std::span<const HalfSpace> together = {});
 /// The same without empty and repeated ones.
 [[nodiscard]] std::vector<std::string> all_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces);
-/// What a choice changes in expectation: "in 100 tries its choice means falling into a hole about 80 fewer times and
-/// about 170 more steps". Numbers have two significant digits; what speaks for the choice comes first. In 1000 tries if
-/// rounding would leave out what decides. In discounted domains it says that later steps count less.
+/// What a choice changes in expectation: "in 100 tries the robot's choice means falling into a hole about 80 fewer
+/// times and about 170 more steps". Numbers have two significant digits; what speaks for the choice comes first. In
+/// 1000 tries if rounding would leave out what decides. In discounted domains it says that later steps count less.
 [[nodiscard]] std::string on_average_in_words(const Domain& domain, const IntegerVector& difference);
 /// What a choice risks: "it risks falling into a hole", "it avoids the risk of falling into a hole"; nothing if no cost
-/// that differs is an accident (something that some action brings in less than half of the cases). Looks at all
-/// outcomes of the world.
+/// that on_average_in_words() names is an accident: something that some action brings in less than half of the cases,
+/// and most actions in less than half or never. Looks at all outcomes of the world.
 /// @param difference  as above.
 [[nodiscard]] std::string risk_in_words(const Domain& domain, MdpIndex world, const IntegerVector& difference);
 /// The features that risk_in_words() names, ascending.
@@ -65,7 +66,9 @@ namespace kith {
 [[nodiscard]] double return_of(const Domain& domain, const IntegerVector& counts);
 /// "1 team", "6 teams".
 [[nodiscard]] std::string counted(std::size_t n, const std::string& noun);
-/// "likeliest path, chance 12 %" for a path that other outcomes could change, else nothing.
+/// The probability that the actions of a path lead along it; nothing if that is certain.
+[[nodiscard]] std::optional<double> chance_of_path(const Domain& domain, MdpIndex world, const Trajectory& path);
+/// "most likely path, 12 % chance"; nothing where chance_of_path() is nothing.
 [[nodiscard]] std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajectory& path);
 /// Actions with repetitions counted: "up, right x3".
 [[nodiscard]] std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions);

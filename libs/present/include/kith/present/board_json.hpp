@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kith/bec/atlas.hpp"
+#include "kith/explain/runs.hpp"
 #include "kith/present/json.hpp"
 
 namespace kith {
@@ -26,5 +27,8 @@ namespace kith {
 [[nodiscard]] Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step);
 /// [{"normal", "text"}]
 [[nodiscard]] Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces);
+/// {"text", "runs": [{"frames", "ended"}]}: several runs and what happened in how many of them; null if there are none,
+/// as where nothing is left to chance.
+[[nodiscard]] Json runs_json(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs);
 
 }  // namespace kith
