@@ -150,7 +150,7 @@ Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells, std::size_t ma
   worlds_.resize(domain.num_mdps());
   std::size_t states = 0;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) states += partitions_->states(m).size();
-  max_behaviour_bytes_ = max_cells_ * states * sizeof(LossIndex);
+  max_behaviour_bytes_ = std::max(max_cells_ * states * sizeof(LossIndex), max_row_bytes);
 }
 
 PolicyCellIndex Behaviours::locate(const Direction& weights) {

@@ -97,7 +97,7 @@ TEST(Behaviours, PlansWhatTheTablesSay) {
 
 TEST(Behaviours, ForgetsAndPlansAgain) {
   Behaviours plenty{on_demand()};
-  Behaviours few{on_demand(), 2};
+  Behaviours few{on_demand(), 2, 0};
   auto random = RandomStream{6}.split("weights");
   std::vector<Direction> weights;
   for (int i = 0; i < 5; ++i) weights.push_back(random_weights(random, 3));

@@ -97,8 +97,8 @@ class PolicyPartitions {
 /// the doubt): in exact MDPs by their PolicyPartition, else by planning. Of it only the losses on candidates' paths are
 /// kept, four bytes each, once for all weights that behave alike in the MDP; they are shown to as one person. For at
 /// most `max_cells` cells it is known which behaviour is theirs; then the oldest are forgotten. When the behaviours
-/// take more than max_cells * 4 bytes * states on candidates' paths, all are forgotten. What is forgotten is found
-/// again when asked for.
+/// take more than `max_row_bytes` and more than max_cells * 4 bytes * states on candidates' paths, all are forgotten.
+/// What is forgotten is found again when asked for.
 ///
 /// With tables, one row of what is conveyed is kept per policy cell and demonstration class; when they take more than
 /// `max_row_bytes` the oldest are forgotten and, if asked for again, computed again.
