@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <deque>
 
 #include "kith/bec/comparison.hpp"
 #include "kith/bec/memory_needs.hpp"
@@ -45,11 +46,44 @@ ConstraintSet Behaviours::Conveyed::set(DemoClassIndex c) const {
   return result;
 }
 
-PolicyPartitions::PolicyPartitions(const Atlas& atlas, std::size_t max_bytes) : atlas_{&atlas}, max_bytes_{max_bytes} {
+class PartitionStore::Generation {
+ public:
+  Generation(std::size_t num_mdps, std::shared_ptr<std::atomic<std::size_t>> all_bytes)
+      : made_(num_mdps), partitions_(num_mdps), all_bytes_{std::move(all_bytes)} {}
+  Generation(const Generation&) = delete;
+  Generation& operator=(const Generation&) = delete;
+  ~Generation() { *all_bytes_ -= bytes_; }
+
+  // The partition of an MDP, made when first asked for.
+  [[nodiscard]] PolicyPartition& partition(const PartitionStore& store, MdpIndex m) {
+    auto& partition = partitions_[m.value()];
+    std::call_once(made_[m.value()], [&] {
+      const auto& domain = store.atlas().domain();
+      partition.emplace(domain.mdp(m), store.states(m), store.robot_weights_,
+                        BehaveOptions{.scale = domain.count_scale()});
+    });
+    return *partition;
+  }
+
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
+  void add(std::size_t bytes) {
+    bytes_ += bytes;
+    *all_bytes_ += bytes;
+  }
+
+ private:
+  std::deque<std::once_flag> made_;                         // per MDP
+  std::vector<std::optional<PolicyPartition>> partitions_;  // per MDP
+  std::atomic<std::size_t> bytes_ = 0;
+  std::shared_ptr<std::atomic<std::size_t>> all_bytes_;
+};
+
+PartitionStore::PartitionStore(const Atlas& atlas, std::size_t max_bytes)
+    : atlas_{&atlas}, max_bytes_{max_bytes}, bytes_{std::make_shared<std::atomic<std::size_t>>(0)} {
   if (atlas.is_tabulated()) return;
   const Domain& domain = atlas.domain();
   for (const std::int64_t w : domain.weights().integer) robot_weights_.push_back(static_cast<double>(w));
-  partitions_.resize(domain.num_mdps());
+  current_ = std::make_shared<Generation>(domain.num_mdps(), bytes_);
   places_.assign(atlas.num_demos(), -1);
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     std::vector<bool> is_on_path(domain.mdp(m).num_states(), false);
@@ -65,23 +99,38 @@ PolicyPartitions::PolicyPartitions(const Atlas& atlas, std::size_t max_bytes) : 
   }
 }
 
-std::optional<PolicyPartitions::Located> PolicyPartitions::locate(MdpIndex m, const Direction& weights) {
-  const Mdp& mdp = atlas_->domain().mdp(m);
-  if (!is_exact(mdp)) return std::nullopt;
-  auto& partition = partitions_[m.value()];
-  if (!partition)
-    partition.emplace(mdp, states(m), robot_weights_, BehaveOptions{.scale = atlas_->domain().count_scale()});
-  const std::size_t before = partition->memory();
-  const bool has_optimum = partition->locate({weights.data(), static_cast<std::size_t>(weights.size())}, !is_full());
-  bytes_ += partition->memory() - before;
-  return Located{&*partition, has_optimum};
+std::shared_ptr<PartitionStore::Generation> PartitionStore::current() const {
+  const std::lock_guard lock{mutex_};
+  return current_;
 }
 
-void PolicyPartitions::clear() {
-  for (auto& partition : partitions_) {
-    if (partition) partition->clear();
+std::shared_ptr<PartitionStore::Generation> PartitionStore::current_with_room() {
+  const std::lock_guard lock{mutex_};
+  if (current_ && current_->bytes() >= max_bytes_ / 2) {
+    current_ = std::make_shared<Generation>(atlas_->domain().num_mdps(), bytes_);
   }
-  bytes_ = 0;
+  return current_;
+}
+
+PolicyPartitions::PolicyPartitions(std::shared_ptr<PartitionStore> store)
+    : store_{std::move(store)}, generation_{store_->current_with_room()} {}
+
+std::optional<PolicyPartitions::Located> PolicyPartitions::locate(MdpIndex m, const Direction& weights) {
+  if (!is_exact(store_->atlas().domain().mdp(m))) return std::nullopt;
+  const bool may_grow = generation_->bytes() < store_->max_bytes_ / 2 && store_->memory() < store_->max_bytes_;
+  const bool has_optimum = lookup_.locate(generation_->partition(*store_, m),
+                                          {weights.data(), static_cast<std::size_t>(weights.size())}, may_grow);
+  if (lookup_.grown_by() > 0) generation_->add(lookup_.grown_by());  // else it would only keep other threads waiting
+  return Located{&lookup_, has_optimum};
+}
+
+bool PolicyPartitions::is_outdated() const {
+  return generation_ && (generation_->bytes() >= store_->max_bytes_ / 2 || generation_ != store_->current());
+}
+
+void PolicyPartitions::renew() {
+  generation_.reset();  // first, so that it can be freed
+  generation_ = store_->current_with_room();
 }
 
 Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells, std::size_t max_row_bytes,
@@ -101,7 +150,7 @@ Behaviours::Behaviours(const Atlas& atlas, std::size_t max_cells, std::size_t ma
   worlds_.resize(domain.num_mdps());
   std::size_t states = 0;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) states += partitions_->states(m).size();
-  max_behaviour_bytes_ = max_cells_ * states * sizeof(LossIndex);
+  max_behaviour_bytes_ = std::max(max_cells_ * states * sizeof(LossIndex), max_row_bytes);
 }
 
 PolicyCellIndex Behaviours::locate(const Direction& weights) {
@@ -169,14 +218,14 @@ Behaviours::BehaviourIndex Behaviours::find_behaviour(const Direction& weights, 
   };
   if (const auto located = partitions_->locate(m, weights)) {
     if (!located->has_optimum) return kNoOptimum;
-    const auto key = located->partition->key();
+    const auto key = located->found->key();
     BehaviourIndex* known = nullptr;
     if (!key.empty()) {
       known = &world.by_key.try_emplace({key.begin(), key.end()}, kUnknown).first->second;
       if (*known != kUnknown) return *known;
       behaviour_bytes_ += (key.size() + 12) * sizeof(std::uint32_t);
     }
-    for (std::size_t i = 0; i < states.size(); ++i) losses.push_back(lost(states[i], located->partition->counts(i)));
+    for (std::size_t i = 0; i < states.size(); ++i) losses.push_back(lost(states[i], located->found->counts(i)));
     const auto behaviour = number_of(world, losses);
     if (known != nullptr) *known = behaviour;
     return behaviour;

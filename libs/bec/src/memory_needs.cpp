@@ -44,7 +44,7 @@ std::uint64_t teaching_memory(const Domain& domain) {
 std::uint64_t partition_memory(const Domain& domain) {
   if (is_cheap_to_tabulate(domain)) return 0;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-    if (is_exact(domain.mdp(m))) return PolicyPartitions::kDefaultBytes;
+    if (is_exact(domain.mdp(m))) return PartitionStore::kDefaultBytes;
   }
   return 0;
 }
@@ -54,7 +54,7 @@ void require_planning_memory(const Domain& domain) {
 }
 
 void require_teaching_memory(const Domain& domain, std::size_t threads) {
-  require_memory(planning_memory(domain) + threads * (teaching_memory(domain) + partition_memory(domain)),
+  require_memory(planning_memory(domain) + threads * teaching_memory(domain) + partition_memory(domain),
                  what("teaching", domain), kHint);
 }
 

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "item_delivery.hpp"
 #include "kith/bec/comparison.hpp"
@@ -93,7 +97,7 @@ TEST(Behaviours, PlansWhatTheTablesSay) {
 
 TEST(Behaviours, ForgetsAndPlansAgain) {
   Behaviours plenty{on_demand()};
-  Behaviours few{on_demand(), 2};
+  Behaviours few{on_demand(), 2, 0};
   auto random = RandomStream{6}.split("weights");
   std::vector<Direction> weights;
   for (int i = 0; i < 5; ++i) weights.push_back(random_weights(random, 3));
@@ -108,6 +112,68 @@ TEST(Behaviours, ForgetsAndPlansAgain) {
       }
     }
   }
+}
+
+// With room for so little that everybody begins anew again and again.
+TEST(PartitionStore, KeepsNoMoreThanItMayAndAnswersAllTheSame) {
+  constexpr std::size_t kMost = 200'000;
+  constexpr std::size_t kOneLookup = 50'000;
+  const auto store = std::make_shared<PartitionStore>(on_demand(), kMost);
+  Behaviours plenty{on_demand()};
+  std::vector<std::shared_ptr<PolicyPartitions>> views;
+  for (int i = 0; i < 3; ++i) views.push_back(std::make_shared<PolicyPartitions>(store));
+  auto random = RandomStream{9}.split("weights");
+  std::size_t num_renewed = 0;
+  for (int round = 0; round < 40; ++round) {
+    const auto weights = random_weights(random, 3);
+    // The last one never begins anew, and so prevents that the partitions that it uses are freed.
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (i + 1 < views.size() && views[i]->is_outdated()) {
+        views[i]->renew();
+        ++num_renewed;
+      }
+      Behaviours few{on_demand(), 2, 0, views[i]};
+      for (const DemoIndex demo : {DemoIndex{17}, DemoIndex{4000}, DemoIndex{9000}}) {
+        ASSERT_EQ(few.answer(demo, few.locate(weights)), plenty.answer(demo, plenty.locate(weights)));
+      }
+      ASSERT_LE(store->memory(), kMost + kOneLookup);
+    }
+  }
+  EXPECT_GT(num_renewed, 1u);
+  views.clear();
+  EXPECT_LE(store->memory(), kMost / 2 + kOneLookup);
+}
+
+TEST(PartitionStore, IsSharedByThreads) {
+  constexpr std::size_t kThreads = 4;
+  const auto store = std::make_shared<PartitionStore>(on_demand(), 400'000);
+  auto random = RandomStream{10}.split("weights");
+  std::vector<Direction> weights;
+  std::vector<std::optional<IntegerVector>> expected;
+  Behaviours alone{on_demand()};
+  const DemoIndex demo{4000};
+  for (int i = 0; i < 60; ++i) {
+    weights.push_back(random_weights(random, 3));
+    expected.push_back(alone.answer(demo, alone.locate(weights.back())));
+  }
+  std::vector<std::size_t> num_wrong(kThreads, 0);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&, t] {
+      const auto view = std::make_shared<PolicyPartitions>(store);
+      auto behaviours = std::make_unique<Behaviours>(on_demand(), 8, 0, view);
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        const std::size_t at = (i * (2 * t + 1) + 7 * t) % weights.size();
+        num_wrong[t] += behaviours->answer(demo, behaviours->locate(weights[at])) != expected[at] ? 1u : 0u;
+        if (i % 8 != 0 || !view->is_outdated()) continue;
+        behaviours.reset();
+        view->renew();
+        behaviours = std::make_unique<Behaviours>(on_demand(), 8, 0, view);
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(num_wrong, std::vector<std::size_t>(kThreads, 0));
 }
 
 TEST(Behaviours, DiscountedOnesAreComparedByExpectedCounts) {

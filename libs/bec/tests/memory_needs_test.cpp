@@ -53,13 +53,15 @@ TEST(MemoryNeeds, OfTablesAreThoseOfPlanning) {
   EXPECT_GT(planning_memory(item_delivery().domain()), 0u);
 }
 
-TEST(MemoryNeeds, IncludeThePartitionsOfEveryThread) {
+TEST(MemoryNeeds, IncludeThePartitionsThatThreadsShareOnce) {
   const auto domain = open_map(50);
-  EXPECT_EQ(partition_memory(domain), PolicyPartitions::kDefaultBytes);
+  EXPECT_EQ(partition_memory(domain), PartitionStore::kDefaultBytes);
   EXPECT_EQ(partition_memory(item_delivery().domain()), 0u);
   ASSERT_LT(planning_memory(domain) + 2 * teaching_memory(domain), 50'000'000u);
   const MemoryLimit limit{"100M"};
   EXPECT_THAT(memory_refusal([&] { require_teaching_memory(domain, 2); }), HasSubstr("teaching the 2499 states"));
+  const MemoryLimit more{"200M"};
+  EXPECT_NO_THROW(require_teaching_memory(domain, 2));
 }
 
 TEST(MemoryNeeds, AreCheckedBeforePlanning) {

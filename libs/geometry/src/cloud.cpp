@@ -6,30 +6,54 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "kith/core/vector_clones.hpp"
+
 namespace kith {
 namespace {
 
 // Where a product comes this close to 0, its sign may depend on the order of the sum.
 constexpr double kUnsure = 1e-12;
 
-// Sets the bits of the points inside. `decide` tells it of the few points near the boundary.
-template <std::size_t d, typename Decide>
-void fill_mask(const double* points, const double* normal, std::size_t n, const Decide& decide, Cloud::Mask& mask) {
-  constexpr std::size_t kBits = 64;
-  std::array<double, kBits> products{};
-  for (std::size_t begin = 0; begin < n; begin += kBits) {
-    const std::size_t count = std::min(kBits, n - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      double t = 0.0;
-      for (std::size_t k = 0; k < d; ++k) t += normal[k] * points[(begin + i) * d + k];
-      products[i] = t;
-    }
-    std::uint64_t word = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double t = products[i];
-      word |= std::uint64_t{std::abs(t) > kUnsure ? t > 0.0 : decide(begin + i)} << i;
-    }
-    mask[begin / kBits] = word;
+constexpr std::size_t kPerWord = 64;  // points of a mask
+
+// Where up to 64 points lie: bit i stands for point i.
+struct Sides {
+  std::uint64_t inside = 0;  // clearly
+  std::uint64_t unsure = 0;
+};
+
+// `points`: axis by axis, `n` of each.
+template <std::size_t d>
+[[gnu::always_inline]] inline Sides sides_in(const double* points, std::size_t n, const double* normal) {
+  std::array<double, kPerWord> products;
+  KITH_INDEPENDENT_LOOP
+  for (std::size_t i = 0; i < kPerWord; ++i) {
+    double t = 0.0;
+    for (std::size_t k = 0; k < d; ++k) t += normal[k] * points[k * n + i];
+    products[i] = t;
+  }
+  Sides sides;
+  for (std::size_t i = 0; i < kPerWord; ++i) {
+    sides.inside |= std::uint64_t{products[i] > kUnsure} << i;
+    sides.unsure |= std::uint64_t{std::abs(products[i]) <= kUnsure} << i;
+  }
+  return sides;
+}
+
+KITH_VECTOR_CLONES Sides sides_of(const double* points, std::size_t n, const double* normal, std::size_t d) {
+  switch (d) {
+    case 4:
+      return sides_in<4>(points, n, normal);
+    case 5:
+      return sides_in<5>(points, n, normal);
+    case 6:
+      return sides_in<6>(points, n, normal);
+    case 7:
+      return sides_in<7>(points, n, normal);
+    case 8:
+      return sides_in<8>(points, n, normal);
+    default:
+      return {0, ~std::uint64_t{0}};
   }
 }
 
@@ -42,30 +66,25 @@ Cloud::Mask Cloud::everything() const {
 }
 
 Cloud::Mask Cloud::mask(const HalfSpace& half_space) const {
-  if (static_cast<Eigen::Index>(half_space.dimension()) != points_.rows()) {
+  const auto d = static_cast<std::size_t>(points_.cols());
+  if (half_space.dimension() != d) {
     throw std::invalid_argument{"Cloud: the half-space must have the dimension of the region"};
   }
   const Direction unit = half_space.unit();
   Mask mask(num_words());
-  const auto is_inside = [&](std::size_t i) { return points_.col(static_cast<Eigen::Index>(i)).dot(unit) >= 0.0; };
-  switch (points_.rows()) {
-    case 4:
-      fill_mask<4>(points_.data(), unit.data(), size(), is_inside, mask);
-      break;
-    case 5:
-      fill_mask<5>(points_.data(), unit.data(), size(), is_inside, mask);
-      break;
-    case 6:
-      fill_mask<6>(points_.data(), unit.data(), size(), is_inside, mask);
-      break;
-    case 7:
-      fill_mask<7>(points_.data(), unit.data(), size(), is_inside, mask);
-      break;
-    case 8:
-      fill_mask<8>(points_.data(), unit.data(), size(), is_inside, mask);
-      break;
-    default:
-      for (std::size_t i = 0; i < size(); ++i) mask[i / 64] |= std::uint64_t{is_inside(i)} << (i % 64);
+  const auto is_inside = [&](std::size_t i) {
+    const Direction point = points_.row(static_cast<Eigen::Index>(i));
+    return point.dot(unit) >= 0.0;
+  };
+  for (std::size_t begin = 0; begin < size(); begin += kPerWord) {
+    const std::size_t count = std::min(kPerWord, size() - begin);
+    Sides sides{0, count == kPerWord ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1};
+    if (count == kPerWord) sides = sides_of(points_.data() + begin, size(), unit.data(), d);
+    for (auto rest = sides.unsure; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+      sides.inside |= std::uint64_t{is_inside(begin + i)} << i;
+    }
+    mask[begin / kPerWord] = sides.inside;
   }
   return mask;
 }

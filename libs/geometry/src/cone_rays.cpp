@@ -84,21 +84,40 @@ bool are_adjacent(const FacetSets& tight, std::size_t num_rays, std::size_t i, s
   return true;
 }
 
+std::size_t size_of(Word set) { return static_cast<std::size_t>(std::popcount(set)); }
+
+// The same where every set is one word.
+bool are_adjacent(std::span<const Word> tight, std::size_t i, std::size_t j, std::size_t rank) {
+  const Word common = tight[i] & tight[j];
+  const std::size_t size = size_of(common);
+  if (size + 2 < rank) return false;
+  if (size + 2 == rank && (size_of(tight[i]) + 1 == rank || size_of(tight[j]) + 1 == rank)) return true;
+  std::size_t num_with_common = 0;  // these two among them
+  for (const Word set : tight) {
+    num_with_common += (common & ~set) == 0 ? 1u : 0u;
+    if (num_with_common > 2) return false;
+  }
+  return true;
+}
+
 // The facets that are left: a former facet is one no more if all rays on it lie on another one as well.
 std::vector<std::size_t> facets_left(const FacetSets& tight, std::size_t num_rays, std::size_t num_facets) {
   std::vector<std::size_t> left;
-  std::vector<Word> common(tight.words());
-  for (std::size_t facet = 0; facet < num_facets; ++facet) {
-    std::fill(common.begin(), common.end(), ~Word{0});
-    bool is_met = false;
-    for (std::size_t i = 0; i < num_rays; ++i) {
-      if (!has_bit(tight[i], facet)) continue;
-      is_met = true;
-      for (std::size_t k = 0; k < common.size(); ++k) common[k] &= tight[i][k];
+  // Of each facet, what all rays on it share; a facet that no ray meets shares everything.
+  const std::size_t words = tight.words();
+  std::vector<Word> common(num_facets * words, ~Word{0});
+  for (std::size_t i = 0; i < num_rays; ++i) {
+    const Word* const set = tight[i];
+    for (std::size_t k = 0; k < words; ++k) {
+      for (Word rest = set[k]; rest != 0; rest &= rest - 1) {
+        Word* const shared = &common[(k * kBits + static_cast<std::size_t>(std::countr_zero(rest))) * words];
+        for (std::size_t l = 0; l < words; ++l) shared[l] &= set[l];
+      }
     }
-    if (!is_met) continue;
+  }
+  for (std::size_t facet = 0; facet < num_facets; ++facet) {
     std::size_t count = 0;
-    for (const Word word : common) count += static_cast<std::size_t>(std::popcount(word));
+    for (std::size_t l = 0; l < words; ++l) count += size_of(common[facet * words + l]);
     if (count == 1) left.push_back(facet);
   }
   return left;
@@ -200,6 +219,7 @@ void Cone::cut_rays(const HalfSpace& half_space, std::span<const int> sides, std
   const FacetSets old{tight_, facets_.size()};
   const std::size_t rank = dimension_ - lines_.size();
   std::vector<IntegerVector> rays;
+  rays.reserve(2 * rays_.size());
   FacetSets tight{facets_.size() + 1};
   const auto add = [&](const IntegerVector& ray, const Word* set, const Word* other, bool on_boundary) {
     rays.push_back(ray);
@@ -210,10 +230,17 @@ void Cone::cut_rays(const HalfSpace& half_space, std::span<const int> sides, std
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     if (sides[i] >= 0) add(rays_[i], old[i], old[i], sides[i] == 0);
   }
+  const auto meet = [&](std::size_t i, std::size_t j) {
+    return old.words() == 1 ? are_adjacent(tight_, i, j, rank) : are_adjacent(old, rays_.size(), i, j, rank);
+  };
+  std::vector<std::size_t> beyond;
+  for (std::size_t j = 0; j < rays_.size(); ++j) {
+    if (sides[j] < 0) beyond.push_back(j);
+  }
   for (std::size_t i = 0; i < rays_.size(); ++i) {
-    for (std::size_t j = 0; sides[i] > 0 && j < rays_.size(); ++j) {
-      if (sides[j] >= 0 || !are_adjacent(old, rays_.size(), i, j, rank)) continue;
-      add(combination(products[i], rays_[j], -products[j], rays_[i]), old[i], old[j], true);
+    if (sides[i] <= 0) continue;
+    for (const std::size_t j : beyond) {
+      if (meet(i, j)) add(combination(products[i], rays_[j], -products[j], rays_[i]), old[i], old[j], true);
     }
   }
   const auto left = facets_left(tight, rays.size(), facets_.size() + 1);

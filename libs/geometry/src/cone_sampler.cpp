@@ -52,7 +52,7 @@ double half_power(double x, std::size_t n) {
   return result;
 }
 
-// The sum of n rays, columns of a matrix of n rows, each times its lambda.
+// The sum of n rays, columns of a matrix of n rows, each times its lambda; n = lambda.size() is 1 to 8.
 template <std::size_t n>
 void combine_in(const double* rays, const std::array<std::uint32_t, 8>& which, std::span<const double> lambda,
                 double* out) {
@@ -68,6 +68,12 @@ void combine_in(const double* rays, const std::array<std::uint32_t, 8>& which, s
 void combine(const double* rays, const std::array<std::uint32_t, 8>& which, std::span<const double> lambda,
              double* out) {
   switch (lambda.size()) {
+    case 1:
+      return combine_in<1>(rays, which, lambda, out);
+    case 2:
+      return combine_in<2>(rays, which, lambda, out);
+    case 3:
+      return combine_in<3>(rays, which, lambda, out);
     case 4:
       return combine_in<4>(rays, which, lambda, out);
     case 5:
@@ -260,25 +266,28 @@ Eigen::MatrixXd ConeSampler::cover(std::size_t n) const {
     }
     return points;
   }
-  // Most proposals are rejected, so the power is computed only where a rough one cannot tell.
+  // Most proposals are rejected, so the power and, where there are lines, the point are computed only where a rough
+  // power cannot tell.
   const detail::GuideTable guide{envelope_};
   const bool is_pointed = rank_ == dimension();
+  const double power = 0.5 * static_cast<double>(dimension());
   Eigen::Index found = 0;
-  Direction point(static_cast<Eigen::Index>(dimension()));
+  Direction beside(static_cast<Eigen::Index>(rank_));  // the lines, in the frame
   const auto take = [&](double which, std::span<const double> lambda, double last) {
-    if (!is_pointed) {
-      const Proposal proposal = propose(which, lambda);
-      if (last < proposal.acceptance) points.col(found++) = proposal.point;
-      return;
-    }
     const Part& part = parts_[guide.find(which)];
-    combine(rays_.data(), part.rays, lambda, point.data());
-    const double square = point.squaredNorm();
-    const double likely = 1.0 / (part.peak * square);
+    if (rank_ > 0) combine(rays_.data(), part.rays, lambda.first(rank_), beside.data());
+    double square = beside.squaredNorm();
+    for (const double along : lambda.subspan(rank_)) square += along * along;
+    const double likely = 1.0 / ((part.peak + static_cast<double>(dimension() - rank_)) * square);
     const double rough = half_power(likely, dimension());
     const bool is_clear = std::abs(last - rough) > kRoughly * rough;
-    const double power = 0.5 * static_cast<double>(dimension());
-    if (last < (is_clear ? rough : std::pow(likely, power))) points.col(found++) = point / std::sqrt(square);
+    if (is_clear && last >= rough) return;
+    if (is_pointed) {
+      if (last < (is_clear ? rough : std::pow(likely, power))) points.col(found++) = beside / std::sqrt(square);
+      return;
+    }
+    const Proposal proposal = propose(which, lambda);
+    if (last < proposal.acceptance) points.col(found++) = proposal.point;
   };
   const auto& first = detail::cover_points(dimension());
   for (std::size_t i = 0; i < first.size() && found < points.cols(); ++i) {

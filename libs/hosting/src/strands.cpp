@@ -6,8 +6,9 @@ namespace kith {
 
 Strands::Strands(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy)
     : busy_{busy} {
+  const auto store = std::make_shared<PartitionStore>(*atlas);
   for (std::size_t i = 0; i < threads; ++i)
-    threads_.emplace_back([this, atlas, cache_bytes] { run(atlas, cache_bytes); });
+    threads_.emplace_back([this, atlas, cache_bytes, store] { run(atlas, cache_bytes, store); });
 }
 
 Strands::~Strands() {
@@ -31,8 +32,8 @@ void Strands::post(std::size_t key, Job job) {
   changed_.notify_one();
 }
 
-void Strands::run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes) {
-  TeachingCache cache{std::move(atlas), cache_bytes};
+void Strands::run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes, std::shared_ptr<PartitionStore> store) {
+  TeachingCache cache{std::move(atlas), cache_bytes, std::move(store)};
   std::unique_lock lock{mutex_};
   while (true) {
     changed_.wait(lock, [&] { return stopping_ || !ready_.empty(); });

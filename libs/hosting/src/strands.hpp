@@ -35,7 +35,7 @@ class Strands {
     std::deque<Job> jobs;
     bool is_running = false;
   };
-  void run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes);
+  void run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes, std::shared_ptr<PartitionStore> store);
 
   BusyCount& busy_;
   std::mutex mutex_;

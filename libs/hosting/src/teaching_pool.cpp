@@ -12,8 +12,9 @@ constexpr std::size_t kMostAhead = 64;  // each keeps a copy of a session
 TeachingPool::TeachingPool(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes,
                            BusyCount& busy)
     : busy_{busy} {
+  const auto store = std::make_shared<PartitionStore>(*atlas);
   for (std::size_t i = 0; i < threads; ++i)
-    threads_.emplace_back([this, atlas, cache_bytes] { run(atlas, cache_bytes); });
+    threads_.emplace_back([this, atlas, cache_bytes, store] { run(atlas, cache_bytes, store); });
 }
 
 void TeachingPool::stop() {
@@ -44,8 +45,9 @@ void TeachingPool::post(Urgency urgency, Job job) {
   changed_.notify_one();
 }
 
-void TeachingPool::run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes) {
-  TeachingCache cache{std::move(atlas), cache_bytes};
+void TeachingPool::run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes,
+                       std::shared_ptr<PartitionStore> store) {
+  TeachingCache cache{std::move(atlas), cache_bytes, std::move(store)};
   while (true) {
     Job job;
     {

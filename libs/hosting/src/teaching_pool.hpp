@@ -32,7 +32,7 @@ class TeachingPool {
   void post(Urgency urgency, Job job);
 
  private:
-  void run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes);
+  void run(std::shared_ptr<const Atlas> atlas, std::size_t cache_bytes, std::shared_ptr<PartitionStore> store);
 
   BusyCount& busy_;
   std::mutex mutex_;

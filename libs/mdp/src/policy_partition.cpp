@@ -1,8 +1,12 @@
 #include "kith/mdp/policy_partition.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <optional>
+#include <shared_mutex>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -26,8 +30,17 @@ double dot_of(const double* normal, std::span<const double> weights) {
 
 }  // namespace
 
+// The process, its components, and what is known about them. What is known is guarded by a mutex and never removed.
 class PolicyPartition::Body {
  public:
+  // The weights inside all half-spaces do the same within a component.
+  struct Part {
+    std::vector<double> normals;       // row-major, shape [n, d]: primitive
+    std::vector<double> reach;         // the largest |counts_k| of any state, shape [d]
+    std::vector<std::int64_t> counts;  // of the kept states, less those of the first exit; row-major, shape [kept, d]
+    std::uint32_t number = 0;          // within the component
+  };
+
   Body(const Mdp& mdp, std::span<const StateIndex> states, std::vector<double> robot_weights,
        const BehaveOptions& options)
       : mdp_{mdp}, states_{states.begin(), states.end()}, robot_{std::move(robot_weights)}, options_{options} {
@@ -36,46 +49,73 @@ class PolicyPartition::Body {
     find_components();
   }
 
-  bool locate(std::span<const double> weights, bool may_grow) {
-    detail::require_weights(mdp_, weights, "PolicyPartition");
-    if (!has_optima_) return false;
-    weights_ = weights;
-    may_grow_ = may_grow;
-    double square = 0.0;
-    for (const double w : weights) square += w * w;
-    clear_by_ = kClear * std::sqrt(square);
-    for (std::size_t i = 0; i < gains_.size(); i += weights.size()) {
-      if (dot_of(&gains_[i], weights) > clear_by_) return false;
-    }
-    rewards_.clear();
-    follower_.reset();
-    paths_.reset();
-    loose_.clear();
-    key_.clear();
-    is_kept_ = true;
-    for (std::size_t c = 0; c < components_.size(); ++c) {
-      if (!(components_[c].is_alone ? step(c) : enter(c))) return false;
-    }
-    if (!is_kept_) key_.clear();
-    return true;
+  [[nodiscard]] const Mdp& mdp() const noexcept { return mdp_; }
+  [[nodiscard]] std::span<const StateIndex> states() const noexcept { return states_; }
+  [[nodiscard]] std::span<const double> robot() const noexcept { return robot_; }
+  [[nodiscard]] const BehaveOptions& options() const noexcept { return options_; }
+  [[nodiscard]] bool has_optima() const noexcept { return has_optima_; }
+  [[nodiscard]] std::size_t num_components() const noexcept { return components_.size(); }
+  [[nodiscard]] bool is_alone(std::size_t c) const { return components_[c].is_alone; }
+  [[nodiscard]] std::span<const std::uint32_t> exits(std::size_t c) const { return components_[c].exits; }
+  [[nodiscard]] std::span<const std::uint32_t> kept(std::size_t c) const { return components_[c].kept; }
+  [[nodiscard]] std::uint32_t component_of(std::size_t s) const { return component_of_[s]; }
+  [[nodiscard]] std::uint32_t kept_place(std::size_t s) const { return kept_place_[s]; }
+  [[nodiscard]] std::span<const StateIndex> members(std::size_t c) const {
+    const auto starts = mdp_.component_starts();
+    return mdp_.by_component().subspan(starts[c], starts[c + 1] - starts[c]);
   }
 
-  [[nodiscard]] IntegerVector counts(std::size_t i) const {
-    auto result = counts_at(states_[i].value());
-    for (std::size_t k = 0; k < result.size(); ++k) result[k] *= options_.scale;
-    return result;
-  }
-
-  [[nodiscard]] std::span<const std::uint32_t> key() const noexcept { return key_; }
   [[nodiscard]] std::size_t num_parts() const noexcept { return num_parts_; }
   [[nodiscard]] std::size_t memory() const noexcept { return bytes_; }
 
-  void clear() {
-    for (auto& component : components_) component.cases.clear();
-    gains_.clear();
-    known_gains_.clear();
-    num_parts_ = 0;
-    bytes_ = 0;
+  // Whether a cycle that is known earns more than this.
+  [[nodiscard]] bool gains(std::span<const double> weights, double more_than) const {
+    const std::shared_lock lock{mutex_};
+    for (std::size_t i = 0; i < gains_.size(); i += weights.size()) {
+      if (dot_of(&gains_[i], weights) > more_than) return true;
+    }
+    return false;
+  }
+
+  // Adds a cycle that earns. @returns the bytes that it takes; 0 if it is known.
+  std::size_t add_gain(const IntegerVector& cycle) {
+    const std::unique_lock lock{mutex_};
+    if (!known_gains_.insert(cycle).second) return 0;
+    for (const std::int64_t x : cycle) gains_.push_back(static_cast<double>(x));
+    const std::size_t bytes = cycle.size() * sizeof(double) + 2 * sizeof(IntegerVector);
+    bytes_ += bytes;
+    return bytes;
+  }
+
+  // The only part of a component that can hold the weights, if any is known for these differences. It stays valid.
+  [[nodiscard]] const Part* candidate(std::size_t c, const std::vector<std::int64_t>& differences,
+                                      std::span<const double> weights) const {
+    const std::shared_lock lock{mutex_};
+    const auto known = components_[c].cases.find(differences);
+    return known == components_[c].cases.end() ? nullptr : best_of(known->second, weights);
+  }
+
+  // Adds a part that holds the weights, unless another thread has added one meanwhile, as `holds` tells. @returns the
+  // part that is known now, and the bytes that were added.
+  template <typename Holds>
+  std::pair<const Part*, std::size_t> add(std::size_t c, const std::vector<std::int64_t>& differences,
+                                          std::span<const double> weights, std::unique_ptr<Part> part,
+                                          std::span<const double> sum, const Holds& holds) {
+    const std::unique_lock lock{mutex_};
+    auto& known = components_[c].cases[differences];
+    if (!known.parts.empty()) {
+      const Part* const other = best_of(known, weights);
+      if (holds(*other)) return {other, 0};
+    }
+    const std::size_t d = weights.size();
+    const std::size_t bytes = sizeof(Part) + (known.parts.empty() ? sizeof(Case) + differences.size() * 8 + 64 : 0) +
+                              (part->normals.size() + 2 * d) * sizeof(double) +
+                              part->counts.size() * sizeof(std::int64_t);
+    known.sums.insert(known.sums.end(), sum.begin(), sum.end());
+    part->number = components_[c].num_parts++;
+    bytes_ += bytes;
+    ++num_parts_;
+    return {known.parts.emplace_back(std::move(part)).get(), bytes};
   }
 
  private:
@@ -89,13 +129,6 @@ class PolicyPartition::Body {
       return static_cast<std::size_t>(hash);
     }
   };
-  // The weights inside all half-spaces do the same within a component.
-  struct Part {
-    std::vector<double> normals;       // row-major, shape [n, d]: primitive
-    std::vector<double> reach;         // the largest |counts_k| of any state, shape [d]
-    std::vector<std::int64_t> counts;  // of the kept states, less those of the first exit; row-major, shape [kept, d]
-    std::uint32_t number = 0;          // within the component
-  };
   // What is known of a component for one list of differences between the counts of its exits.
   struct Case {
     std::vector<double> sums;  // per part: the sum of the counts of all states, row-major, shape [parts, d]
@@ -108,17 +141,25 @@ class PolicyPartition::Body {
     std::uint32_t num_parts = 0;
     std::unordered_map<std::vector<std::int64_t>, Case, IntsHash> cases;
   };
-  // Where the weights of the last locate() lie in a component.
-  struct Place {
-    const Part* part = nullptr;
-    IntegerVector base;  // the counts of the first exit, or of the only state
-  };
+
+  // Of two behaviours the better one is better or equal everywhere, so the best in sum is the only candidate.
+  [[nodiscard]] static const Part* best_of(const Case& known, std::span<const double> weights) {
+    const std::size_t d = weights.size();
+    std::size_t best = 0;
+    double most = 0.0;
+    for (std::size_t i = 0; i * d < known.sums.size(); ++i) {
+      const double sum = dot_of(&known.sums[i * d], weights);
+      if (i > 0 && sum <= most) continue;
+      most = sum;
+      best = i;
+    }
+    return known.parts[best].get();
+  }
 
   void find_components() {
     const auto starts = mdp_.component_starts();
     const auto by_component = mdp_.by_component();
     components_.resize(starts.empty() ? 0 : starts.size() - 1);
-    places_.resize(components_.size());
     component_of_.assign(mdp_.num_states(), 0);
     kept_place_.assign(mdp_.num_states(), kNone);
     std::vector<bool> matters(mdp_.num_states(), false);
@@ -151,47 +192,103 @@ class PolicyPartition::Body {
     }
   }
 
-  [[nodiscard]] std::span<const StateIndex> members(std::size_t c) const {
-    const auto starts = mdp_.component_starts();
-    return mdp_.by_component().subspan(starts[c], starts[c + 1] - starts[c]);
+  const Mdp& mdp_;
+  std::vector<StateIndex> states_;
+  std::vector<double> robot_;
+  BehaveOptions options_;
+  bool has_optima_ = true;                   // every state can finish
+  std::vector<std::uint32_t> component_of_;  // shape [num_states]
+  std::vector<std::uint32_t> kept_place_;    // shape [num_states]: position in Component::kept
+
+  mutable std::shared_mutex mutex_;    // of the cases of components, and of gains
+  std::vector<Component> components_;  // all but the cases never changes
+  std::vector<double> gains_;          // cycles that earn for some weights, row-major, shape [n, d]: primitive
+  std::unordered_set<IntegerVector> known_gains_;
+  std::atomic<std::size_t> num_parts_ = 0;
+  std::atomic<std::size_t> bytes_ = 0;
+};
+
+// What one thread does with a partition: it keeps the memory that a look-up takes.
+class PolicyLookup::Body {
+ public:
+  bool locate(PolicyPartition::Body& known, std::span<const double> weights, bool may_grow) {
+    detail::require_weights(known.mdp(), weights, "PolicyLookup");
+    known_ = &known;
+    weights_ = weights;
+    may_grow_ = may_grow;
+    grown_by_ = 0;
+    rewards_.clear();
+    follower_.reset();
+    paths_.reset();
+    loose_.clear();
+    key_.clear();
+    is_kept_ = true;
+    if (!known.has_optima()) return false;
+    double square = 0.0;
+    for (const double w : weights) square += w * w;
+    clear_by_ = kClear * std::sqrt(square);
+    if (known.gains(weights, clear_by_)) return false;
+    places_.resize(std::max(places_.size(), known.num_components()));
+    for (std::size_t c = 0; c < known.num_components(); ++c) {
+      if (!(known.is_alone(c) ? step(c) : enter(c))) return false;
+    }
+    if (!is_kept_) key_.clear();
+    return true;
   }
+
+  [[nodiscard]] IntegerVector counts(std::size_t i) const {
+    auto result = counts_at(known_->states()[i].value());
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] *= known_->options().scale;
+    return result;
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> key() const noexcept { return key_; }
+  [[nodiscard]] std::size_t grown_by() const noexcept { return grown_by_; }
+
+ private:
+  using Part = PolicyPartition::Body::Part;
+  // Where the weights of the last locate() lie in a component.
+  struct Place {
+    const Part* part = nullptr;
+    IntegerVector base;  // the counts of the first exit, or of the only state
+  };
 
   // Of a state that matters, in a component that was located.
   [[nodiscard]] IntegerVector counts_at(std::size_t s) const {
-    if (s >= mdp_.num_states()) return IntegerVector(mdp_.num_features());
-    const auto& place = places_[component_of_[s]];
+    if (s >= known_->mdp().num_states()) return IntegerVector(known_->mdp().num_features());
+    const auto& place = places_[known_->component_of(s)];
     auto result = place.base;
     if (place.part == nullptr) return result;
-    const std::size_t d = mdp_.num_features();
-    const std::int64_t* const own = &place.part->counts[kept_place_[s] * d];
+    const std::size_t d = known_->mdp().num_features();
+    const std::int64_t* const own = &place.part->counts[known_->kept_place(s) * d];
     for (std::size_t k = 0; k < d; ++k) result[k] += own[k];
     return result;
   }
 
   // By how much half-spaces must hold where counts reach so far: then a choice is clearly better than another one.
   [[nodiscard]] double clearance(double largest_value) const {
-    return std::max(clear_by_, 4.0 * options_.tolerance * std::max(1.0, largest_value));
+    return std::max(clear_by_, 4.0 * known_->options().tolerance * std::max(1.0, largest_value));
   }
 
   // A component of one state: its best choice.
   bool step(std::size_t c) {
-    const StateIndex s = members(c).front();
-    const auto choices = mdp_.choices(s);
+    const StateIndex s = known_->members(c).front();
+    const auto choices = known_->mdp().choices(s);
     ways_.clear();
     double best = 0.0;
     for (const Choice& choice : choices) {
-      const Outcome& outcome = mdp_.outcomes(choice).front();
+      const Outcome& outcome = known_->mdp().outcomes(choice).front();
       auto& way = ways_.emplace_back(counts_at(outcome.next.value()), 0.0);
-      way.first += mdp_.integer_features(outcome);
+      way.first += known_->mdp().integer_features(outcome);
       way.second = dot(way.first, weights_);
       best = ways_.size() == 1 ? way.second : std::max(best, way.second);
     }
     std::optional<std::size_t> chosen;
     double earned = 0.0;
     for (std::size_t i = 0; i < ways_.size(); ++i) {
-      if (!detail::is_tight(best, ways_[i].second, options_.tolerance)) continue;
-      const double robots = dot(ways_[i].first, robot_);
-      if (chosen && robots <= earned + options_.tolerance * std::max(1.0, std::abs(earned))) continue;
+      if (!detail::is_tight(best, ways_[i].second, known_->options().tolerance)) continue;
+      const double robots = dot(ways_[i].first, known_->robot());
+      if (chosen && robots <= earned + known_->options().tolerance * std::max(1.0, std::abs(earned))) continue;
       chosen = i;
       earned = robots;
     }
@@ -205,34 +302,18 @@ class PolicyPartition::Body {
 
   // A component of several states: the part that the weights lie in, if it is known, else a plan.
   bool enter(std::size_t c) {
-    auto& component = components_[c];
-    const std::size_t d = weights_.size();
-    const IntegerVector base = counts_at(component.exits.front());
+    const auto exits = known_->exits(c);
+    const IntegerVector base = counts_at(exits.front());
     differences_.clear();
-    for (std::size_t e = 1; e < component.exits.size(); ++e) {
-      const auto difference = counts_at(component.exits[e]) - base;
+    for (std::size_t e = 1; e < exits.size(); ++e) {
+      const auto difference = counts_at(exits[e]) - base;
       differences_.insert(differences_.end(), difference.begin(), difference.end());
     }
-    const auto known = component.cases.find(differences_);
-    if (known != component.cases.end()) {
-      // Of two behaviours the better one is better or equal everywhere, so the best in sum is the only candidate.
-      const auto& sums = known->second.sums;
-      std::size_t best = 0;
-      double most = 0.0;
-      for (std::size_t i = 0; i * d < sums.size(); ++i) {
-        const double sum = dot_of(&sums[i * d], weights_);
-        if (i > 0 && sum <= most) continue;
-        most = sum;
-        best = i;
-      }
-      const Part& part = *known->second.parts[best];
-      if (holds(part)) {
-        places_[c] = {&part, base};
-        key_.push_back(part.number);
-        return true;
-      }
-    }
-    return plan(c, base);
+    const Part* const part = known_->candidate(c, differences_, weights_);
+    if (part == nullptr || !holds(*part)) return plan(c, base);
+    places_[c] = {part, base};
+    key_.push_back(part->number);
+    return true;
   }
 
   [[nodiscard]] bool holds(const Part& part) const {
@@ -247,15 +328,16 @@ class PolicyPartition::Body {
   }
 
   bool plan(std::size_t c, const IntegerVector& base) {
-    const auto& component = components_[c];
     if (rewards_.empty()) {
-      rewards_ = detail::row_rewards(mdp_, weights_);
-      paths_.emplace(mdp_, rewards_, options_.tolerance);
+      rewards_ = detail::row_rewards(known_->mdp(), weights_);
+      paths_.emplace(known_->mdp(), rewards_, known_->options().tolerance);
       follower_.reset();
       // Whatever is read of it later is written before.
-      counts_.resize(mdp_.num_states() + mdp_.num_terminals(), IntegerVector(mdp_.num_features()));
+      const std::size_t size = known_->mdp().num_states() + known_->mdp().num_terminals();
+      if (!counts_.empty() && counts_.front().size() != weights_.size()) counts_.clear();
+      if (counts_.size() < size) counts_.resize(size, IntegerVector(weights_.size()));
     }
-    for (const std::uint32_t exit : component.exits) {
+    for (const std::uint32_t exit : known_->exits(c)) {
       counts_[exit] = counts_at(exit) - base;
       paths_->set_value(StateIndex{exit}, dot(counts_[exit], weights_));
     }
@@ -265,63 +347,55 @@ class PolicyPartition::Body {
       return false;
     }
     if (found == detail::PathsFound::kTightCycle) return false;
-    if (!follower_) follower_.emplace(mdp_, rewards_, paths_->values(), options_.tolerance);
-    for (const StateIndex s : members(c)) follower_->find_step(s.value());
-    for (const std::uint32_t s : paths_->order()) follower_->follow(s, std::span<const double>{robot_}, counts_);
+    if (!follower_) follower_.emplace(known_->mdp(), rewards_, paths_->values(), known_->options().tolerance);
+    for (const StateIndex s : known_->members(c)) follower_->find_step(s.value());
+    for (const std::uint32_t s : paths_->order()) follower_->follow(s, known_->robot(), counts_);
     places_[c] = {keep(c), base};
     return true;
   }
 
-  // A cycle that earns, unless it is known or hardly earns anything.
+  // A cycle that earns, unless it hardly earns anything.
   void keep_gain(const IntegerVector& features) {
-    if (!may_grow_ || !(dot(features, weights_) > clear_by_)) return;
-    const auto cycle = primitive(features);
-    if (!known_gains_.insert(cycle).second) return;
-    for (const std::int64_t x : cycle) gains_.push_back(static_cast<double>(x));
-    bytes_ += cycle.size() * sizeof(double) + 2 * sizeof(IntegerVector);
+    if (may_grow_ && dot(features, weights_) > clear_by_) grown_by_ += known_->add_gain(primitive(features));
   }
 
   // The part of what was planned last, with the differences in `differences_`.
   const Part* keep(std::size_t c) {
-    auto& component = components_[c];
     const std::size_t d = weights_.size();
     auto part = std::make_unique<Part>();
-    for (const std::uint32_t s : component.kept) {
+    for (const std::uint32_t s : known_->kept(c)) {
       part->counts.insert(part->counts.end(), counts_[s].begin(), counts_[s].end());
     }
-    if (may_grow_ && is_kept_ && bound(c, *part)) {
-      auto& known = component.cases[differences_];
-      std::vector<double> sum(d, 0.0);
-      for (const StateIndex s : members(c)) {
-        for (std::size_t k = 0; k < d; ++k) sum[k] += static_cast<double>(counts_[s.value()][k]);
-      }
-      known.sums.insert(known.sums.end(), sum.begin(), sum.end());
-      part->number = component.num_parts++;
-      bytes_ += sizeof(Part) + (known.parts.empty() ? sizeof(Case) + differences_.size() * 8 + 64 : 0) +
-                (part->normals.size() + 2 * d) * sizeof(double) + part->counts.size() * sizeof(std::int64_t);
-      ++num_parts_;
-      key_.push_back(part->number);
-      return known.parts.emplace_back(std::move(part)).get();
+    if (!may_grow_ || !is_kept_ || !bound(c, *part)) {
+      is_kept_ = false;
+      return loose_.emplace_back(std::move(part)).get();
     }
-    is_kept_ = false;
-    return loose_.emplace_back(std::move(part)).get();
+    std::vector<double> sum(d, 0.0);
+    for (const StateIndex s : known_->members(c)) {
+      for (std::size_t k = 0; k < d; ++k) sum[k] += static_cast<double>(counts_[s.value()][k]);
+    }
+    const auto [kept, bytes] = known_->add(c, differences_, weights_, std::move(part), sum,
+                                           [this](const Part& other) { return holds(other); });
+    grown_by_ += bytes;
+    key_.push_back(kept->number);
+    return kept;
   }
 
   // The half-spaces that the plan in `counts_` follows from. False unless all hold clearly.
   [[nodiscard]] bool bound(std::size_t c, Part& part) {
     const std::size_t d = weights_.size();
     part.reach.assign(d, 0.0);
-    for (const StateIndex s : members(c)) {
+    for (const StateIndex s : known_->members(c)) {
       for (std::size_t k = 0; k < d; ++k) {
         part.reach[k] = std::max(part.reach[k], std::abs(static_cast<double>(counts_[s.value()][k])));
       }
     }
     std::unordered_set<IntegerVector> met;
     std::unordered_set<IntegerVector> losses;
-    for (const StateIndex s : members(c)) {
-      for (const Choice& choice : mdp_.choices(s)) {
-        const Outcome& outcome = mdp_.outcomes(choice).front();
-        auto loss = counts_[s.value()] - mdp_.integer_features(outcome);
+    for (const StateIndex s : known_->members(c)) {
+      for (const Choice& choice : known_->mdp().choices(s)) {
+        const Outcome& outcome = known_->mdp().outcomes(choice).front();
+        auto loss = counts_[s.value()] - known_->mdp().integer_features(outcome);
         loss -= counts_[outcome.next.value()];
         if (!loss.is_zero() && met.insert(loss).second) losses.insert(primitive(loss));
       }
@@ -336,24 +410,12 @@ class PolicyPartition::Body {
     return holds(part);
   }
 
-  const Mdp& mdp_;
-  std::vector<StateIndex> states_;
-  std::vector<double> robot_;
-  BehaveOptions options_;
-  bool has_optima_ = true;  // every state can finish
-  std::vector<Component> components_;
-  std::vector<std::uint32_t> component_of_;  // shape [num_states]
-  std::vector<std::uint32_t> kept_place_;    // shape [num_states]: position in Component::kept
-  std::vector<double> gains_;                // cycles that earn for some weights, row-major, shape [n, d]: primitive
-  std::unordered_set<IntegerVector> known_gains_;
-  std::size_t num_parts_ = 0;
-  std::size_t bytes_ = 0;
-
-  // Of the last locate().
+  PolicyPartition::Body* known_ = nullptr;
   std::span<const double> weights_;
   bool may_grow_ = true;
   bool is_kept_ = true;
   double clear_by_ = kClear;
+  std::size_t grown_by_ = 0;
   std::vector<Place> places_;  // per component
   std::vector<std::uint32_t> key_;
   std::vector<std::unique_ptr<Part>> loose_;  // parts that are not kept
@@ -372,13 +434,19 @@ PolicyPartition::PolicyPartition(PolicyPartition&&) noexcept = default;
 PolicyPartition& PolicyPartition::operator=(PolicyPartition&&) noexcept = default;
 PolicyPartition::~PolicyPartition() = default;
 
-bool PolicyPartition::locate(std::span<const double> weights, bool may_grow) {
-  return body_->locate(weights, may_grow);
-}
-IntegerVector PolicyPartition::counts(std::size_t i) const { return body_->counts(i); }
-std::span<const std::uint32_t> PolicyPartition::key() const noexcept { return body_->key(); }
 std::size_t PolicyPartition::num_parts() const noexcept { return body_->num_parts(); }
 std::size_t PolicyPartition::memory() const noexcept { return body_->memory(); }
-void PolicyPartition::clear() { body_->clear(); }
+
+PolicyLookup::PolicyLookup() : body_{std::make_unique<Body>()} {}
+PolicyLookup::PolicyLookup(PolicyLookup&&) noexcept = default;
+PolicyLookup& PolicyLookup::operator=(PolicyLookup&&) noexcept = default;
+PolicyLookup::~PolicyLookup() = default;
+
+bool PolicyLookup::locate(PolicyPartition& partition, std::span<const double> weights, bool may_grow) {
+  return body_->locate(*partition.body_, weights, may_grow);
+}
+IntegerVector PolicyLookup::counts(std::size_t i) const { return body_->counts(i); }
+std::span<const std::uint32_t> PolicyLookup::key() const noexcept { return body_->key(); }
+std::size_t PolicyLookup::grown_by() const noexcept { return body_->grown_by(); }
 
 }  // namespace kith

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "small_mdps.hpp"
@@ -57,9 +59,10 @@ Mdp errand(std::size_t w, std::size_t h, RandomStream& random) {
 void expect_same(PolicyPartition& partition, const Mdp& mdp, const std::vector<double>& weights,
                  const std::vector<double>& robot) {
   const auto behaviour = behave_in_favour(mdp, weights, robot);
-  ASSERT_EQ(partition.locate(weights), behaviour.has_value());
+  PolicyLookup lookup;
+  ASSERT_EQ(lookup.locate(partition, weights), behaviour.has_value());
   if (!behaviour) return;
-  for (std::size_t s = 0; s < mdp.num_states(); ++s) ASSERT_EQ(partition.counts(s), behaviour->counts[s]);
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) ASSERT_EQ(lookup.counts(s), behaviour->counts[s]);
 }
 
 TEST(PolicyPartition, EqualsPlanningForAnyWeightsOfAnyProcess) {
@@ -94,14 +97,15 @@ TEST(PolicyPartition, HasEqualKeysForEqualBehaviourOnly) {
   RandomStream random{33};
   const Mdp mdp = errand(5, 4, random);
   PolicyPartition partition{mdp, all_states(mdp), {-2.0, 0.5, -1.0}};
+  PolicyLookup lookup;
   std::vector<std::pair<std::vector<std::uint32_t>, std::vector<IntegerVector>>> met;
   int num_equal = 0;
   for (int k = 0; k < 200; ++k) {
-    if (!partition.locate(random_direction(random))) continue;
-    ASSERT_FALSE(partition.key().empty());
+    if (!lookup.locate(partition, random_direction(random))) continue;
+    ASSERT_FALSE(lookup.key().empty());
     std::vector<IntegerVector> counts;
-    for (std::size_t s = 0; s < mdp.num_states(); ++s) counts.push_back(partition.counts(s));
-    const std::vector<std::uint32_t> key{partition.key().begin(), partition.key().end()};
+    for (std::size_t s = 0; s < mdp.num_states(); ++s) counts.push_back(lookup.counts(s));
+    const std::vector<std::uint32_t> key{lookup.key().begin(), lookup.key().end()};
     for (const auto& [known, its_counts] : met) {
       EXPECT_EQ(known == key, its_counts == counts);
       num_equal += known == key ? 1 : 0;
@@ -118,32 +122,92 @@ TEST(PolicyPartition, AnswersWithoutGrowing) {
   PolicyPartition partition{mdp, all_states(mdp), robot};
   const std::vector<double> weights{-1.0, -0.3, -1.0};
   const auto behaviour = behave_in_favour(mdp, weights, robot);
+  PolicyLookup lookup;
   for (const bool may_grow : {false, true, false}) {
-    ASSERT_TRUE(partition.locate(weights, may_grow));
-    for (std::size_t s = 0; s < mdp.num_states(); ++s) EXPECT_EQ(partition.counts(s), behaviour->counts[s]);
+    const std::size_t before = partition.memory();
+    ASSERT_TRUE(lookup.locate(partition, weights, may_grow));
+    EXPECT_EQ(lookup.grown_by(), partition.memory() - before);
+    EXPECT_EQ(partition.num_parts() > 0, partition.memory() > 0);
+    EXPECT_EQ(lookup.key().empty(), partition.num_parts() == 0);
+    EXPECT_EQ(lookup.grown_by() > 0, may_grow);
+    for (std::size_t s = 0; s < mdp.num_states(); ++s) EXPECT_EQ(lookup.counts(s), behaviour->counts[s]);
   }
-  EXPECT_GT(partition.num_parts(), 0u);
-  EXPECT_GT(partition.memory(), 0u);
-  partition.clear();
-  EXPECT_EQ(partition.num_parts(), 0u);
-  EXPECT_EQ(partition.memory(), 0u);
-  ASSERT_TRUE(partition.locate(weights, false));
-  EXPECT_EQ(partition.num_parts(), 0u);
-  EXPECT_TRUE(partition.key().empty());
+}
+
+// Two processes of different size and dimension, in turns.
+TEST(PolicyLookup, GoesFromOnePartitionToAnother) {
+  RandomStream random{35};
+  const Mdp large = errand(5, 4, random);
+  const Mdp small = testing::round_trip();
+  const std::vector<double> robot_of_large{-2.0, 0.5, -1.0};
+  const std::vector<double> robot_of_small{0.0, -1.0};
+  PolicyPartition in_large{large, all_states(large), robot_of_large};
+  PolicyPartition in_small{small, all_states(small), robot_of_small};
+  PolicyLookup lookup;
+  for (int k = 0; k < 20; ++k) {
+    const std::vector<double> few{uniform01(random), -1.0};
+    const auto many = random_direction(random);
+    const auto of_small = behave_in_favour(small, few, robot_of_small);
+    ASSERT_EQ(lookup.locate(in_small, few), of_small.has_value());
+    for (std::size_t s = 0; of_small && s < small.num_states(); ++s) ASSERT_EQ(lookup.counts(s), of_small->counts[s]);
+    const auto of_large = behave_in_favour(large, many, robot_of_large);
+    ASSERT_EQ(lookup.locate(in_large, many), of_large.has_value());
+    for (std::size_t s = 0; of_large && s < large.num_states(); ++s) ASSERT_EQ(lookup.counts(s), of_large->counts[s]);
+  }
+}
+
+// Every thread asks for the same weights, each in an order of its own.
+TEST(PolicyPartition, IsSharedByThreads) {
+  constexpr std::size_t kThreads = 4;
+  RandomStream random{36};
+  const Mdp mdp = errand(6, 5, random);
+  const std::vector<double> robot{-2.0, 0.5, -1.0};
+  std::vector<std::vector<double>> weights;
+  std::vector<std::optional<Behaviour>> expected;
+  for (int k = 0; k < 120; ++k) {
+    weights.push_back(random_direction(random));
+    expected.push_back(behave_in_favour(mdp, weights.back(), robot));
+  }
+  PolicyPartition partition{mdp, all_states(mdp), robot};
+  std::vector<std::size_t> num_wrong(kThreads, 0);
+  std::vector<std::size_t> grown_by(kThreads, 0);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&, t] {
+      PolicyLookup lookup;
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        const std::size_t at = (i * (2 * t + 1) + 31 * t) % weights.size();
+        const bool has_optimum = lookup.locate(partition, weights[at]);
+        num_wrong[t] += has_optimum != expected[at].has_value() ? 1u : 0u;
+        grown_by[t] += lookup.grown_by();
+        for (std::size_t s = 0; has_optimum && expected[at] && s < mdp.num_states(); ++s) {
+          num_wrong[t] += lookup.counts(s) != expected[at]->counts[s] ? 1u : 0u;
+        }
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(num_wrong, std::vector<std::size_t>(kThreads, 0));
+  EXPECT_EQ(std::accumulate(grown_by.begin(), grown_by.end(), std::size_t{0}), partition.memory());
+  const std::size_t num_parts = partition.num_parts();
+  for (const auto& w : weights) expect_same(partition, mdp, w, robot);
+  EXPECT_EQ(partition.num_parts(), num_parts);
 }
 
 TEST(PolicyPartition, CountsInUnits) {
   const Mdp mdp = testing::round_trip();
   PolicyPartition partition{mdp, all_states(mdp), {0.0, -1.0}, {.scale = 16}};
-  ASSERT_TRUE(partition.locate(std::vector{1.0, -1.0}));
-  EXPECT_EQ(partition.counts(0), (IntegerVector{16, 32}));
-  EXPECT_FALSE(partition.locate(std::vector{3.0, -1.0}));
+  PolicyLookup lookup;
+  ASSERT_TRUE(lookup.locate(partition, std::vector{1.0, -1.0}));
+  EXPECT_EQ(lookup.counts(0), (IntegerVector{16, 32}));
+  EXPECT_FALSE(lookup.locate(partition, std::vector{3.0, -1.0}));
 }
 
 TEST(PolicyPartition, RefusesWhatItCannotAnswer) {
   const Mdp mdp = testing::round_trip();
   PolicyPartition partition{mdp, all_states(mdp), {0.0, -1.0}};
-  EXPECT_THROW((void)partition.locate(std::vector{1.0}), std::invalid_argument);
+  PolicyLookup lookup;
+  EXPECT_THROW((void)lookup.locate(partition, std::vector{1.0}), std::invalid_argument);
   EXPECT_THROW((PolicyPartition{mdp, all_states(mdp), {1.0}}), std::invalid_argument);
   const Mdp discounted = make_mdp(1, 1, {{0, 0, 1, {1, 1}}}, 0.9);
   EXPECT_THROW((PolicyPartition{discounted, all_states(discounted), {1.0, 1.0}}), std::invalid_argument);

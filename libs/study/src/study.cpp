@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -33,6 +34,8 @@ void share_work(const Atlas& atlas, std::size_t n, const StreamOptions& options,
   Alone alone;
   auto& counter = options.counter == nullptr ? alone : *options.counter;
   const auto num_workers = options.threads == 0 ? default_num_workers() : options.threads;
+  const auto store = std::make_shared<PartitionStore>(atlas);
+  const auto cache_bytes = TeachingCache::bytes_of_thread(atlas, num_workers);
   std::atomic<bool> failed{false};
   parallel_loop(num_workers, num_workers, [&](std::size_t, std::size_t) {
     std::optional<TeachingCache> cache;  // it changes the speed, never a result
@@ -40,7 +43,7 @@ void share_work(const Atlas& atlas, std::size_t n, const StreamOptions& options,
       const auto begin = counter.take(options.chunk);
       if (begin >= n) return;
       const auto end = std::min<std::uint64_t>(n, begin + options.chunk);
-      if (!cache) cache.emplace(atlas);
+      if (!cache) cache.emplace(atlas, cache_bytes, store);
       try {
         for (auto i = begin; i < end && !failed; ++i) body(*cache, static_cast<std::size_t>(i));
       } catch (...) {

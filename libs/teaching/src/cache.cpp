@@ -9,10 +9,18 @@ namespace kith {
 
 std::size_t TeachingCache::memory() const noexcept { return known_->behaviours.memory() + known_->regions.memory(); }
 
+std::size_t TeachingCache::bytes_of_thread(const Atlas& atlas, std::size_t threads) {
+  constexpr std::size_t kShared = std::size_t{192} << 20u;
+  constexpr std::size_t kLeast = std::size_t{2} << 20u;
+  if (atlas.is_tabulated()) return kDefaultBytes;
+  return std::clamp(kShared / std::max<std::size_t>(threads, 1), kLeast, kDefaultBytes);
+}
+
 void TeachingCache::trim() {
-  if (memory() <= max_bytes_ && !partitions_->is_full()) return;
+  const bool renews = partitions_->is_outdated();
+  if (memory() <= max_bytes_ && !renews) return;
   known_.reset();  // first, so that both are never held
-  if (partitions_->is_full()) partitions_->clear();
+  if (renews) partitions_->renew();
   known_ = std::make_unique<Known>(*atlas_, max_bytes_, partitions_);
 }
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "kith/geometry/cone.hpp"
 #include "kith/random/distributions.hpp"
 #include "visual_order.hpp"
 
@@ -43,12 +44,51 @@ std::vector<Candidate> candidates_of(TeachingCache& cache, const KnowledgeCompon
   return candidates;
 }
 
-// T: the minimal set of what was shown, without the prior's own.
-ConstraintSet taught_by(TeachingCache& cache, std::span<const ConstraintSet> shown) {
-  auto all = cache.atlas().prior();
-  for (const auto& conveyed : shown) all |= conveyed;
-  return cache.regions().minimal(all).without(cache.atlas().prior());
-}
+// What lessons teach that begin with the same demonstrations. Above three dimensions the region that these leave is
+// found once. Of the next demonstration only the constraints matter that the region does not imply; many share those.
+class TaughtAfter {
+ public:
+  TaughtAfter(TeachingCache& cache, std::span<const ConstraintSet> shown)
+      : cache_{cache}, prior_{cache.atlas().prior()}, known_{prior_} {
+    for (const auto& conveyed : shown) known_ |= conveyed;
+    const auto& constraints = cache.constraints();
+    if (constraints.dimension() <= 3) return;
+    region_.emplace(constraints.dimension());
+    if (!region_->clip(constraints.half_spaces(known_))) region_.reset();
+    is_implied_.resize(constraints.size());
+  }
+
+  // T: the minimal set of all that was shown, without the prior's own.
+  [[nodiscard]] ConstraintSet with(const ConstraintSet& conveyed) {
+    if (!region_) return cache_.regions().minimal(known_ | conveyed).without(prior_);
+    ConstraintSet added;
+    for (const auto c : conveyed.members()) {
+      if (!is_implied(c)) added.insert(c);
+    }
+    const auto [place, is_new] = minimal_.try_emplace(std::move(added));
+    if (is_new) {
+      auto left = *region_;
+      if (left.clip(cache_.constraints().half_spaces(place->first))) {
+        place->second = cache_.constraints().set_of(left.minimal_set()).without(prior_);
+      }
+    }
+    return place->second ? *place->second : (known_ | conveyed).without(prior_);
+  }
+
+ private:
+  bool is_implied(ConstraintIndex c) {
+    auto& known = is_implied_[c.value()];
+    if (!known) known = region_->implies(cache_.constraints()[c]);
+    return *known;
+  }
+
+  TeachingCache& cache_;
+  const ConstraintSet& prior_;
+  ConstraintSet known_;
+  std::optional<Cone> region_;                   // nothing: left to the cache
+  std::vector<std::optional<bool>> is_implied_;  // per constraint: whether the region implies it
+  std::unordered_map<ConstraintSet, std::optional<ConstraintSet>> minimal_;  // nothing: no interior is left
+};
 
 // The constraints of a set in the order in which people meet them.
 std::vector<ConstraintIndex> in_order(const ConstraintTable& constraints, const ConstraintSet& set) {
@@ -58,10 +98,9 @@ std::vector<ConstraintIndex> in_order(const ConstraintTable& constraints, const 
   return members;
 }
 
-// U of demonstrations that convey this, for people who take in the first `capacity` constraints of a lesson.
+// U of demonstrations that convey and teach this, for people who take in the first `capacity` constraints of a lesson.
 double value_of_shown(TeachingCache& cache, UnitValue& value, std::span<const ConstraintSet> shown,
-                      std::size_t capacity) {
-  const auto taught = taught_by(cache, shown);
+                      const ConstraintSet& taught, std::size_t capacity) {
   if (capacity == 0) return value.of(shown, taught);
   std::vector<ConstraintSet> taken;
   ConstraintSet all, missed;
@@ -136,10 +175,11 @@ Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value,
   double reached = 0.0;
   for (std::uint64_t step = 0; step < options.max_demonstrations && !candidates.empty(); ++step) {
     std::vector<double> values;
+    TaughtAfter taught{cache, shown};
     shown.emplace_back();
     for (const auto& candidate : candidates) {
       shown.back() = candidate.conveyed;
-      values.push_back(value_of_shown(cache, value, shown, options.capacity));
+      values.push_back(value_of_shown(cache, value, shown, taught.with(candidate.conveyed), options.capacity));
     }
     const double best = *std::max_element(values.begin(), values.end());
     if (step > 0 && !(best > reached + options.min_gain)) break;
@@ -195,7 +235,9 @@ Unit unit_of(TeachingCache& cache, const TeachingView& view, std::span<const Dem
 double value_of(TeachingCache& cache, UnitValue& value, const Unit& unit, std::size_t capacity) {
   std::vector<ConstraintSet> shown;
   for (const auto& demonstration : unit.demonstrations) shown.push_back(cache.numbers_of(demonstration.half_spaces));
-  return value_of_shown(cache, value, shown, capacity);
+  ConstraintSet all;
+  for (const auto& conveyed : shown) all |= conveyed;
+  return value_of_shown(cache, value, shown, TaughtAfter{cache, {}}.with(all), capacity);
 }
 
 }  // namespace kith

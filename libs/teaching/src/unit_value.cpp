@@ -101,10 +101,23 @@ const UnitValue::Factors& UnitValue::factors(ConstraintIndex c) {
   return known;
 }
 
+void UnitValue::multiply_shown(const ConstraintSet& conveyed) {
+  for (const auto c : conveyed.members()) multiply(product_, factors(c).shown);
+}
+
 double UnitValue::of(std::span<const ConstraintSet> shown, const ConstraintSet& taught) {
-  product_ = mass_;
-  for (const auto& conveyed : shown) {
-    for (const auto c : conveyed.members()) multiply(product_, factors(c).shown);
+  if (shown.empty()) {
+    product_ = mass_;
+  } else {
+    const auto before = shown.first(shown.size() - 1);
+    if (product_before_.empty() || !std::equal(before.begin(), before.end(), before_.begin(), before_.end())) {
+      product_ = mass_;
+      for (const auto& conveyed : before) multiply_shown(conveyed);
+      before_.assign(before.begin(), before.end());
+      product_before_ = product_;
+    }
+    product_ = product_before_;
+    multiply_shown(shown.back());
   }
   for (const auto c : taught.members()) multiply(product_, factors(c).feedback);
   std::vector<double> members(num_members_, 0.0);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -13,43 +15,78 @@
 
 namespace kith {
 
-/// The policy partitions of the MDPs of an atlas without tables: what is known about what people with any weights do.
-/// They say nothing about how Behaviours numbers its constraints, so they may outlive it.
+/// The policy partitions of the MDPs of an atlas without tables, which threads share: what is known about what people
+/// with any weights do.
 ///
-/// Caches in front of pure functions. Not thread-safe. The atlas must outlive them.
-class PolicyPartitions {
+/// They grow up to a bound. At half of it they are full: a thread that has nothing open begins anew with empty ones,
+/// and the full ones are freed when the last thread has left them. A thread that has to go on with full ones plans what
+/// they do not know. So all partitions together take at most `max_bytes`, and what one look-up of each thread adds.
+///
+/// A cache in front of pure functions: results never depend on what was asked before, nor by which thread. The atlas
+/// must outlive it.
+class PartitionStore {
  public:
-  static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20u;
+  static constexpr std::size_t kDefaultBytes = std::size_t{128} << 20u;
 
-  /// @param max_bytes  when they take so much, nothing is added until they are cleared.
-  explicit PolicyPartitions(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes);
+  /// @param max_bytes  of all partitions.
+  explicit PartitionStore(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes);
 
+  [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
   /// The states of an MDP on candidates' paths, ascending: those whose counts are known.
   [[nodiscard]] std::span<const StateIndex> states(MdpIndex m) const { return states_[m.value()]; }
   /// A demonstration's position among those of its MDP, or -1.
   [[nodiscard]] std::int32_t place(DemoIndex demo) const { return places_[demo.value()]; }
 
-  /// Finds out what people with these weights do in an MDP; nothing if it is not exact, else its partition after
-  /// PolicyPartition::locate(), and whether they have an optimum.
+  /// About how much all partitions take, in bytes.
+  [[nodiscard]] std::size_t memory() const noexcept { return *bytes_; }
+
+ private:
+  friend class PolicyPartitions;
+  // Partitions that began together.
+  class Generation;
+  [[nodiscard]] std::shared_ptr<Generation> current() const;
+  [[nodiscard]] std::shared_ptr<Generation> current_with_room();
+
+  const Atlas* atlas_;
+  std::size_t max_bytes_;
+  std::vector<double> robot_weights_;
+  std::vector<std::vector<StateIndex>> states_;      // per MDP
+  std::vector<std::int32_t> places_;                 // per demonstration
+  std::shared_ptr<std::atomic<std::size_t>> bytes_;  // of all generations, which may outlive this object
+  mutable std::mutex mutex_;                         // of current_
+  std::shared_ptr<Generation> current_;
+};
+
+/// One thread's view of a PartitionStore. Not thread-safe. Its numbers say nothing about how Behaviours numbers its
+/// constraints, so it may outlive Behaviours; but it must not be renewed while Behaviours is in use.
+class PolicyPartitions {
+ public:
+  /// With a store of its own.
+  explicit PolicyPartitions(const Atlas& atlas) : PolicyPartitions{std::make_shared<PartitionStore>(atlas)} {}
+  explicit PolicyPartitions(std::shared_ptr<PartitionStore> store);
+
+  /// See PartitionStore.
+  [[nodiscard]] std::span<const StateIndex> states(MdpIndex m) const { return store_->states(m); }
+  [[nodiscard]] std::int32_t place(DemoIndex demo) const { return store_->place(demo); }
+
+  /// Finds out what people with these weights do in an MDP; nothing if it is not exact, else what was found, which is
+  /// valid until the next call, and whether they have an optimum.
   struct Located {
-    const PolicyPartition* partition = nullptr;
+    const PolicyLookup* found = nullptr;
     bool has_optimum = false;
   };
   [[nodiscard]] std::optional<Located> locate(MdpIndex m, const Direction& weights);
 
-  /// About how much is kept, in bytes.
-  [[nodiscard]] std::size_t memory() const noexcept { return bytes_; }
-  [[nodiscard]] bool is_full() const noexcept { return bytes_ >= max_bytes_; }
-  void clear();
+  /// Whether other partitions should be used from now on, because these are full or another thread has begun new ones.
+  [[nodiscard]] bool is_outdated() const;
+  /// Changes to those that other threads use, or to new ones if they are full. Keys of PolicyLookup change their
+  /// meaning.
+  void renew();
 
  private:
-  const Atlas* atlas_;
-  std::size_t max_bytes_;
-  std::size_t bytes_ = 0;
-  std::vector<double> robot_weights_;
-  std::vector<std::vector<StateIndex>> states_;             // per MDP
-  std::vector<std::int32_t> places_;                        // per demonstration
-  std::vector<std::optional<PolicyPartition>> partitions_;  // per MDP: made when first asked for
+  std::shared_ptr<PartitionStore> store_;
+  std::shared_ptr<PartitionStore::Generation> generation_;
+  PolicyLookup lookup_;
 };
 
 /// What people who hold given reward weights do, and what demonstrations tell
@@ -60,8 +97,8 @@ class PolicyPartitions {
 /// the doubt): in exact MDPs by their PolicyPartition, else by planning. Of it only the losses on candidates' paths are
 /// kept, four bytes each, once for all weights that behave alike in the MDP; they are shown to as one person. For at
 /// most `max_cells` cells it is known which behaviour is theirs; then the oldest are forgotten. When the behaviours
-/// take more than max_cells * 4 bytes * states on candidates' paths, all are forgotten. What is forgotten is found
-/// again when asked for.
+/// take more than `max_row_bytes` and more than max_cells * 4 bytes * states on candidates' paths, all are forgotten.
+/// What is forgotten is found again when asked for.
 ///
 /// With tables, one row of what is conveyed is kept per policy cell and demonstration class; when they take more than
 /// `max_row_bytes` the oldest are forgotten and, if asked for again, computed again.
@@ -73,7 +110,7 @@ class Behaviours {
   static constexpr std::size_t kDefaultCells = 256;
   static constexpr std::size_t kDefaultRowBytes = std::size_t{32} << 20u;
 
-  /// @param partitions  of the same atlas; nothing: some of its own.
+  /// @param partitions  a view for this object alone, of the same atlas; nothing: with a store of its own.
   explicit Behaviours(const Atlas& atlas, std::size_t max_cells = kDefaultCells,
                       std::size_t max_row_bytes = kDefaultRowBytes,
                       std::shared_ptr<PolicyPartitions> partitions = nullptr);

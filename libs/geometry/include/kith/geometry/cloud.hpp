@@ -28,11 +28,11 @@ class Cloud {
   using Mask = std::vector<std::uint64_t>;
 
   /// @throws std::invalid_argument if num_points == 0.
-  Cloud(const ConeSampler& region, std::size_t num_points) : points_{region.cover(num_points)} {}
+  Cloud(const ConeSampler& region, std::size_t num_points) : points_{region.cover(num_points).transpose()} {}
 
   /// Shape [d, n].
-  [[nodiscard]] const Eigen::MatrixXd& points() const noexcept { return points_; }
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(points_.cols()); }
+  [[nodiscard]] Eigen::MatrixXd points() const { return points_.transpose(); }
+  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(points_.rows()); }
 
   /// Which points the half-space contains; O(d n). Keep it where the half-space recurs.
   /// @throws std::invalid_argument unless the dimensions are equal.
@@ -51,7 +51,7 @@ class Cloud {
   [[nodiscard]] std::size_t num_words() const noexcept { return (size() + 63) / 64; }
   [[nodiscard]] Mask everything() const;
 
-  Eigen::MatrixXd points_;
+  Eigen::MatrixXd points_;  // shape [n, d]: axis by axis
 };
 
 }  // namespace kith

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "kith/core/integer_vector.hpp"
@@ -24,8 +23,9 @@ namespace kith {
 /// other weights are planned, within the component alone. Cycles that earn are kept as well: weights for which one of
 /// them does have no optimum.
 ///
-/// A cache in front of a pure function: results never depend on what was asked before, and equal those of
-/// behave_in_favour(). Not thread-safe. The process must outlive it.
+/// A cache in front of a pure function: what PolicyLookup finds never depends on what was asked before, nor on the
+/// order in which threads ask, and equals the result of behave_in_favour(). Threads may share a partition. What is
+/// known stays until the partition is destroyed. The process must outlive it.
 class PolicyPartition {
  public:
   /// @param states  the states whose counts will be asked for, ascending. @param robot_weights  shape [d]; see
@@ -36,23 +36,38 @@ class PolicyPartition {
   PolicyPartition& operator=(PolicyPartition&&) noexcept;
   ~PolicyPartition();
 
-  /// Finds out what people with these weights do. False if they have no optimum.
-  /// @param may_grow  whether what is new is kept. @throws std::invalid_argument unless there is one finite weight per
-  /// feature.
-  bool locate(std::span<const double> weights, bool may_grow = true);
-
-  /// After locate() was true: feature counts in units of 1 / scale of the i-th of `states`, shape [d].
-  [[nodiscard]] IntegerVector counts(std::size_t i) const;
-  /// Where the weights lie, one number per component: equal keys mean equal counts at all states, as long as nothing
-  /// is cleared. Empty where the behaviour was not kept.
-  [[nodiscard]] std::span<const std::uint32_t> key() const noexcept;
-
   /// Parts of components that are kept.
   [[nodiscard]] std::size_t num_parts() const noexcept;
   /// About how much is kept, in bytes.
   [[nodiscard]] std::size_t memory() const noexcept;
-  /// Forgets everything.
-  void clear();
+
+ private:
+  friend class PolicyLookup;
+  class Body;
+  std::unique_ptr<Body> body_;
+};
+
+/// Looks weights up in policy partitions, one after the other. Not thread-safe; give each thread its own. A partition
+/// must outlive what was found in it.
+class PolicyLookup {
+ public:
+  PolicyLookup();
+  PolicyLookup(PolicyLookup&&) noexcept;
+  PolicyLookup& operator=(PolicyLookup&&) noexcept;
+  ~PolicyLookup();
+
+  /// Finds out what people with these weights do. False if they have no optimum.
+  /// @param may_grow  whether the partition keeps what is new. @throws std::invalid_argument unless there is one finite
+  /// weight per feature.
+  bool locate(PolicyPartition& partition, std::span<const double> weights, bool may_grow = true);
+
+  /// After locate() was true: feature counts in units of 1 / scale of the i-th of the partition's states, shape [d].
+  [[nodiscard]] IntegerVector counts(std::size_t i) const;
+  /// Where the weights lie, one number per component: equal keys mean equal counts at all states of the partition.
+  /// Empty where the behaviour was not kept. Which numbers these are depends on the order of the look-ups.
+  [[nodiscard]] std::span<const std::uint32_t> key() const noexcept;
+  /// By how much the last locate() has increased PolicyPartition::memory().
+  [[nodiscard]] std::size_t grown_by() const noexcept;
 
  private:
   class Body;

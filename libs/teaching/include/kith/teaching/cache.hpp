@@ -30,18 +30,27 @@ struct TeachingOptions;
 /// Numbers of constraints and of policy cells are those of this cache and valid until trim().
 class TeachingCache {
  public:
-  /// Memory that is kept when sessions propose lessons, in bytes; while a lesson is chosen it may be more.
+  /// Memory that is kept when sessions propose lessons, in bytes, beside the PartitionStore; while a lesson is chosen
+  /// it may be more.
   static constexpr std::size_t kDefaultBytes = std::size_t{48} << 20u;
+  /// The same for one of so many threads that teach a domain at a time. Where behaviours are planned on demand they
+  /// share 192 MB.
+  [[nodiscard]] static std::size_t bytes_of_thread(const Atlas& atlas, std::size_t threads);
 
   /// Keeps the atlas alive, and so do sessions that are made with this cache.
-  explicit TeachingCache(std::shared_ptr<const Atlas> atlas, std::size_t max_bytes = kDefaultBytes)
+  /// @param store  of the same atlas, shared with the caches of other threads; nothing: one for this cache alone.
+  explicit TeachingCache(std::shared_ptr<const Atlas> atlas, std::size_t max_bytes = kDefaultBytes,
+                         std::shared_ptr<PartitionStore> store = nullptr)
       : atlas_{std::move(atlas)},
         max_bytes_{max_bytes},
-        partitions_{std::make_shared<PolicyPartitions>(*atlas_)},
+        partitions_{
+            std::make_shared<PolicyPartitions>(store ? std::move(store) : std::make_shared<PartitionStore>(*atlas_))},
         known_{std::make_unique<Known>(*atlas_, max_bytes, partitions_)} {}
   /// For an atlas that outlives this cache and all sessions that are made with it.
-  explicit TeachingCache(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes)
-      : TeachingCache{std::shared_ptr<const Atlas>{std::shared_ptr<const Atlas>{}, &atlas}, max_bytes} {}
+  explicit TeachingCache(const Atlas& atlas, std::size_t max_bytes = kDefaultBytes,
+                         std::shared_ptr<PartitionStore> store = nullptr)
+      : TeachingCache{std::shared_ptr<const Atlas>{std::shared_ptr<const Atlas>{}, &atlas}, max_bytes,
+                      std::move(store)} {}
 
   [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
   [[nodiscard]] const std::shared_ptr<const Atlas>& shared_atlas() const noexcept { return atlas_; }

@@ -66,6 +66,7 @@ class UnitValue {
   void add_part(std::size_t member, const MemberHypothesis& hypothesis, std::size_t points, RandomStream random);
   void grade_points(TeachingCache& cache, std::size_t component);
   const Factors& factors(ConstraintIndex c);
+  void multiply_shown(const ConstraintSet& conveyed);
 
   Options options_;
   const ConstraintTable* constraints_;
@@ -77,6 +78,9 @@ class UnitValue {
   std::vector<double> worth_;              // f
   std::unordered_map<std::size_t, Factors> factors_;
   std::vector<double> product_;
+  // Units are compared that differ in the last demonstration only: the other ones of the last unit, and their product.
+  std::vector<ConstraintSet> before_;
+  std::vector<double> product_before_;
 };
 
 }  // namespace kith
