@@ -278,9 +278,13 @@ class Writer {
       auto pairs = estimate_contrasts(model_, group, pairwise_contrasts(group),
                                       is_family ? Adjustment::kTukey : Adjustment::kNone, 1.0 - options_.alpha);
       if (!any_estimate(pairs)) {
-        finding_.warnings.push_back(fmt::format("the levels of {} cannot be compared{}: {}", factor.name,
-                                                by ? " at " + group.name : std::string{},
-                                                pairs.front().estimate.reason()));
+        const bool interacts = std::any_of(
+            model_.design.terms.begin(), model_.design.terms.end(),
+            [&](const auto& term) { return term.size() > 1 && std::find(term.begin(), term.end(), f) != term.end(); });
+        finding_.warnings.push_back(
+            fmt::format("the levels of {} cannot be compared{}: {}{}", factor.name,
+                        by ? " at " + group.name : std::string{}, pairs.front().estimate.reason(),
+                        interacts ? "; leave out levels (--where), or the interaction (+ instead of *)" : ""));
         continue;
       }
       for (auto& pair : pairs) comparisons.push_back({std::move(pair), group.name});
