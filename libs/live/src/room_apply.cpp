@@ -244,10 +244,11 @@ class RoomChange {
 
   void after_departure() {
     const auto& dropout = study_.group().dropout;
-    if (dropout.policy == DropoutPolicy::kEndGroup) {
+    const bool has_reserve = !event_.body.at("by").is_null() && event_.body.at("type").is_null();
+    if (dropout.without_reserve() == DropoutPolicy::kEndGroup && !has_reserve) {
       return step_.end("member-left", "Somebody in your group had to stop, so the session is over for everybody.");
     }
-    const auto least = dropout.policy == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
+    const auto least = dropout.without_reserve() == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
     if (num_active_people(state_) < least) {
       step_.end("too-few", "Too few people are left in your group to go on.");
     }

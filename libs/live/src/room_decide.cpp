@@ -195,11 +195,12 @@ class SeatDecider {
     if (stage_of_seat(room_, seat_) == "debrief") return nothing_to_do();
     Json body{{"by", nullptr}, {"type", nullptr}};
     if (is_running(state_)) {
-      const auto policy = room_.study.group().dropout.policy;
+      const auto& dropout = room_.study.group().dropout;
       const auto reserve = first_reserve(state_);
-      if (policy == DropoutPolicy::kReplaceFromPool && reserve) body["by"] = *reserve + 1;
       const auto others = num_active_people(state_) - (seat_.status == SeatStatus::kActive ? 1 : 0);
-      if (policy == DropoutPolicy::kSimulate && others > 0) {
+      if (dropout.policy == DropoutPolicy::kReplaceFromPool && reserve) {
+        body["by"] = *reserve + 1;
+      } else if (dropout.without_reserve() == DropoutPolicy::kSimulate && others > 0) {
         body["by"] = state_.seats.size() + 1;
         body["type"] = std::string{seat_.type};
       }
