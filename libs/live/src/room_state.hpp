@@ -176,6 +176,8 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] bool has_high_estimate(const RoomParts& room, const LiveSeat& seat);
 /// Whether groups of a cell have a place for people of high or of low ability.
 [[nodiscard]] bool has_place_for(const LiveStudy& study, const LiveCell& cell, bool high);
+/// See Room::next_for(); from 0.
+[[nodiscard]] std::optional<std::size_t> next_for_in(const RoomParts& room, char type);
 /// See Room::next_group().
 [[nodiscard]] std::optional<PlannedGroup> next_group_in(const RoomParts& room, std::int64_t now_us);
 /// When the time of whoever has waited for longest is over: more groups are possible from then on. Nothing if waiting
