@@ -64,6 +64,6 @@ std::vector<std::size_t> observe_common(ParticleBelief& belief, const TeamRespon
 
 }  // namespace
 
-AggregationRule common_rule() { return {"common", "what all members know (intersection)", observe_common}; }
+AggregationRule common_rule() { return {"common", "what all members know (intersection)", observe_common, true}; }
 
 }  // namespace kith::detail

@@ -11,6 +11,6 @@ std::vector<std::size_t> observe_joint(ParticleBelief& belief, const TeamRespons
 
 }  // namespace
 
-AggregationRule joint_rule() { return {"joint", "what at least one member knows (union)", observe_joint}; }
+AggregationRule joint_rule() { return {"joint", "what at least one member knows (union)", observe_joint, false}; }
 
 }  // namespace kith::detail

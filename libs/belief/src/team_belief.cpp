@@ -54,6 +54,14 @@ void TeamBelief::set_present(std::vector<bool> present) {
   present_ = std::move(present);
 }
 
+void TeamBelief::restart(std::size_t i, const PriorCover& cover) {
+  const ParticleBelief start{cover, options_.filter};
+  if (!members_.empty()) members_.at(i).belief = start;
+  for (std::size_t k = 0; k < aggregates_.size(); ++k) {
+    if (options_.rules[k].needs_everybody) aggregates_[k].belief = start;
+  }
+}
+
 template <typename Action>
 void TeamBelief::for_each_part(Action action) {
   for (std::size_t i = 0; i < members_.size(); ++i) {

@@ -96,8 +96,23 @@ void HostedRoom::finish_rebuild(std::optional<Room> room, std::vector<std::uint6
 }
 
 void HostedRoom::ask(RoomCommand command, Done done, StoreBatch with) {
-  asked_.push_back({std::move(command), std::move(done), std::move(with)});
+  asked_.push_back({.command = std::move(command), .done = std::move(done), .with = std::move(with)});
   advance();
+}
+
+void HostedRoom::ask_when_ready(std::function<std::optional<Request>(const Room& room)> make, Done done) {
+  asked_.push_back({.command = {}, .done = std::move(done), .with = {}, .make = std::move(make)});
+  advance();
+}
+
+void HostedRoom::fill(std::vector<RoomEvent> events, TeachingCache& cache) {
+  if (!saving_) return;  // the service has stopped
+  saving_->events = std::move(events);
+  on_saved(true, cache);
+}
+
+void HostedRoom::depart() {
+  if (saving_) hand_in();
 }
 
 void HostedRoom::wake() {
@@ -154,6 +169,15 @@ bool HostedRoom::begin_next() {
   if (asked_.empty()) return false;
   auto asked = std::move(asked_.front());
   asked_.pop_front();
+  if (asked.make) {
+    auto request = asked.make(*room_);
+    if (!request) {
+      asked.done({.events = {}, .refusal = Refusal{"not-now", "There is nothing to do any more."}});
+      return true;
+    }
+    asked.command = std::move(request->command);
+    asked.with = std::move(request->with);
+  }
   const auto& id = asked.command.id;
   if (!id.empty() && std::binary_search(messages_.begin(), messages_.end(), mark_of(asked.command.actor, id))) {
     asked.done({});
@@ -174,13 +198,14 @@ bool HostedRoom::begin_next() {
 
 void HostedRoom::save(Saving saving) {
   saving_ = std::move(saving);
+  if (const auto vacancy = room_->vacancy(saving_->events.back())) return host_.on_vacancy(*this, *vacancy);
   hand_in();
 }
 
 void HostedRoom::hand_in() {
   StoreBatch batch;
   for (const auto& event : saving_->events) batch.events.push_back(to_stored(number(), event));
-  if (!saving_->message.empty()) batch.events.front().message = saving_->message;
+  if (!saving_->message.empty()) batch.events.back().message = saving_->message;
   const auto& with = saving_->with;
   batch.rooms = with.rooms;
   batch.tokens = with.tokens;
@@ -214,7 +239,7 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
     wanted_.clear();
     num_ahead_ = 0;
   }
-  if (!done->message.empty()) keep_mark(mark_of(done->events.front().actor, done->message));
+  if (!done->message.empty()) keep_mark(mark_of(done->events.back().actor, done->message));
   release();
   if (done->done) done->done({.events = done->events, .refusal = {}});
   host_.on_applied(*this, done->events);

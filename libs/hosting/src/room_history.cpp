@@ -22,8 +22,7 @@ class Collector {
     if (event.type == "joined") {
       auto& row = history_.seats[count_at(body, "seat")];
       row.joined_us = event.at_us;
-      if (const auto member = body.find("member"); member != body.end() && member->is_number_unsigned())
-        row.member = member->get<std::size_t>() + 1;  // counted from 0 in events
+      note_member(row, body);
     } else if (event.type == "consented") {
       note_consent(history_.seats[seat], body);
     } else if (event.type == "screened") {
@@ -31,7 +30,7 @@ class Collector {
     } else if (event.type == "seated") {
       auto& row = history_.seats[seat];
       row.joined_us = event.at_us;
-      row.member = count_at(body, "member") + 1;  // counted from 0 in events
+      note_member(row, body);
       row.name = text_at(body, "name");
       row.screened = body.value("screened", std::vector<bool>{});
       note_consent(row, body);
@@ -57,6 +56,12 @@ class Collector {
   }
 
  private:
+  // Counted from 0 in events; null for whoever waits in reserve or takes a place over with the next event.
+  static void note_member(SeatRow& row, const Json& body) {
+    const auto member = body.find("member");
+    if (member != body.end() && member->is_number_unsigned()) row.member = member->get<std::size_t>() + 1;
+  }
+
   static void note_consent(SeatRow& row, const Json& body) {
     row.consent = text_at(body, "version");
     if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;

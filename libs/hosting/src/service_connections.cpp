@@ -201,7 +201,15 @@ void LiveService::State::message(const std::shared_ptr<Connection>& connection, 
     const auto query = queries.find(place);
     body["query"] = query == queries.end() ? Json::object() : query->second;
   }
+  tell_room(connection, type, id, body);
+}
+
+// Has the room of a participant decide what they ask for.
+void LiveService::State::tell_room(const std::shared_ptr<Connection>& connection, const std::string& type,
+                                   const std::string& id, const Json& body) {
+  const auto place = current_place(*connection);
   post(place.first, [this, connection, place, type, id, body](TeachingCache&) {
+    if (current_place(*connection) != place) return tell_room(connection, type, id, body);  // seated meanwhile
     const auto seat = static_cast<std::size_t>(place.second);
     room_of(place.first)
         ->ask({.actor = seat_actor(seat), .type = type, .body = body, .id = id},

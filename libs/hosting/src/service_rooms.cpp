@@ -19,6 +19,19 @@ LogEntry entry_of(const StoredEvent& event) {
   return log_entry(event.room, event.at_us, event.actor, event.type, Json::parse(event.json, nullptr, false));
 }
 
+// Why something happened that no facilitator gave a reason for.
+std::string reason_for(const std::string& type, const Json& body) {
+  if (type == "called") {
+    return "takes over seat " + std::to_string(count_at(body, "for")) + " of room " + text_at(body, "room") +
+           (text_at(body, "why") == "left" ? ", whose person left" : ", whose person was away for too long");
+  }
+  const auto by = count_at(body, "by");
+  if ((type != "dropped" && type != "left") || by == 0) return text_at(body, "reason");
+  const bool is_simulated = !text_at(body, "type").empty();
+  return (is_simulated ? "a simulated learner takes over as seat " : "another person takes over as seat ") +
+         std::to_string(by);
+}
+
 // What a facilitator asks for when making rooms.
 struct Wish {
   std::string strategy;
@@ -87,9 +100,9 @@ RoomSetup setup_of(const LiveStudy& study, const Wish& wish, const std::map<std:
 }  // namespace
 
 bool is_logged(std::string_view actor, std::string_view type) {
-  constexpr std::string_view kTypes[] = {"joined",  "declined",    "left",      "away",    "present",
-                                         "dropped", "released",    "started",   "time",    "ended",
-                                         "grouped", "turned-away", "room-make", "redacted"};
+  constexpr std::string_view kTypes[] = {"joined",  "declined", "left",        "away",      "present",
+                                         "dropped", "released", "started",     "time",      "ended",
+                                         "grouped", "called",   "turned-away", "room-make", "redacted"};
   return actor == "facilitator" || std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
 }
 
@@ -98,7 +111,7 @@ LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& act
   LogEntry entry{
       .at_us = at_us, .room = room == 0 ? std::string{} : room_id(room), .actor = actor, .what = type, .reason = {}};
   if (!body.is_object()) return entry;
-  entry.reason = text_at(body, "reason");
+  entry.reason = reason_for(type, body);
   const auto seat = body.find("seat");
   const bool is_about_seat = actor == "server" && seat != body.end() && seat->is_number_integer();
   if (is_about_seat) entry.actor = seat_actor(seat->get<std::size_t>());

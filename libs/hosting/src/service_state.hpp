@@ -152,12 +152,18 @@ struct LiveService::State final : HostedRoom::Host {
   void on_trouble(std::int64_t room, const std::string& what) override;
   void on_waiting(HostedRoom& list) override;
 
+  void on_vacancy(HostedRoom& room, const Vacancy& vacancy) override;
   // service_waiting.cpp
   // Makes the waiting list if the study has one and it is not there yet.
   void make_waiting_list();
   // People of the waiting list have places in a new room, which is saved.
   void seat_group(const StoredRoom& stored, const std::vector<StoredEvent>& events);
   // Somebody's link leads to another seat from now on. The mutex is held.
+  // What calls somebody from the waiting list into a group in place of whoever drops out; nothing if nobody fits.
+  // @param group  as it is, and the departure that it is about to save.
+  [[nodiscard]] std::optional<HostedRoom::Request> call_into(const Room& list, const Room& group,
+                                                             const Vacancy& vacancy, const RoomEvent& departure,
+                                                             const std::string& message) const;
   void move_person(const Place& from, const Place& to);
   // Where the holder of a link is now. The mutex is held.
   [[nodiscard]] Place place_of(const Identity& identity) const;
@@ -192,6 +198,8 @@ struct LiveService::State final : HostedRoom::Host {
   void beat(const Connection& connection);
   void message(const std::shared_ptr<Connection>& connection, const std::string& type, const Json& frame);
   void facilitate(const std::shared_ptr<Connection>& connection, const std::string& type, const std::string& id,
+  void tell_room(const std::shared_ptr<Connection>& connection, const std::string& type, const std::string& id,
+                 const Json& body);
                   const Json& body);
   void select_room(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);
   void revoke_link(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);

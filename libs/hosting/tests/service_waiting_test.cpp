@@ -6,7 +6,7 @@
 
 #include "kith/hosting/live_service.hpp"
 #include "kith/hosting/session_review.hpp"
-#include "service_group.hpp"
+#include "service_hall.hpp"
 
 namespace kith {
 namespace {
@@ -14,74 +14,15 @@ namespace {
 using testing::exported;
 using ::testing::HasSubstr;
 using testing::is_stored;
-using testing::next_step;
 using ::testing::Not;
+using testing::num_rows;
 using testing::Page;
 using testing::play;
 using testing::ScratchFolder;
+using testing::Screened;
 using testing::small_study;
-using testing::Solver;
 using testing::Stage;
 using testing::stored;
-
-constexpr const char* kScreened = "screening = { tests = 2, cut = 0.6, high = \"P\" }\ncollect_query = [\"PID\"]\n";
-
-// A server whose study screens people, for groups of two novices and somebody able.
-struct Screened {
-  explicit Screened(const std::string& section = "", const std::string& compositions = "\"NNP\"")
-      : stage{scratch / "live", small_study(kScreened + section, compositions)} {}
-
-  // Somebody comes by the study's link, and is screened.
-  Page& come(const std::string& name, bool is_able) {
-    const auto token = stage.join(stage.join_code(), {{"PID", "pid-" + name}});
-    EXPECT_FALSE(token.empty());
-    people.push_back(std::make_unique<Page>(token, name));
-    auto& page = *people.back();
-    page.connect(stage.service());
-    settle();
-    for (int i = 0; i < 20 && page.stage() != "lobby" && page.stage() != "watch"; ++i) {
-      if (const auto step = next_step(page.view(), solver, true); step && page.unsaved().empty()) {
-        auto body = step->second;
-        if (page.stage() == "screening" && !is_able) body["actions"] = Json::array();
-        page.ask(stage.service(), step->first, body);
-      }
-      settle();
-    }
-    return page;
-  }
-  void settle() {
-    stage.service().settle();
-    for (auto& person : people) person->read();
-  }
-  void restart() {
-    stage.restart();
-    for (auto& person : people) {
-      person->lose();
-      person->connect(stage.service());
-    }
-    settle();
-  }
-  // The estimates of a room as facilitators see them, in the order of the seats.
-  [[nodiscard]] std::vector<bool> estimates_of(const std::string& room) {
-    const auto page = stage.facilitator();
-    std::vector<bool> high;
-    for (const auto& row : page->view()["rooms"]) {
-      if (row["id"] != room) continue;
-      for (const auto& seat : row["seats"]) high.push_back(seat.value("estimate_is_high", false));
-    }
-    page->disconnect(stage.service());
-    return high;
-  }
-
-  ScratchFolder scratch;
-  Stage stage;
-  Solver solver{stage.study().study};
-  std::vector<std::unique_ptr<Page>> people;
-};
-
-std::size_t num_rows(const std::string& csv) {
-  return static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) - 1;
-}
 
 TEST(WaitingList, SeatsPeopleByWhatTheyCanDoAndKeepsTheirLinks) {
   Screened hall;

@@ -17,7 +17,7 @@ void fill_in_texts(GroupOptions& group) {
     if (group.ask_name) {
       group.consent_text.emplace_back("If you type in a name, only the people who run this session see it.");
     }
-    if (group.dropout.policy == DropoutPolicy::kSimulate) {
+    if (group.dropout.without_reserve() == DropoutPolicy::kSimulate) {
       group.consent_text.emplace_back("If somebody in your group stops early, a computer program may take that place.");
     }
   }

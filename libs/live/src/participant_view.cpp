@@ -231,6 +231,9 @@ class ParticipantPage {
     if (state_.phase == RoomPhase::kWatching) what = "others-watching";
     if (state_.phase == RoomPhase::kTesting) what = "answers";
     if (state_.phase == RoomPhase::kFeedback) what = "feedback";
+    const bool has_begun = state_.phase != RoomPhase::kTeaching || num_periods(state_) > 0;
+    if (!seat_.has_taken_part && has_begun) what = "joining";
+    if (seat_.has_taken_part && !seat_.in_period && state_.phase != RoomPhase::kTeaching) what = "rejoining";
     return {{"for", what}, {"missing", missing}, {"since_ms", in_ms(std::max(seat_.since_us, state_.phase_us))}};
   }
 

@@ -72,7 +72,7 @@ std::optional<RoomCommand> command_of(const RoomEvent& event) {
       {"away", "away"},         {"present", "present"},  {"pause", "pause"},        {"resume", "resume"},
       {"extend", "extend"},     {"readmit", "readmit"},  {"simulate", "simulate"},  {"strategy", "strategy"},
       {"consented", "consent"}, {"declined", "consent"}, {"started", "start"},      {"ended", "end"},
-      {"grouped", "group"},     {"seated", "seat"}};
+      {"grouped", "group"},     {"called", "call"},      {"seated", "seat"}};
   const auto name =
       std::find_if(kNames.begin(), kNames.end(), [&](const auto& pair) { return pair.first == event.type; });
   if (name == kNames.end()) return std::nullopt;

@@ -34,8 +34,8 @@ class RoomChange {
         {"resume", &RoomChange::resume},       {"extend", &RoomChange::extend},
         {"message", &RoomChange::message},     {"readmit", &RoomChange::readmit},
         {"simulate", &RoomChange::simulate},   {"strategy", &RoomChange::strategy},
-        {"grouped", &RoomChange::grouped},     {"seated", &RoomChange::seated},
-        {"ended", &RoomChange::ended}};
+        {"grouped", &RoomChange::grouped},     {"called", &RoomChange::called},
+        {"seated", &RoomChange::seated},       {"ended", &RoomChange::ended}};
     const auto rule = kRules.find(event_.type);
     if (rule == kRules.end()) {
       throw Error{ErrorKind::kMismatch, "there is no event '" + event_.type + "' of a room"};
@@ -104,14 +104,18 @@ class RoomChange {
     const auto& body = event_.body;
     ++state_.groups[body.at("strategy").get<std::string>() + "/" + body.at("composition").get<std::string>()];
     for (const auto& number : body.at("seats")) {
-      if (number.is_null()) continue;
-      const auto seat = number.get<std::size_t>() - 1;
-      step_.dismiss(seat, "moved", "grouped", false);
-      state_.seats[seat].name.clear();
-      state_.seats[seat].query = Json{};
+      if (!number.is_null()) move(number.get<std::size_t>() - 1, "grouped");
     }
   }
+  void called() { move(subject(), "called"); }
+  // Somebody on the waiting list has a place in a group from now on.
+  void move(std::size_t seat, const char* why) {
+    step_.dismiss(seat, "moved", why, false);
+    state_.seats[seat].name.clear();
+    state_.seats[seat].query = Json{};
+  }
   void seated() {
+    if (subject() == state_.seats.size()) state_.seats.emplace_back();  // and takes a place over next
     auto& person = state_.seats[subject()];
     person.status = SeatStatus::kActive;
     person.readiness = Readiness::kReady;
@@ -244,10 +248,11 @@ class RoomChange {
 
   void after_departure() {
     const auto& dropout = study_.group().dropout;
-    if (dropout.policy == DropoutPolicy::kEndGroup) {
+    const bool has_reserve = !event_.body.at("by").is_null() && event_.body.at("type").is_null();
+    if (dropout.without_reserve() == DropoutPolicy::kEndGroup && !has_reserve) {
       return step_.end("member-left", "Somebody in your group had to stop, so the session is over for everybody.");
     }
-    const auto least = dropout.policy == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
+    const auto least = dropout.without_reserve() == DropoutPolicy::kSimulate ? 1 : dropout.min_active;
     if (num_active_people(state_) < least) {
       step_.end("too-few", "Too few people are left in your group to go on.");
     }

@@ -90,8 +90,10 @@ class RoomClock {
       }
       Json body{{"seat", i + 1}, {"policy", std::string{name_of(policy)}}, {"by", nullptr}, {"type", nullptr}};
       const auto reserve = first_reserve(state_);
-      if (runs && policy == DropoutPolicy::kReplaceFromPool && reserve) body["by"] = *reserve + 1;
-      if (runs && policy == DropoutPolicy::kSimulate && num_active_people(state_) > 1) {
+      if (runs && policy == DropoutPolicy::kReplaceFromPool && reserve) {
+        body["by"] = *reserve + 1;
+      } else if (runs && group_.dropout.without_reserve() == DropoutPolicy::kSimulate &&
+                 num_active_people(state_) > 1) {
         body["by"] = state_.seats.size() + 1;
         body["type"] = std::string{seat.type};
       }

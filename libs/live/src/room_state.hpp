@@ -54,7 +54,8 @@ struct LiveSeat {
   std::vector<bool> screened;  ///< Whether each answer so far was right.
 
   // Of the current period.
-  bool in_period = false;  ///< Takes part in it.
+  bool in_period = false;       ///< Takes part in it.
+  bool has_taken_part = false;  ///< In this period or an earlier one.
   std::size_t watched = 0;
   std::vector<std::optional<GivenPath>> paths;  ///< Per test.
   bool has_answered = false;                    ///< All tests, or the time is over.
@@ -71,6 +72,7 @@ struct LiveMember {
   std::optional<std::size_t> seat;         ///< Index into the seats; none: nobody has the place.
   bool is_away = false;                    ///< As the session sees it.
   bool is_new = false;                     ///< Taken over by somebody who takes part from the next lesson on.
+  bool is_newcomer = false;                ///< And who has not been taught before.
   std::shared_ptr<const Learner> learner;  ///< Of a stand-in.
   Learner::Response response;              ///< To the tests of the current lesson.
 };
@@ -174,6 +176,8 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] bool has_high_estimate(const RoomParts& room, const LiveSeat& seat);
 /// Whether groups of a cell have a place for people of high or of low ability.
 [[nodiscard]] bool has_place_for(const LiveStudy& study, const LiveCell& cell, bool high);
+/// See Room::next_for(); from 0.
+[[nodiscard]] std::optional<std::size_t> next_for_in(const RoomParts& room, char type);
 /// See Room::next_group().
 [[nodiscard]] std::optional<PlannedGroup> next_group_in(const RoomParts& room, std::int64_t now_us);
 /// When the time of whoever has waited for longest is over: more groups are possible from then on. Nothing if waiting

@@ -40,7 +40,7 @@ void RoomStepper::seat_stand_in(std::size_t member, char type) {
   state_.members[member].seat = state_.seats.size();
   state_.members[member].learner = learner;
   state_.members[member].response = {};
-  state_.members[member].is_new = true;
+  state_.members[member].is_new = state_.members[member].is_newcomer = true;
   state_.seats.push_back(std::move(seat));
 }
 
@@ -49,7 +49,7 @@ void RoomStepper::seat_reserve(std::size_t seat, std::size_t member) {
   state_.seats[seat].type = setup_.composition[member];
   state_.members[member].seat = seat;
   state_.members[member].learner.reset();
-  state_.members[member].is_new = true;
+  state_.members[member].is_new = state_.members[member].is_newcomer = true;
 }
 
 void RoomStepper::begin() {
@@ -107,7 +107,12 @@ void RoomStepper::revert() {
     const auto& before = state_.members_before[m];
     member.is_away = before.is_away;
     // A stand-in who is still the same one forgets the lesson.
-    if (member.seat == before.seat) member.learner = before.learner;
+    if (member.seat == before.seat) {
+      member.learner = before.learner;
+    } else if (member.seat) {  // the session as it was has somebody else there
+      member.is_new = true;
+      member.is_newcomer = !state_.seats[*member.seat].has_taken_part;
+    }
     member.response = {};
   }
   state_.members_before.clear();
@@ -129,9 +134,12 @@ void RoomStepper::sync_members() {
     if (!differs(member)) continue;
     // Who takes a place over takes part from the next lesson on.
     if (!member.is_away) session.leave(m);
-    if (is_taken(state_, member)) session.come_back(m);
-    member.is_away = !is_taken(state_, member);
+    const bool is_there = is_taken(state_, member);
+    if (is_there && member.is_newcomer) session.replace(m);
+    if (is_there && !member.is_newcomer) session.come_back(m);
+    member.is_away = !is_there;
     member.is_new = false;
+    member.is_newcomer = member.is_newcomer && !is_there;
   }
   state_.session = std::make_shared<const Session>(std::move(session));
   if (is_ahead) return;
@@ -206,6 +214,7 @@ void RoomStepper::begin_watching() {
     seat.in_period = seat.status == SeatStatus::kActive && seat.member &&
                      state_.members[*seat.member].seat == static_cast<std::size_t>(&seat - state_.seats.data()) &&
                      session.takes_part(*seat.member);
+    seat.has_taken_part = seat.has_taken_part || seat.in_period;
     seat.watched = 0;
     seat.paths.clear();
     seat.paths.resize(session.lesson().tests.size());

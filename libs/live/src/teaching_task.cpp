@@ -51,6 +51,7 @@ struct EventBytes {
   void operator()(const MemberLeft& event) const { bytes.count(event.member); }
   void operator()(const MemberReturned& event) const { bytes.count(event.member); }
   void operator()(const StrategyChanged& event) const { bytes.text(event.strategy.name); }
+  void operator()(const MemberReplaced& event) const { bytes.count(event.member); }
   void operator()(const PlacementTaken&) const {}  // live sessions have no placement tests
 };
 

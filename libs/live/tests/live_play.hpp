@@ -73,6 +73,7 @@ class Play {
 
   [[nodiscard]] const Room& room() const { return room_; }
   [[nodiscard]] const LiveStudy& study() const { return *study_; }
+  [[nodiscard]] std::shared_ptr<const LiveStudy> study_of_room() const { return study_; }
   [[nodiscard]] TeachingCache& cache() { return cache_; }
   [[nodiscard]] const std::vector<RoomEvent>& events() const { return events_; }
   [[nodiscard]] std::int64_t now() const { return now_us_; }
@@ -81,7 +82,7 @@ class Play {
   std::string send(const std::string& actor, const std::string& type, Json body = Json::object()) {
     const auto decision = room_.decide({actor, type, std::move(body), "id"}, now_us_);
     if (decision.refusal) return decision.refusal->reason;
-    for (const auto& event : decision.events) apply(event);
+    for (const auto& event : decision.events) happen(event);
     settle();
     return {};
   }
@@ -112,7 +113,7 @@ class Play {
       const auto due = room_.due(now_us_);
       const auto task = teacher_works_ ? room_.teaching() : std::nullopt;
       if (!due.empty()) {
-        for (const auto& event : due) apply(event);
+        for (const auto& event : due) happen(event);
       } else if (task) {
         const auto& lesson = taught(*task);
         apply(room_.taught(lesson, now_us_), &lesson);
@@ -124,6 +125,19 @@ class Play {
   void set_teacher(bool works) {
     teacher_works_ = works;
     settle();
+  }
+
+  /// So many people are on a waiting list whom every place is for.
+  void set_waiting(std::size_t n) { num_waiting_ = n; }
+  [[nodiscard]] std::size_t num_waiting() const { return num_waiting_; }
+  /// What the room is told of somebody from a waiting list.
+  [[nodiscard]] Json person_on_list(std::size_t seat) const {
+    return {{"from", {{"room", "r9"}, {"seat", seat}}},
+            {"version", study_->group().consent_version},
+            {"query", Json::object()},
+            {"name", ""},
+            {"screened", std::vector<bool>(study_->screening.size(), true)},
+            {"ready_us", now_us_}};
   }
 
   void join(std::size_t n) {
@@ -215,6 +229,12 @@ class Play {
   void pass(double seconds) { now_us_ += static_cast<std::int64_t>(seconds * 1e6); }
 
  private:
+  // Somebody from the waiting list takes over where that is possible.
+  void happen(const RoomEvent& event) {
+    if (num_waiting_ == 0 || !room_.vacancy(event)) return apply(event);
+    for (const auto& one : room_.replaced(event, person_on_list(num_waiting_--), now_us_)) apply(one);
+  }
+
   // Equal keys mean equal lessons, so plays of the same study share them; a replay chooses its own.
   const TaughtLesson& taught(const TeachingTask& task) {
     static std::map<std::pair<const LiveStudy*, std::string>, TaughtLesson> known;  // studies are kept for good
@@ -229,6 +249,7 @@ class Play {
   std::vector<RoomEvent> events_;
   std::int64_t now_us_ = 1'700'000'000'000'000;
   bool teacher_works_ = true;
+  std::size_t num_waiting_ = 0;
 };
 
 }  // namespace kith::testing

@@ -14,6 +14,8 @@ constexpr std::size_t kMostQuestions = 100;
 
 const std::vector<std::string> kPolicyWords{"pause-then-continue", "continue-now", "replace-from-pool", "simulate",
                                             "end-group"};
+const std::vector<std::string> kOtherwiseWords{"pause-then-continue", "simulate", "end-group"};
+constexpr std::array kOtherwise{DropoutPolicy::kPauseThenContinue, DropoutPolicy::kSimulate, DropoutPolicy::kEndGroup};
 const std::vector<std::string> kQuestionWords{"likert", "text", "choice"};
 
 template <typename Target, typename Value>
@@ -125,7 +127,15 @@ class GroupReader {
     take(options.grace_s, dropout.integer("grace_s", Presence::kOptional, {0, kDay}));
     take(options.min_active, dropout.integer("min_active", Presence::kOptional, {1, kMostMembers}));
     take(options.reserves, dropout.integer("reserves", Presence::kOptional, {0, kMostMembers}));
+    const auto otherwise = dropout.word("otherwise", Presence::kOptional, kOtherwiseWords);
+    if (otherwise) options.otherwise = kOtherwise[static_cast<std::size_t>(*otherwise)];
     dropout.finish();
+    if (otherwise && options.policy != DropoutPolicy::kReplaceFromPool) {
+      report_.error("E0422", place_of_key(dropout, "otherwise"),
+                    "'otherwise' is for seats that no other person can take, which the policy '" +
+                        std::string{name_of(options.policy)} + "' never looks for",
+                    "write policy = \"replace-from-pool\", or remove 'otherwise'");
+    }
     if (options.reserves > 0 && options.policy != DropoutPolicy::kReplaceFromPool) {
       report_.error("E0422", place_of_key(dropout, "reserves"),
                     "nobody from the reserve would ever take a seat with the policy '" +

@@ -111,6 +111,7 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
       right_in_a_row_(persons_.size(), 0),
       components_(atlas_->knowledge_components().size(), ComponentStatus::kOpen),
       seats_(persons_.size(), Seat::kPresent),
+      is_new_(persons_.size(), false),
       visited_{atlas_->num_demos()},
       pending_(persons_.size()) {
   require(persons_.size() <= kMaxMembers, "a team has at most 30 members");
@@ -168,6 +169,13 @@ bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) 
   }
   require(&cache.atlas() == atlas_.get(), "the cache is of another atlas");
   require(truth.empty() || truth.size() == num_members(), "the truth is that of another team");
+  if (awaits_newcomer()) {
+    Session trial = *this;  // should the choice fail, nothing has changed
+    trial.admit_newcomers(cache);
+    const bool has_lesson = trial.propose(cache, truth);
+    *this = std::move(trial);
+    return has_lesson;
+  }
   std::vector<bool> present;
   for (const Seat seat : seats_) present.push_back(seat == Seat::kPresent || seat == Seat::kReturning);
   if (nobody(present)) throw Error{ErrorKind::kUsage, "no lesson can be chosen: everybody is away"};

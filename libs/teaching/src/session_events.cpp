@@ -8,9 +8,9 @@
 namespace kith {
 
 std::string_view name_of(const SessionEvent& event) noexcept {
-  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",     "tests-answered",
-                                         "tests-closed",    "feedback-given",   "member-left",
-                                         "member-returned", "strategy-changed", "placement-taken"};
+  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",   "tests-answered",  "tests-closed",
+                                         "feedback-given",  "member-left",    "member-returned", "strategy-changed",
+                                         "placement-taken", "member-replaced"};
   static_assert(std::size(kNames) == std::variant_size_v<SessionEvent>);
   return kNames[event.index()];
 }
@@ -23,12 +23,23 @@ void Session::leave(std::size_t member) {
   seats_[member] = Seat::kAway;
 }
 
-void Session::come_back(std::size_t member) {
+void Session::require_away(std::size_t member, std::string_view what) const {
   require_seat(member);
-  if (finished()) throw Error{ErrorKind::kUsage, "nobody can return: the session is finished"};
+  if (finished()) throw Error{ErrorKind::kUsage, "nobody can " + std::string{what} + ": the session is finished"};
   if (seats_[member] != Seat::kAway) refuse("member " + std::to_string(member + 1) + " is not away");
+}
+
+void Session::come_back(std::size_t member) {
+  require_away(member, "return");
   events_.emplace_back(MemberReturned{member});
   seats_[member] = Seat::kReturning;
+}
+
+void Session::replace(std::size_t member) {
+  require_away(member, "take a place");
+  events_.emplace_back(MemberReplaced{member});
+  seats_[member] = Seat::kReturning;
+  is_new_[member] = true;
 }
 
 void Session::change_strategy(StrategyChoice strategy) {
@@ -59,6 +70,7 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
     void operator()(const FeedbackGiven&) const { session.give_feedback(); }
     void operator()(const MemberLeft& e) const { session.leave(e.member); }
     void operator()(const MemberReturned& e) const { session.come_back(e.member); }
+    void operator()(const MemberReplaced& e) const { session.replace(e.member); }
     void operator()(const StrategyChanged& e) const { session.change_strategy(e.strategy); }
     void operator()(const PlacementTaken& e) const { session.take_placement(e.answers); }
   };
@@ -68,7 +80,7 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
 bool operator==(const Session& a, const Session& b) {
   return a.status_ == b.status_ && a.phase_ == b.phase_ && a.component_ == b.component_ &&
          a.correct_in_a_row_ == b.correct_in_a_row_ && a.right_in_a_row_ == b.right_in_a_row_ &&
-         a.components_ == b.components_ && a.seats_ == b.seats_ && a.visited_ == b.visited_ &&
+         a.components_ == b.components_ && a.seats_ == b.seats_ && a.is_new_ == b.is_new_ && a.visited_ == b.visited_ &&
          a.taught_before_ == b.taught_before_ && a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ &&
          a.pending_ == b.pending_ && a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ &&
          a.belief_ == b.belief_ && a.judged_ == b.judged_ && a.bank_ == b.bank_ &&

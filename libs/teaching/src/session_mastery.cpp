@@ -28,6 +28,28 @@ void Session::make_bank(TeachingCache& cache) {
                 options_.hypotheses, persons_, options_.response_noise, constraints_of_components(*atlas_));
 }
 
+bool Session::awaits_newcomer() const {
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (is_new_[i] && seats_[i] == Seat::kReturning) return true;
+  }
+  return false;
+}
+
+// Nothing is known about them, whatever was known about those who had their places.
+void Session::admit_newcomers(TeachingCache& cache) {
+  const auto& cover = cache.cover(atlas_->prior_cone(), options_.filter.particles);
+  for (std::size_t i = 0; i < num_members(); ++i) {
+    if (!is_new_[i] || seats_[i] != Seat::kReturning) continue;
+    belief_.restart(i, cover);
+    if (judged_) judged_->restart(i, cover);
+    if (bank_) {
+      bank_->restart(i, cover, options_.filter, options_.hypotheses, persons_[i], constraints_of_components(*atlas_));
+    }
+    right_in_a_row_[i] = 0;
+    is_new_[i] = false;
+  }
+}
+
 void Session::take_placement(std::vector<std::vector<Answer>> answers) {
   if (!awaits_placement()) throw Error{ErrorKind::kUsage, "there is no placement test to answer now"};
   if (answers.size() != num_members()) {

@@ -17,6 +17,13 @@ TeamBank::TeamBank(const PriorCover& cover, const FilterOptions& filter, Likelih
   }
 }
 
+void TeamBank::restart(std::size_t i, const PriorCover& cover, const FilterOptions& filter,
+                       const std::vector<LearnerHypothesis>& hypotheses, const RandomStream& person,
+                       std::span<const std::vector<HalfSpace>> components) {
+  members_.at(i) = LearnerBank{cover, filter, likelihood_, hypotheses, person.split("bank"), components};
+  informed_[i] = ParticleBelief{cover, filter};
+}
+
 void TeamBank::inform(std::size_t i, std::span<const HalfSpace> half_spaces, const RandomStream& random) {
   constexpr double kSurest = 1.0 - 1e-9;
   const double ability = std::min(members_[i].expected_present_ability(), kSurest);

@@ -87,7 +87,7 @@ SessionEvent some_event(const Session& session, RandomStream& random) {
         return FeedbackGiven{};
     }
   }
-  switch (uniform_index(9, random)) {
+  switch (uniform_index(10, random)) {
     case 0:
       return LessonProposed{};
     case 1:
@@ -101,6 +101,8 @@ SessionEvent some_event(const Session& session, RandomStream& random) {
     case 5:
     case 6:
       return MemberReturned{seat};
+    case 7:
+      return MemberReplaced{seat};
     default:
       return TestsAnswered{seat, some_answers(session, random)};
   }
@@ -319,6 +321,61 @@ TEST(SessionEvents, WhoIsAwayNeitherLearnsNorCounts) {
   EXPECT_TRUE(session.takes_part(1));
   session.show();
   EXPECT_NE(session.belief().member(1), untouched);
+}
+
+TEST(SessionEvents, NothingIsKnownAboutWhoTakesAPlace) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of(cache, "individual-low", 3, quick());
+  const auto prior = session.belief().member(1);
+  ASSERT_TRUE(session.propose(cache));
+  std::vector<std::vector<Answer>> answers(3);
+  for (auto& list : answers) {
+    for (const auto& test : session.lesson().tests) list.emplace_back(item_delivery().feature_counts(test.demo));
+  }
+  session.submit(answers);
+  const auto returned = [&] {
+    auto same = session;
+    same.leave(1);
+    same.come_back(1);
+    EXPECT_TRUE(same.propose(cache));
+    return same;
+  }();
+  EXPECT_THROW(session.replace(1), Error) << "somebody has the place";
+  session.leave(1);
+  session.replace(1);
+  EXPECT_THROW(session.replace(1), Error);
+  EXPECT_FALSE(session.takes_part(1));
+  EXPECT_NE(session.belief().member(1), prior) << "until the next lesson";
+  ASSERT_TRUE(session.propose(cache));
+  EXPECT_TRUE(session.takes_part(1));
+  EXPECT_EQ(session.belief().member(1), prior);
+  EXPECT_EQ(session.belief().common(), prior) << "not everybody knows anything";
+  EXPECT_EQ(session.belief().joint(), returned.belief().joint());
+  EXPECT_EQ(session.belief().member(0), returned.belief().member(0));
+  EXPECT_NE(session, returned);
+  session.show();
+  EXPECT_NE(session.belief().member(1), prior);
+}
+
+// Whoever leaves again before their first lesson is still new when they return.
+TEST(SessionEvents, NothingIsKnownAboutWhoTakesAPlaceAndReturns) {
+  TeachingCache cache{item_delivery()};
+  auto session = session_of(cache, "individual-low", 2, quick());
+  const auto prior = session.belief().member(1);
+  ASSERT_TRUE(session.propose(cache));
+  session.show();
+  std::vector<Answer> right;
+  for (const auto& test : session.lesson().tests) right.emplace_back(item_delivery().feature_counts(test.demo));
+  session.answer(0, right);
+  session.answer(1, right);  // the answers of the one who leaves count, but for nobody else
+  session.leave(1);
+  session.replace(1);
+  session.leave(1);
+  session.close_tests();
+  session.give_feedback();
+  session.come_back(1);
+  ASSERT_TRUE(session.propose(cache));
+  EXPECT_EQ(session.belief().member(1), prior);
 }
 
 TEST(SessionEvents, AnswersGivenBeforeLeavingCount) {

@@ -66,6 +66,8 @@ const kLogged: Record<string, string> = {
   questions: 'answered the questions',
   dropped: 'dropped out',
   released: 'released from the lobby',
+  grouped: 'formed a group from the waiting list',
+  called: 'left the waiting list for a group',
   time: 'a time limit was reached',
   present: 'connected',
   away: 'away',
@@ -88,7 +90,7 @@ export const endText = (reason: string | undefined): string => (reason ? (kEnds[
 const kPolicies: Record<string, string> = {
   'pause-then-continue': 'Pause the group; continue without the person after the grace period',
   'continue-now': 'Continue without the person immediately',
-  'replace-from-pool': 'Fill the seat with a person who is waiting',
+  'replace-from-pool': 'Fill the seat with a person from the reserve or the waiting list',
   simulate: 'Fill the seat with a simulated learner',
   'end-group': 'End the session; everyone gets a completion code',
 };

@@ -93,7 +93,7 @@ export interface ParticipantView {
   watch?: { index: number; of: number; board: LiveBoard; frames: Frame[] };
   predict?: Task;
   wait?: {
-    for: 'answers' | 'others-watching' | 'teacher' | 'feedback';
+    for: 'answers' | 'others-watching' | 'teacher' | 'feedback' | 'joining' | 'rejoining';
     missing: number;
     since_ms: number;
   };

@@ -74,6 +74,8 @@ export function makeViews(lesson, now = Date.now()) {
     'predict-draft': at('predict', { draft: best.actions.slice(0, 4) }),
     wait: at('wait', { waitsFor: 'answers' }),
     'wait-teacher': at('wait', { waitsFor: 'teacher' }),
+    'wait-joining': at('wait', { waitsFor: 'joining' }),
+    'wait-rejoining': at('wait', { waitsFor: 'rejoining' }),
     'feedback-wrong': at('feedback', { answers: answerOf(wrongPath) }),
     'feedback-short': at('feedback', { answers: answerOf([names.indexOf(wrong[0])].filter((a) => world.table.next[0][a] >= 0)) }),
     'feedback-right': at('feedback', { answers: answerOf(best.actions) }),

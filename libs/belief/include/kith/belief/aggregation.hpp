@@ -33,6 +33,9 @@ struct AggregationRule {
   std::string_view description;  ///< Completes "the belief about ...".
   /// Updates the belief. @return members who were left out of it, as positions in the lists, ascending.
   std::vector<std::size_t> (*observe)(ParticleBelief& belief, const TeamResponses& responses, RandomStream random);
+  /// Whether the belief is about what everybody knows, so that somebody new, who knows nothing, takes it back to the
+  /// prior.
+  bool needs_everybody = false;
 };
 
 /// The built-in rules: common and joint [jayaraman2024, section III-C].

@@ -55,6 +55,11 @@ class TeamBelief {
   /// @throws std::invalid_argument unless there is one entry per member and somebody is present.
   void set_present(std::vector<bool> present);
 
+  /// Somebody new takes the place of a member: the belief about the member, and those of rules that need everybody, are
+  /// the prior again.
+  /// @pre i < num_members(); the cover is of the team's prior, by as many points as there are particles.
+  void restart(std::size_t i, const PriorCover& cover);
+
   /// Everybody present saw the same demonstrations: their beliefs and those of the rules are updated with the
   /// half-spaces.
   /// @param period the number of the interaction period, part of the address of what is drawn.

@@ -29,8 +29,11 @@ namespace kith {
 ///   released {seat, why}                       server: a seat in the lobby is free again
 ///   grouped {room, strategy, composition,      server, on a waiting list: people have a place in a new room; per
 ///            simulated, seats}                 member whether it is simulated, and the seat on the list or null
-///   seated {seat, member, from, version,       server: somebody from the waiting list has the place; `from` is
-///           query, name, screened, ready_us}   {room, seat} there, the rest what the room has to know of them
+///   called {seat, room, for, type, why}        server, on a waiting list: the person takes over seat `for` of a room
+///                                              whose group has begun; `type` is that of the place, `why` left or away
+///   seated {seat, member|null, from, version,  server: somebody from the waiting list has the place, or, without a
+///           query, name, screened, ready_us}   member, takes over that of the departure that follows; `from` is
+///                                              {room, seat} there, the rest what the room has to know of them
 ///   time {what}                                server: a time limit is over: watch, predict, feedback, session
 ///   pause, resume {reason}                     facilitator
 ///   extend {seconds, reason}, message {text, seat|null, reason}, readmit {seat, reason},
@@ -48,6 +51,8 @@ struct RoomEvent {
 /// What somebody asks for. Types of seats and facilitators are those of docs/live-protocol.md; those of the server:
 ///   join {seat?}           takes a free seat: that one, or any; the event tells which
 ///   group {room, ...}      on a waiting list: what Room::next_group() plans is done; the body is that of the event
+///   call {seat, ...}       on a waiting list: the person whom Room::next_for() names is called; the body is that of
+///                          the event
 ///   seat {member, ...}     gives the place of a member to somebody from a waiting list, see Room::person_for()
 ///   away {seat}, present {seat}
 struct RoomCommand {

@@ -62,7 +62,9 @@ enum class ComponentStatus { kOpen, kLearned, kSkipped };
 /// tells nothing.
 ///
 /// A member who leaves during a period has no more part in it, except that answers already given count; who returns
-/// takes part from the next lesson on. While everybody is away nothing can be proposed. TeachingOptions::release may
+/// takes part from the next lesson on, and so does whoever takes the place of a member who left: then the teacher's
+/// belief about the member, and about what all members know, is the prior again. While everybody is away nothing can be
+/// proposed. TeachingOptions::release may
 /// send members away until the next component begins; that is part of the session and no event.
 class Session {
  public:
@@ -106,6 +108,8 @@ class Session {
   const Feedback& give_feedback();
   void leave(std::size_t member);
   void come_back(std::size_t member);
+  /// Somebody else takes the place of a member who is away.
+  void replace(std::size_t member);
   /// Lessons are chosen by another strategy from now on, which begins anew: what the one before remembered is lost.
   /// @throws kith::Error (kUsage) unless the next lesson is to be proposed; std::invalid_argument as the constructor,
   /// also if beliefs that the strategy reads were not kept from the beginning (TeachingOptions::keep_members and
@@ -165,6 +169,7 @@ class Session {
   struct Prepared;
 
   void require_phase(SessionPhase phase, std::string_view what) const;
+  void require_away(std::size_t member, std::string_view what) const;
   void require_seat(std::size_t member) const;
   [[nodiscard]] Given judged(std::size_t member, std::vector<Answer> answers) const;
   [[nodiscard]] Verdict judge(const Test& test, const Answer& answer) const;
@@ -172,6 +177,8 @@ class Session {
                                                 std::span<const MemberTruth> truth) const;
   void describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) const;
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
+  [[nodiscard]] bool awaits_newcomer() const;
+  void admit_newcomers(TeachingCache& cache);
   void make_bank(TeachingCache& cache);
   void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
   [[nodiscard]] bool reads_beliefs() const;
@@ -208,6 +215,7 @@ class Session {
   std::vector<std::size_t> right_in_a_row_;  // of every member
   std::vector<ComponentStatus> components_;
   std::vector<Seat> seats_;
+  std::vector<bool> is_new_;  // members who have not been taught yet, since somebody else had their place before
   VisitedDemos visited_;
   std::vector<HalfSpace> taught_before_;     // R_n at the end of the last learned component
   std::vector<HalfSpace> taught_with_unit_;  // R_n with the current unit

@@ -55,12 +55,18 @@ struct PlacementTaken {
   friend bool operator==(const PlacementTaken&, const PlacementTaken&) = default;
 };
 
+/// Somebody else takes the place of a member who left, and takes part from the next lesson on.
+struct MemberReplaced {
+  std::size_t member = 0;
+  friend bool operator==(const MemberReplaced&, const MemberReplaced&) = default;
+};
+
 /// Everything that can happen to a session, see Session.
 using SessionEvent = std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft,
-                                  MemberReturned, StrategyChanged, PlacementTaken>;
+                                  MemberReturned, StrategyChanged, PlacementTaken, MemberReplaced>;
 
 /// "lesson-proposed", "lesson-shown", "tests-answered", "tests-closed", "feedback-given", "member-left",
-/// "member-returned", "strategy-changed", "placement-taken".
+/// "member-returned", "strategy-changed", "placement-taken", "member-replaced".
 [[nodiscard]] std::string_view name_of(const SessionEvent& event) noexcept;
 
 }  // namespace kith

@@ -26,6 +26,12 @@ class TeamBank {
   /// Whether the component of the coming lesson begins with it.
   [[nodiscard]] bool begins(std::size_t component) const noexcept { return component != component_; }
 
+  /// Somebody new takes the place of a member: what is known about the member is what it was at first.
+  /// @param person  the member's stream; the other arguments are those of the constructor.
+  void restart(std::size_t i, const PriorCover& cover, const FilterOptions& filter,
+               const std::vector<LearnerHypothesis>& hypotheses, const RandomStream& person,
+               std::span<const std::vector<HalfSpace>> components = {});
+
   /// What the members answered before the first lesson, without feedback; empty lists are ignored.
   void see_placement(const Atlas& atlas, std::span<const Test> tests, std::span<const std::vector<Answer>> answers,
                      std::span<const std::vector<Verdict>> verdicts);
