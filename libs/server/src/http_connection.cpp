@@ -243,12 +243,11 @@ void HttpConnection::open_web_socket(HttpMessage request) {
   context_.connections.remove(this);
 }
 
-// A proxy on this machine appends the address of its client to the list.
+// A proxy appends the address of its client to the list.
 std::string HttpConnection::client_of(const HttpMessage& request) const {
-  if (!context_.options.behind_proxy) return remote_;
   NetError error;
   const auto peer = asio::ip::make_address(remote_, error);
-  if (error || !peer.is_loopback()) return remote_;
+  if (error || !context_.is_proxy(peer)) return remote_;
   std::string last;
   for (const auto& field : request) {
     if (boost::beast::iequals(field.name_string(), "X-Forwarded-For")) last = std::string{view_of(field.value())};

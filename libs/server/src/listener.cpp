@@ -81,7 +81,7 @@ void Listener::admit(tcp::socket socket) {
   if (error) return;  // gone already
   socket.set_option(tcp::no_delay{true}, error);
   const auto address = peer.address();
-  const bool is_proxy = context_.options.behind_proxy && address.is_loopback();
+  const bool is_proxy = context_.is_proxy(address);
   Admission::Place place;
   const auto verdict = context_.admission.enter(address_group(address.to_string()), !is_proxy, place);
   if (verdict.gives_way) {

@@ -62,8 +62,10 @@ struct ServerOptions {
   /// Origins ("https://study.example.org") of pages that may talk to this server besides its own.
   std::vector<std::string> origins{};
   /// A reverse proxy on this machine passes the clients on: connections from a loopback address name the client in
-  /// X-Forwarded-For, and limits per address do not apply to the proxy itself.
+  /// X-Forwarded-For, and limits per address do not apply to the proxy itself. X-Forwarded-For of anybody else is
+  /// ignored.
   bool behind_proxy = false;
+  std::string proxy{};  ///< With behind_proxy: the address of the proxy, if it is on another machine.
   std::span<const Asset> assets{};
   std::map<std::string, std::string> pages{};  ///< Path of a page, "/j", and of the asset it is, "/assets/live/...".
   ServerLimits limits{};
