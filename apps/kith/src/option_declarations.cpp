@@ -137,6 +137,14 @@ void add_serve(CLI::App& app, Options& options) {
   command.add_flag("--insecure-lan", serve.insecure_lan, "With --lan: accept that nothing is encrypted");
   command.add_option("--public-url", serve.public_url, "Address of the reverse proxy that people use")
       ->type_name("URL");
+  command
+      .add_option("--trusted-proxy", serve.trusted_proxy, "With --public-url: address of a proxy on another machine")
+      ->type_name("ADDRESS");
+  takes_integer(*command
+                     .add_option("--connections-per-address", serve.connections_per_address,
+                                 "Connections per address that have not shown a valid link")
+                     ->capture_default_str(),
+                8, 1'000'000);
   takes_integer(
       *command.add_option("--rooms", serve.rooms, "Make rooms until there are N; others are made as people join"), 0,
       2000);

@@ -257,8 +257,10 @@ struct ServeOptions {
   bool lan = false;
   bool insecure_lan = false;  ///< Unencrypted through the network.
   std::string public_url;     ///< What a reverse proxy in front is called.
+  std::string trusted_proxy;  ///< Its address if it is not on this machine.
   std::size_t rooms = 0;      ///< Rooms to make at the start.
-  std::size_t join_limit = 10;
+  std::size_t join_limit = 120;
+  std::size_t connections_per_address = 1024;
   bool demo = false;
   bool no_browser = false;
   std::size_t rehearse = 0;  ///< Groups of simulated people; 0: no rehearsal.

@@ -52,6 +52,11 @@ std::vector<std::string> addresses_of_machine() {
 bool is_loopback(const std::string& address) { return address == "::1" || address.rfind("127.", 0) == 0; }
 bool is_any(const std::string& address) { return address == "0.0.0.0" || address == "::"; }
 
+bool is_address(const std::string& text) {
+  in6_addr any{};
+  return inet_pton(AF_INET, text.c_str(), &any) == 1 || inet_pton(AF_INET6, text.c_str(), &any) == 1;
+}
+
 std::string in_url(const std::string& host) { return host.find(':') == std::string::npos ? host : "[" + host + "]"; }
 
 // "https://study.example.org" as its scheme and host, or nothing.
@@ -82,6 +87,12 @@ void check_combination(const ServeOptions& options) {
   if (options.insecure_lan && !options.lan) throw Error{ErrorKind::kUsage, "--insecure-lan needs --lan"};
   if (options.lan && is_loopback(options.bind)) {
     throw Error{ErrorKind::kUsage, "--lan and --bind " + options.bind + " contradict each other"};
+  }
+  if (options.trusted_proxy.empty()) return;
+  if (options.public_url.empty()) throw Error{ErrorKind::kUsage, "--trusted-proxy needs --public-url"};
+  if (!is_address(options.trusted_proxy)) {
+    throw Error{ErrorKind::kUsage,
+                "--trusted-proxy must be an IP address such as 192.0.2.1, not '" + options.trusted_proxy + "'"};
   }
 }
 
@@ -128,7 +139,7 @@ ServeAddress serve_address(const ServeOptions& options) {
     address.public_url = url->origin;
     address.hosts.push_back(url->host);
     address.origins.push_back(url->origin);
-    address.behind_proxy = is_local;
+    address.behind_proxy = is_local || !options.trusted_proxy.empty();
   }
   // Interfaces may have names that are no hosts ("fe80::1%eth0").
   address.hosts.erase(

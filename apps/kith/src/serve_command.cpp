@@ -137,6 +137,8 @@ ServerOptions server_options(const ServeOptions& options, const ServeAddress& ad
   server.hosts = address.hosts;
   server.origins = address.origins;
   server.behind_proxy = address.behind_proxy;
+  server.proxy = options.trusted_proxy;
+  server.limits.unauthenticated_per_address = options.connections_per_address;
   server.assets = web_assets();
   const auto has = [&](const std::string& path) {
     return std::any_of(server.assets.begin(), server.assets.end(), [&](const Asset& one) { return one.path == path; });

@@ -113,6 +113,9 @@ TEST(ServeCommand, RefusesOptionsThatContradictEachOther) {
       {"serve", "quick", "--rehearse", "2", "--bind", "nowhere"},
       {"serve", "quick", "--rehearse", "2", "--public-url", "study.example.org"},
       {"serve", "quick", "--rehearse", "2", "--public-url", "https://study.example.org/path"},
+      {"serve", "quick", "--rehearse", "2", "--trusted-proxy", "192.0.2.1"},
+      {"serve", "quick", "--rehearse", "2", "--public-url", "https://study.example.org", "--trusted-proxy", "proxy"},
+      {"serve", "quick", "--rehearse", "2", "--connections-per-address", "0"},
   };
   for (const auto& arguments : wrong) {
     const auto ran = run_kith(arguments);

@@ -68,6 +68,15 @@ std::optional<T> wait_for(std::future<T> answer) {
   return answer.get();
 }
 
+// Drops what is more than a minute old.
+void forget_old(std::map<std::string, std::deque<std::int64_t>>& times, std::int64_t now) {
+  for (auto at = times.begin(); at != times.end();) {
+    auto& moments = at->second;
+    while (!moments.empty() && now - moments.front() > 60 * kSecond) moments.pop_front();
+    at = moments.empty() ? times.erase(at) : std::next(at);
+  }
+}
+
 }  // namespace
 
 LiveService::HttpReply LiveService::http(const HttpRequest& request) {
@@ -140,15 +149,19 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
   {
     const std::lock_guard lock{mutex};
     const auto now = now_us();
-    if (options.joins_per_minute > 0) {
-      auto& times = joins[request.remote];
-      while (!times.empty() && now - times.front() > 60 * kSecond) times.pop_front();
-      if (times.size() >= options.joins_per_minute)
-        return error_reply(429, "too-many", "Too many people joined from this address; try again in a minute.");
-      times.push_back(now);
-      for (auto at = joins.begin(); at != joins.end();)
-        at = at->second.empty() || now - at->second.back() > 60 * kSecond ? joins.erase(at) : std::next(at);
-    }
+    forget_old(joins, now);
+    forget_old(wrong_codes, now);
+    const auto count = [&](const auto& times) {
+      const auto found = times.find(request.remote);
+      return found == times.end() ? std::size_t{0} : found->second.size();
+    };
+    const bool is_too_many = options.joins_per_minute > 0 && count(joins) >= options.joins_per_minute;
+    // The code of the study is too long to be guessed: a room full of people can always use it.
+    const bool is_guessing = *code != join_code && options.wrong_codes_per_minute > 0 &&
+                             count(wrong_codes) >= options.wrong_codes_per_minute;
+    if (is_too_many || is_guessing)
+      return error_reply(429, "too-many", "Too many people joined from this address; try again in a minute.");
+    joins[request.remote].push_back(now);
     if (free_space < kNoSpace) return error_reply(503, "no-space", "Nobody new can join at the moment.");
   }
   std::unique_lock one_at_a_time{joining};
@@ -166,7 +179,11 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
       if ((is_for_all || is_own) && room->may_have_free_seat()) open.push_back(room);
     }
   }
-  if (!is_known && !is_study) return error_reply(404, "no-room", "There is no group with this code.");
+  if (!is_known && !is_study) {
+    const std::lock_guard lock{mutex};
+    wrong_codes[request.remote].push_back(now_us());
+    return error_reply(404, "no-room", "There is no group with this code.");
+  }
 
   const auto take_seat = [&](const std::shared_ptr<HostedRoom>& room) {
     auto promise = std::make_shared<std::promise<std::int64_t>>();  // the seat, 0: none is free

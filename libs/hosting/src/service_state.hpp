@@ -106,8 +106,9 @@ struct LiveService::State final : HostedRoom::Host {
   bool has_news = false;                 // for facilitators
   std::multiset<std::int64_t> selected;  // rooms that facilitators look at
   std::deque<LogEntry> log;
-  std::map<std::int64_t, std::string> troubles;           // by room
-  std::map<std::string, std::deque<std::int64_t>> joins;  // by address, when
+  std::map<std::int64_t, std::string> troubles;                 // by room
+  std::map<std::string, std::deque<std::int64_t>> joins;        // by address, when
+  std::map<std::string, std::deque<std::int64_t>> wrong_codes;  // the same of codes that do not exist
   // By room and seat: query parameters of people who have not consented yet. They are stored with the consent.
   std::map<Place, Json> queries;
   std::map<std::string, std::shared_ptr<const std::string>> worlds;
@@ -151,19 +152,19 @@ struct LiveService::State final : HostedRoom::Host {
   void on_applied(HostedRoom& room, std::span<const RoomEvent> events) override;
   void on_trouble(std::int64_t room, const std::string& what) override;
   void on_waiting(HostedRoom& list) override;
-
   void on_vacancy(HostedRoom& room, const Vacancy& vacancy) override;
+
   // service_waiting.cpp
   // Makes the waiting list if the study has one and it is not there yet.
   void make_waiting_list();
   // People of the waiting list have places in a new room, which is saved.
   void seat_group(const StoredRoom& stored, const std::vector<StoredEvent>& events);
-  // Somebody's link leads to another seat from now on. The mutex is held.
   // What calls somebody from the waiting list into a group in place of whoever drops out; nothing if nobody fits.
   // @param group  as it is, and the departure that it is about to save.
   [[nodiscard]] std::optional<HostedRoom::Request> call_into(const Room& list, const Room& group,
                                                              const Vacancy& vacancy, const RoomEvent& departure,
                                                              const std::string& message) const;
+  // Somebody's link leads to another seat from now on. The mutex is held.
   void move_person(const Place& from, const Place& to);
   // Where the holder of a link is now. The mutex is held.
   [[nodiscard]] Place place_of(const Identity& identity) const;
@@ -197,9 +198,9 @@ struct LiveService::State final : HostedRoom::Host {
   void hello(const std::shared_ptr<Connection>& connection, const Json& frame);
   void beat(const Connection& connection);
   void message(const std::shared_ptr<Connection>& connection, const std::string& type, const Json& frame);
-  void facilitate(const std::shared_ptr<Connection>& connection, const std::string& type, const std::string& id,
   void tell_room(const std::shared_ptr<Connection>& connection, const std::string& type, const std::string& id,
                  const Json& body);
+  void facilitate(const std::shared_ptr<Connection>& connection, const std::string& type, const std::string& id,
                   const Json& body);
   void select_room(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);
   void revoke_link(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);

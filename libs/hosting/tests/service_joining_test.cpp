@@ -108,5 +108,25 @@ TEST(LiveService, LimitsHowManyJoinFromOneAddress) {
   EXPECT_EQ(stage.post("/api/join", {{"code", code}}).status, 200);
 }
 
+// Codes of rooms are short; the study's is not, so whoever guesses keeps nobody of the same address from joining.
+TEST(LiveService, LimitsHowManyCodesAreTriedFromOneAddress) {
+  const ScratchFolder scratch;
+  Stage stage{scratch / "live", small_study()};
+  stage.change_options = [](LiveServiceOptions& options) { options.wrong_codes_per_minute = 10; };
+  stage.restart();
+  const auto code = stage.join_code();
+  const auto page = stage.facilitator();
+  page->ask(stage.service(), "room-make", {{"reason", "a group of friends"}});
+  stage.show(*page);
+  const auto room = page->view()["rooms"].back()["code"].get<std::string>();
+  const auto status_of = [&](const std::string& tried) { return stage.post("/api/join", {{"code", tried}}).status; };
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(status_of("WRONG" + std::to_string(i)), 404);
+  EXPECT_EQ(status_of("WRONG"), 429);
+  EXPECT_EQ(status_of(room), 429);
+  EXPECT_EQ(status_of(code), 200);
+  stage.pass_ms(61'000);
+  EXPECT_EQ(status_of(room), 200);
+}
+
 }  // namespace
 }  // namespace kith

@@ -284,6 +284,7 @@ class Stage {
     options.digest = study_.digest;
     options.program = "kith test";
     options.joins_per_minute = 0;
+    options.wrong_codes_per_minute = 0;
     options.teaching_workers = 1;
     options.now_us = [this] { return clock_.now_us(); };
     options.ticks = false;

@@ -186,8 +186,8 @@ void HttpConnection::dispatch() {
   reply_ = {};
   reply_.closes = !request.keep_alive() || request.version() < 11 || is_stopping_ ||
                   num_requests_ >= kRequestsPerConnection || context_.admission.is_crowded();
+  place_.renew();
   if (is_web_socket) return open_web_socket(std::move(request));
-  place_.trust();
   if (destination_.kind == Destination::Kind::kApplication) return ask_application(std::move(request));
   auto reply = asset_reply(*destination_.asset, request);
   reply.closes = reply_.closes;
@@ -238,16 +238,16 @@ void HttpConnection::open_web_socket(HttpMessage request) {
   ++context_.requests;
   const auto client = client_of(request);
   const auto socket = std::make_shared<WebSocketConnection>(context_, std::move(socket_), std::move(place_), client);
+  socket->claim_place();
   if (context_.connections.add(socket)) socket->start(std::move(request));
   context_.connections.remove(this);
 }
 
-// A proxy on this machine appends the address of its client to the list.
+// A proxy appends the address of its client to the list.
 std::string HttpConnection::client_of(const HttpMessage& request) const {
-  if (!context_.options.behind_proxy) return remote_;
   NetError error;
   const auto peer = asio::ip::make_address(remote_, error);
-  if (error || !peer.is_loopback()) return remote_;
+  if (error || !context_.is_proxy(peer)) return remote_;
   std::string last;
   for (const auto& field : request) {
     if (boost::beast::iequals(field.name_string(), "X-Forwarded-For")) last = std::string{view_of(field.value())};

@@ -20,6 +20,8 @@ class HttpConnection final : public ServerConnection, public std::enable_shared_
  public:
   HttpConnection(ServerContext& context, tcp::socket socket, Admission::Place place, std::string remote);
 
+  /// Says that its place is this connection's.
+  void claim_place() { place_.belongs_to(weak_from_this()); }
   /// Starts to read requests.
   void start();
   /// Tells a client only that it cannot be served now.

@@ -81,20 +81,22 @@ void Listener::admit(tcp::socket socket) {
   if (error) return;  // gone already
   socket.set_option(tcp::no_delay{true}, error);
   const auto address = peer.address();
-  const bool is_proxy = context_.options.behind_proxy && address.is_loopback();
+  const bool is_proxy = context_.is_proxy(address);
   Admission::Place place;
   const auto verdict = context_.admission.enter(address_group(address.to_string()), !is_proxy, place);
-  const bool is_welcome = verdict == Admission::Verdict::kWelcome;
+  if (verdict.gives_way) {
+    verdict.gives_way->cut();
+    context_.notice(ServerNotice::Kind::kOverload, "an idle connection was closed to make room for a new one");
+  }
+  const bool is_welcome = verdict.is_welcome;
   if (!is_welcome) {
-    context_.notice(ServerNotice::Kind::kOverload,
-                    verdict == Admission::Verdict::kTooMany
-                        ? "a client was turned away: too many connections"
-                        : "a client was turned away: too many connections of its address have not said who they are");
+    context_.notice(ServerNotice::Kind::kOverload, "a client was turned away: too many connections");
     if (context_.refusing >= kRefusing) return;
     ++context_.refusing;
   }
   const auto connection =
       std::make_shared<HttpConnection>(context_, std::move(socket), std::move(place), address.to_string());
+  connection->claim_place();
   if (!context_.connections.add(connection)) {
     if (!is_welcome) --context_.refusing;
     return;

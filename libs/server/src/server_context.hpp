@@ -8,6 +8,7 @@
 #include "connections.hpp"
 #include "kith/server/live_application.hpp"
 #include "kith/server/server_options.hpp"
+#include "net.hpp"
 #include "request_rules.hpp"
 #include "worker_pool.hpp"
 
@@ -21,6 +22,13 @@ struct ServerContext {
         rules{options},
         admission{options.limits.sockets, options.limits.unauthenticated_per_address},
         workers{options.workers, options.limits.waiting_requests} {}
+
+  /// Whether X-Forwarded-For of this peer is believed.
+  [[nodiscard]] bool is_proxy(const asio::ip::address& peer) const {
+    if (!options.behind_proxy) return false;
+    if (options.proxy.empty()) return peer.is_loopback();
+    return address_group(peer.to_string()) == address_group(options.proxy);
+  }
 
   void notice(ServerNotice::Kind kind, const std::string& text) const {
     if (options.on_notice) options.on_notice({kind, text});

@@ -26,6 +26,8 @@ class WebSocketConnection final : public ServerConnection, public std::enable_sh
   WebSocketConnection(ServerContext& context, tcp::socket socket, Admission::Place place, std::string remote);
   ~WebSocketConnection() override;
 
+  /// Says that its place is this connection's.
+  void claim_place() { place_.belongs_to(weak_from_this()); }
   /// Completes the handshake and starts to read frames.
   void start(HttpMessage request);
 

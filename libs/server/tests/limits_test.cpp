@@ -146,14 +146,20 @@ TEST(Limits, TurnAwayWhomThereIsNoRoomFor) {
   std::mutex mutex;
   std::vector<std::string> notices;
   auto options = with({.sockets = 3});
+  const auto hello = [](RawWebSocket& socket) {
+    socket.say(kHello);
+    EXPECT_EQ(socket.hear(), R"({"t":"welcome"})");
+  };
   options.on_notice = [&](const ServerNotice& notice) {
     const std::lock_guard lock{mutex};
     notices.push_back(notice.text);
   };
   Served served{options};
-  std::vector<RawClient> clients;
-  for (int i = 0; i < 3; ++i) clients.emplace_back(served.port());
-  while (served.server.status().connections < 3) usleep(1000);
+  std::vector<RawWebSocket> clients;
+  for (int i = 0; i < 3; ++i) {
+    clients.emplace_back(served.port());
+    hello(clients.back());
+  }
   RawClient fourth{served.port()};
   const auto reply = read_reply(fourth);
   EXPECT_EQ(reply.status, 503);
@@ -166,20 +172,26 @@ TEST(Limits, TurnAwayWhomThereIsNoRoomFor) {
   EXPECT_THAT(notices, Contains(HasSubstr("too many connections")));
 }
 
-TEST(Limits, CountSocketsThatHaveNotSaidWhoTheyAre) {
+// Whoever says nothing gives way to whoever comes; whoever has said who they are does not.
+TEST(Limits, LetSocketsGiveWayThatHaveNotSaidWhoTheyAre) {
   Served served{with({.unauthenticated_per_address = 2})};
-  RawWebSocket first{served.port()};
-  RawWebSocket second{served.port()};
-  EXPECT_EQ(ask(served.port(), "GET /j HTTP/1.1\r\nHost: localhost\r\n\r\n").status, 503);
-  first.say(kHello);
-  EXPECT_EQ(first.hear(), R"({"t":"welcome"})");
-  second.say(kHello);
-  EXPECT_EQ(second.hear(), R"({"t":"welcome"})");
+  RawWebSocket known{served.port()};
+  known.say(kHello);
+  EXPECT_EQ(known.hear(), R"({"t":"welcome"})");
+  RawWebSocket silent{served.port()};
+  RawClient slow{served.port()};
+  slow.send("GET /j HTTP/1.1\r\n");
+  const RawClient third{served.port()}, fourth{served.port()};
+  EXPECT_EQ(silent.hear(), "");
+  EXPECT_EQ(slow.read_all(), "");
   EXPECT_TRUE(served.serves_well());
+  known.say("still here");
+  EXPECT_EQ(known.hear(), "still here");
+  EXPECT_GE(served.server.status().turned_away, 2U);
 }
 
 // Each has made a valid request, and waits for the next.
-TEST(Limits, DoNotCountConnectionsThatHaveBeenServed) {
+TEST(Limits, ServeMoreBrowsersThanMayStayConnected) {
   Served served{with({.unauthenticated_per_address = 2})};
   std::vector<RawClient> browsers;
   for (int i = 0; i < 6; ++i) {

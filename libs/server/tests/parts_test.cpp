@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <boost/beast/zlib/inflate_stream.hpp>
+#include <map>
+#include <memory>
 #include <string>
 
 #include "admission.hpp"
@@ -81,24 +83,90 @@ TEST(SendQueue, HoldsSoManyFramesAndBytes) {
   EXPECT_FALSE(small.push(frame(1)));
 }
 
-TEST(Admission, CountsUntilAPlaceIsTrustedOrLeft) {
-  using Verdict = Admission::Verdict;
-  Admission admission{4, 2};
-  Admission::Place a, b, c, d, e;
-  EXPECT_EQ(admission.enter("x", true, a), Verdict::kWelcome);
-  EXPECT_EQ(admission.enter("x", true, b), Verdict::kWelcome);
-  EXPECT_EQ(admission.enter("x", true, c), Verdict::kTooManyOfAddress);
-  EXPECT_EQ(admission.enter("y", true, c), Verdict::kWelcome);
-  EXPECT_EQ(admission.enter("x", false, d), Verdict::kWelcome);
-  EXPECT_TRUE(admission.is_crowded());
-  EXPECT_EQ(admission.enter("z", true, e), Verdict::kTooMany);
-  a = {};
-  EXPECT_EQ(admission.num_sockets(), 3U);
-  b.trust();
-  EXPECT_EQ(admission.enter("x", true, a), Verdict::kWelcome);
-  EXPECT_EQ(admission.num_turned_away(), 2U);
-  for (auto* place : {&a, &b, &c, &d}) *place = {};
-  EXPECT_EQ(admission.num_sockets(), 0U);
+// Sockets with names that come, and how often each was cut.
+class Gate {
+ public:
+  Gate(std::size_t max_sockets, std::size_t max_per_address) : admission{max_sockets, max_per_address} {}
+
+  struct Guest final : ServerConnection {
+    void stop() override {}
+    void cut() override { ++cuts; }
+    int cuts = 0;
+    Admission::Place place;
+  };
+  // @return who has to give way; "-": the newcomer itself.
+  std::string come(const std::string& name, const std::string& address, bool counts = true) {
+    auto guest = std::make_shared<Guest>();
+    const auto verdict = admission.enter(address, counts, guest->place);
+    if (!verdict.is_welcome) return "-";
+    guest->place.belongs_to(guest);
+    guests[name] = guest;
+    for (const auto& [other, one] : guests) {
+      if (one && one == verdict.gives_way) return other;
+    }
+    return "";
+  }
+
+  Admission admission;
+  std::map<std::string, std::shared_ptr<Guest>> guests;
+};
+
+TEST(Admission, LetsWhoeverIsIdleForLongestGiveWay) {
+  Gate gate{100, 3};
+  for (const auto* name : {"a", "b", "c"}) EXPECT_EQ(gate.come(name, "x"), "");
+  gate.guests["a"]->place.renew();
+  EXPECT_EQ(gate.come("d", "x"), "b");
+  EXPECT_EQ(gate.come("e", "x"), "c");
+  EXPECT_EQ(gate.come("f", "x"), "a");
+  EXPECT_EQ(gate.come("g", "y"), "") << "another address";
+  EXPECT_EQ(gate.come("h", "x", false), "") << "of a proxy";
+  EXPECT_EQ(gate.admission.num_sockets(), 5U);
+  EXPECT_EQ(gate.admission.num_turned_away(), 3U);
+  gate.guests.clear();
+  EXPECT_EQ(gate.admission.num_sockets(), 0U);
+}
+
+TEST(Admission, NeverLetsGiveWayWhoHasShownAToken) {
+  Gate gate{4, 2};
+  for (const auto* name : {"a", "b"}) {
+    EXPECT_EQ(gate.come(name, "x"), "");
+    gate.guests[name]->place.trust();
+  }
+  EXPECT_EQ(gate.come("c", "x"), "") << "the others do not count";
+  EXPECT_EQ(gate.come("d", "x"), "");
+  EXPECT_TRUE(gate.admission.is_crowded());
+  EXPECT_EQ(gate.come("e", "y"), "c") << "all places are taken";
+  gate.guests["d"]->place.trust();
+  gate.guests["e"]->place.trust();
+  EXPECT_EQ(gate.come("f", "z"), "-");
+  EXPECT_EQ(gate.admission.num_sockets(), 4U);
+  gate.guests["a"] = nullptr;
+  EXPECT_EQ(gate.admission.num_sockets(), 3U);
+  EXPECT_EQ(gate.come("f", "z"), "");
+}
+
+// One address cannot take the places of others.
+TEST(Admission, TakesPlacesFromTheAddressWithMostGuests) {
+  Gate gate{4, 100};
+  EXPECT_EQ(gate.come("a", "x"), "");
+  for (const auto* name : {"b", "c", "d"}) EXPECT_EQ(gate.come(name, "y"), "");
+  EXPECT_EQ(gate.come("e", "z"), "b");
+  EXPECT_EQ(gate.come("f", "y"), "c");
+  EXPECT_EQ(gate.admission.num_sockets(), 4U);
+}
+
+// Giving way and leaving at the same time count once.
+TEST(Admission, CountsAPlaceOnce) {
+  Gate gate{2, 1};
+  EXPECT_EQ(gate.come("a", "x"), "");
+  EXPECT_EQ(gate.come("b", "x"), "a");
+  EXPECT_EQ(gate.admission.num_sockets(), 1U);
+  gate.guests["a"]->place.renew();
+  gate.guests["a"]->place.trust();
+  gate.guests["a"] = nullptr;
+  EXPECT_EQ(gate.admission.num_sockets(), 1U);
+  gate.guests["b"] = nullptr;
+  EXPECT_EQ(gate.admission.num_sockets(), 0U);
 }
 
 TEST(Admission, TakesANetworkOfIpv6ForOneAddress) {

@@ -128,6 +128,13 @@ TEST(Server, TellsTheApplicationWhoseClientAProxyPassesOn) {
   const auto reply =
       ask(served.port(), "GET /api/a HTTP/1.1\r\nHost: localhost\r\nX-Forwarded-For: 6.6.6.6, 203.0.113.9\r\n\r\n");
   EXPECT_THAT(reply.body, HasSubstr("203.0.113.9"));
+  // A proxy on another machine is believed, and then nobody else is.
+  Served other{{.behind_proxy = true, .proxy = "192.0.2.1"}};
+  EXPECT_THAT(ask(other.port(), "GET /api/a HTTP/1.1\r\nHost: localhost\r\nX-Forwarded-For: 203.0.113.9\r\n\r\n").body,
+              HasSubstr("127.0.0.1"));
+  Served named{{.behind_proxy = true, .proxy = "127.0.0.1"}};
+  EXPECT_THAT(ask(named.port(), "GET /api/a HTTP/1.1\r\nHost: localhost\r\nX-Forwarded-For: 203.0.113.9\r\n\r\n").body,
+              HasSubstr("203.0.113.9"));
   const Served direct;
   EXPECT_THAT(ask(direct.port(), "GET /api/a HTTP/1.1\r\nHost: localhost\r\nX-Forwarded-For: 203.0.113.9\r\n\r\n").body,
               HasSubstr("127.0.0.1"));

@@ -64,6 +64,28 @@ struct SlowMode {
 
 class SlowHttp : public ::testing::TestWithParam<SlowMode> {};
 
+// The tool has all its connections at once, or loses most of them to whoever comes from the same address.
+class SlowHttpOfOneAddress : public SlowHttp {};
+
+TEST_P(SlowHttpOfOneAddress, LeavesAGoodClientServed) {
+  Served served{{.limits = {.unauthenticated_per_address = 20}}};
+  SlowTool tool{served.port(), GetParam().path, GetParam().arguments};
+  if (!tool.is_there()) GTEST_SKIP() << "slowhttptest is not installed";
+  RawWebSocket seat{served.port()};
+  seat.say(kHello);
+  ASSERT_EQ(seat.hear(), R"({"t":"welcome"})");
+  std::size_t rounds = 0;
+  while (!tool.is_over()) {
+    ASSERT_TRUE(served.serves_well()) << "round " << rounds;
+    ++rounds;
+    usleep(20'000);
+  }
+  EXPECT_GT(rounds, 10U);
+  EXPECT_GT(served.server.status().turned_away, 100U) << "the tool had no effect";
+  seat.say("still here");
+  EXPECT_EQ(seat.hear(), "still here");
+}
+
 TEST_P(SlowHttp, LeavesAGoodClientServed) {
   Served served{{.limits = {.unauthenticated_per_address = 1000}}};
   SlowTool tool{served.port(), GetParam().path, GetParam().arguments};
@@ -84,12 +106,14 @@ TEST_P(SlowHttp, LeavesAGoodClientServed) {
   EXPECT_TRUE(all_gone(served.server));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Modes, SlowHttp,
-    ::testing::Values(SlowMode{"Headers", "/j", {"-H"}},
-                      SlowMode{"Bodies", "/api/a", {"-B", "-f", "application/json", "-s", "8192"}},
-                      SlowMode{"Readers", "/assets/live/large.js", {"-X", "-w", "512", "-y", "1024", "-z", "64"}}),
-    [](const auto& mode) { return std::string{mode.param.name}; });
+const auto kSlowModes = ::testing::Values(
+    SlowMode{"Headers", "/j", {"-H"}}, SlowMode{"Bodies", "/api/a", {"-B", "-f", "application/json", "-s", "8192"}},
+    SlowMode{"Readers", "/assets/live/large.js", {"-X", "-w", "512", "-y", "1024", "-z", "64"}});
+constexpr auto kNameOfMode = [](const ::testing::TestParamInfo<SlowMode>& mode) {
+  return std::string{mode.param.name};
+};
+INSTANTIATE_TEST_SUITE_P(Modes, SlowHttp, kSlowModes, kNameOfMode);
+INSTANTIATE_TEST_SUITE_P(Modes, SlowHttpOfOneAddress, kSlowModes, kNameOfMode);
 
 }  // namespace
 }  // namespace kith::testing

@@ -25,7 +25,8 @@ struct LiveServiceOptions {
   std::string program = "kith";                     ///< Name and version, told to clients and written into the store.
   std::size_t teaching_workers = 2;                 ///< Threads that choose lessons, >= 1.
   std::size_t cache_bytes = std::size_t{24} << 20;  ///< What each of them remembers, see TeachingCache.
-  std::size_t joins_per_minute = 10;                ///< POST /api/join per address; 0: no limit.
+  std::size_t joins_per_minute = 120;               ///< POST /api/join per address; 0: no limit.
+  std::size_t wrong_codes_per_minute = 10;          ///< Of the same, with a code that does not exist; 0: no limit.
   std::size_t max_rooms = 2000;                     ///< No room is made beyond this number.
   std::int64_t token_hours = 24 * 14;               ///< How long links are valid, in hours.
   /// Microseconds since 1970; empty: the system's clock. Called from several threads.

@@ -24,9 +24,11 @@ struct ServerLimits {
   std::size_t queued_bytes = 1024 * 1024;
   double messages_per_second = 30.0;  ///< Per WebSocket, control frames included.
   double message_burst = 60.0;
-  std::size_t unauthenticated_per_address = 64;  ///< Sockets that have neither made a valid request nor said hello.
-  std::size_t sockets = 4096;                    ///< In all; further ones are answered with 503.
-  std::size_t waiting_requests = 256;            ///< Requests below /api that wait for a worker; further ones get 503.
+  /// Sockets without a valid token. Beyond it, and beyond `sockets`, the one that has gone for longest without a
+  /// complete request is closed.
+  std::size_t unauthenticated_per_address = 1024;
+  std::size_t sockets = 4096;  ///< In all; if all of them have shown a token, further ones are answered with 503.
+  std::size_t waiting_requests = 256;  ///< Requests below /api that wait for a worker; further ones get 503.
   std::chrono::milliseconds header_time{10'000};
   std::chrono::milliseconds body_time{20'000};
   std::chrono::milliseconds hello_time{5'000};
@@ -60,8 +62,10 @@ struct ServerOptions {
   /// Origins ("https://study.example.org") of pages that may talk to this server besides its own.
   std::vector<std::string> origins{};
   /// A reverse proxy on this machine passes the clients on: connections from a loopback address name the client in
-  /// X-Forwarded-For, and limits per address do not apply to the proxy itself.
+  /// X-Forwarded-For, and limits per address do not apply to the proxy itself. X-Forwarded-For of anybody else is
+  /// ignored.
   bool behind_proxy = false;
+  std::string proxy{};  ///< With behind_proxy: the address of the proxy, if it is on another machine.
   std::span<const Asset> assets{};
   std::map<std::string, std::string> pages{};  ///< Path of a page, "/j", and of the asset it is, "/assets/live/...".
   ServerLimits limits{};
@@ -74,7 +78,7 @@ struct ServerStatus {
   std::size_t web_sockets = 0;     ///< Open now.
   std::uint64_t requests = 0;      ///< Answered, refused ones included.
   std::uint64_t frames_in = 0;     ///< Delivered to the application.
-  std::uint64_t turned_away = 0;   ///< Connections refused by a limit on sockets.
+  std::uint64_t turned_away = 0;   ///< Connections refused or closed by a limit on sockets.
   std::uint64_t slow_clients = 0;  ///< Disconnected because they did not read what was sent.
   std::uint64_t timed_out = 0;     ///< Disconnected because they did not send in time.
 };
