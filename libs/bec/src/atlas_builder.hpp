@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -36,6 +37,7 @@ class AtlasBuilder {
   void number_constraints();
   void make_one_step_sets();
   void compare_whole_paths();
+  void show_more(Atlas::Demo& demo, const std::set<HalfSpace>& comparisons, const Cone& region);
   void make_policy_bec();
   void count_masks();
   void make_components();
