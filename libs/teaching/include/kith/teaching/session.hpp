@@ -171,6 +171,7 @@ class Session {
   [[nodiscard]] std::optional<Prepared> prepare(TeachingCache& cache, std::size_t component, const TeamBelief& belief,
                                                 std::span<const MemberTruth> truth) const;
   void describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) const;
+  [[nodiscard]] std::vector<HalfSpace> to_examine(const Lesson& lesson, TeachingCache& cache) const;
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
   void make_bank(TeachingCache& cache);
   void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
