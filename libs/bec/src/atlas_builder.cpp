@@ -25,6 +25,7 @@ void AtlasBuilder::build() {
   reduce_one_step();
   number_constraints();
   make_one_step_sets();
+  compare_whole_paths();
   make_policy_bec();
   count_masks();
   make_components();
@@ -138,7 +139,10 @@ void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot) {
   const auto is_on_path = on_candidates_paths(m, robot);
   raw_sets_.resize(atlas_.demos_.size());
   for (const auto s : successors_first(mdp, robot)) {
-    if (!is_on_path[s.value()]) continue;
+    if (!is_on_path[s.value()]) {
+      paths_meet_all_states_ = false;
+      continue;
+    }
     const auto& here = demo(m, s);
     auto set = deviations(mdp, robot, s);
     if (here.next != Atlas::kTerminal) set.insert(set.end(), raw_sets_[here.next].begin(), raw_sets_[here.next].end());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -35,6 +36,8 @@ class AtlasBuilder {
   void intern_hull(Atlas::Demo& here, const CoverageSets& coverage);
   void number_constraints();
   void make_one_step_sets();
+  void compare_whole_paths();
+  void show_more(Atlas::Demo& demo, const std::set<HalfSpace>& comparisons, const Cone& region);
   void make_policy_bec();
   void count_masks();
   void make_components();
@@ -71,7 +74,8 @@ class AtlasBuilder {
   MemoryGuard memory_{"going on to collect what the robot's paths show", "use a smaller map or fewer features"};
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.
   ConstraintTable raw_;
-  bool indifferent_ = false;  // constraints that hold with equality at the robot's weights do not count
+  bool paths_meet_all_states_ = true;  // those of candidates
+  bool indifferent_ = false;           // constraints that hold with equality at the robot's weights do not count
   std::vector<std::vector<ConstraintIndex>> raw_sets_;  // per state on candidates' paths: all along the path, sorted
   std::vector<std::vector<HalfSpace>> minimal_sets_;    // distinct minimal sets
   IntsMap<std::uint32_t> pictures_;

@@ -3,8 +3,6 @@
 #include <numeric>
 
 #include "atlas_builder.hpp"
-#include "kith/core/assert.hpp"
-#include "kith/geometry/cone_sampler.hpp"
 #include "people_regret.hpp"
 
 namespace kith {
@@ -90,13 +88,8 @@ std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeCo
   Regions regions{atlas_.constraints_};
   auto taught = atlas_.prior_;
   std::optional<double> at_first;
-  const auto people_within = [&](const ConstraintSet& set, std::size_t n) -> Eigen::MatrixXd {
-    const auto cone = Cone::intersection(atlas_.constraints_.half_spaces(set));
-    KITH_ASSERT(cone.has_value());  // the robot's weights satisfy everything that is taught
-    return ConeSampler{*cone}.cover(n);
-  };
   while (!candidates.empty() && chosen.size() <= atlas_.domain_.num_features()) {
-    const Eigen::MatrixXd people = people_within(taught, kPeople);
+    const Eigen::MatrixXd people = people_within(atlas_.constraints_, taught, kPeople);
     std::vector<double> lost;
     for (Eigen::Index i = 0; i < people.cols(); ++i) lost.push_back(regret.of(people.col(i)));
     const double before = std::accumulate(lost.begin(), lost.end(), 0.0) / static_cast<double>(kPeople);
@@ -117,7 +110,7 @@ std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeCo
         inside += knows ? 1.0 : 0.0;
       }
       if (inside < static_cast<double>(kFewPeople)) {
-        const Eigen::MatrixXd others = people_within(after, kFewPeople);
+        const Eigen::MatrixXd others = people_within(atlas_.constraints_, after, kFewPeople);
         for (Eigen::Index p = 0; p < others.cols(); ++p) sum += regret.of(others.col(p));
         inside += static_cast<double>(others.cols());
       }

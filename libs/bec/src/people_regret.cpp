@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kith/core/assert.hpp"
+#include "kith/geometry/cone_sampler.hpp"
 #include "kith/random/stream.hpp"
 
 namespace kith {
 namespace {
-
-constexpr std::size_t kMdps = 12;
-constexpr std::size_t kStartsPerMdp = 24;
 
 // Some of n, the same in every run, ascending.
 std::vector<std::size_t> some_of(std::size_t n, std::size_t most, const RandomStream& random) {
@@ -25,14 +24,20 @@ std::vector<std::size_t> some_of(std::size_t n, std::size_t most, const RandomSt
 
 }  // namespace
 
-PeopleRegret::PeopleRegret(const Atlas& atlas) : atlas_{&atlas}, behaviours_{atlas} {
+Eigen::MatrixXd people_within(const ConstraintTable& constraints, const ConstraintSet& set, std::size_t n) {
+  const auto cone = Cone::intersection(constraints.half_spaces(set));
+  KITH_ASSERT(cone.has_value());
+  return ConeSampler{*cone}.cover(n);
+}
+
+PeopleRegret::PeopleRegret(const Atlas& atlas, const Sample& sample) : atlas_{&atlas}, behaviours_{atlas} {
   const Domain& domain = atlas.domain();
   const auto random = RandomStream{0}.split("regret of people");
   const double scale = 1.0 / static_cast<double>(domain.count_scale());
-  for (const std::size_t m : some_of(domain.num_mdps(), kMdps, random.split("mdps"))) {
+  for (const std::size_t m : some_of(domain.num_mdps(), sample.mdps, random.split("mdps"))) {
     const MdpIndex mdp{m};
     const auto& starts = domain.starts(mdp);
-    for (const std::size_t i : some_of(starts.size(), kStartsPerMdp, random.split("starts").split(m))) {
+    for (const std::size_t i : some_of(starts.size(), sample.starts_per_mdp, random.split("starts").split(m))) {
       Start start{atlas.index({mdp, starts[i]})};
       for (std::size_t choice = 0; choice < domain.mdp(mdp).choices(starts[i]).size(); ++choice) {
         const auto loss = atlas.feature_counts(start.demo) - atlas.deviation_counts(start.demo, choice);
@@ -54,6 +59,21 @@ double PeopleRegret::of(const Direction& weights) {
                   : start.worst;
   }
   return starts_.empty() ? 0.0 : sum / static_cast<double>(starts_.size());
+}
+
+std::vector<PeopleRegret::Mistake> PeopleRegret::mistakes(const Direction& weights) {
+  const Domain& domain = atlas_->domain();
+  const double scale = 1.0 / static_cast<double>(domain.count_scale());
+  const auto cell = behaviours_.locate(weights);
+  std::vector<Mistake> found;
+  for (const Start& start : starts_) {
+    const auto answer = behaviours_.answer(start.demo, cell);
+    if (!answer) continue;
+    auto advantage = atlas_->feature_counts(start.demo) - *answer;
+    const double regret = domain.weights().return_of(advantage) * scale / static_cast<double>(starts_.size());
+    if (regret > 0.0) found.push_back({start.demo, regret, std::move(advantage)});
+  }
+  return found;
 }
 
 }  // namespace kith

@@ -8,15 +8,35 @@
 
 namespace kith {
 
+// People who cover the region of a set of constraints evenly, shape [d, n]. @pre the region has interior.
+[[nodiscard]] Eigen::MatrixXd people_within(const ConstraintTable& constraints, const ConstraintSet& set,
+                                            std::size_t n);
+
 // How much people lose against the robot, on a sample of the starts: what not knowing something costs.
 class PeopleRegret {
  public:
+  // How many worlds are sampled at most, and how many starts of each.
+  struct Sample {
+    std::size_t mdps = 12;
+    std::size_t starts_per_mdp = 24;
+  };
+
   // @pre the atlas knows its demonstrations; it need not know more. Behaviours are planned on demand.
-  explicit PeopleRegret(const Atlas& atlas);
+  explicit PeopleRegret(const Atlas& atlas) : PeopleRegret{atlas, Sample{}} {}
+  PeopleRegret(const Atlas& atlas, const Sample& sample);
 
   // Mean over the starts, in units of the normalised weights. Where somebody has no optimum, it is that of the worst
   // single deviation from the robot's path.
   [[nodiscard]] double of(const Direction& weights);
+
+  // A start where somebody takes a worse path than the robot.
+  struct Mistake {
+    DemoIndex start;
+    double regret = 0.0;      // divided by the number of starts, so that those of one person add up to of(), or to less
+    IntegerVector advantage;  // what the robot's path counts more than theirs, in units of 1 / Domain::count_scale()
+  };
+  // Those with an optimum; in the order of the starts.
+  [[nodiscard]] std::vector<Mistake> mistakes(const Direction& weights);
 
  private:
   struct Start {

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "kith/bec/near_miss.hpp"
+#include "kith/core/assert.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/random/distributions.hpp"
 #include "visual_order.hpp"
@@ -14,6 +16,7 @@ namespace kith {
 namespace {
 
 constexpr double kTie = 1e-12;  // values of U within this are equal
+constexpr double kMiss = 0.5;   // see near_misses()
 
 // Demonstration classes that convey the same.
 struct Candidate {
@@ -161,6 +164,20 @@ ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBeli
   }
   std::sort(people.cells.begin(), people.cells.end());
   return people;
+}
+
+void imagine_near_misses(TeachingCache& cache, const KnowledgeComponent& component, ImaginedPeople& people) {
+  const auto& atlas = cache.atlas();
+  const auto region = Cone::intersection(atlas.constraints().half_spaces(component.constraints | atlas.prior()));
+  KITH_ASSERT(region.has_value());  // the robot's weights lie inside
+  const auto facets = atlas.constraints().half_spaces(component.constraints);
+  for (const auto& weights : near_misses(*region, facets, kMiss)) {
+    const auto cell = cache.behaviours().locate(weights);
+    if (std::find(people.cells.begin(), people.cells.end(), cell) != people.cells.end()) continue;
+    people.cells.push_back(cell);
+    people.weights.push_back(weights);
+  }
+  std::sort(people.cells.begin(), people.cells.end());
 }
 
 Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value, const ImaginedPeople& people,

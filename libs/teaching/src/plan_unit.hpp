@@ -19,6 +19,11 @@ struct ImaginedPeople {
 [[nodiscard]] ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
                                             std::size_t n, RandomStream random);
 
+// Adds, for every facet of the component's region, somebody who only just misses it: who is right about everything
+// else. What is conveyed to them is the facet itself, which people who know nothing, or nearly everything, may not
+// bring up.
+void imagine_near_misses(TeachingCache& cache, const KnowledgeComponent& component, ImaginedPeople& people);
+
 struct PlanOptions {
   std::size_t max_demonstrations = 2;  // >= 1, but 0 in parameters: Lookahead::plan_for() decides
   double min_gain = 0.0;               // of U, for every demonstration but the first

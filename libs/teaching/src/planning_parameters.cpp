@@ -100,7 +100,9 @@ Unit Lookahead::best_unit(TeachingCache& cache, const TeachingView& view,
                                             [](const auto& a, const auto& b) { return a.weight < b.weight; });
     if (likeliest != members[i].end()) beliefs.push_back(likeliest->belief);
   }
-  const auto imagined = imagine_people(cache, beliefs, people, random.split("people"));
+  auto imagined = imagine_people(cache, beliefs, people, random.split("people"));
+  const auto& atlas = cache.atlas();
+  if (!atlas.is_tabulated()) imagine_near_misses(cache, atlas.knowledge_components()[view.component], imagined);
   return plan_unit(cache, view, units, imagined, plan_for(view), random.split("looks"));
 }
 

@@ -9,6 +9,7 @@
 #include "kith/bec/comparison.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
+#include "kith/geometry/cone.hpp"
 #include "kith/teaching/test_selection.hpp"
 #include "session_checks.hpp"
 
@@ -258,8 +259,9 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
   lesson.component = component;
   lesson.source = std::move(proposal.source);
   lesson.tests.clear();
+  const auto examined = to_examine(lesson, cache);
   for (std::size_t set = 0; set < options_.duplicate_sets; ++set) {
-    auto choice = select_tests(*atlas_, atlas_->knowledge_components()[component], lesson.demonstrations, lesson.taught,
+    auto choice = select_tests(*atlas_, atlas_->knowledge_components()[component], lesson.demonstrations, examined,
                                next.visited, random.split("tests").split(set));
     lesson.untested = choice.untested;
     lesson.tests.insert(lesson.tests.end(), choice.tests.begin(), choice.tests.end());
@@ -276,6 +278,23 @@ void Session::describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) c
   lesson.area_sr = region.area_sr;
   lesson.running_area_sr = cache.regions().of(cache.numbers_of(unit.taught_region)).area_sr;
   lesson.gain = std::log(cache.regions().of(cache.numbers_of(taught_before_)).area_sr / lesson.running_area_sr);
+}
+
+// What the tests of a lesson ask about: what it teaches and, where behaviours are not tabulated, also the facets of the
+// component's region that do not follow from that. There are many of them, a lesson may leave some out, and whoever
+// answers everything right is done with the component.
+std::vector<HalfSpace> Session::to_examine(const Lesson& lesson, TeachingCache& cache) const {
+  auto examined = lesson.taught;
+  if (atlas_->is_tabulated()) return examined;
+  const auto taught = atlas_->prior() | cache.numbers_of(lesson.taught);
+  const auto region = Cone::intersection(cache.constraints().half_spaces(taught));
+  KITH_ASSERT(region.has_value());  // the robot's weights lie inside
+  const auto& component = atlas_->knowledge_components()[lesson.component];
+  for (const auto& facet : atlas_->constraints().half_spaces(component.constraints)) {
+    if (!region->implies(facet)) examined.push_back(facet);
+  }
+  std::sort(examined.begin(), examined.end());
+  return examined;
 }
 
 // --- the period ----------------------------------------------------------------------------------------------------

@@ -86,8 +86,10 @@ class Atlas {
   [[nodiscard]] bool is_unique(DemoIndex demo) const { return demos_[demo.value()].unique; }
   /// Whether some optimal action besides the canonical one exists in the start state itself.
   [[nodiscard]] bool has_tie(DemoIndex demo) const { return demos_[demo.value()].tie; }
-  /// Minimal set of the one-step deviation constraints along the path:
-  /// mu_robot(s_t) - mu(s_t, b) for every state s_t of the path and every action b. @pre is_candidate(demo).
+  /// Minimal set of what the path shows: the one-step deviation constraints, mu_robot(s_t) - mu(s_t, b) for every state
+  /// s_t of the path and every action b, and, where behaviours are not tabulated and candidates' paths do not meet
+  /// every state, comparisons of the path with whole paths of people who would satisfy all of these. @pre
+  /// is_candidate(demo).
   [[nodiscard]] const ConstraintSet& one_step(DemoIndex demo) const {
     return one_step_sets_[demos_[demo.value()].one_step];
   }
@@ -97,7 +99,7 @@ class Atlas {
   [[nodiscard]] int mean_dissimilarity(DemoIndex demo) const { return demos_[demo.value()].mean_dissimilarity; }
 
   // --- the robot's policy ---------------------------------------------------
-  /// Minimal set of all one-step constraints: the behaviour equivalence class of the policy.
+  /// Minimal set of all one_step(): the behaviour equivalence class of the policy.
   [[nodiscard]] const ConstraintSet& policy_bec() const noexcept { return policy_bec_; }
   [[nodiscard]] const std::vector<HalfSpace>& policy_bec_half_spaces() const noexcept {
     return policy_bec_half_spaces_;

@@ -48,7 +48,7 @@ struct Unit {
 struct Test {
   DemoIndex demo;
   std::vector<HalfSpace>
-      covered;        ///< The taught constraints that the robot's path shows and that its feedback teaches.
+      covered;        ///< The examined constraints that the robot's path shows and that its feedback teaches.
   bool exact = true;  ///< False: no start tests the constraint itself; this one tests the nearest.
   friend bool operator==(const Test&, const Test&) = default;
 };

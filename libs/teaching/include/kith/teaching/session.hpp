@@ -176,6 +176,7 @@ class Session {
   [[nodiscard]] std::optional<Prepared> prepare(TeachingCache& cache, std::size_t component, const TeamBelief& belief,
                                                 std::span<const MemberTruth> truth) const;
   void describe(Lesson& lesson, const Unit& unit, TeachingCache& cache) const;
+  [[nodiscard]] std::vector<HalfSpace> to_examine(const Lesson& lesson, TeachingCache& cache) const;
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
   [[nodiscard]] bool awaits_newcomer() const;
   void admit_newcomers(TeachingCache& cache);

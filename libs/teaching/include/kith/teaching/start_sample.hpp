@@ -12,9 +12,9 @@ namespace kith {
 
 /// Some starts of a knowledge component, each with the half-spaces of the weights under which people predict the robot
 /// right there: Atlas::tested_constraints(). With tables that is exact for weights with a finite optimum. Elsewhere
-/// they are the one-step constraints of the robot's path: who satisfies them agrees with the robot about every single
-/// step, but may see a better path where two steps differ. Without a finite optimum people are wrong: it is an upper
-/// bound.
+/// they are the constraints that the robot's path shows: who satisfies them agrees with the robot about every single
+/// step, but may see a better path where two steps differ and no comparison of whole paths tells. Without a finite
+/// optimum people are wrong: it is an upper bound.
 ///
 /// Nothing is planned: grading a belief takes one product per particle and half-space. Immutable.
 class StartSample {

@@ -13,7 +13,7 @@ struct TestChoice {
   std::size_t untested = 0;  ///< Constraints that nothing can test.
 };
 
-/// Chooses start states that show whether the taught constraints were understood.
+/// Chooses start states that show whether constraints were understood.
 ///
 /// A start tests c if c is among the one-step constraints of the robot's path
 /// and a facet of the robot's cell in the start's coverage set (somebody who
@@ -23,7 +23,7 @@ struct TestChoice {
 /// several constraints are taken greedily, then one per constraint; the most
 /// complex pictures first, then those least like the unit's demonstrations, then chance.
 ///
-/// @param taught  T, sorted.
+/// @param taught  What is examined, sorted: T, and what else of the component matters.
 /// @param visited  chosen ones are added.
 [[nodiscard]] TestChoice select_tests(const Atlas& atlas, const KnowledgeComponent& component,
                                       const std::vector<Demonstration>& unit, const std::vector<HalfSpace>& taught,
