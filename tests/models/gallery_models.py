@@ -11,6 +11,8 @@ Exit code 1 if a file differs.
 import pathlib
 import sys
 
+from generated import is_up_to_date
+
 MOVES = {"up": (0, -1), "down": (0, 1), "left": (-1, 0), "right": (1, 0)}
 ASIDE = {"up": "left right", "down": "left right", "left": "up down", "right": "up down"}
 SLIPPERY = {"firm": 1.0, "slippery": 0.8, "very slippery": 1 / 3}
@@ -182,16 +184,8 @@ def models():
 
 
 def main(mode, folder):
-    different = 0
-    for name, files in models():
-        for part, text in files.items():
-            file = folder / f"{name}_{part}.csv"
-            if mode == "--write":
-                file.write_text(text)
-            elif not file.exists() or file.read_text() != text:
-                print(f"{file} is not what {pathlib.Path(__file__).name} --write makes")
-                different = 1
-    return different
+    return 0 if all([is_up_to_date(mode, folder / f"{name}_{part}.csv", text)
+                     for name, files in models() for part, text in files.items()]) else 1
 
 
 if __name__ == "__main__":

@@ -11,6 +11,8 @@ import re
 import subprocess
 import sys
 
+from generated import is_up_to_date
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CELL = 30
 INK = "#1c2127"
@@ -113,17 +115,8 @@ def draw(picture, known):
 
 
 def main(kith, mode, folder):
-    different = 0
-    for name, picture in PICTURES.items():
-        file = folder / f"{name}.svg"
-        text = draw(picture, inspect(kith, name, picture))
-        if mode == "--write":
-            file.parent.mkdir(exist_ok=True)
-            file.write_text(text)
-        elif not file.exists() or file.read_text() != text:
-            print(f"{file} is not what {pathlib.Path(__file__).name} --write makes")
-            different = 1
-    return different
+    return 0 if all([is_up_to_date(mode, folder / f"{name}.svg", draw(picture, inspect(kith, name, picture)))
+                     for name, picture in PICTURES.items()]) else 1
 
 
 if __name__ == "__main__":
