@@ -309,6 +309,7 @@ describe('a lesson', () => {
       const next = shown.locator('.runs').getByRole('button', { name: 'Next step' });
       await next.click();
       assert.match(await shown.locator('.runs').textContent(), /Step 1 of 4: it tries to go right but slips up\./);
+      assert.equal(await shown.locator('.runs .tried').count(), 1, 'where it tried to go is drawn');
       await next.click();
       assert.match(await shown.locator('.runs').textContent(), /Step 2 of 4: it tries to go down but stays where it is\./);
       await next.click();

@@ -99,11 +99,6 @@ TEST(Navigation, TeachesEveryFeature) {
   expect_every_feature_is_bounded(domain, said);
 }
 
-TEST(Navigation, LeavesNothingToChance) {
-  const auto reading = read_domain(KITH_SOURCE_DIR "/domains/navigation.toml");
-  for (const Diagnostic& d : reading.diagnostics) ADD_FAILURE() << to_text(d);
-}
-
 TEST(RescueFloor, HasSixteenWorldsOfAFewThousandStates) {
   const Domain domain = from_file("rescue_floor");
   EXPECT_EQ(domain.map()->width(), 24);
@@ -126,11 +121,6 @@ TEST(RescueFloor, TeachesEveryFeature) {
   expect_every_feature_is_bounded(domain, what_is_said(domain));
 }
 
-TEST(RescueFloor, LeavesNothingToChance) {
-  const auto reading = read_domain(KITH_SOURCE_DIR "/domains/rescue_floor.toml");
-  for (const Diagnostic& d : reading.diagnostics) ADD_FAILURE() << to_text(d);
-}
-
 TEST(Warehouse, ComesFromAnOccupancyGrid) {
   const Domain domain = load_domain("warehouse");
   EXPECT_EQ(domain.map()->width(), 60);
@@ -151,10 +141,16 @@ TEST(Warehouse, TeachesEveryFeature) {
   expect_every_feature_is_bounded(domain, what_is_said(domain));
 }
 
-TEST(Warehouse, LeavesNothingToChance) {
-  const auto reading = read_domain(KITH_SOURCE_DIR "/domains/warehouse.toml");
-  for (const Diagnostic& d : reading.diagnostics) ADD_FAILURE() << to_text(d);
-  EXPECT_EQ(reading.files.size(), 3u);
+TEST(Warehouse, ConsistsOfThreeFiles) {
+  EXPECT_EQ(read_domain(KITH_SOURCE_DIR "/domains/warehouse.toml").files.size(), 3u);
+}
+
+TEST(LargerDomains, AreReadWithoutWarnings) {
+  for (const std::string name : {"navigation", "rescue_floor", "warehouse"}) {
+    for (const Diagnostic& d : read_domain(KITH_SOURCE_DIR "/domains/" + name + ".toml").diagnostics) {
+      ADD_FAILURE() << to_text(d);
+    }
+  }
 }
 
 TEST(IcyCrossing, IsBuiltInWithItsFiles) {

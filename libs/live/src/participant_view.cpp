@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "kith/explain/runs.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
@@ -178,10 +179,12 @@ class ParticipantPage {
   [[nodiscard]] Json watch() const {
     const auto& demonstrations = state_.session->lesson().demonstrations;
     const auto demo = demonstrations[seat_.watched].demo;
-    return {{"index", seat_.watched},
-            {"of", demonstrations.size()},
-            {"board", live_board(room_.study, demo)},
-            {"frames", robot_frames(room_.study, demo)}};
+    Json watch{{"index", seat_.watched},
+               {"of", demonstrations.size()},
+               {"board", live_board(room_.study, demo)},
+               {"frames", robot_frames(room_.study, demo)}};
+    if (auto runs = robot_runs(room_.study, demo); !runs.is_null()) watch["runs"] = std::move(runs);
+    return watch;
   }
 
   // How many others wait is shown, but not for whom they wait: that would tell people how able they are.
@@ -308,6 +311,14 @@ Json live_board(const LiveStudy& study, DemoIndex demo) {
 
 Json robot_frames(const LiveStudy& study, DemoIndex demo) {
   return frames_json(study.atlas->domain(), study.atlas->id(demo).mdp, study.atlas->trajectory(demo));
+}
+
+Json robot_runs(const LiveStudy& study, DemoIndex demo) {
+  constexpr std::size_t kRuns = 5;
+  const auto world = study.atlas->id(demo).mdp;
+  if (study.atlas->domain().mdp(world).is_deterministic()) return nullptr;
+  auto random = RandomStream{study.spec.seed}.split("runs").split(demo.value());
+  return runs_json(study.atlas->domain(), world, several_runs(*study.atlas, demo, kRuns, random));
 }
 
 Json study_texts_json(const LiveStudy& study) {

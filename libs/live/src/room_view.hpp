@@ -15,6 +15,9 @@ namespace kith {
 [[nodiscard]] Json live_board(const LiveStudy& study, DemoIndex demo);
 /// The robot's path from there, frame by frame.
 [[nodiscard]] Json robot_frames(const LiveStudy& study, DemoIndex demo);
+/// Five runs of the robot from there, with outcomes as they fell, the same for everybody: runs_json(). Null where
+/// nothing is left to chance.
+[[nodiscard]] Json robot_runs(const LiveStudy& study, DemoIndex demo);
 
 /// ParticipantView.
 [[nodiscard]] Json participant_view(const RoomParts& room, std::size_t seat, std::int64_t now_us);

@@ -1,7 +1,7 @@
 // The lesson: what the map's things are, then every component with its demonstrations and tests.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { kFew } from '../shared/board/board';
+import { kFew, Tried } from '../shared/board/board';
 import { Patterns, PartGlyph, Robot } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
 import { themeToggle } from '../shared/theme';
@@ -68,6 +68,7 @@ function Contents({ lesson }: { lesson: Lesson }): JSX.Element {
 function Introduction({ lesson, legend }: Context & { lesson: Lesson }): JSX.Element {
   const things = legend.things();
   const hasMap = lesson.components.some(({ demonstrations }) => demonstrations.some(({ map }) => map));
+  const hasChance = lesson.components.some(({ demonstrations }) => demonstrations.some(({ runs }) => runs));
   const n = lesson.components.length;
   return (
     <section id="introduction" aria-labelledby="introduction-title">
@@ -92,6 +93,13 @@ function Introduction({ lesson, legend }: Context & { lesson: Lesson }): JSX.Ele
               <path class="arrow" d="M5 0-4 -4.6V4.6Z" />
             </g>
           </LegendItem>
+          {hasChance && (
+            <LegendItem name="where the robot tried to go, if it slips">
+              <g class="way own">
+                <Tried from={{ x: -14, y: 0 }} x={14} y={0} angle={0} />
+              </g>
+            </LegendItem>
+          )}
           <LegendItem name="a path you might have expected">
             <g class="way other">
               <path class="line" d="M-20 0H20" />

@@ -1,4 +1,5 @@
 // What boards show, in words: for captions and for those who do not see them.
+import { hasSlipped, kMoves } from '../shared/board/geometry';
 import type { Legend } from '../shared/board/legend';
 import type { Board, Frame, Place } from '../shared/board/types';
 import type { Domain } from './document';
@@ -38,15 +39,11 @@ export function placeOf(frame: Frame): string {
 // "on the bank", "in state 3": many names of states say where they are.
 const stateText = (state: string): string => (/^(on|in|at|by|near|under|behind|beside|inside|outside) /i.test(state) ? state : `in ${state}`);
 
-const kMoves: Record<string, Place> = { up: [0, -1], down: [0, 1], left: [-1, 0], right: [1, 0] };
-
 // Where a robot ends up that does not go where it wanted to: " but slips down"; nothing if all went well.
 function mishap(frame: Frame, next: Frame | undefined): string {
-  const wanted = kMoves[frame.action ?? ''];
-  if (!wanted || !frame.robot || !next?.robot) return '';
+  if (!frame.robot || !next?.robot || !hasSlipped(frame, next.robot)) return '';
   const [dx, dy] = [next.robot[0] - frame.robot[0], next.robot[1] - frame.robot[1]];
   if (dx === 0 && dy === 0) return ' but stays where it is';
-  if (Math.sign(dx) === wanted[0] && Math.sign(dy) === wanted[1]) return '';
   const side = Object.keys(kMoves).find((name) => kMoves[name]?.[0] === dx && kMoves[name]?.[1] === dy);
   return side ? ` but slips ${side}` : ' but ends up elsewhere';
 }

@@ -39,6 +39,12 @@ export interface Task {
   draft: number[];
 }
 
+// Where chance has a part: several runs of the robot, and what happened in how many of them, in English.
+export interface Runs {
+  text: string;
+  runs: { frames: Frame[]; ended: boolean }[];
+}
+
 export interface Judged {
   board: LiveBoard;
   right: boolean;
@@ -90,7 +96,7 @@ export interface ParticipantView {
     until_ms?: number;
   };
   progress?: { part: number; round: number; done: number };
-  watch?: { index: number; of: number; board: LiveBoard; frames: Frame[] };
+  watch?: { index: number; of: number; board: LiveBoard; frames: Frame[]; runs?: Runs };
   predict?: Task;
   wait?: {
     for: 'answers' | 'others-watching' | 'teacher' | 'feedback' | 'joining' | 'rejoining';

@@ -2,7 +2,7 @@
 import type { Legend } from '../shared/board/legend';
 import type { Frame, Part, Place } from '../shared/board/types';
 import type { LiveBoard } from './protocol';
-import { actionLabel, listed, named, sentence, t } from './texts';
+import { actionLabel, hasText, listed, named, sentence, t } from './texts';
 
 const kDirections: Record<string, [number, number]> = { up: [0, -1], down: [0, 1], left: [-1, 0], right: [1, 0] };
 
@@ -16,7 +16,16 @@ function directionOf(from: Place, to: Place): string {
 // "rubble", "the charger": what a thing is called inside a sentence.
 function phrase({ kind, name }: Part): string {
   if (kind === 'destination') return t('thing.destination', { name: named(name.replace(/^destination of /, '')) });
+  if (kind === 'terrain' && hasText(`phrase.${name}`)) return t(`phrase.${name}`);
   return t(`thing.${kind}`, { name: named(name) });
+}
+
+// Whether the robot has done what the map says is to be done. Elsewhere it can only have come to an end.
+export function isJobDone(board: LiveBoard, legend: Legend, frame: Frame | undefined): boolean {
+  const isAim = ({ kind }: Part): boolean => kind === 'goal' || kind === 'destination';
+  const { robot } = frame ?? {};
+  if (!frame || !robot || !legend.things().some(isAim)) return true;
+  return partsAt(board, legend, frame, robot).some(isAim);
 }
 
 // What is on a cell while the board is as in the frame.

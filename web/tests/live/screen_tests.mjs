@@ -244,6 +244,36 @@ export function screenTests(setting) {
       });
     });
 
+    it('shows runs as they fell where chance has a part, and where the robot tried to go', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        await show({ mock, page }, views['watch-runs']);
+        const text = () => page.textContent('main');
+        assert.match(await text(), /Chance plays a part here.*tried 2 times.*Try 1 of 2/s);
+        assert.doesNotMatch(await text(), /In all:/);
+        assert.equal(await page.locator('.tried').count(), 0, 'drawn before it is walked');
+        await playToTheEnd(person);
+        assert.equal(await page.locator('.live-board .tried').count(), 1);
+        assert.match(await text(), /Why do you think the robot chose these moves\?.*This is where the example ends\..*Where the robot tried to go/s);
+        assert.match(await text(), /In all: stopping at the charger in 1 of 2 runs; a different path in each of 2 runs\./);
+        await person.button('Next try').click();
+        assert.match(await text(), /Try 2 of 2/);
+        await person.said('The robot has not moved yet.');
+        await playToTheEnd(person);
+        assert.match(await text(), /The robot has finished its job\./);
+      });
+    });
+
+    it('says where a robot stops that has not finished its job, and names only keys that do something', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        const { board } = views['predict-large'].predict;
+        await show({ mock, page }, { ...views.predict, predict: { ...views.predict.predict, board, world: 'hole', draft: [] } });
+        await page.waitForSelector('.pad-row');
+        assert.doesNotMatch(await page.textContent('main'), /pick up or put down/);
+        await page.keyboard.press('ArrowRight');
+        await person.said('The robot cannot go on from here. Submit your answer, or undo some steps.');
+      });
+    });
+
     it('mentions no answer where there is only practice', async () => {
       await withViews(setting, async ({ views, mock, person, page }) => {
         await show({ mock, page }, views.check);

@@ -48,6 +48,21 @@ function largeBoard(domain, columns = 20, rows = 12) {
   return { domain: legendOnly, world: 1, map, start };
 }
 
+// The robot can only go right, and has fallen into a hole then.
+function holeWorld({ start: { robot: [column, row], items } }) {
+  const item = [...items[0].cell, 0];
+  return {
+    key: 'hole',
+    actions: [{ name: 'right', label: 'right', dx: 1, dy: 0 }],
+    items: [items[0].name],
+    stations: [],
+    frames: [0, 1].map((dx) => [column + dx, row, [item], []]),
+    next: [[1], [-1]],
+    end: [false, true],
+    chance: false,
+  };
+}
+
 // {name: view}; `now` is the server's time.
 export function makeViews(lesson, now = Date.now()) {
   const room = new Room(lesson, { size: 3, screening: 1, parts: 3, questions: kQuestions, askName: true, redirect: 'https://example.org/done' });
@@ -98,10 +113,16 @@ export function makeViews(lesson, now = Date.now()) {
   views['lobby-reserve'] = { ...views.lobby, lobby: { ...views.lobby.lobby, reserve: true } };
   const large = largeBoard(lesson.domain);
   views['predict-large'] = { ...views.predict, predict: { ...views.predict.predict, board: large, world: 'large' } };
+  room.worlds.set('hole', { table: holeWorld(large) });
   room.worlds.set('large', makeWorld(large.domain, large, 'large'));
   const huge = largeBoard(lesson.domain, 60, 40);
   views['predict-huge'] = { ...views.predict, predict: { ...views.predict.predict, board: huge, world: 'huge' } };
   room.worlds.set('huge', makeWorld(huge.domain, huge, 'huge'));
+  const { frames: straight } = views.watch.watch;
+  const [from] = straight;
+  const slip = [{ ...from, action: from.action === 'left' ? 'right' : 'left' }, { ...straight[1], action: null }];
+  const runs = { text: 'stopping at the charger in 1 of 2 runs; a different path in each of 2 runs', runs: [{ frames: slip, ended: true }, { frames: straight, ended: true }] };
+  views['watch-runs'] = { ...views.watch, watch: { ...views.watch.watch, runs } };
   room.worlds.set('mapless', { table: kMaplessWorld });
   const frame = (state, action) => ({ state, action });
   const way = [frame('far from the dock', 'drive'), frame('at the dock', 'wait'), frame('at the dock', 'dock'), frame('docked', null)];

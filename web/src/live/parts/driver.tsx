@@ -7,7 +7,7 @@ import type { Drive, Outcome } from '../drive';
 import { isPressing, isElsewhere } from '../keys';
 import type { LiveBoard } from '../protocol';
 import { t } from '../texts';
-import { aroundText, stepText } from '../words';
+import { aroundText, isJobDone, stepText } from '../words';
 import type { World } from '../world';
 import { BoardInWords, LiveBoardView, Things } from './live_board';
 import { LogView, useLog, type Log } from './log';
@@ -24,6 +24,7 @@ interface Props {
   drive: Drive | null;
   off: boolean;
   end: string; // what is said when the robot has finished
+  stopped: string; // when it has come to an end elsewhere
   children: ComponentChildren; // below the pad
   waiting: ComponentChildren; // there until the world has loaded
 }
@@ -48,9 +49,11 @@ export function Driver(props: Props): JSX.Element {
   return <Driving {...props} world={world} drive={drive} />;
 }
 
-function Driving({ board, legend, world, drive, off, end, children }: Props & { world: World; drive: Drive }): JSX.Element {
+function Driving({ board, legend, world, drive, off, children, ...said }: Props & { world: World; drive: Drive }): JSX.Element {
   const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
+  const end = isJobDone(board, legend, drive.frames.at(-1)) ? said.end : said.stopped;
   const tell = useTelling({ board, legend, drive, log, end });
+  const handles = world.actions.some(({ name }) => name === 'pickup' || name === 'dropoff');
   const area = useRef<HTMLDivElement>(null);
   useKeys({ world, drive, off, tell, area });
   const frame = drive.frames.at(-1) ?? board.start;
@@ -105,9 +108,9 @@ function Driving({ board, legend, world, drive, off, end, children }: Props & { 
         {children}
         {board.map ? (
           <>
-            <Things board={board} legend={legend} lines={['other']} />
-            <p class="muted hint for-keys">{t('predict.keys')}</p>
-            <p class="muted hint for-touch">{t('predict.touch')}</p>
+            <Things board={board} legend={legend} lines={['other']} walked={drive.frames} />
+            <p class="muted hint for-keys">{t(handles ? 'predict.keys_things' : 'predict.keys')}</p>
+            <p class="muted hint for-touch">{t(handles ? 'predict.touch_things' : 'predict.touch')}</p>
             <p class="visually-hidden">{aroundText(board, legend, frame)}</p>
             <BoardInWords board={board} legend={legend} frame={frame} />
           </>

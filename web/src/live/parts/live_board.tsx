@@ -1,8 +1,8 @@
 // A board as large as the window allows, which says where somebody clicks.
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
-import { BoardView } from '../../shared/board/board';
-import { kUnit } from '../../shared/board/geometry';
+import { BoardView, Tried } from '../../shared/board/board';
+import { hasSlipped, kUnit } from '../../shared/board/geometry';
 import { PartGlyph, Patterns, Robot } from '../../shared/board/glyphs';
 import { Legend } from '../../shared/board/legend';
 import type { Frame, MapDomain, Part, Place } from '../../shared/board/types';
@@ -85,8 +85,15 @@ export function WorldName({ board }: { board: LiveBoard }): JSX.Element | null {
   return board.world_name ? <p>{t('board.world', { name: named(board.world_name) })}</p> : null;
 }
 
+interface ThingsProps {
+  board: LiveBoard;
+  legend: Legend;
+  lines: ('own' | 'other')[];
+  walked: Frame[]; // the path as far as it is drawn
+}
+
 // What is on this board, and nothing else.
-export function Things({ board, legend, lines }: { board: LiveBoard; legend: Legend; lines: ('own' | 'other')[] }): JSX.Element {
+export function Things({ board, legend, lines, walked }: ThingsProps): JSX.Element {
   const symbols = new Set((board.map ?? []).flatMap((row) => [...row]));
   const onMap = new Set([...symbols].flatMap((symbol) => legend.parts(symbol)).map(({ kind, name }) => `${kind} ${name}`));
   for (const { name } of board.start.items ?? []) onMap.add(`${legend.placed(name).kind} ${name}`);
@@ -109,6 +116,13 @@ export function Things({ board, legend, lines }: { board: LiveBoard; legend: Leg
           </g>
         </Entry>
       ))}
+      {walked.some((frame, i) => hasSlipped(frame, walked[i + 1]?.robot)) && (
+        <Entry name={t('legend.tried')}>
+          <g class={`way ${lines[0] ?? 'own'}`}>
+            <Tried from={{ x: -14, y: 0 }} x={14} y={0} angle={0} />
+          </g>
+        </Entry>
+      )}
     </ul>
   );
 }

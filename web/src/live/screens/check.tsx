@@ -88,6 +88,7 @@ function Controls(props: ScreenProps & { check: Shown }): JSX.Element {
           drive={null}
           off
           end=""
+          stopped=""
           waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
         >
           {null}
@@ -111,7 +112,16 @@ function Trying({ check, world, start, legend, connection }: TryingProps): JSX.E
   if (isReady && !wasReady) setReady(true);
   const off = connection.isPending('checked');
   return (
-    <Driver board={check.board} legend={legend} world={world} drive={drive} off={off} waiting={null} end={t('check.end')}>
+    <Driver
+      board={check.board}
+      legend={legend}
+      world={world}
+      drive={drive}
+      off={off}
+      waiting={null}
+      end={t('check.end')}
+      stopped={t('check.stopped')}
+    >
       <div class="submit">
         <Button primary off={!isReady || off} describedBy="check-hint" onClick={() => connection.send('checked', {})}>
           {t('check.done')}

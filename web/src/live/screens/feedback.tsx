@@ -112,7 +112,7 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
           {next(right || wasSeen)}
           {board.map ? (
             <>
-              <Things board={board} legend={legend} lines={other ? ['own', 'other'] : ['own']} />
+              <Things board={board} legend={legend} lines={other ? ['own', 'other'] : ['own']} walked={robot.slice(0, robotStep + 1)} />
               <BoardInWords board={board} legend={legend} frame={robot[robotStep] ?? board.start} />
             </>
           ) : (

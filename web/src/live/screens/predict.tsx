@@ -38,6 +38,7 @@ export function Predict(props: Props): JSX.Element {
           drive={null}
           off
           end=""
+          stopped=""
           waiting={<p role="status">{t(hasTrouble ? 'common.loading_trouble' : 'common.loading')}</p>}
         >
           {null}
@@ -70,7 +71,16 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
     else connection.send('answer', { test: task.index, actions, keys: drive.keys(), ms: drive.ms() });
   };
   return (
-    <Driver board={task.board} legend={legend} world={world} drive={drive} off={off} waiting={null} end={t('predict.end')}>
+    <Driver
+      board={task.board}
+      legend={legend}
+      world={world}
+      drive={drive}
+      off={off}
+      waiting={null}
+      end={t('predict.end')}
+      stopped={t('predict.stopped')}
+    >
       <Submit drive={drive} off={off} onSubmit={submit} />
     </Driver>
   );

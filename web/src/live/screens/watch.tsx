@@ -6,15 +6,18 @@ import { LogView, useLog } from '../parts/log';
 import { Player, usePacedPlayback } from '../parts/player';
 import { StateCard, StepList } from '../parts/steps';
 import { Button, Heading, TimeLeft } from '../parts/ui';
+import type { Runs } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
-import { t } from '../texts';
-import { stepText } from '../words';
+import { isEnglish, t } from '../texts';
+import { isJobDone, stepText } from '../words';
 
 type Shown = NonNullable<ScreenProps['view']['watch']>;
 
 export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown }): JSX.Element {
-  const { board, frames } = watch;
+  const { board, runs } = watch;
+  const [run, setRun] = useState(0);
+  const { frames } = runs?.runs[run] ?? watch;
   const { part = 0, round = 0 } = view.progress ?? {};
   const key = `${part}.${round}.${watch.index}`;
   const legend = useLegend(board.domain);
@@ -39,9 +42,10 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
     <>
       <p class="kicker">{t('watch.count', { index: watch.index + 1, of: watch.of })}</p>
       <Heading>{t('watch.title')}</Heading>
-      <p class="lead">{t(`watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`)}</p>
+      <p class="lead">{t(leadKey(watch, wasSeen))}</p>
       {view.study.goal && <p class="muted">{view.study.goal}</p>}
       <WorldName board={board} />
+      {runs && <p>{t('watch.runs', { n: runs.runs.length })}</p>}
       <TimeLeft until={view.limit_ms} />
       <div class="board-screen">
         <div class="board-column">
@@ -54,6 +58,17 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
         </div>
         <div class="side">
           <Player playback={playback} primary={!wasSeen} />
+          {runs && (
+            <RunChoice
+              run={run}
+              runs={runs}
+              isSeen={wasSeen}
+              onRun={(to) => {
+                setRun(to);
+                playback.show(0);
+              }}
+            />
+          )}
           <div class="submit">
             <Button
               primary={wasSeen}
@@ -64,12 +79,12 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
               {t('common.next')}
             </Button>
             <p id="watch-hint" class="muted">
-              {t(wasSeen ? 'watch.done' : 'watch.finish')}
+              {t(!wasSeen ? 'watch.finish' : isJobDone(board, legend, frames.at(-1)) ? 'watch.done' : 'watch.over')}
             </p>
           </div>
           {board.map ? (
             <>
-              <Things board={board} legend={legend} lines={['own']} />
+              <Things board={board} legend={legend} lines={['own']} walked={frames.slice(0, step + 1)} />
               <BoardInWords board={board} legend={legend} frame={frames[step] ?? board.start} />
             </>
           ) : (
@@ -78,6 +93,34 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
         </div>
       </div>
     </>
+  );
+}
+
+const leadKey = ({ board, runs }: Shown, wasSeen: boolean): string =>
+  wasSeen && runs ? 'watch.think_runs' : `watch.${wasSeen ? 'think' : 'question'}${board.map ? '' : '_plain'}`;
+
+interface RunChoiceProps {
+  run: number;
+  runs: Runs;
+  isSeen: boolean; // what happened in all of them would tell too early
+  onRun: (to: number) => void;
+}
+
+function RunChoice({ run, runs, isSeen, onRun }: RunChoiceProps): JSX.Element {
+  const of = runs.runs.length;
+  return (
+    <div class="runs" role="group" aria-label={t('watch.run', { index: run + 1, of })}>
+      <p role="status">{t('watch.run', { index: run + 1, of })}</p>
+      <div class="buttons">
+        <Button off={run === 0} onClick={() => onRun(run - 1)}>
+          {t('watch.previous_run')}
+        </Button>
+        <Button off={!isSeen || run + 1 === of} onClick={() => onRun(run + 1)}>
+          {t('watch.next_run')}
+        </Button>
+      </div>
+      {isSeen && isEnglish() && <p class="muted">{t('watch.all_runs', { what: runs.text })}</p>}
+    </div>
   );
 }
 

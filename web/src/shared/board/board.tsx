@@ -1,7 +1,7 @@
 // A map with what is on it, the paths, and the robot at one step.
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
-import { centre, kMargin, kUnit, lineOf } from './geometry';
+import { centre, kMargin, kUnit, lineOf, type Attempt } from './geometry';
 import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
 import { OverviewMap } from './overview';
@@ -156,10 +156,13 @@ function Decisive({ cell }: { cell: Place }): JSX.Element {
 }
 
 function Way({ frames, first, lane, kind }: { frames: Frame[]; first: number; lane: number; kind: string }) {
-  const { points, arrows, stops } = lineOf(frames, first, lane);
+  const { points, arrows, attempts, stops } = lineOf(frames, first, lane);
   const line = points.map(({ x, y }) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
   return (
     <g class={`way ${kind}`}>
+      {attempts.map((attempt) => (
+        <Tried {...attempt} />
+      ))}
       {points.length > 1 && <polyline class="casing" points={line} />}
       {points.length > 1 && <polyline class="line" points={line} />}
       {arrows.map(({ x, y, angle }) => (
@@ -168,6 +171,16 @@ function Way({ frames, first, lane, kind }: { frames: Frame[]; first: number; la
       {stops.map(({ x, y }) => (
         <circle class="stop" cx={x} cy={y} r={17} />
       ))}
+    </g>
+  );
+}
+
+// A thin arrow to where the robot tried to go.
+export function Tried({ from, x, y, angle }: Attempt): JSX.Element {
+  return (
+    <g class="tried">
+      <path d={`M${from.x} ${from.y}L${x} ${y}`} />
+      <path class="head" d="M0 0-6 -4M0 0-6 4" transform={`translate(${x} ${y}) rotate(${angle})`} />
     </g>
   );
 }
