@@ -26,6 +26,10 @@ cd "$folder"
 # Unbalanced tables: some teams are left out. The second has other people in every team.
 awk -F, 'NR == 1 || NR % 7 != 0' run/tables/teams.csv >unbalanced.csv
 awk -F, 'NR == 1 || NR % 7 != 0' others/tables/teams.csv >others.csv
+# Two combinations of strategy and composition have no teams.
+for table in run/tables/teams others; do
+  awk -F, 'NR == 1 || !($1 == "joint" && $2 == "PPP" || $1 == "common" && $2 == "NNP")' "$table.csv" >"gaps-${table##*/}.csv"
+done
 # Ratings from 1 to 5 that depend on the group.
 awk 'BEGIN { print "g;h;ease"; for (i = 0; i < 120; ++i) print "g" i % 3 ";h" int(i / 3) % 2 ";" 1 + (i * i * 7 + i % 3 * 2) % 11 % 5 }' >ratings.csv
 
@@ -55,6 +59,9 @@ compare linear others --model 'knowledge ~ strategy*composition' --where 'strate
   --contrast 'team beliefs: joint + common - individual-low - individual-high' --contrast 'joint - common'
 compare linear-unbalanced others.csv --model 'knowledge ~ strategy + composition' --where 'strategy!=baseline'
 compare linear-single others.csv --model 'knowledge ~ composition'
+compare gaps gaps-teams.csv --model 'knowledge ~ strategy*composition' --where 'strategy!=baseline' \
+  --contrast 'joint - common'
+compare linear-gaps gaps-others.csv --model 'knowledge ~ strategy*composition' --where 'strategy!=baseline'
 compare ratings ratings.csv --model 'ease ~ g + h' --ordinal
 compare single unbalanced.csv --model 'knowledge ~ composition'
 compare members run --table learners --model 'p_bec ~ strategy*type' --where 'strategy!=baseline'

@@ -16,10 +16,10 @@ function tableOf(lines) {
   });
   const analyses = [...new Set(rates.map((rate) => rate.analysis))];
   return {
-    columns: ['analysis', 'studies in which p < .05, %', 'why fewer'],
+    columns: ['analysis', 'studies in which p < .05, %', 'why fewer or more'],
     rows: analyses.map((analysis) => {
       const own = rates.filter((rate) => rate.analysis === analysis);
-      const reasons = [...new Set(own.filter((rate) => Number(rate.percent) < 3).map((rate) => rate.reason))];
+      const reasons = [...new Set(own.filter((rate) => Number(rate.percent) < 3 || Number(rate.percent) > 7).map((rate) => rate.reason))];
       return [analysis, own.map((rate) => `${rate.of} ${rate.percent}`.trim()).join('; '), reasons.join('; ')];
     }),
   };

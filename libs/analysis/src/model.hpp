@@ -54,7 +54,7 @@ struct ModelResult {
                                             const Estimable<TestResult>& type_three, double alpha);
 // Warns of combinations of levels without observations.
 [[nodiscard]] std::string empty_cells_text(std::size_t empty_cells, const std::string& observations);
-// Says how many observations the smallest and the largest cell have; empty if all have as many, or some have none.
+// Warns of cells of several factors with unequal numbers of observations; empty if some have none.
 [[nodiscard]] std::string unbalanced_text(const FactorDesign& design, const std::string& observations);
 // What is doubtful about the model, and what could not be estimated.
 [[nodiscard]] std::vector<std::string> warnings_of(const ModelData& data, const ModelResult& result, double alpha);

@@ -201,11 +201,11 @@ std::string empty_cells_text(std::size_t empty_cells, const std::string& observa
 }
 
 std::string unbalanced_text(const FactorDesign& design, const std::string& observations) {
-  if (design.counts.empty() || design.factors.empty()) return {};
+  if (design.factors.size() < 2) return {};
   const auto [least, most] = std::minmax_element(design.counts.begin(), design.counts.end());
   if (*least == 0 || *least == *most) return {};
-  return fmt::format("the design is unbalanced (cells have {} to {} {}){}", *least, *most, observations,
-                     design.factors.size() > 1 ? ": raw means mix the effects of several factors" : "");
+  return fmt::format("the design is unbalanced (cells have {} to {} {}): raw means mix the effects of several factors",
+                     *least, *most, observations);
 }
 
 std::string type_disagreement(const std::string& term, const Estimable<TestResult>& type_two,

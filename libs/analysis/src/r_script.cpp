@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "kith/table/codebook.hpp"
 #include "kith/table/csv_writer.hpp"
@@ -62,6 +63,8 @@ keep <- function(caption, table) {
   file <- paste0(gsub("[^A-Za-z0-9]+", "_", caption), ".csv")
   write.csv(cbind(caption = caption, table), file.path("r-results", file), row.names = FALSE)
 }
+# A column of a table of emmeans, which leaves it out if nothing can be estimated.
+of <- function(table, column) if (column %in% names(table)) table[[column]] else NA_real_
 )R";
 
 class Script {
@@ -211,6 +214,19 @@ class Script {
     }
   }
 
+  // Whether some combination of levels has no rows.
+  [[nodiscard]] bool has_empty_cells() const {
+    std::set<std::vector<std::size_t>> cells;
+    std::size_t all = 1;
+    for (const auto& factor : model_.factors) all *= factor.levels.size();
+    for (std::size_t i = 0; i < model_.values.size(); ++i) {
+      std::vector<std::size_t> cell;
+      for (const auto& factor : model_.factors) cell.push_back(factor.codes[i]);
+      cells.insert(std::move(cell));
+    }
+    return cells.size() < all;
+  }
+
   void means_of(const Factor& factor) {
     if (factor.levels.size() < 2) return;
     const bool is_family = factor.levels.size() > 2;
@@ -220,18 +236,28 @@ class Script {
       line("shown <- as.data.frame(means)");
       line(fmt::format("keep({},", quoted("Estimated marginal means of " + factor.name)));
       line(fmt::format(
-          "     setNames(data.frame(as.character(shown[[1]]), shown$emmean, shown$lower.CL, shown$upper.CL),"));
+          "     setNames(data.frame(as.character(shown[[1]]), of(shown, \"emmean\"), of(shown, \"lower.CL\"), "
+          "of(shown, \"upper.CL\")),"));
       line(fmt::format("              c({}, \"mean\", \"lower_limit\", \"upper_limit\")))", quoted(factor.name)));
     }
+    const bool has_gaps = has_empty_cells();
+    if (has_gaps) {
+      line(
+          "known <- which(!is.na(of(shown, \"emmean\")))  # only these levels are compared, and counted by Tukey's "
+          "test");
+      line("if (length(known) > 1) {");
+    }
+    const std::string indent = has_gaps ? "  " : "";
     // emmeans subtracts later levels from earlier ones; kith, as TukeyHSD(), the other way round.
     line(fmt::format(
-        "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
-        quoted(is_family ? "tukey" : "none"), level()));
-    line(fmt::format("keep({},",
+        "{}pairs <- as.data.frame(summary(pairs(means{}, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
+        indent, has_gaps ? "[known]" : "", quoted(is_family ? "tukey" : "none"), level()));
+    line(fmt::format("{}keep({},", indent,
                      quoted(fmt::format("Pairs of {} ({})", factor.name, is_family ? "Tukey-Kramer" : "t test"))));
-    line("     data.frame(pair = pairs$contrast, difference = pairs$estimate, lower_limit = pairs$lower.CL,");
-    line("                upper_limit = pairs$upper.CL, d = pairs$estimate / residual_sd,");
-    line(fmt::format("                {} = pairs$p.value))", is_family ? "adjusted_p_value" : "p_value"));
+    line(indent + "     data.frame(pair = pairs$contrast, difference = pairs$estimate, lower_limit = pairs$lower.CL,");
+    line(indent + "                upper_limit = pairs$upper.CL, d = pairs$estimate / residual_sd,");
+    line(fmt::format("{}                {} = pairs$p.value))", indent, is_family ? "adjusted_p_value" : "p_value"));
+    if (has_gaps) line("}");
     planned_of(factor);
     equivalence();
   }
@@ -289,9 +315,9 @@ class Script {
         "keep({},", quoted(fmt::format(
                         "Planned contrasts of {}{}", factor.name,
                         is_family ? fmt::format(" ({} correction)", to_string(options_.correction)) : std::string{}))));
-    line("     data.frame(contrast = planned$contrast, difference = planned$estimate, lower_limit = planned$lower.CL,");
-    line(fmt::format("                upper_limit = planned$upper.CL, {} = planned$p.value))",
-                     is_family ? "adjusted_p_value" : "p_value"));
+    line("     data.frame(contrast = planned$contrast, difference = planned$estimate,");
+    line("                lower_limit = of(planned, \"lower.CL\"), upper_limit = of(planned, \"upper.CL\"),");
+    line(fmt::format("                {} = of(planned, \"p.value\")))", is_family ? "adjusted_p_value" : "p_value"));
   }
 
   void equivalence() {

@@ -102,6 +102,20 @@ TEST(RProject, FitsTheSameRandomIntercepts) {
   EXPECT_THAT(project.data, ::testing::StartsWith("y,g,team\n0,a,0\n"));
 }
 
+// emmeans has no columns of numbers for pairs that cannot be estimated, and counts the levels that cannot.
+TEST(RProject, ComparesOnlyLevelsThatCanBeEstimated) {
+  std::string text = "g,h,y\n";
+  for (int i = 0; i < 24; ++i)
+    text += std::string{"abc"}.substr(static_cast<std::size_t>(i % 3), 1) + (i % 3 == 2 || i % 2 == 0 ? ",p," : ",q,") +
+            std::to_string(i * 5 % 7) + "\n";
+  const auto script_of = [&](const std::string& table) {
+    return r_project(Dataset::parse(table, "t.csv"), {"y ~ g*h"}, few_draws()).script;
+  };
+  EXPECT_THAT(script_of(text), AllOf(HasSubstr("known <- which(!is.na(of(shown, \"emmean\")))"),
+                                     HasSubstr("pairs(means[known], reverse = TRUE)")));
+  EXPECT_THAT(script_of(text + "c,q,3\n"), Not(HasSubstr("known <- ")));
+}
+
 // kith has no random intercepts for them; the note about it says that the script names a model.
 TEST(RProject, NamesModelsOfRepeatedRatingsAndTruths) {
   std::string text = "team,g,ease,right\n";

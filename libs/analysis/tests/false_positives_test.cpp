@@ -30,35 +30,35 @@ constexpr double kAlpha = 0.05;
 // Rates by the name of the analysis, in the order in which they first occur.
 class Rates {
  public:
-  // `p` of one study. @param conservative  why the rate may be below 3 %; empty: it may not.
-  void add(const std::string& name, const std::optional<double>& p, const std::string& conservative = "") {
+  // `p` of one study. @param exception  why the rate may be outside 3 to 7 %; empty: it may not.
+  void add(const std::string& name, const std::optional<double>& p, const std::string& exception = "") {
     auto found = std::find_if(rates_.begin(), rates_.end(), [&](const Rate& rate) { return rate.name == name; });
     if (found == rates_.end()) {
-      rates_.push_back({name, conservative});
+      rates_.push_back({name, exception});
       found = std::prev(rates_.end());
     }
     if (!p) return;
     ++found->studies;
     found->rejected += *p < kAlpha ? 1u : 0u;
   }
-  // Every rate within 3 to 7 %.
+  // Every rate within 3 to 7 %, but for those with a reason.
   void expect_nominal() const {
     std::string text;
     for (const auto& rate : rates_) {
       const double share = static_cast<double>(rate.rejected) / static_cast<double>(rate.studies);
       EXPECT_GE(rate.studies, kStudies * 99 / 100) << rate.name;
-      EXPECT_LE(share, 0.07) << rate.name;
-      if (rate.conservative.empty()) {
+      if (rate.exception.empty()) {
+        EXPECT_LE(share, 0.07) << rate.name;
         EXPECT_GE(share, 0.03) << rate.name;
       }
-      text += fmt::format("{}|{:.1f}|{}\n", rate.name, 100.0 * share, rate.conservative);
+      text += fmt::format("{}|{:.1f}|{}\n", rate.name, 100.0 * share, rate.exception);
     }
     ::testing::Test::RecordProperty("rates", text);
   }
 
  private:
   struct Rate {
-    std::string name, conservative;
+    std::string name, exception;
     std::size_t studies = 0, rejected = 0;
   };
   std::vector<Rate> rates_;
@@ -153,6 +153,12 @@ TEST(FalsePositivesSlow, OfLinearModels) {
                 p_of(unbalanced, "Analysis of variance (type III)", name));
     }
     rates.add("Tukey-Kramer, any of three pairs, unbalanced", p_of(unbalanced, "Pairs of b", "", "adjusted p-value"));
+    auto of_shares = random.split("shares");
+    const auto share = [&] { return std::string{uniform01(of_shares) < 0.4 ? "true" : "false"}; };
+    const auto proportions = analyse(crossed({16, 16, 16, 16, 16, 16}, share), {"y ~ a*b"});
+    for (const auto* term : {"a", "b", "a:b"})
+      rates.add(std::string{"Analysis of variance of true or false: "} + term,
+                p_of(proportions, "Analysis of variance (type II)", term));
     const auto one_way = analyse(crossed({5, 5, 5, 5, 5, 5}, normal), {"y ~ b"});
     rates.add("Kruskal-Wallis", p_of(one_way, "Permutation", "b", "p-value, Kruskal-Wallis"));
   }
@@ -198,6 +204,8 @@ TEST(FalsePositivesSlow, OfContrastsAndFamilies) {
     const auto table = crossed({6, 9, 7, 8, 6, 10}, [&] { return fmt::format("{}", standard_normal(random)); });
     const auto found = analyse(table, {"y ~ a*b"}, planned);
     rates.add("Planned contrast", p_of(found, "Planned contrasts of b", "one"));
+    rates.add("Simple effects, any of three pairs at one level",
+              p_of(found, "Pairs of b (at each level of a", "a0", "adjusted p-value"));
     rates.add("Planned contrast at each level, Bonferroni, any",
               p_of(found, "Planned contrasts of b at each level of a", "", "corrected p-value"));
     for (const auto& [correction, name] : {std::pair{Correction::kBonferroni, "Bonferroni"},
@@ -307,6 +315,73 @@ TEST(FalsePositivesSlow, OfMixedModels) {
   rates.expect_nominal();
 }
 
+// Tables of repeated people as they come: rows are missing, people are crossed with items, responses are whole numbers.
+TEST(FalsePositivesSlow, OfRepeatedPeople) {
+  Rates rates;
+  auto how = few_permutations();
+  how.contrasts = {parse_contrast("one: c1 - c0")};
+  auto margin = few_permutations();
+  margin.smallest_effect = SmallestEffect{0.5, false};
+  for (std::size_t study = 0; study < kStudies; ++study) {
+    auto random = RandomStream{111}.split(study);
+    // A fifth of the rows is missing; the group differs between people, the condition within them.
+    std::string missing = "person,group,condition,y\n", counts = "person,condition,y\n", ratings = counts;
+    for (std::size_t person = 0; person < 24; ++person) {
+      const double own = standard_normal(random);
+      for (std::size_t condition = 0; condition < 3; ++condition) {
+        const double value = own + standard_normal(random);
+        if (uniform01(random) > 0.2)
+          missing += fmt::format("{},g{},c{},{}\n", person, person % 3 == 0 ? 0 : 1, condition, value);
+        counts += fmt::format("{},c{},{}\n", person, condition, poisson(std::exp(1.5 + 0.4 * own), random));
+        ratings += fmt::format("{},c{},{}\n", person, condition, std::clamp(std::lround(4.0 + value), 1L, 7L));
+      }
+    }
+    const auto unbalanced = analyse(missing, {"y ~ group*condition"}, how);
+    for (const auto* term : {"group", "condition", "group:condition"}) {
+      rates.add(std::string{"Mixed model with missing rows, type II: "} + term,
+                p_of(unbalanced, "Tests of the fixed effects (type II", term));
+      rates.add(std::string{"Mixed model with missing rows, type III: "} + term,
+                p_of(unbalanced, "Tests of the fixed effects (type III", term));
+    }
+    rates.add("Mixed model with missing rows: planned contrast", p_of(unbalanced, "Planned contrasts of con", "one"));
+    rates.add("Mixed model of counts of repeated people: condition",
+              p_of(analyse(counts, {.formula = "y ~ condition", .response_kind = ColumnKind::kCount}),
+                   "Tests of the fixed", "condition"));
+    rates.add("Mixed model of ratings of repeated people: condition",
+              p_of(analyse(ratings, {.formula = "y ~ condition", .response_kind = ColumnKind::kOrdinal}),
+                   "Tests of the fixed", "condition"));
+    // The true difference is the margin of equivalence, and the people do not differ in the next table.
+    std::string shifted = "person,condition,y\n", alike = "person,y\n";
+    for (std::size_t person = 0; person < 30; ++person) {
+      const double own = standard_normal(random);
+      for (std::size_t condition = 0; condition < 2; ++condition) {
+        shifted += fmt::format("{},c{},{}\n", person, condition,
+                               own + 0.5 * static_cast<double>(condition) + 0.5 * standard_normal(random));
+        alike += fmt::format("{},{}\n", person, standard_normal(random));
+      }
+    }
+    rates.add("Equivalence in a mixed model, true difference at the margin",
+              p_of(analyse(shifted, {"y ~ condition"}, margin), "Equivalence within", ""));
+    rates.add(
+        "Test of a variance between groups", p_of(analyse(alike, {"y ~ 1"}), "Variances", "person"),
+        "the variance is not negative, which makes the p-values of its likelihood-ratio test up to twice as large "
+        "as they need to be");
+    // The difficulty differs between items, and every person solves all of them.
+    std::string solved = "person,item,difficulty,y\n";
+    std::array<double, 8> of_item{};
+    for (auto& one : of_item) one = 0.5 * standard_normal(random);
+    for (std::size_t person = 0; person < 10; ++person) {
+      const double own = standard_normal(random);
+      for (std::size_t item = 0; item < of_item.size(); ++item)
+        solved +=
+            fmt::format("{},{},d{},{}\n", person, item, item % 2, own + of_item.at(item) + standard_normal(random));
+    }
+    rates.add("Mixed model of people crossed with items: difficulty of items",
+              p_of(analyse(solved, {"y ~ difficulty + (1|person) + (1|item)"}), "Tests of the fixed", "difficulty"));
+  }
+  rates.expect_nominal();
+}
+
 TEST(FalsePositivesSlow, OfCounts) {
   Rates rates;
   const std::array<std::size_t, 6> sizes{15, 15, 15, 15, 15, 15};
@@ -354,17 +429,20 @@ TEST(FalsePositivesSlow, OfCounts) {
 TEST(FalsePositivesSlow, OfRatings) {
   Rates rates;
   const ModelQuestion ratings{.formula = "y ~ a*b", .response_kind = ColumnKind::kOrdinal};
+  auto how = few_permutations();
+  how.contrasts = {parse_contrast("one: b1 - b0")};
   for (std::size_t study = 0; study < kStudies; ++study) {
     auto random = RandomStream{107}.split(study);
     const auto rating = [&] {
       const double value = 3.4 + 1.1 * standard_normal(random);
       return fmt::format("{}", static_cast<int>(std::clamp(std::round(value), 1.0, 5.0)));
     };
-    const auto found = analyse(crossed({15, 15, 15, 15, 15, 15}, rating), ratings);
+    const auto found = analyse(crossed({15, 15, 15, 15, 15, 15}, rating), ratings, how);
     for (const auto* term : {"a", "b", "a:b"})
       rates.add(std::string{"Cumulative logit: "} + term, p_of(found, "Likelihood-ratio tests", term));
     rates.add("Cumulative logit: Tukey-Kramer, any of three odds ratios",
               p_of(found, "Pairs of b", "", "adjusted p-value"));
+    rates.add("Cumulative logit: planned contrast", p_of(found, "Planned contrasts of b", "one"));
   }
   rates.expect_nominal();
 }
@@ -378,6 +456,9 @@ RunTeams null_study(bool same_people, RandomStream& random) {
   std::vector<double> periods_of(2 * kReplicates), knowledge_of(2 * kReplicates);
   for (auto& one : periods_of) one = standard_normal(random);
   for (auto& one : knowledge_of) one = standard_normal(random);
+  auto of_areas = random.split("areas");
+  std::vector<double> area_of(2 * kReplicates);
+  for (auto& one : area_of) one = standard_normal(of_areas);
   for (std::size_t strategy = 0; strategy < 5; ++strategy) {
     for (std::size_t composition = 0; composition < 2; ++composition) {
       for (std::size_t replicate = 0; replicate < kReplicates; ++replicate) {
@@ -394,7 +475,7 @@ RunTeams null_study(bool same_people, RandomStream& random) {
         teams.periods.push_back(same_people ? 8.0 + shared + standard_normal(random)
                                             : static_cast<double>(2 + binomial(8, 0.7, random)));
         teams.knowledge.push_back((same_people ? knowledge_of[people] : 0.0) + standard_normal(random));
-        teams.area_sr.push_back(1.0);
+        teams.area_sr.push_back(std::exp(0.18 * ((same_people ? area_of[people] : 0.0) + standard_normal(of_areas))));
       }
     }
   }
@@ -409,6 +490,17 @@ void add_study(const RunTeams& teams, bool same_people, Rates& rates) {
   const auto* const tests = same_people ? "Tests of the fixed" : "Analysis of variance (type II)";
   for (const auto* term : {"strategy", "composition", "strategy:composition"})
     rates.add(kind + "`knowledge`, " + term, p_of(main, tests, term));
+  if (same_people) {
+    for (const auto* term : {"strategy", "composition", "strategy:composition"})
+      rates.add(std::string{"Analysis of variance as published, same people: "} + term,
+                p_of(main, "Analysis of variance as published", term),
+                "the analysis of variance as published takes teams of the same people as independent; it is shown for "
+                "comparison only, with a warning");
+  }
+  // The first part of `demonstrations`: areas, whose skewness is about .8, as in the paper's study.
+  const auto areas = *effects(teams, "area_sr", teams.area_sr, how);
+  for (const auto* term : {"strategy", "composition", "strategy:composition"})
+    rates.add(kind + "`demonstrations`, " + term, p_of(areas, tests, term));
   const auto within = *effects_within(teams, "knowledge", teams.knowledge, how);
   rates.add(kind + "`knowledge-within-composition`, any", p_of(within, "", "", "corrected p-value"));
   rates.add(kind + (same_people ? "Friedman" : "Kruskal-Wallis") + " in one composition",
@@ -431,6 +523,7 @@ void add_study(const RunTeams& teams, bool same_people, Rates& rates) {
   const auto pairs = *paired(teams, "knowledge", teams.knowledge, how);
   rates.add(kind + "`knowledge-paired`, any pair (Holm)", p_of(pairs, "Differences within", "", "corrected p-value"),
             "the pairs depend on each other, which Holm's correction does not use");
+  rates.add(kind + "within people, Mauchly", p_of(pairs, "Corrections", "strategy", "p-value, Mauchly"));
   for (const auto* term : {"strategy", "strategy:composition"}) {
     rates.add(kind + "within people, " + term, p_of(pairs, "Analysis of variance within", term));
     rates.add(kind + "within people, " + term + ", Greenhouse-Geisser",
