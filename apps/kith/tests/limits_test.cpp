@@ -30,7 +30,7 @@ TEST(Limits, ACurriculumOfALargeMapSaysHowMuchMemoryItNeeds) {
   const std::vector<std::string> command{"curriculum", scratch / "map.toml"};
   const auto ran = run_kith(command, memory("100M"));
   EXPECT_EQ(ran.code, 4);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("teaching the 22499 states of 'large' needs about 300 MB of memory; "),
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("teaching the 22499 states of 'large' needs about 370 MB of memory; "),
                              HasSubstr("[family] starts = 1000")));
   auto with_json = command;
   with_json.emplace_back("--json");

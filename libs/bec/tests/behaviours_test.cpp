@@ -116,8 +116,8 @@ TEST(Behaviours, ForgetsAndPlansAgain) {
 
 // With room for so little that everybody begins anew again and again.
 TEST(PartitionStore, KeepsNoMoreThanItMayAndAnswersAllTheSame) {
-  constexpr std::size_t kMost = 200'000;
-  constexpr std::size_t kOneLookup = 50'000;
+  constexpr std::size_t kMost = 40'000;
+  constexpr std::size_t kOneLookup = 20'000;
   const auto store = std::make_shared<PartitionStore>(on_demand(), kMost);
   Behaviours plenty{on_demand()};
   std::vector<std::shared_ptr<PolicyPartitions>> views;
