@@ -146,7 +146,6 @@ void ParticleBelief::observe_in_product(std::span<const HalfSpace> half_spaces, 
     if (share < 1.0) {
       for (double& factor : factors) factor *= share;
     }
-    const double fitting = support(factors);
     remember(half_spaces, likelihood, share);
     try {
       reweigh(factors, stage == 0 ? random : random.split(stage));
@@ -154,7 +153,6 @@ void ParticleBelief::observe_in_product(std::span<const HalfSpace> half_spaces, 
       observed_ = before;
       throw;
     }
-    if (done == 1.0) least_support_ = std::min(least_support_, fitting);
   }
   if (++num_still_ < kMostStill) return;
   auto more = random.split("moves");

@@ -127,6 +127,17 @@ TEST(ParticleBelief, RemembersHowFewPointsSatisfiedWhatWasShown) {
   EXPECT_EQ(belief.least_support(), 0.0);
 }
 
+// Above three dimensions, moves that leave the posterior as it is renew the points, unless points do not move.
+TEST(ParticleBelief, CountsNoSupportWherePointsAreRenewed) {
+  const auto prior = Cone::intersection(std::vector<HalfSpace>{HalfSpace{IntegerVector{0, 0, 0, -1}}}).value();
+  const std::vector<HalfSpace> narrow{HalfSpace{IntegerVector{1, 0, 0, 0}}, HalfSpace{IntegerVector{-9, 10, 0, 0}}};
+  for (const double noise : {0.1, 0.0}) {
+    ParticleBelief belief{prior, {.particles = 500, .process_noise = noise}};
+    belief.observe(narrow, HalfSpaceLikelihood{0.9, LikelihoodForm::kDiscontinuous, 4}, RandomStream{1});
+    EXPECT_EQ(belief.least_support() == 500.0, noise > 0.0);
+  }
+}
+
 // People are told a falsehood again and again, or never, and then the truth. What the first believe in the end depends
 // on which of their points happened to fit.
 TEST(ParticleBelief, TellsAFalsePriorByItsSupport) {

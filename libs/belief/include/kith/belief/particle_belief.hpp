@@ -115,10 +115,11 @@ class ParticleBelief {
   [[nodiscard]] std::vector<Draw> systematic_draws(std::size_t n, RandomStream random) const;
 
   /// How well the points could represent what was shown: the smallest effective number of points, over all updates,
-  /// that satisfied all half-spaces, or those of an alternative, when they were taken in (above three dimensions: at
-  /// its last stage), (sum p_i)^2 / sum p_i^2 over these points. size() if nothing was observed; 0 if no point
-  /// satisfied it. Where it is below kFewParticles the belief is impoverished: what it holds from then on depends on
-  /// which few points happened to fit. Costs one pass over the points per update.
+  /// that satisfied all half-spaces, or those of an alternative, when they were taken in,
+  /// (sum p_i)^2 / sum p_i^2 over these points. size() before any update; 0 if no point satisfied them.
+  /// Where it is below kFewParticles the belief is impoverished: what it holds from then on depends on which few points
+  /// happened to fit. Updates of a product of likelihoods above three dimensions do not count, since there stages and
+  /// slice moves renew the points. Costs one pass over the points per update.
   [[nodiscard]] double least_support() const noexcept { return least_support_; }
 
   /// How often this belief was resampled so far.
