@@ -93,7 +93,8 @@ ParticleBelief::ParticleBelief(const PriorCover& cover, const FilterOptions& opt
       points_{cover.points()},
       log_weights_(cover.size(), 0.0),
       weights_(cover.size(), 1.0 / static_cast<double>(cover.size())),
-      log_sum_{std::log(static_cast<double>(cover.size()))} {
+      log_sum_{std::log(static_cast<double>(cover.size()))},
+      least_support_{static_cast<double>(cover.size())} {
   if (cover.size() != options.particles) {
     throw std::invalid_argument("ParticleBelief: the cover must have as many points as the belief has particles");
   }
@@ -123,7 +124,9 @@ void ParticleBelief::observe(std::span<const HalfSpace> half_spaces, const HalfS
   detail::ParticleScratch<double> factors{size()};
   weigh(half_spaces, likelihood, factors.values());
   if (!keeps_product()) {
+    const double fitting = support(factors.values());
     reweigh(factors.values(), random);
+    least_support_ = std::min(least_support_, fitting);
     return;
   }
   observe_in_product(half_spaces, likelihood, factors.values(), random);
@@ -241,7 +244,20 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
     weigh(alternative, likelihood, factors.values());
     detail::raise(factors.values(), best.values());
   }
+  const double fitting = support(best.values());
   reweigh(best.values(), random);
+  least_support_ = std::min(least_support_, fitting);
+}
+
+// The effective number of points that satisfy all half-spaces: their factor is exactly 1, and its logarithm 0.
+double ParticleBelief::support(std::span<const double> log_factors) const noexcept {
+  double sum = 0.0, sum_of_squares = 0.0;
+  for (std::size_t i = 0; i < log_factors.size(); ++i) {
+    const double weight = log_factors[i] == 0.0 ? weights_[i] : 0.0;
+    sum += weight;
+    sum_of_squares += weight * weight;
+  }
+  return sum_of_squares > 0.0 ? sum * sum / sum_of_squares : 0.0;
 }
 
 // `factors` becomes the new log weights; nothing else changes before it is sure that some particle remains.

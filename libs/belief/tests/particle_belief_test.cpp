@@ -103,6 +103,81 @@ TEST(ParticleBelief, WeighsByTheProductOfLikelihoods) {
   }
 }
 
+// The fewest so far, whatever is resampled and observed afterwards.
+TEST(ParticleBelief, RemembersHowFewPointsSatisfiedWhatWasShown) {
+  const HalfSpaceLikelihood likelihood{0.95};
+  const std::vector<HalfSpace> quarter{HalfSpace{{1, 0, 0}}, HalfSpace{{0, 1, 0}}};
+  const std::vector<HalfSpace> strip{HalfSpace{{1, 0, 0}}, HalfSpace{{-9, 10, 0}}};
+  ParticleBelief belief{lower_hemisphere(), kWeighOnly};
+  EXPECT_EQ(belief.least_support(), 1000.0);
+  const double in_quarter = belief.mass_in(quarter) * 1000.0;
+  const double in_strip = belief.mass_in(strip) * 1000.0;
+  ASSERT_LT(in_strip, in_quarter);
+  belief.observe(quarter, likelihood, RandomStream{1});
+  EXPECT_NEAR(belief.least_support(), in_quarter, 1e-6);
+  belief.observe({}, likelihood, RandomStream{1});
+  EXPECT_NEAR(belief.least_support(), in_quarter, 1e-6);
+  belief.observe(strip, likelihood, RandomStream{1});
+  const double after_strip = belief.least_support();
+  EXPECT_LT(after_strip, in_quarter);
+  belief.observe(quarter, likelihood, RandomStream{1});
+  EXPECT_EQ(belief.least_support(), after_strip);
+  const std::vector<HalfSpace> above{HalfSpace{{0, 0, 1}}};
+  belief.observe(above, likelihood, RandomStream{1});
+  EXPECT_EQ(belief.least_support(), 0.0);
+}
+
+// Above three dimensions, moves that leave the posterior as it is renew the points, unless points do not move.
+TEST(ParticleBelief, CountsNoSupportWherePointsAreRenewed) {
+  const auto prior = Cone::intersection(std::vector<HalfSpace>{HalfSpace{IntegerVector{0, 0, 0, -1}}}).value();
+  const std::vector<HalfSpace> narrow{HalfSpace{IntegerVector{1, 0, 0, 0}}, HalfSpace{IntegerVector{-9, 10, 0, 0}}};
+  for (const double noise : {0.1, 0.0}) {
+    ParticleBelief belief{prior, {.particles = 500, .process_noise = noise}};
+    belief.observe(narrow, HalfSpaceLikelihood{0.9, LikelihoodForm::kDiscontinuous, 4}, RandomStream{1});
+    EXPECT_EQ(belief.least_support() == 500.0, noise > 0.0);
+  }
+}
+
+// People are told a falsehood again and again, or never, and then the truth. What the first believe in the end depends
+// on which of their points happened to fit.
+TEST(ParticleBelief, TellsAFalsePriorByItsSupport) {
+  const std::vector<HalfSpace> truth{HalfSpace{{-1, 0, 2}}, HalfSpace{{1, 0, -4}}, HalfSpace{{0, 1, 2}},
+                                     HalfSpace{{0, -1, -4}}};
+  const std::vector<HalfSpace> rubble{truth[0], truth[1]};
+  const std::vector<HalfSpace> recharge{truth[2], truth[3]};
+  const std::vector<HalfSpace> falsehood{truth[0].opposite(), truth[2].opposite()};
+  const PriorCover cover{Cone::intersection(std::vector<HalfSpace>{HalfSpace{{0, 0, -1}}}).value(), 1000};
+  std::size_t stuck = 0, impoverished = 0;
+  for (std::uint64_t person = 0; person < 120; ++person) {
+    for (const bool is_misled : {false, true}) {
+      ParticleBelief belief{cover, {}};
+      std::uint64_t event = 0;
+      const auto show = [&](std::span<const HalfSpace> half_spaces, double ability, int times) {
+        for (int i = 0; i < times; ++i) {
+          belief.observe(half_spaces, HalfSpaceLikelihood{ability}, RandomStream{person}.split(++event));
+        }
+      };
+      if (is_misled) show(falsehood, 0.9, 6);
+      show(rubble, 0.65, 4);
+      show(recharge, 0.68, 4);
+      show(truth, 0.7, 6);
+      const bool knows = belief.mass_in(truth) > 0.6;
+      if (!is_misled) {
+        EXPECT_TRUE(knows);
+        EXPECT_GE(belief.least_support(), kFewParticles);
+        continue;
+      }
+      stuck += knows ? 0u : 1u;
+      impoverished += belief.least_support() < kFewParticles ? 1u : 0u;
+      if (!knows) {
+        EXPECT_LT(belief.least_support(), kFewParticles);
+      }
+    }
+  }
+  EXPECT_GE(stuck, 2u);  // about 3 % of 200 were
+  EXPECT_GE(impoverished, 60u);
+}
+
 TEST(ParticleBelief, DoesNotDependOnTheOrderOfAList) {
   RandomStream random{5};
   for (int round = 0; round < 30; ++round) {

@@ -68,6 +68,7 @@ constexpr std::array kMeanings{
     Meaning{"stop.max_periods", "periods after which a session ends at the latest"},
     Meaning{"stop.consecutive_correct", "consecutive periods in which everybody must answer all tests correctly"},
     Meaning{"stop.duplicate_sets", "different sets of tests in a period"},
+    Meaning{"record.beliefs", "whether tables say how well the particles of beliefs could represent what was shown"},
     Meaning{"record.estimates", "whether tables have what the teacher can tell about people, beside the truth"},
     Meaning{"record.exam", "when simulated people are examined over all starts: 'none', 'end' or 'period'"},
     Meaning{"record.exam_questions", "questions of the exam that everybody answers at the end"},

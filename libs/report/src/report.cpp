@@ -205,11 +205,27 @@ Json tables_of(const RunFiles& run, const ReportDesign& design, const RunData& d
   return tables;
 }
 
+void note_impoverished_beliefs(const RunData& data, std::vector<std::string>& notes) {
+  const auto recorded =
+      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return t.fewest_particles.has_value(); });
+  const auto few = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) {
+    return t.fewest_particles && *t.fewest_particles < kFewParticles;
+  });
+  if (few == 0) return;
+  const auto percent = std::max<std::ptrdiff_t>(1, (200 * few + recorded) / (2 * recorded));
+  notes.push_back("In " + std::to_string(few) + " of " + std::to_string(recorded) + " teams (" +
+                  std::to_string(percent) +
+                  " %), the belief of a member had fewer than 10 effective particles for something that the member was "
+                  "shown, so what it holds depends on which points happened to fit. Run the study with more particles "
+                  "(learner.X.particles = 5000) to see whether results change.");
+}
+
 // What a reader should know about the data.
 void note_data(const RunFiles& run, const ReportDesign& design, const RunData& data, std::size_t points,
                std::vector<std::string>& notes) {
   for (const auto& what : run.published.missing())
     notes.push_back("The run is incomplete, and all results describe only the teams that are present: " + what + ".");
+  note_impoverished_beliefs(data, notes);
   const auto censored = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed; });
   if (censored > 0) {
     notes.push_back(std::to_string(censored) + " of " + std::to_string(data.teams.size()) +

@@ -67,6 +67,10 @@ class DataReader {
     const auto ahead = wanted.size();
     if (data_.has_forecasts)
       wanted.insert(wanted.end(), {"forecast_periods", "forecast_periods_low", "forecast_periods_high"});
+    const bool has_beliefs =
+        std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.beliefs; });
+    const auto particles = wanted.size();
+    if (has_beliefs) wanted.emplace_back("fewest_particles");
     const auto rows = read_table("teams.csv", wanted, [&](const auto& row) {
       if (row.team() == last) {
         row.refuse("E0606", "team " + std::to_string(last + 1) + " occurs twice", "remove the second row");
@@ -91,6 +95,7 @@ class DataReader {
       if (data_.has_forecasts && row.has(ahead)) {
         team.forecast = TeamValues::Forecast{row.real(ahead), row.real(ahead + 1), row.real(ahead + 2)};
       }
+      if (has_beliefs && row.has(particles)) team.fewest_particles = row.real(particles);
     });
     if (rows == num_teams) return;
     refuse_run(ErrorKind::kInvalidInput, "E0606", run_.folder / "tables" / "teams.csv",

@@ -30,6 +30,7 @@ struct TeamValues {
     double mean = 0.0, low = 0.0, high = 0.0;
   };
   std::optional<Forecast> forecast{};  // of the periods, before the first lesson
+  std::optional<double> fewest_particles{};
 };
 
 // A team when so many periods were taught: means over its members, and what teaching had taken by then.

@@ -256,6 +256,20 @@ TEST(Report, ShowsEstimatesBesideTheTruth) {
   EXPECT_TRUE(first.at(3).is_null());  // all estimates are the same
 }
 
+TEST(Report, SaysInHowManyTeamsBeliefsWereImpoverished) {
+  const ScratchFolder scratch;
+  const auto notes_of = [&](const std::string& folder, const std::vector<std::string>& settings) {
+    run_tiny_study(scratch / folder, settings);
+    return Json::parse(build_report(scratch / folder)).at("notes").dump();
+  };
+  const std::string few = "learner.N.particles=20";
+  EXPECT_THAT(notes_of("few", {"record.beliefs=true", few, "learner.P.particles=20"}),
+              HasSubstr("teams (100 %), the belief of a member had fewer than 10 effective particles"));
+  EXPECT_THAT(notes_of("many", {"record.beliefs=true", "learner.N.particles=1000", "learner.P.particles=1000"}),
+              Not(HasSubstr("effective particles")));
+  EXPECT_THAT(notes_of("unrecorded", {few}), Not(HasSubstr("effective particles")));
+}
+
 TEST(Report, OfTeamsAloneHasNoFiguresOverPeriods) {
   const ScratchFolder scratch;
   run_tiny_study(scratch / "run", {"record.level=\"team\""});

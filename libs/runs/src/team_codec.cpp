@@ -11,7 +11,7 @@
 namespace kith {
 namespace {
 
-constexpr char kVersion = 6;  // of the layout; another layout gets another number
+constexpr char kVersion = 7;  // of the layout; another layout gets another number
 constexpr std::size_t kChecksumSize = 8;
 
 std::string checksum(std::size_t team, std::string_view content, std::string_view key) {
@@ -187,6 +187,7 @@ void code(Coder& coder, X& x) {
   coder.list(x.exams);
   coder.list(x.estimates);
   coder.optional_part(x.exam);
+  coder.optional_real(x.fewest_particles);
 }
 
 class Encoder {

@@ -26,6 +26,7 @@ std::vector<TeamRecord> teams(RecordLevel level) {
   auto study = *reading.study;
   study.variants[0].record = level;
   study.variants[0].estimates = level != RecordLevel::kTeam;
+  study.variants[0].beliefs = level != RecordLevel::kTeam;
   study.variants[0].teaching.filter.particles = 60;
   for (auto& type : study.variants[0].learner_types) type.parameters.set("particles", std::int64_t{50});
   return run_teams(testing::item_delivery(), study, team_addresses(study)).teams;
@@ -36,6 +37,7 @@ TEST(TeamCodec, GivesEveryRecordBack) {
     auto study = *testing::quick_study().study;
     study.variants[0].record = level;
     study.variants[0].estimates = level != RecordLevel::kTeam;
+    study.variants[0].beliefs = level != RecordLevel::kTeam;
     for (const auto& team : teams(level)) {
       const auto bytes = encode_team(team, kKey);
       const auto again = decode_team(team.address, bytes, kKey);
@@ -43,6 +45,8 @@ TEST(TeamCodec, GivesEveryRecordBack) {
       EXPECT_EQ(encode_team(*again, kKey), bytes);
       EXPECT_EQ(tables_text(study, *again), tables_text(study, team));
       EXPECT_EQ(again->learners[0].traits, team.learners[0].traits);
+      EXPECT_EQ(again->fewest_particles, team.fewest_particles);
+      EXPECT_EQ(team.fewest_particles.has_value(), level != RecordLevel::kTeam);
     }
   }
 }

@@ -376,6 +376,7 @@ class SpecReader {
     set_if(spec_.forecast_sessions, record.integer("forecast", Presence::kOptional, {0, 100'000}));
     set_if(spec_.exam_questions, record.integer("exam_questions", Presence::kOptional, {0, 1000}));
     set_if(spec_.estimates, record.boolean("estimates", Presence::kOptional));
+    set_if(spec_.beliefs, record.boolean("beliefs", Presence::kOptional));
     set_if(spec_.proficient_ability, record.real("proficient_ability", Presence::kOptional, {0.5, 1.0}));
     record.finish();
   }

@@ -49,6 +49,10 @@ bool writes_costs(const Study& study) { return any_variant(study, has_costs); }
 bool has_forecasts(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.forecast_sessions > 0; });
 }
+bool has_belief_quality(const Study& study) {
+  return any_variant(study, [](const StudySpec& spec) { return spec.beliefs; });
+}
+
 bool has_estimates(const Study& study) {
   return any_variant(study, [](const StudySpec& spec) { return spec.estimates; });
 }
@@ -107,6 +111,12 @@ Columns team_columns(const Study& study) {
                           measure("person_minutes", "Time of the members, summed over members.", "min")};
   }
   if (has_forecasts(study)) columns = columns + forecast_columns();
+  if (has_belief_quality(study)) {
+    columns =
+        columns + Columns{measure("fewest_particles",
+                                  "The smallest effective number of particles of a member's belief that "
+                                  "satisfied what the member was just shown. Below 10 the belief is impoverished.")};
+  }
   if (!has_exam(study)) return columns;
   return columns +
          Columns{
@@ -382,6 +392,7 @@ OptionalColumns optional_columns(const Study& study) {
   result.costs = writes_costs(study);
   result.forecasts = has_forecasts(study);
   result.estimates = has_estimates(study);
+  result.beliefs = has_belief_quality(study);
   result.subgroups = has_subgroups(study);
   for (const auto& one : trait_columns(study)) result.traits.push_back(one.name);
   return result;

@@ -13,6 +13,7 @@ struct OptionalColumns {
   bool costs = false;
   bool forecasts = false;
   bool estimates = false;
+  bool beliefs = false;
   bool subgroups = false;
   std::vector<std::string> traits;  // of learners.csv
 };

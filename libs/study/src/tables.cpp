@@ -89,6 +89,7 @@ class Tables {
       row.integer(count(team.cost.person_periods)).real(team.cost.minutes).real(team.cost.person_minutes);
     }
     if (has_.forecasts) add_forecast(row, team.forecast);
+    if (has_.beliefs) row.real(team.fewest_particles);
     if (team.exam) {
       row.real(team.exam->share_right).real(team.exam->regret).real(team.exam->worst_share_right);
     }

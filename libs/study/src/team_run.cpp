@@ -126,6 +126,7 @@ class TeamRun {
     exam.at_end(session, learners, rows, member);
     estimates.at_end(session, learners, rows);
     if (observer_ != nullptr) observer_->on_end(session, learners);
+    if (spec_.beliefs) note_support(learners);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].p_bec = learners[i]->mass_in(atlas_.policy_bec_half_spaces());
       record_.learners.push_back(rows[i]);
@@ -135,6 +136,15 @@ class TeamRun {
     for (const auto status : session.components()) {
       record_.components_learned += status == ComponentStatus::kLearned ? 1u : 0u;
       record_.components_skipped += status == ComponentStatus::kSkipped ? 1u : 0u;
+    }
+  }
+
+  void note_support(const Learners& learners) {
+    auto& fewest = record_.fewest_particles;
+    for (const auto& learner : learners) {
+      if (learner->belief() == nullptr) continue;
+      const double own = learner->belief()->least_support();
+      fewest = std::min(fewest.value_or(own), own);
     }
   }
 

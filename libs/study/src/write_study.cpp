@@ -178,6 +178,7 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   record.add_count("exam_questions", spec.exam_questions);
   record.add_count("forecast", spec.forecast_sessions);
   record.add("estimates", spec.estimates);
+  if (spec.beliefs) record.add("beliefs", true);
   record.add("proficient_ability", spec.proficient_ability);
   root.add("record", record);
   if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});

@@ -159,5 +159,22 @@ TEST(SessionForecasts, AreOfOtherPeopleOfTheSameCrew) {
   EXPECT_THAT(crew_table({{spec}}, "teams.csv"), HasSubstr(",forecast_periods,forecast_periods_low,"));
 }
 
+TEST(BeliefQuality, IsRecordedWhenAskedFor) {
+  auto spec = crew_spec();
+  EXPECT_THAT(crew_table({{spec}}, "teams.csv"), Not(HasSubstr("fewest_particles")));
+  const auto plain = run_crews({{spec}});
+  for (const auto& team : plain) EXPECT_FALSE(team.fewest_particles);
+  spec.beliefs = true;
+  const auto teams = run_crews({{spec}});
+  ASSERT_EQ(teams.size(), plain.size());
+  for (std::size_t i = 0; i < teams.size(); ++i) {
+    ASSERT_TRUE(teams[i].fewest_particles);
+    EXPECT_GT(*teams[i].fewest_particles, 0.0);
+    EXPECT_LT(*teams[i].fewest_particles, 1000.0);
+    EXPECT_EQ(teams[i].knowledge, plain[i].knowledge);  // recording changes nothing else
+  }
+  EXPECT_THAT(crew_table({{spec}}, "teams.csv"), HasSubstr(",fewest_particles"));
+}
+
 }  // namespace
 }  // namespace kith

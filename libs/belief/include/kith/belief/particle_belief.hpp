@@ -21,6 +21,9 @@ struct FilterOptions {
   friend bool operator==(const FilterOptions&, const FilterOptions&) = default;
 };
 
+/// A belief with a smaller ParticleBelief::least_support() is impoverished.
+inline constexpr double kFewParticles = 10.0;
+
 /// A belief about the reward weights: M weighted points of the unit sphere in
 /// d = 2 to 8 dimensions, none of them outside the hard prior.
 ///
@@ -111,6 +114,14 @@ class ParticleBelief {
   };
   [[nodiscard]] std::vector<Draw> systematic_draws(std::size_t n, RandomStream random) const;
 
+  /// How well the points could represent what was shown: the smallest effective number of points, over all updates,
+  /// that satisfied all half-spaces, or those of an alternative, when they were taken in,
+  /// (sum p_i)^2 / sum p_i^2 over these points. size() before any update; 0 if no point satisfied them.
+  /// Where it is below kFewParticles the belief is impoverished: what it holds from then on depends on which few points
+  /// happened to fit. Updates of a product of likelihoods above three dimensions do not count, since there stages and
+  /// slice moves renew the points. Costs one pass over the points per update.
+  [[nodiscard]] double least_support() const noexcept { return least_support_; }
+
   /// How often this belief was resampled so far.
   [[nodiscard]] std::size_t num_resamplings() const noexcept { return num_resamplings_; }
 
@@ -121,6 +132,7 @@ class ParticleBelief {
   void check(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood) const;
   void weigh(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
              std::span<double> factors) const;
+  [[nodiscard]] double support(std::span<const double> log_factors) const noexcept;
   void reweigh(std::span<double> log_factors, RandomStream random);
   [[nodiscard]] double effective_size(double sum, double sum_of_squares) const noexcept;
   void resample(double sum, RandomStream& random);
@@ -151,6 +163,7 @@ class ParticleBelief {
   std::vector<double> weights_;      // exp(log_weights_) / their sum
   double log_sum_ = 0.0;             // log of that sum
   std::size_t num_resamplings_ = 0;
+  double least_support_;            // see least_support()
   std::vector<Observed> observed_;  // sorted; above three dimensions, as long as is_product_
   bool is_product_ = true;          // of the prior and what was observed
   std::size_t num_still_ = 0;       // observations since the points moved in it

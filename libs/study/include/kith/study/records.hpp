@@ -188,6 +188,9 @@ struct TeamRecord {
   TeamCost cost{};
   std::optional<TeamForecast> forecast{};  ///< If StudySpec::forecast_sessions.
   std::optional<TeamExam> exam;            ///< Unless ExamLevel::kNone.
+  /// If StudySpec::beliefs: the smallest ParticleBelief::least_support() of a member's own belief; missing if no member
+  /// has particles.
+  std::optional<double> fewest_particles{};
   std::vector<LearnerRecord> learners;
   std::vector<PeriodRecord> period_records;                ///< Empty at RecordLevel::kTeam.
   std::vector<BeliefSnapshot> beliefs;                     ///< Empty unless RecordLevel::kParticles.

@@ -107,6 +107,7 @@ struct StudySpec {
   std::size_t exam_questions = 0;      ///< Questions that everybody answers at the end, as people would.
   std::size_t forecast_sessions = 0;   ///< Imagined sessions of a cell, for forecasts; 0: none are made.
   bool estimates = false;              ///< Whether it is recorded what the teacher's LearnerBank says of people.
+  bool beliefs = false;                ///< Whether it is recorded how well particles could represent what was shown.
   double proficient_ability = 0.735;   ///< With estimates: members who learn with at least this ability are proficient.
   std::vector<FactorSetting> factors;  ///< Empty unless the design varies keys.
   std::vector<StudyContrast> contrasts{};  ///< For the analysis; they change nothing in how the study is run.
