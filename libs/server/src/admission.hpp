@@ -15,8 +15,8 @@ namespace kith {
 
 /// Who may connect. Counts sockets in all, and per address those that have not shown a valid token: guests. If there is
 /// no room for another socket, a guest has to give way: whoever has gone for longest without a complete request, of the
-/// same address, or, if the server is full, of the address with the most guests. So idle
-/// connections give way to active ones. Thread-safe.
+/// same address, or, if the server is full, of the address with the most guests. So idle connections give way to active
+/// ones. Thread-safe.
 class Admission {
   struct Guest;
 
