@@ -26,8 +26,12 @@ export function t(key: string, values: Values = {}): string {
   return text.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ''));
 }
 
+const kBoth = ' and ';
+
 // What somebody else has named, translated if the texts have a translation: "name.rubble".
-export const named = (name: string): string => lookUp(`name.${name}`) ?? name;
+// What two kinds of ground have in common is named after both: "lane and wet".
+export const named = (name: string): string =>
+  lookUp(`name.${name}`) ?? (name.includes(kBoth) ? listed(name.split(kBoth).map(named)) : name);
 
 const labels = new Map<string, string>();
 

@@ -17,6 +17,7 @@ function directionOf(from: Place, to: Place): string {
 function phrase({ kind, name }: Part): string {
   if (kind === 'destination') return t('thing.destination', { name: named(name.replace(/^destination of /, '')) });
   if (kind === 'terrain' && hasText(`phrase.${name}`)) return t(`phrase.${name}`);
+  if (kind === 'terrain' && name.includes(' and ')) return listed(name.split(' and ').map((one) => phrase({ kind, name: one })));
   return t(`thing.${kind}`, { name: named(name) });
 }
 

@@ -202,6 +202,12 @@ export function screenTests(setting) {
           await person.button('Enlarge the board').click();
           assert.equal(await page.textContent('.submit p'), steps, 'nothing below the board drives the robot');
           assert.ok((await look()).isInside);
+          await page.setViewportSize({ width: 700, height: 500 });
+          await page.setViewportSize({ width: 390, height: 844 });
+          await page.waitForFunction(() => {
+            const [pan, robot] = ['.pan', '.mover'].map((selector) => document.querySelector(selector).getBoundingClientRect());
+            return robot.left >= pan.left && robot.right <= pan.right && robot.top >= pan.top && robot.bottom <= pan.bottom;
+          });
           const { x, y, width, height } = await page.locator('.mover').boundingBox();
           await page.touchscreen.tap(x + width / 2 + 20, y + height / 2); // the next cell
           await page.waitForFunction((text) => document.querySelector('.submit p').textContent !== text, steps);

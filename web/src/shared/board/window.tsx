@@ -113,20 +113,33 @@ function centreOn(box: HTMLElement, { x, y }: Point, behavior: ScrollBehavior): 
   });
 }
 
-// Keeps the robot in the middle half of the window: first at once, then smoothly.
+// Keeps the robot in the middle half of the window: first and after a change of its size at once, then smoothly.
 function useFollowing(pan: { current: HTMLElement | null }, robot: Place | undefined, isEnlarged: boolean): void {
   const calm = useCalm();
   const wasEnlarged = useRef(false);
+  const place = useRef(robot);
+  place.current = robot;
   useLayoutEffect(() => {
-    const box = pan.current;
     const isFirst = !wasEnlarged.current;
     wasEnlarged.current = isEnlarged;
-    if (!box || !robot || !isEnlarged) return;
-    const at = centre(robot);
-    const { x, y, width, height } = seenIn(box);
-    const isInside = Math.abs(at.x - x - width / 2) < width / 4 && Math.abs(at.y - y - height / 2) < height / 4;
-    if (isFirst || !isInside) centreOn(box, at, calm || isFirst ? 'auto' : 'smooth');
+    if (pan.current && robot && isEnlarged) keepInside(pan.current, robot, calm || isFirst ? 'auto' : 'smooth', isFirst);
   }, [robot?.[0], robot?.[1], isEnlarged]);
+  useLayoutEffect(() => {
+    const box = pan.current;
+    if (!box || !isEnlarged) return;
+    const observer = new ResizeObserver(() => {
+      if (place.current) keepInside(box, place.current, 'auto');
+    });
+    observer.observe(box);
+    return () => observer.disconnect();
+  }, [isEnlarged]);
+}
+
+function keepInside(box: HTMLElement, robot: Place, behavior: ScrollBehavior, always = false): void {
+  const at = centre(robot);
+  const { x, y, width, height } = seenIn(box);
+  const isInside = Math.abs(at.x - x - width / 2) < width / 4 && Math.abs(at.y - y - height / 2) < height / 4;
+  if (always || !isInside) centreOn(box, at, behavior);
 }
 
 // Before anything else gets the keys.
