@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "kith/explain/contrast.hpp"
 #include "kith/explain/reason.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/mdp/behaviour.hpp"
 #include "kith/present/board_json.hpp"
 #include "live_texts.hpp"
 #include "room_view.hpp"
@@ -58,9 +60,12 @@ Json first_difference(const Trajectory& mine, const Trajectory& robot) {
 
 }  // namespace
 
-std::string cost_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& mine) {
-  if (robot == mine || sign_of_dot(domain.weights().integer, robot - mine) <= 0) return {};
-  if (domain.count_scale() != 1) return sentence(on_average_in_words(domain, robot - mine));
+std::string cost_in_words(const Domain& domain, MdpIndex world, const IntegerVector& robot_counts,
+                          const IntegerVector& own_counts) {
+  if (robot_counts == own_counts || sign_of_dot(domain.weights().integer, robot_counts - own_counts) <= 0) return {};
+  if (!is_exact(domain.mdp(world))) return sentence(on_average_in_words(domain, robot_counts - own_counts));
+  const auto robot = whole_counts(domain, robot_counts);
+  const auto mine = whole_counts(domain, own_counts);
   std::vector<Excess> costs, lost;  // what the participant's path has more of, and less of
   bool is_trade = false;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
@@ -107,7 +112,7 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
     }
     entry["unfinished"] = path && !path->is_finished;
     if (!right && path && path->counts) {
-      entry["cost"] = cost_in_words(domain, atlas.feature_counts(test.demo), *path->counts);
+      entry["cost"] = cost_in_words(domain, world, atlas.feature_counts(test.demo), *path->counts);
     }
     tests.push_back(std::move(entry));
   }

@@ -33,7 +33,8 @@ namespace kith {
 [[nodiscard]] Json feedback_json(const RoomParts& room, const LiveSeat& seat);
 /// Why the robot's path is better than another one, in words: "Your path makes the robot take 2 more steps than
 /// needed."
-[[nodiscard]] std::string cost_in_words(const Domain& domain, const IntegerVector& robot, const IntegerVector& mine);
+[[nodiscard]] std::string cost_in_words(const Domain& domain, MdpIndex world, const IntegerVector& robot_counts,
+                                        const IntegerVector& own_counts);
 
 /// RoomRow.
 [[nodiscard]] Json row_json(const RoomParts& room, RoomStage stage, const Viewer& viewer);
