@@ -249,8 +249,8 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
   least_support_ = std::min(least_support_, fitting);
 }
 
-// The effective number of points that satisfy all half-spaces: their factor is exactly 1, and its logarithm 0. Where all
-// do, no point has lost any weight.
+// The effective number of points that satisfy all half-spaces: their factor is exactly 1, and its logarithm 0. Where
+// all do, no point has lost any weight.
 double ParticleBelief::support(std::span<const double> log_factors) const noexcept {
   if (std::all_of(log_factors.begin(), log_factors.end(), [](double f) { return f == 0.0; })) {
     return static_cast<double>(size());
