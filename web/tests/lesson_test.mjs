@@ -288,7 +288,7 @@ describe('a lesson', () => {
       await shown.getByRole('button', { name: 'Next run' }).click();
       assert.match(await shown.locator('.runs').textContent(), /Run 2 of 2.*and so on/s);
       await page.click('.why summary');
-      assert.match(await shown.textContent(), /The most likely path/);
+      await shown.getByText('The most likely path').first().waitFor(); // drawn after the click has been handled
       const test = page.locator('.test').first();
       assert.match(await test.textContent(), /here and wherever it may end up/);
       await test.locator('summary').click();
