@@ -29,29 +29,6 @@ questions = [
 ]
 )";
 
-TEST(Room, ShowsRunsOfTheRobotWhereChanceHasAPart) {
-  Play play{live_study({}, "domains/gallery/frozen_lake.toml")};
-  play.start(3);
-  std::size_t with_chance = 0;
-  for (std::size_t shown = 0; play.room().stage_of(1) == "watch" && shown < 9; ++shown) {
-    const auto watch = page(play, 1)["watch"];
-    const auto world = watch["board"]["world"].get<std::size_t>();
-    ASSERT_EQ(watch.contains("runs"), !play.study().atlas->domain().mdp(MdpIndex{world}).is_deterministic());
-    ASSERT_EQ(play.seat(1, "watched", {{"demo", watch["index"]}}), "");
-    if (!watch.contains("runs")) continue;
-    ++with_chance;
-    EXPECT_NE(watch["runs"]["text"].get<std::string>().find("5 runs"), std::string::npos);
-    ASSERT_EQ(watch["runs"]["runs"].size(), 5u);
-    for (const auto& run : watch["runs"]["runs"]) {
-      EXPECT_EQ(run["frames"][0]["robot"], watch["board"]["start"]["robot"]);
-      EXPECT_TRUE(run["ended"].is_boolean());
-    }
-    if (watch["index"] != 0) continue;
-    EXPECT_EQ(page(play, 2)["watch"]["runs"], watch["runs"]) << "the same for everybody";
-  }
-  EXPECT_GT(with_chance, 0u);
-}
-
 TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   Play play{live_study(kQuestions)};
   play.join(3);

@@ -1,0 +1,79 @@
+// What participants are told where something is left to chance.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "kith/domains/domain_file.hpp"
+#include "live_play.hpp"
+#include "room_view.hpp"
+
+namespace kith {
+namespace {
+
+using testing::live_study;
+using testing::Play;
+
+Json page(const Play& play, std::size_t seat) {
+  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
+}
+
+TEST(Chance, ShowsRunsOfTheRobotWhereItHasAPart) {
+  Play play{live_study({}, "domains/gallery/frozen_lake.toml")};
+  play.start(3);
+  std::size_t with_chance = 0;
+  for (std::size_t shown = 0; play.room().stage_of(1) == "watch" && shown < 9; ++shown) {
+    const auto watch = page(play, 1)["watch"];
+    const auto world = watch["board"]["world"].get<std::size_t>();
+    ASSERT_EQ(watch.contains("runs"), !play.study().atlas->domain().mdp(MdpIndex{world}).is_deterministic());
+    ASSERT_EQ(play.seat(1, "watched", {{"demo", watch["index"]}}), "");
+    if (!watch.contains("runs")) continue;
+    ++with_chance;
+    EXPECT_NE(watch["runs"]["text"].get<std::string>().find("5 runs"), std::string::npos);
+    ASSERT_EQ(watch["runs"]["runs"].size(), 5u);
+    for (const auto& run : watch["runs"]["runs"]) {
+      EXPECT_EQ(run["frames"][0]["robot"], watch["board"]["start"]["robot"]);
+      EXPECT_TRUE(run["ended"].is_boolean());
+    }
+    if (watch["index"] != 0) continue;
+    EXPECT_EQ(page(play, 2)["watch"]["runs"], watch["runs"]) << "the same for everybody";
+  }
+  EXPECT_GT(with_chance, 0u);
+}
+
+// The same way in two worlds; in the second the robot may slip back.
+constexpr const char* kIce = R"({"schema": "kith.model/1", "features": ["slip", "step"], "mdps": [
+ {"name": "firm", "states": [{"state": "bank", "start": true}, {"state": "shore", "terminal": true}],
+  "transitions": [{"state": "bank", "action": "go", "next": "shore", "features": [0, 1]}]},
+ {"name": "icy", "states": [{"state": "bank", "start": true}, {"state": "shore", "terminal": true}],
+  "transitions": [
+   {"state": "bank", "action": "go", "next": "shore", "probability": 0.75, "features": [0, 1]},
+   {"state": "bank", "action": "go", "next": "bank", "probability": 0.25, "features": [1, 1]}]}]}
+)";
+
+TEST(Chance, IsNotSpokenOfInFeedbackAboutAWorldWithoutAny) {
+  const auto reading = parse_domain(R"(schema = "kith.domain/1"
+id = "ice"
+[model]
+format = "json"
+file = "ice.json"
+[[feature]]
+name = "slip"
+[[feature]]
+name = "step"
+[reward]
+weights = { slip = -2, step = -1 }
+)",
+                                    "domain.toml", {}, {.folder = {}, .known = {{"ice.json", kIce}}});
+  ASSERT_TRUE(reading.domain) << to_text(reading.diagnostics.front());
+  const auto& domain = *reading.domain;
+  const auto step = domain.count_scale();
+  const IntegerVector robot{0, step}, own{0, 3 * step};
+  const auto certain = cost_in_words(domain, MdpIndex{0}, robot, own);
+  EXPECT_NE(certain.find("2 more"), std::string::npos) << certain;
+  EXPECT_EQ(certain.find("tries"), std::string::npos) << certain;
+  const auto by_chance = cost_in_words(domain, MdpIndex{1}, robot, own);
+  EXPECT_NE(by_chance.find("In 100 tries"), std::string::npos) << by_chance;
+}
+
+}  // namespace
+}  // namespace kith
