@@ -56,6 +56,17 @@ inline std::shared_ptr<const LiveStudy> live_study(const std::string& group = {}
   return study;
 }
 
+/// What a waiting list begins with.
+inline RoomSetup waiting_list_setup() {
+  RoomSetup setup;
+  setup.id = "r1";
+  setup.code = "ABC";
+  setup.strategy = "waiting list";
+  setup.salt = "salt";
+  setup.is_waiting_list = true;
+  return setup;
+}
+
 /// A room with a clock, and everything that happened in it.
 class Play {
  public:

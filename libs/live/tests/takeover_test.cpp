@@ -17,21 +17,11 @@ std::shared_ptr<const LiveStudy> pooled_study(const std::string& dropout = {}, c
       dropout + " }\n" + more);
 }
 
-RoomSetup setup_of_list() {
-  RoomSetup setup;
-  setup.id = "r1";
-  setup.code = "ABC";
-  setup.strategy = "waiting list";
-  setup.salt = "salt";
-  setup.is_waiting_list = true;
-  return setup;
-}
-
 // A group of three, and people who wait.
 class Takeover : public ::testing::Test {
  protected:
   explicit Takeover(std::shared_ptr<const LiveStudy> study = pooled_study())
-      : list_{study, setup_of_list()}, group_{std::move(study)} {}
+      : list_{study, waiting_list_setup()}, group_{std::move(study)} {}
 
   std::size_t come(bool is_able) {
     EXPECT_EQ(list_.send("server", "join"), "");

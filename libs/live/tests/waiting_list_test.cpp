@@ -18,20 +18,10 @@ std::shared_ptr<const LiveStudy> screened_study(const std::string& more = {}) {
   return live_study("[group]\nsize = 3\nscreening = { tests = 2, cut = 0.6, high = \"P\" }\n" + more);
 }
 
-RoomSetup list_setup() {
-  RoomSetup setup;
-  setup.id = "r1";
-  setup.code = "ABC";
-  setup.strategy = "waiting list";
-  setup.salt = "salt";
-  setup.is_waiting_list = true;
-  return setup;
-}
-
 class WaitingList : public ::testing::Test {
  protected:
   explicit WaitingList(std::shared_ptr<const LiveStudy> study = screened_study())
-      : play_{std::move(study), list_setup()} {}
+      : play_{std::move(study), waiting_list_setup()} {}
 
   // Somebody comes, is screened and waits. @return the number of the seat.
   static std::size_t come(Play& play, bool is_able) {
@@ -186,7 +176,7 @@ TEST_F(WaitingList, LetsPeopleLeaveWithACodeAfterAWhile) {
 }
 
 TEST_F(WaitingList, FillsUpWithSimulatedLearnersInTheEndIfTheStudySaysSo) {
-  Play play{screened_study("dropout = { policy = \"simulate\" }\n"), list_setup()};
+  Play play{screened_study("dropout = { policy = \"simulate\" }\n"), waiting_list_setup()};
   const auto p = come(play, true);
   play.wait(1198);
   EXPECT_EQ(form(play), std::nullopt);
@@ -200,7 +190,7 @@ TEST_F(WaitingList, FillsUpWithSimulatedLearnersInTheEndIfTheStudySaysSo) {
 }
 
 TEST_F(WaitingList, WaitsWithoutLimitForAFacilitatorWhoStartsTheGroups) {
-  Play play{screened_study("auto_start = false\n"), list_setup()};
+  Play play{screened_study("auto_start = false\n"), waiting_list_setup()};
   for (int i = 0; i < 6; ++i) come(play, false);
   ASSERT_TRUE(form(play));
   ASSERT_TRUE(form(play)) << "balanced or not: nothing else would end the wait";
@@ -210,7 +200,7 @@ TEST_F(WaitingList, WaitsWithoutLimitForAFacilitatorWhoStartsTheGroups) {
 }
 
 TEST_F(WaitingList, LeavesPlacesOfSimulatedMembersToThem) {
-  Play play{screened_study("people = [2, 3]\n"), list_setup()};
+  Play play{screened_study("people = [2, 3]\n"), waiting_list_setup()};
   const auto p = come(play, true);
   const auto a = come(play, false);
   const auto group = form(play);
@@ -239,7 +229,7 @@ TEST_F(WaitingList, RefusesAGroupThatIsNotTheOnePlanned) {
   other = body;
   std::swap(other["seats"][0], other["seats"][2]);
   events.push_back({play_.room().seq() + 1, play_.now(), "server", "grouped", other});
-  EXPECT_THROW((void)replay(screened_study(), list_setup(), events, play_.cache()), Error);
+  EXPECT_THROW((void)replay(screened_study(), waiting_list_setup(), events, play_.cache()), Error);
 }
 
 // From one page somebody could conclude how able others take them to be.
@@ -285,7 +275,7 @@ TEST_F(WaitingList, IsEndedByFacilitatorsAndNothingElse) {
 
 TEST_F(WaitingList, HandsPeopleOverToTheirRoom) {
   const auto study = screened_study("ask_name = true\ncollect_query = [\"PID\"]\n");
-  Play list{study, list_setup()};
+  Play list{study, waiting_list_setup()};
   const auto p = come(list, true), a = come(list, false), b = come(list, false);
   ASSERT_EQ(list.seat(p, "name", {{"name", "Ada"}}), "");
   const auto group = list.room().next_group(list.now());
@@ -344,7 +334,7 @@ TEST_F(WaitingList, SeatsEverybodyOnceOrSendsThemHome) {
                                                : "time = { lobby_s = 300 }\n");
     for (std::uint64_t round = 0; round < 6; ++round) {
       auto random = RandomStream{71}.split(round);
-      Play play{study, list_setup()};
+      Play play{study, waiting_list_setup()};
       std::map<std::size_t, bool> able;
       std::map<std::size_t, std::size_t> seated;
       const auto form_all = [&] {
