@@ -159,7 +159,9 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
     // The code of the study is too long to be guessed: a room full of people can always use it.
     const bool is_guessing = *code != join_code && options.wrong_codes_per_minute > 0 &&
                              count(wrong_codes) >= options.wrong_codes_per_minute;
-    if (is_too_many || is_guessing)
+    if (is_guessing)
+      return error_reply(429, "too-many", "Too many wrong codes came from this address; try again in a minute.");
+    if (is_too_many)
       return error_reply(429, "too-many", "Too many people joined from this address; try again in a minute.");
     joins[request.remote].push_back(now);
     if (free_space < kNoSpace) return error_reply(503, "no-space", "Nobody new can join at the moment.");
