@@ -11,11 +11,13 @@
 #include "kith/core/error.hpp"
 #include "kith/random/distributions.hpp"
 #include "kith/teaching/session.hpp"
+#include "robots_answers.hpp"
 
 namespace kith {
 namespace {
 
 using testing::item_delivery;
+using testing::robots_answers;
 
 Session session_of(TeachingCache& cache, std::string_view strategy, std::size_t members, TeachingOptions options = {},
                    std::uint64_t seed = 1) {
@@ -198,9 +200,8 @@ TEST(SessionEvents, GoOnWithAnotherStrategy) {
   ASSERT_TRUE(session.propose(cache));
   EXPECT_EQ(session.lesson().source.rule, "common");
   EXPECT_THROW(session.change_strategy(strategy_named("joint")), Error);  // a lesson is under way
-  std::vector<Answer> right;
-  for (const auto& test : session.lesson().tests) right.emplace_back(session.atlas().feature_counts(test.demo));
-  session.submit(std::vector<std::vector<Answer>>(2, right));
+  const auto right = robots_answers(session);
+  session.submit(std::vector(2, right));
   EXPECT_THROW(session.change_strategy(strategy_named("baseline")), std::invalid_argument);
   session.change_strategy(strategy_named("joint"));
   EXPECT_EQ(session.strategy().name, "joint");
@@ -302,8 +303,7 @@ TEST(SessionEvents, WhoIsAwayNeitherLearnsNorCounts) {
   ASSERT_TRUE(session.propose(cache));
   EXPECT_FALSE(session.takes_part(1));
   const auto untouched = session.belief().member(1);
-  std::vector<Answer> right;
-  for (const auto& test : session.lesson().tests) right.emplace_back(item_delivery().feature_counts(test.demo));
+  const auto right = robots_answers(session);
   session.show();
   session.answer(0, right);
   session.answer(2, right);
@@ -328,11 +328,7 @@ TEST(SessionEvents, NothingIsKnownAboutWhoTakesAPlace) {
   auto session = session_of(cache, "individual-low", 3, quick());
   const auto prior = session.belief().member(1);
   ASSERT_TRUE(session.propose(cache));
-  std::vector<std::vector<Answer>> answers(3);
-  for (auto& list : answers) {
-    for (const auto& test : session.lesson().tests) list.emplace_back(item_delivery().feature_counts(test.demo));
-  }
-  session.submit(answers);
+  session.submit(std::vector(3, robots_answers(session)));
   const auto returned = [&] {
     auto same = session;
     same.leave(1);
@@ -364,8 +360,7 @@ TEST(SessionEvents, NothingIsKnownAboutWhoTakesAPlaceAndReturns) {
   const auto prior = session.belief().member(1);
   ASSERT_TRUE(session.propose(cache));
   session.show();
-  std::vector<Answer> right;
-  for (const auto& test : session.lesson().tests) right.emplace_back(item_delivery().feature_counts(test.demo));
+  const auto right = robots_answers(session);
   session.answer(0, right);
   session.answer(1, right);  // the answers of the one who leaves count, but for nobody else
   session.leave(1);
@@ -383,8 +378,7 @@ TEST(SessionEvents, AnswersGivenBeforeLeavingCount) {
   auto stayed = session_of(cache, "common", 2, quick());
   ASSERT_TRUE(stayed.propose(cache));
   stayed.show();
-  std::vector<Answer> right;
-  for (const auto& test : stayed.lesson().tests) right.emplace_back(item_delivery().feature_counts(test.demo));
+  const auto right = robots_answers(stayed);
   stayed.answer(0, right);
   stayed.answer(1, right);
   auto left = stayed;
@@ -403,8 +397,7 @@ TEST(SessionEvents, WhoDoesNotAnswerIsWrong) {
   auto session = session_of(cache, "common", 2, quick());
   ASSERT_TRUE(session.propose(cache));
   session.show();
-  std::vector<Answer> right;
-  for (const auto& test : session.lesson().tests) right.emplace_back(item_delivery().feature_counts(test.demo));
+  const auto right = robots_answers(session);
   session.answer(0, right);
   session.close_tests();
   const auto& feedback = session.give_feedback();

@@ -10,6 +10,7 @@
 #include "item_delivery.hpp"
 #include "kith/core/error.hpp"
 #include "kith/random/distributions.hpp"
+#include "robots_answers.hpp"
 
 namespace kith {
 namespace {
@@ -37,10 +38,8 @@ Feedback submit(Session& session, TeachingCache& cache, std::span<const std::vec
 }
 
 // Everybody answers like the robot.
-std::vector<std::vector<Answer>> robots_answers(const Session& session) {
-  std::vector<Answer> answers;
-  for (const auto& test : session.lesson().tests) answers.emplace_back(item_delivery().feature_counts(test.demo));
-  return std::vector(session.num_members(), answers);
+std::vector<std::vector<Answer>> all_right(const Session& session) {
+  return std::vector(session.num_members(), testing::robots_answers(session));
 }
 
 // A path that is worse than the robot's: another vertex of the coverage set.
@@ -66,7 +65,7 @@ class EveryStrategy : public ::testing::TestWithParam<std::string_view> {
 TEST_P(EveryStrategy, PerfectAnswersLearnEveryComponentInOnePeriodEach) {
   auto session = make_session(cache_, GetParam(), team_size());
   while (!session.finished()) {
-    const auto feedback = submit(session, cache_, robots_answers(session));
+    const auto feedback = submit(session, cache_, all_right(session));
     EXPECT_TRUE(feedback.component_learned);
   }
   EXPECT_EQ(session.status(), SessionStatus::kComplete);
@@ -123,7 +122,7 @@ TEST_P(EveryStrategy, LessonsKeepTheirPromises) {
     for (const auto& constraint : covered) {
       EXPECT_TRUE(std::binary_search(lesson.taught.begin(), lesson.taught.end(), constraint));
     }
-    submit(session, cache_, period % 3 == 0 ? robots_answers(session) : wrong_answers(session));
+    submit(session, cache_, period % 3 == 0 ? all_right(session) : wrong_answers(session));
   }
 }
 
@@ -138,8 +137,8 @@ TEST_P(EveryStrategy, EqualStreamsAndAnswersGiveEqualSessions) {
     for (std::size_t k = 0; k < a.lesson().demonstrations.size(); ++k) {
       EXPECT_EQ(a.lesson().demonstrations[k].demo, b.lesson().demonstrations[k].demo);
     }
-    submit(a, cache_, i % 2 == 0 ? wrong_answers(a) : robots_answers(a));
-    submit(b, other_cache, i % 2 == 0 ? wrong_answers(b) : robots_answers(b));
+    submit(a, cache_, i % 2 == 0 ? wrong_answers(a) : all_right(a));
+    submit(b, other_cache, i % 2 == 0 ? wrong_answers(b) : all_right(b));
   }
 }
 
@@ -164,7 +163,7 @@ TEST(Session, ATeamOfOneIsTaughtAlikeForEveryBelief) {
     for (int i = 0; i < 6 && !session.finished(); ++i) {
       for (const auto& demo : session.lesson().demonstrations) list.push_back(demo.demo);
       for (const auto& test : session.lesson().tests) list.push_back(test.demo);
-      submit(session, cache, i % 2 == 0 ? wrong_answers(session) : robots_answers(session));
+      submit(session, cache, i % 2 == 0 ? wrong_answers(session) : all_right(session));
     }
   }
   for (const auto& list : shown) EXPECT_EQ(list, shown.front());
@@ -173,10 +172,10 @@ TEST(Session, ATeamOfOneIsTaughtAlikeForEveryBelief) {
 TEST(Session, ConsecutiveCorrectAsksForSeveralGoodPeriods) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "common", 2, {.consecutive_correct = 2});
-  EXPECT_FALSE(submit(session, cache, robots_answers(session)).component_learned);
+  EXPECT_FALSE(submit(session, cache, all_right(session)).component_learned);
   EXPECT_FALSE(submit(session, cache, wrong_answers(session)).component_learned);
-  EXPECT_FALSE(submit(session, cache, robots_answers(session)).component_learned);
-  EXPECT_TRUE(submit(session, cache, robots_answers(session)).component_learned);
+  EXPECT_FALSE(submit(session, cache, all_right(session)).component_learned);
+  EXPECT_TRUE(submit(session, cache, all_right(session)).component_learned);
 }
 
 TEST(Session, DuplicateSetsAskAboutEveryConstraintThatOften) {
@@ -190,8 +189,8 @@ TEST(Session, DuplicateSetsShowEveryConstraintOnce) {
   TeachingCache cache{item_delivery()};
   auto once = make_session(cache, "common", 2);
   auto twice = make_session(cache, "common", 2, {.duplicate_sets = 2});
-  const auto right_once = submit(once, cache, robots_answers(once));
-  const auto right_twice = submit(twice, cache, robots_answers(twice));
+  const auto right_once = submit(once, cache, all_right(once));
+  const auto right_twice = submit(twice, cache, all_right(twice));
   EXPECT_EQ(right_twice.half_spaces, right_once.half_spaces);
   EXPECT_TRUE(twice.belief() == once.belief());
 }
@@ -199,7 +198,7 @@ TEST(Session, DuplicateSetsShowEveryConstraintOnce) {
 TEST(Session, OneWrongMemberKeepsTheComponentOpen) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "joint", 3);
-  auto answers = robots_answers(session);
+  auto answers = all_right(session);
   answers[1][0] = worse_answer(session.lesson().tests[0].demo);
   const auto feedback = submit(session, cache, answers);
   EXPECT_THAT(feedback.all_correct, ::testing::ElementsAre(true, false, true));
@@ -277,7 +276,7 @@ TEST(Session, RefusesAnswersOfTheWrongShapeOrBetterThanOptimal) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "common", 2);
   const auto before = session;
-  auto answers = robots_answers(session);
+  auto answers = all_right(session);
   EXPECT_THROW(session.submit(std::span{answers}.first(1)), Error);
   auto short_list = answers;
   short_list[1].pop_back();
@@ -302,7 +301,7 @@ TEST(Session, RefusesBadOptionsAndTeams) {
 TEST(Session, HasNoLessonOnceFinished) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "common", 1);
-  while (!session.finished()) submit(session, cache, robots_answers(session));
+  while (!session.finished()) submit(session, cache, all_right(session));
   EXPECT_THROW((void)session.lesson(), Error);
   EXPECT_THROW(session.submit({}), Error);
   EXPECT_FALSE(session.propose(cache));
@@ -312,7 +311,7 @@ TEST(Session, ThirtyMembersAreTaught) {
   TeachingCache cache{item_delivery()};
   auto session = make_session(cache, "joint", 30, {.max_periods = 3});
   for (int i = 0; !session.finished(); ++i) {
-    auto answers = robots_answers(session);
+    auto answers = all_right(session);
     for (std::size_t m = 0; m < 15; ++m) answers[2 * m] = wrong_answers(session)[0];
     submit(session, cache, answers);
   }
