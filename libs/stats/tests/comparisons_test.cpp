@@ -23,17 +23,11 @@ namespace kith {
 namespace {
 
 using nlohmann::json;
+using testing::numbered_factor;
 
 const json& comparisons() {
   static const json read = testing::read_reference("comparisons.json");
   return read;
-}
-
-Factor numbered_factor(const std::string& name, const std::vector<std::size_t>& codes) {
-  Factor factor{name, {}, codes};
-  for (std::size_t level = 0; level <= *std::max_element(codes.begin(), codes.end()); ++level)
-    factor.levels.push_back(std::to_string(level));
-  return factor;
 }
 
 void expect_relative(double actual, const json& expected, double tolerance, const std::string& what) {

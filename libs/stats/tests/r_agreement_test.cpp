@@ -27,6 +27,7 @@ namespace kith {
 namespace {
 
 using nlohmann::json;
+using testing::numbered_factor;
 
 constexpr std::size_t kFewestDataSets = 20;
 constexpr double kEstimateTolerance = 1e-6;  // relative to the value, or to its standard error if that is larger
@@ -353,18 +354,12 @@ TEST(Agreement, OfCumulativeLogitModels) {
 
 TEST(Agreement, OfCorrectionsForSphericity) {
   Agreement agreement;
-  const auto numbered = [](const std::string& name, const std::vector<std::size_t>& codes) {
-    Factor factor{name, {}, codes};
-    for (std::size_t level = 0; level <= *std::max_element(codes.begin(), codes.end()); ++level)
-      factor.levels.push_back(std::to_string(level));
-    return factor;
-  };
   for (const auto& entry : agreement_reference().at("within_people")) {
     SCOPED_TRACE(entry.at("name").get<std::string>());
     const std::vector<double> response = entry.at("y");
-    const auto within = numbered("within", entry.at("within"));
-    const auto group = numbered("group", entry.at("group"));
-    const auto person = numbered("person", entry.at("person"));
+    const auto within = numbered_factor("within", entry.at("within"));
+    const auto group = numbered_factor("group", entry.at("group"));
+    const auto person = numbered_factor("person", entry.at("person"));
     const auto sphericity = check_sphericity(response, within, group, person);
     ASSERT_TRUE(sphericity) << sphericity.reason();
     const auto table = blocked_anova(response, within, group, person);

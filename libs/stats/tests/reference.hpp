@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -28,6 +30,14 @@ inline std::vector<Factor> read_factors(const nlohmann::json& factors) {
   std::vector<Factor> result;
   for (const auto& factor : factors) result.push_back(read_factor(factor));
   return result;
+}
+
+// Codes are the numbers of levels, and these their names.
+inline Factor numbered_factor(const std::string& name, const std::vector<std::size_t>& codes) {
+  Factor factor{name, {}, codes};
+  for (std::size_t level = 0; level <= *std::max_element(codes.begin(), codes.end()); ++level)
+    factor.levels.push_back(std::to_string(level));
+  return factor;
 }
 
 // Where both evaluate the same formulas.
