@@ -5,7 +5,7 @@
 namespace kith {
 namespace {
 
-constexpr std::size_t kMostAhead = 64;  // each keeps a copy of a session
+constexpr std::size_t kMostWaiting = 64;  // each keeps a copy of a session
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void TeachingPool::post(Urgency urgency, Job job) {
     auto& queue = urgency == Urgency::kNow ? now_ : ahead_;
     busy_.begin();
     queue.push_back(std::move(job));
-    if (urgency == Urgency::kAhead && ahead_.size() > kMostAhead) {
+    if (urgency == Urgency::kAhead && ahead_.size() > kMostWaiting) {
       ahead_.pop_front();
       busy_.end();
     }

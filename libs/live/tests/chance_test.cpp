@@ -11,11 +11,8 @@ namespace kith {
 namespace {
 
 using testing::live_study;
+using testing::page;
 using testing::Play;
-
-Json page(const Play& play, std::size_t seat) {
-  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
-}
 
 TEST(Chance, ShowsRunsOfTheRobotWhereItHasAPart) {
   Play play{live_study({}, "domains/gallery/frozen_lake.toml")};

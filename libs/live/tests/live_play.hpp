@@ -263,4 +263,9 @@ class Play {
   std::size_t num_waiting_ = 0;
 };
 
+/// What the person in a seat sees now.
+inline Json page(const Play& play, std::size_t seat) {
+  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
+}
+
 }  // namespace kith::testing

@@ -12,11 +12,8 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::live_study;
+using testing::page;
 using testing::Play;
-
-Json page(const Play& play, std::size_t seat) {
-  return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
-}
 
 constexpr const char* kQuestions = R"([group]
 completion = { prefix = "LAB", redirect = "https://example.org/done?cc={code}&pid={PID}" }
