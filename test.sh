@@ -8,7 +8,7 @@ usage() {
   cat <<'TEXT'
 usage: ./test.sh             what has to pass before anything is merged:
                              all tests in build/release, and the tests of the
-                             layers up to learners under ASan and UBSan in build/asan
+                             lowest layers under ASan and UBSan in build/asan
        ./test.sh --quick     the same without the sanitizers
        ./test.sh --nightly [FUZZING]
                              also the slow tests, every header alone, all layers
@@ -50,9 +50,8 @@ run_tests() {
   ctest --preset "$1" -j "$jobs" "${@:2}" || die "tests in build/$1 failed (again: ctest --preset $1 --rerun-failed)"
 }
 
-# Where pointers and indices are handled; studies and what is made of them take most of the time and are left to the
-# night.
-sanitized=(core files random toml geometry mdp domains bec belief teaching learners table explain)
+# Where files are read and indices are computed; what is built on that takes most of the time and is left to the night.
+sanitized=(core files random toml geometry mdp domains table)
 
 if [[ $mode != --nightly ]]; then
   configure_and_build release -DKITH_BUILD_TESTS=ON -- all

@@ -9,6 +9,9 @@ find_program(KITH_NPM npm DOC "npm, which fetches what the pages are made of")
 find_program(KITH_CHROMIUM NAMES chromium DOC "Browser that tests the pages")
 mark_as_advanced(KITH_NODE KITH_NPM KITH_CHROMIUM)
 
+# Of tests in a browser: one at a time, and first, because they take longest and leave other cores to other tests.
+set(one_browser RESOURCE_LOCK browser COST 1000)
+
 function(kith_add_web_pages)
   if(KITH_WEB STREQUAL AUTO AND NOT (KITH_NODE AND KITH_NPM))
     message(STATUS "No Node.js or npm: reports and lessons as pages are left out (apt-get install nodejs npm)")
@@ -79,11 +82,11 @@ function(kith_add_web_apps)
       set(name ${first}${rest})
       add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --app ${build}/${page}
         --modules ${build} --chromium ${KITH_CHROMIUM})
-      set_tests_properties(web.${name} PROPERTIES RESOURCE_LOCK browser TIMEOUT 1200 LABELS web)
+      set_tests_properties(web.${name} PROPERTIES ${one_browser} TIMEOUT 1200 LABELS web)
       if(page STREQUAL live)  # people on the pages that the program serves
         add_test(NAME web.LiveOfKith COMMAND ${KITH_NODE} ${source}/tests/live_test.mjs --kith $<TARGET_FILE:kith>
           --modules ${build} --chromium ${KITH_CHROMIUM})
-        set_tests_properties(web.LiveOfKith PROPERTIES RESOURCE_LOCK browser TIMEOUT 1200 LABELS web)
+        set_tests_properties(web.LiveOfKith PROPERTIES ${one_browser} TIMEOUT 1200 LABELS web)
       endif()
     endif()
   endforeach()
@@ -105,7 +108,8 @@ function(kith_test_web_pages source build)
   add_test(NAME web.ReportParts COMMAND ${KITH_NODE} ${source}/tests/parts_test.mjs ${report} ${sample} ${tools})
   add_test(NAME web.Lesson COMMAND ${KITH_NODE} ${source}/tests/lesson_test.mjs ${build}/lesson.html
     --document ${source}/sample/lesson.json ${tools})
-  set_tests_properties(web.Report web.ReportOfKith web.ReportParts web.Lesson PROPERTIES RESOURCE_LOCK browser TIMEOUT 600 LABELS web)
+  set_tests_properties(web.Report web.ReportOfKith web.ReportParts web.Lesson PROPERTIES
+    ${one_browser} TIMEOUT 600 LABELS web)
   set_property(TEST web.ReportParts PROPERTY LABELS slow)
 endfunction()
 
