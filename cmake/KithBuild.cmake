@@ -21,6 +21,17 @@ if(KITH_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
+# A library that is compiled as one file takes up to 2.2 GB: at most as many compilers at once as fit into memory.
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_UNITY_BUILD AND NOT CMAKE_JOB_POOL_COMPILE)
+  cmake_host_system_information(RESULT memory_mib QUERY TOTAL_PHYSICAL_MEMORY)
+  math(EXPR compilers "${memory_mib} / 2300")
+  if(compilers LESS 1)
+    set(compilers 1)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY JOB_POOLS kith_compilers=${compilers})
+  set(CMAKE_JOB_POOL_COMPILE kith_compilers)
+endif()
+
 add_library(kith_build INTERFACE)
 target_compile_options(kith_build INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
