@@ -118,7 +118,7 @@ class Exporter {
 
   // The verdict on an answer, if the period was finished and the member took part.
   [[nodiscard]] const Verdict* verdict(std::size_t period, std::size_t member, std::size_t test) const {
-    const auto past = session().history();
+    const auto& past = session().history();
     if (period == 0 || period > past.size() || member == 0) return nullptr;
     const auto& verdicts = past[period - 1].feedback.verdicts;
     if (member > verdicts.size() || test >= verdicts[member - 1].size()) return nullptr;
@@ -138,7 +138,7 @@ class Exporter {
   }
 
   void write_session() {
-    const auto past = session().history();
+    const auto& past = session().history();
     std::size_t demonstrations = 0, tests = 0, answered = 0, right = 0;
     for (const auto& period : past) {
       demonstrations += period.lesson.demonstrations.size();
@@ -219,7 +219,7 @@ class Exporter {
 
   void write_period(const LessonRow& lesson_row) {
     const auto& lesson = lesson_row.lesson;
-    const auto past = session().history();
+    const auto& past = session().history();
     const bool is_finished = lesson.period <= past.size();
     auto& row = tables_[kPeriodsFile];
     row.text(id()).integer(lesson.period).integer(lesson.component + 1);

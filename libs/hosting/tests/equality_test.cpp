@@ -39,7 +39,7 @@ TEST(OneEngine, TeachesStandInsOfARoomLikeTheTeamOfAStudy) {
     const TeamAddress address{
         .variant = 0, .strategy = "common", .composition = "NNP", .replicate = replicate, .team = replicate};
     const auto record = run_team(*study->atlas, cache, study->spec, address);
-    const auto history = room->session().history();
+    const auto& history = room->session().history();
     ASSERT_EQ(history.size(), record.periods) << "replicate " << replicate;
     EXPECT_TRUE(room->session().finished());
     std::size_t shown = 0;

@@ -5,7 +5,7 @@
 namespace kith {
 
 bool begins_component(const Session& session) {
-  const auto history = session.history();
+  const auto& history = session.history();
   return history.empty() || history.back().lesson.component != session.lesson().component;
 }
 

@@ -46,7 +46,7 @@ std::span<const ComponentStatus> components_of(const Room::State& state) {
 
 const Lesson* last_lesson(const Room::State& state) {
   if (state.summary) return state.summary->last_lesson ? &*state.summary->last_lesson : nullptr;
-  const auto history = state.session->history();
+  const auto& history = state.session->history();
   return history.empty() ? nullptr : &history.back().lesson;
 }
 

@@ -309,7 +309,7 @@ TEST(Room, ChangesTheStrategyWithTheNextComponent) {
   EXPECT_EQ(play.room().session().strategy().name, "common");
   play.play_on({1, 2, 3});
   EXPECT_EQ(play.room().session().strategy().name, "joint");
-  const auto history = play.room().session().history();
+  const auto& history = play.room().session().history();
   for (const auto& past : history) {
     EXPECT_EQ(past.lesson.source.rule, past.lesson.component == history.front().lesson.component ? "common" : "joint");
   }

@@ -2,7 +2,7 @@
 
 namespace kith {
 
-std::vector<ObservedPeriod> observed_periods(std::span<const PastPeriod> history, std::size_t member) {
+std::vector<ObservedPeriod> observed_periods(const PastPeriods& history, std::size_t member) {
   std::vector<ObservedPeriod> periods;
   for (const auto& [lesson, answers, feedback] : history) {
     if (feedback.verdicts.at(member).empty()) continue;

@@ -424,11 +424,13 @@ const Feedback& Session::give_feedback() {
     }
   }
   make_room(events_);
-  make_room(history_);
+  history_.make_room();
+  const auto past = std::make_shared<PastPeriod>();
   update_both(belief_, judged_, present,
               [&](TeamBelief& belief) { belief.observe_feedback(feedback_.half_spaces, lesson_.period); });
   events_.emplace_back(FeedbackGiven{});
-  history_.push_back({std::move(lesson_), std::move(answers), std::move(feedback_)});
+  *past = {std::move(lesson_), std::move(answers), std::move(feedback_)};
+  history_.push_back(past);
   lesson_ = {};
   feedback_ = {};
   for (auto& given : pending_) given.reset();

@@ -83,11 +83,9 @@ void Session::take_placement(std::vector<std::vector<Answer>> answers) {
 
 // Periods of the present component, with this one.
 std::size_t Session::periods_of_component() const {
-  const auto before =
-      std::find_if(history_.rbegin(), history_.rend(),
-                   [&](const PastPeriod& period) { return period.lesson.component != lesson_.component; }) -
-      history_.rbegin();
-  return static_cast<std::size_t>(before) + 1;
+  std::size_t n = 1;
+  for (auto past = history_.end(); past != history_.begin() && (--past)->lesson.component == lesson_.component;) ++n;
+  return n;
 }
 
 // Whether the component is left after this period.

@@ -20,7 +20,8 @@ TEST(ObservedPeriods, LeaveOutPeriodsInWhichTheMemberWasAway) {
   first_only.lesson.period = 2;
   first_only.answers[1].clear();
   first_only.feedback.verdicts[1].clear();
-  const std::vector<PastPeriod> history{both, first_only};
+  PastPeriods history;
+  for (const auto& period : {both, first_only}) history.push_back(std::make_shared<const PastPeriod>(period));
 
   const auto first = observed_periods(history, 0);
   ASSERT_EQ(first.size(), 2u);

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "kith/teaching/lesson.hpp"
-#include "kith/teaching/strategy.hpp"
+#include "kith/teaching/past_periods.hpp"
 
 namespace kith {
 
@@ -23,6 +22,6 @@ struct ObservedPeriod {
 };
 
 /// What a member of a session took part in. Periods in which the member was away are left out.
-[[nodiscard]] std::vector<ObservedPeriod> observed_periods(std::span<const PastPeriod> history, std::size_t member);
+[[nodiscard]] std::vector<ObservedPeriod> observed_periods(const PastPeriods& history, std::size_t member);
 
 }  // namespace kith

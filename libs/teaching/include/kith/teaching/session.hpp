@@ -85,7 +85,7 @@ class Session {
   [[nodiscard]] bool finished() const noexcept { return phase_ == SessionPhase::kFinished; }
   /// Completed periods.
   [[nodiscard]] std::size_t periods() const noexcept { return history_.size(); }
-  [[nodiscard]] std::span<const PastPeriod> history() const noexcept { return history_; }
+  [[nodiscard]] const PastPeriods& history() const noexcept { return history_; }
   [[nodiscard]] std::span<const ComponentStatus> components() const noexcept { return components_; }
 
   // --- events ---------------------------------------------------------------
@@ -223,7 +223,7 @@ class Session {
   Lesson lesson_;
   std::vector<std::optional<Given>> pending_;  // answers to the current tests
   Feedback feedback_;
-  std::vector<PastPeriod> history_;
+  PastPeriods history_;
   std::vector<SessionEvent> events_;
 };
 

@@ -12,6 +12,7 @@
 #include "kith/core/parameter.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
 #include "kith/teaching/lesson.hpp"
+#include "kith/teaching/past_periods.hpp"
 #include "kith/teaching/visited_demos.hpp"
 
 namespace kith {
@@ -19,14 +20,6 @@ namespace kith {
 class TeamBank;
 class UnitSelector;
 struct TeachingOptions;
-
-/// A completed interaction period.
-struct PastPeriod {
-  Lesson lesson;
-  std::vector<std::vector<Answer>> answers;  ///< Per member, per test; empty for a member who was away.
-  Feedback feedback;
-  friend bool operator==(const PastPeriod&, const PastPeriod&) = default;
-};
 
 /// A member as they are, which only simulations know: the bound of what knowing people can be worth.
 struct MemberTruth {
@@ -39,8 +32,8 @@ struct MemberTruth {
 struct TeachingView {
   const Atlas& atlas;
   const TeachingOptions& options;
-  const TeamBelief& belief;  ///< With the beliefs that StrategyKind::needs asked for; who is present is in it, too.
-  std::span<const PastPeriod> history;        ///< All completed periods.
+  const TeamBelief& belief;    ///< With the beliefs that StrategyKind::needs asked for; who is present is in it, too.
+  const PastPeriods& history;  ///< All completed periods.
   const Lesson* last_of_component = nullptr;  ///< The last lesson of this component; null before its first.
   std::span<const HalfSpace> taught_region;   ///< R_n at the end of the last learned component; minimal, sorted.
   const VisitedDemos& visited;                ///< What was shown or asked before.
