@@ -1,7 +1,9 @@
 // Debian's Chromium without network, watched: requests that leave the page, console errors and
 // uncaught errors are collected.
+import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
+import { setTimeout } from 'node:timers/promises';
 
 const kPatience = 120_000; // milliseconds: the machine may be busy; nothing here is about time
 
@@ -58,4 +60,15 @@ export async function openReport(browser, address, look) {
     [...document.querySelectorAll('.drawing')].every((box) => box.dataset.drawn && box.querySelector('svg')),
   );
   return opened;
+}
+
+// That a part of a page comes to read so: what a click leads to is drawn after the click has been handled.
+export async function reads(part, pattern) {
+  const end = Date.now() + kPatience;
+  let text = await part.textContent();
+  while (!pattern.test(text) && Date.now() < end) {
+    await setTimeout(50);
+    text = await part.textContent();
+  }
+  assert.match(text, pattern);
 }

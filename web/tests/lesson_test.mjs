@@ -9,7 +9,7 @@ import { after, before, describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
-import { launch, openPage, requireFrom } from './browser.mjs';
+import { launch, openPage, reads, requireFrom } from './browser.mjs';
 import { drawn, hugeLesson, largeLesson, mapless, uncertain } from './lessons.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -164,21 +164,22 @@ describe('a lesson', () => {
   it('plays, pauses and steps, by keyboard alone', async () => {
     await withLesson('sample', { width: 1280, dark: false }, async (page) => {
       const { frames } = sample.components[0].demonstrations[0];
-      const text = () => page.textContent('.demonstration .step');
+      const step = page.locator('.demonstration .step').first();
+      const play = page.locator('.demonstration .play').first();
       const first = await robotOf(page);
       await page.focus('.demonstration .play');
       await page.keyboard.press('Enter');
-      assert.equal(await page.textContent('.demonstration .play'), 'Pause');
+      await reads(play, /^Pause$/);
       await page.waitForFunction(() => document.querySelector('.demonstration .step').textContent.startsWith('Step 2'));
       await page.keyboard.press('Enter');
-      assert.equal(await page.textContent('.demonstration .play'), 'Play');
+      await reads(play, /^Play$/);
       await page.focus('.demonstration input[type=range]');
       await page.keyboard.press('End');
-      assert.match(await text(), /The end\.$/);
+      await reads(step, /The end\.$/);
       await page.keyboard.press('Home');
       assert.deepEqual(await robotOf(page), first);
       await page.keyboard.press('ArrowRight');
-      assert.match(await text(), new RegExp(`^Step 1 of ${frames.length - 1}`));
+      await reads(step, new RegExp(`^Step 1 of ${frames.length - 1}`));
     });
   });
 
@@ -186,7 +187,7 @@ describe('a lesson', () => {
     await withLesson('sample', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
       assert.equal(await page.locator('.play').count(), 0);
       await page.click('.demonstration button[aria-label="Next step"]');
-      assert.match(await page.textContent('.demonstration .step'), /^Step 1/);
+      await reads(page.locator('.demonstration .step').first(), /^Step 1/);
       const duration = await page.$eval('.mover', (mover) => getComputedStyle(mover).transitionDuration);
       assert.equal(duration, '0s');
     });
@@ -209,12 +210,12 @@ describe('a lesson', () => {
     await withLesson('mapless', { width: 1280, dark: false }, async (page) => {
       assert.equal(await page.locator('.board').count(), 0);
       const example = page.locator('.demonstration').first();
-      assert.match(await example.textContent(), /This world: weekday\..*The robot starts here: dock\./s);
+      await reads(example, /This world: weekday\..*The robot starts here: dock\./s);
       assert.equal(await page.locator('.steps').count(), 0, 'listed before the reader has decided');
       await example.getByText('Show what the robot does').click();
       await page.waitForSelector('.steps');
       await page.click('.why summary');
-      assert.match(await page.textContent('.steps .parting'), /dock: wait.*here they separate/);
+      await reads(page.locator('.steps .parting').first(), /dock: wait.*here they separate/);
     });
   });
 
@@ -282,17 +283,17 @@ describe('a lesson', () => {
       assert.equal(await shown.locator('.runs').count(), 0, 'run before the reader has decided');
       await shown.getByText('Show what the robot does').click();
       await page.waitForSelector('.runs');
-      assert.match(await shown.textContent(), /What will the robot do\?.*2 runs of the robot, just as they happened/s);
+      await reads(shown, /What will the robot do\?.*2 runs of the robot, just as they happened/s);
       assert.doesNotMatch(await shown.textContent(), /most likely path/i);
-      assert.match(await shown.locator('.runs').textContent(), /Run 1 of 2.*the end.*the most common path in 1\./s);
+      await reads(shown.locator('.runs'), /Run 1 of 2.*the end.*the most common path in 1\./s);
       await shown.getByRole('button', { name: 'Next run' }).click();
-      assert.match(await shown.locator('.runs').textContent(), /Run 2 of 2.*and so on/s);
+      await reads(shown.locator('.runs'), /Run 2 of 2.*and so on/s);
       await page.click('.why summary');
       await shown.getByText('The most likely path').first().waitFor(); // drawn after the click has been handled
       const test = page.locator('.test').first();
-      assert.match(await test.textContent(), /here and wherever it may end up/);
+      await reads(test, /here and wherever it may end up/);
       await test.locator('summary').click();
-      assert.match(await test.textContent(), /Run 1 of 2/);
+      await reads(test, /Run 1 of 2/);
       assert.doesNotMatch(await test.textContent(), /A correct answer shows/);
       assert.deepEqual(await violations(page), []);
     });
@@ -301,19 +302,19 @@ describe('a lesson', () => {
   it('draws walls and what states place, and says where the robot slips', async () => {
     await withLesson('drawn', { width: 390, dark: true }, async (page) => {
       const shown = page.locator('.demonstration').first();
-      assert.match(await shown.textContent(), /This world: wet ice\./);
+      await reads(shown, /This world: wet ice\./);
       assert.equal(await shown.locator('.board .destination').count(), 1);
       assert.equal(await shown.locator('.board .fence').getAttribute('d'), 'M80 0v40');
       assert.equal(await shown.locator('.runs').count(), 0, 'run before the reader has decided');
       await shown.getByText('Show what the robot does').click();
       const next = shown.locator('.runs').getByRole('button', { name: 'Next step' });
       await next.click();
-      assert.match(await shown.locator('.runs').textContent(), /Step 1 of 4: it tries to go right but slips up\./);
+      await reads(shown.locator('.runs'), /Step 1 of 4: it tries to go right but slips up\./);
       assert.equal(await shown.locator('.runs .tried').count(), 1, 'where it tried to go is drawn');
       await next.click();
-      assert.match(await shown.locator('.runs').textContent(), /Step 2 of 4: it tries to go down but stays where it is\./);
+      await reads(shown.locator('.runs'), /Step 2 of 4: it tries to go down but stays where it is\./);
       await next.click();
-      assert.match(await shown.locator('.runs').textContent(), /Step 3 of 4: it goes down\./);
+      await reads(shown.locator('.runs'), /Step 3 of 4: it goes down\./);
       assert.deepEqual(await violations(page), []);
     });
   });
