@@ -64,6 +64,7 @@ class PastPeriods {
   /// @pre i < size()
   [[nodiscard]] const PastPeriod& operator[](std::size_t i) const noexcept { return *periods_[i]; }
 
+  /// @pre period is not null
   void push_back(std::shared_ptr<const PastPeriod> period) { periods_.push_back(std::move(period)); }
   /// So that the next push_back() cannot fail.
   void make_room() {
