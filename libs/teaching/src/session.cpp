@@ -70,12 +70,6 @@ void add_new(std::vector<HalfSpace>& shown, std::span<const HalfSpace> more) {
   }
 }
 
-// So that the next push_back() cannot fail.
-template <typename T>
-void make_room(std::vector<T>& list) {
-  if (list.size() == list.capacity()) list.reserve(2 * list.size() + 8);
-}
-
 bool nobody(const std::vector<bool>& present) {
   return std::find(present.begin(), present.end(), true) == present.end();
 }
@@ -190,9 +184,10 @@ bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) 
     prepared = prepare(cache, component, others ? *others : belief_, truth);
     if (prepared) break;
   }
-  events_.emplace_back(LessonProposed{});
+  auto proposed = events_.prepare(LessonProposed{});
 
   // From here on nothing fails.
+  events_.push_back(std::move(proposed));
   if (others) belief_ = *std::move(others);
   for (Seat& seat : seats_) seat = seat == Seat::kReturning ? Seat::kPresent : seat;
   for (; component_ < component; ++component_) components_[component_] = ComponentStatus::kSkipped;
@@ -308,11 +303,11 @@ void Session::show() {
   for (const auto& shown : lesson_.demonstrations) {
     conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
   }
-  make_room(events_);
+  auto shown = events_.prepare(LessonShown{});
   update_both(belief_, judged_, present,
               [&](TeamBelief& belief) { belief.observe_demonstrations(conveyed, lesson_.period); });
   if (bank_) bank_->watch(lesson_, present);
-  events_.emplace_back(LessonShown{});
+  events_.push_back(std::move(shown));
   phase_ = SessionPhase::kTests;
 }
 
@@ -365,7 +360,7 @@ Session::Given Session::judged(std::size_t member, std::vector<Answer> answers) 
 void Session::answer(std::size_t member, std::vector<Answer> answers) {
   require_phase(SessionPhase::kTests, "answering");
   auto given = judged(member, std::move(answers));
-  events_.emplace_back(TestsAnswered{member, given.answers});
+  events_.push_back(events_.prepare(TestsAnswered{member, given.answers}));
   pending_[member] = std::move(given);
 }
 
@@ -390,7 +385,7 @@ const Feedback& Session::close_tests() {
   }
   if (nobody(counts)) throw Error{ErrorKind::kUsage, "the tests cannot be closed: everybody is away"};
   for (const auto& test : lesson_.tests) add_new(feedback.half_spaces, test.covered);
-  make_room(events_);
+  auto closed = events_.prepare(TestsClosed{});
   update_both(belief_, judged_, counts,
               [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
   inform_bank(feedback, counts);
@@ -399,7 +394,7 @@ const Feedback& Session::close_tests() {
   const auto num_counted = static_cast<std::size_t>(std::count(counts.begin(), counts.end(), true));
   feedback.component_learned = is_enough(everybody) || done.size() == num_counted;
   if (!feedback.component_learned) feedback.released = std::move(done);
-  events_.emplace_back(TestsClosed{});
+  events_.push_back(std::move(closed));
   for (std::size_t i = 0; i < num_members(); ++i) {
     right_in_a_row_[i] = feedback.all_correct[i] ? right_in_a_row_[i] + 1 : 0;
   }
@@ -423,17 +418,17 @@ const Feedback& Session::give_feedback() {
       list.resize(lesson_.tests.size());
     }
   }
-  make_room(events_);
+  auto given = events_.prepare(FeedbackGiven{});
   history_.make_room();
   const auto past = std::make_shared<PastPeriod>();
   update_both(belief_, judged_, present,
               [&](TeamBelief& belief) { belief.observe_feedback(feedback_.half_spaces, lesson_.period); });
-  events_.emplace_back(FeedbackGiven{});
+  events_.push_back(std::move(given));
   *past = {std::move(lesson_), std::move(answers), std::move(feedback_)};
   history_.push_back(past);
   lesson_ = {};
   feedback_ = {};
-  for (auto& given : pending_) given.reset();
+  for (auto& answered : pending_) answered.reset();
   conclude_period(history_.back().feedback);
   return history_.back().feedback;
 }

@@ -19,7 +19,7 @@ void Session::leave(std::size_t member) {
   require_seat(member);
   if (finished()) throw Error{ErrorKind::kUsage, "nobody can leave: the session is finished"};
   if (seats_[member] == Seat::kAway) refuse("member " + std::to_string(member + 1) + " is away already");
-  events_.emplace_back(MemberLeft{member});
+  events_.push_back(events_.prepare(MemberLeft{member}));
   seats_[member] = Seat::kAway;
 }
 
@@ -31,13 +31,13 @@ void Session::require_away(std::size_t member, std::string_view what) const {
 
 void Session::come_back(std::size_t member) {
   require_away(member, "return");
-  events_.emplace_back(MemberReturned{member});
+  events_.push_back(events_.prepare(MemberReturned{member}));
   seats_[member] = Seat::kReturning;
 }
 
 void Session::replace(std::size_t member) {
   require_away(member, "take a place");
-  events_.emplace_back(MemberReplaced{member});
+  events_.push_back(events_.prepare(MemberReplaced{member}));
   seats_[member] = Seat::kReturning;
   is_new_[member] = true;
 }
@@ -54,7 +54,7 @@ void Session::change_strategy(StrategyChoice strategy) {
     require(is_kept, "the strategy '" + strategy.name + "' needs the belief '" + name + "'");
   }
   auto made = strategy.kind.make(strategy.parameters);
-  events_.emplace_back(StrategyChanged{strategy});
+  events_.push_back(events_.prepare(StrategyChanged{strategy}));
   strategy_ = std::move(made);
   choice_ = std::move(strategy);
 }

@@ -71,14 +71,14 @@ void Session::take_placement(std::vector<std::vector<Answer>> answers) {
       }
     }
   }
-  events_.reserve(events_.size() + 1);
+  auto taken = events_.prepare(PlacementTaken{answers});
   auto judged = judged_;
   if (judged) static_cast<void>(judged->observe_responses(shown, 0));
   static_cast<void>(belief_.observe_responses(shown, 0));
   judged_ = std::move(judged);
   if (bank_) bank_->see_placement(*atlas_, placement_, answers, verdicts);
   placement_verdicts_ = std::move(verdicts);
-  events_.emplace_back(PlacementTaken{std::move(answers)});
+  events_.push_back(std::move(taken));
 }
 
 // Periods of the present component, with this one.

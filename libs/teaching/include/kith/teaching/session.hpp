@@ -118,7 +118,7 @@ class Session {
   /// Repeats an event.
   void apply(const SessionEvent& event, TeachingCache& cache);
   /// What was accepted so far, in order.
-  [[nodiscard]] std::span<const SessionEvent> events() const noexcept { return events_; }
+  [[nodiscard]] const SessionEvents& events() const noexcept { return events_; }
 
   /// A whole period at once: show(), everybody's answers, close_tests(), give_feedback(). One list per member with one
   /// answer per test of lesson(), in order; lists of members who are away are ignored.
@@ -224,7 +224,7 @@ class Session {
   std::vector<std::optional<Given>> pending_;  // answers to the current tests
   Feedback feedback_;
   PastPeriods history_;
-  std::vector<SessionEvent> events_;
+  SessionEvents events_;
 };
 
 }  // namespace kith

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kith/teaching/lesson.hpp"
+#include "kith/teaching/shared_list.hpp"
 #include "kith/teaching/strategy.hpp"
 
 namespace kith {
@@ -64,6 +65,8 @@ struct MemberReplaced {
 /// Everything that can happen to a session, see Session.
 using SessionEvent = std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft,
                                   MemberReturned, StrategyChanged, PlacementTaken, MemberReplaced>;
+/// In the order in which they happened.
+using SessionEvents = SharedList<SessionEvent>;
 
 /// "lesson-proposed", "lesson-shown", "tests-answered", "tests-closed", "feedback-given", "member-left",
 /// "member-returned", "strategy-changed", "placement-taken", "member-replaced".
