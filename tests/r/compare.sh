@@ -30,6 +30,8 @@ awk -F, 'NR == 1 || NR % 7 != 0' others/tables/teams.csv >others.csv
 for table in run/tables/teams others; do
   awk -F, 'NR == 1 || !($1 == "joint" && $2 == "PPP" || $1 == "common" && $2 == "NNP")' "$table.csv" >"gaps-${table##*/}.csv"
 done
+# The same, with names that have to be quoted in formulas.
+sed '1s/^strategy,/teaching strategy,/; 1s/,composition,/,if,/' gaps-others.csv >names.csv
 # Ratings from 1 to 5 that depend on the group.
 awk 'BEGIN { print "g;h;ease"; for (i = 0; i < 120; ++i) print "g" i % 3 ";h" int(i / 3) % 2 ";" 1 + (i * i * 7 + i % 3 * 2) % 11 % 5 }' >ratings.csv
 
@@ -62,6 +64,7 @@ compare linear-single others.csv --model 'knowledge ~ composition'
 compare gaps gaps-teams.csv --model 'knowledge ~ strategy*composition' --where 'strategy!=baseline' \
   --contrast 'joint - common'
 compare linear-gaps gaps-others.csv --model 'knowledge ~ strategy*composition' --where 'strategy!=baseline'
+compare names names.csv --model 'knowledge ~ `teaching strategy`*if' --where 'teaching strategy!=baseline'
 compare ratings ratings.csv --model 'ease ~ g + h' --ordinal
 compare single unbalanced.csv --model 'knowledge ~ composition'
 compare members run --table learners --model 'p_bec ~ strategy*type' --where 'strategy!=baseline'

@@ -10,6 +10,7 @@
 #include "kith/table/csv_writer.hpp"
 #include "model_means.hpp"
 #include "prepared_model.hpp"
+#include "r_names.hpp"
 
 namespace kith {
 namespace {
@@ -27,31 +28,10 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-// A name as R reads it in formulas and behind `$`.
-std::string symbol(const std::string& name) {
-  const bool plain = !name.empty() && (std::isalpha(static_cast<unsigned char>(name.front())) != 0) &&
-                     std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                       return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '.');
-                     });
-  return plain ? name : "`" + name + "`";
-}
-
 std::string vector_of(const std::vector<std::string>& texts) {
   std::string result = "c(";
   for (std::size_t i = 0; i < texts.size(); ++i) result += (i == 0 ? "" : ", ") + quoted(texts[i]);
   return result + ")";
-}
-
-std::string term_text(const ModelData& model, const std::vector<std::size_t>& term, const char* join = ":") {
-  std::string text;
-  for (const auto factor : term) text += (text.empty() ? "" : join) + symbol(model.factors[factor].name);
-  return text;
-}
-
-std::string right_side(const ModelData& model) {
-  std::string text;
-  for (const auto& term : model.terms) text += (text.empty() ? "" : " + ") + term_text(model, term);
-  return text.empty() ? "1" : text;
 }
 
 constexpr const char* kHelpers = R"R(
@@ -67,11 +47,29 @@ keep <- function(caption, table) {
 of <- function(table, column) if (column %in% names(table)) table[[column]] else NA_real_
 )R";
 
+std::vector<std::string> columns_of(const PreparedModel& prepared, const ModelQuestion& question) {
+  std::vector<std::string> columns{prepared.model.response};
+  const auto add = [&](const std::string& column) {
+    if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+  };
+  for (const auto& factor : prepared.model.factors) add(factor.name);
+  for (const auto& group : prepared.intercepts) {
+    for (const auto& column : group) add(column);
+  }
+  if (question.observed) add(*question.observed);
+  return columns;
+}
+
 class Script {
  public:
   Script(const Dataset& data, const PreparedModel& prepared, const ModelQuestion& question,
          const AnalysisOptions& options)
-      : file_{data.file()}, prepared_{prepared}, model_{prepared.model}, question_{question}, options_{options} {}
+      : file_{data.file()},
+        prepared_{prepared},
+        model_{prepared.model},
+        question_{question},
+        options_{options},
+        names_{columns_of(prepared, question)} {}
 
   std::string write() {
     head();
@@ -91,7 +89,20 @@ class Script {
 
  private:
   void line(const std::string& text = "") { text_ += text + "\n"; }
-  [[nodiscard]] std::string response() const { return symbol(model_.response); }
+  [[nodiscard]] const std::string& name_of(const std::string& column) const { return names_[column]; }
+  [[nodiscard]] const std::string& response() const { return name_of(model_.response); }
+  [[nodiscard]] std::string right_side() const {
+    std::string text;
+    for (const auto& term : model_.terms) {
+      text += text.empty() ? "" : " + ";
+      for (const auto factor : term) text += (factor == term.front() ? "" : ":") + name_of(model_.factors[factor].name);
+    }
+    return text.empty() ? "1" : text;
+  }
+  // R's terms with the names that the columns have in the file.
+  [[nodiscard]] std::string labelled(const std::string& terms) const {
+    return names_.renamed().empty() ? terms : "label(" + terms + ")";
+  }
   [[nodiscard]] std::string level() const { return fmt::format("{}", 1.0 - options_.alpha); }
   [[nodiscard]] bool is_single() const { return model_.factors.size() == 1 && model_.terms.size() == 1; }
 
@@ -108,30 +119,51 @@ class Script {
     text_ += kHelpers;
     line();
     line("data <- read.csv(\"data.csv\", check.names = FALSE, colClasses = \"character\", na.strings = character())");
+    rename();
     line(fmt::format("data${0} <- as.numeric(data${0})", response()));
     for (const auto& factor : model_.factors)
-      line(fmt::format("data${0} <- factor(data${0}, levels = {1})", symbol(factor.name), vector_of(factor.levels)));
+      line(fmt::format("data${0} <- factor(data${0}, levels = {1})", name_of(factor.name), vector_of(factor.levels)));
     for (const auto& columns : prepared_.intercepts) {
       for (const auto& column : columns) {
         const auto is_column = [&](const Factor& factor) { return factor.name == column; };
         if (std::none_of(model_.factors.begin(), model_.factors.end(), is_column))
-          line(fmt::format("data${0} <- factor(data${0})", symbol(column)));
+          line(fmt::format("data${0} <- factor(data${0})", name_of(column)));
       }
     }
-    if (question_.observed) line(fmt::format("data${0} <- tolower(data${0}) == \"true\"", symbol(*question_.observed)));
+    if (question_.observed)
+      line(fmt::format("data${0} <- tolower(data${0}) == \"true\"", name_of(*question_.observed)));
+  }
+
+  // Columns get names that R takes without quotes; tables bear the names of the file.
+  void rename() {
+    const auto& renamed = names_.renamed();
+    if (renamed.empty()) return;
+    std::vector<std::string> plain;
+    for (const auto& column : renamed) plain.push_back(names_[column]);
+    line();
+    line(
+        "# Some functions of R fail for names such as `age group`: columns have simpler ones here, tables the true "
+        "ones.");
+    line("columns <- " + vector_of(renamed));
+    line("names(columns) <- " + vector_of(plain));
+    line("names(data)[match(columns, names(data))] <- names(columns)");
+    line("label <- function(terms) vapply(strsplit(as.character(terms), \":\"), function(parts)");
+    line("  paste(ifelse(parts %in% names(columns), columns[parts], parts), collapse = \":\"), \"\")");
+    line();
   }
 
   void linear() {
     line();
-    line(fmt::format("model <- lm({} ~ {}, data = data)", response(), right_side(model_)));
+    line(fmt::format("model <- lm({} ~ {}, data = data)", response(), right_side()));
     if (model_.terms.empty()) return;
     line("tests <- car::Anova(model, type = 2)");
     line("terms <- head(rownames(tests), -1)");
     line("keep(\"Analysis of variance (type II)\",");
-    line("     data.frame(term = terms, df = tests[terms, \"Df\"], sum_of_squares = tests[terms, \"Sum Sq\"],");
+    line("     data.frame(term = " + labelled("terms") +
+         ", df = tests[terms, \"Df\"], sum_of_squares = tests[terms, \"Sum Sq\"],");
     line("                f = tests[terms, \"F value\"], p_value = tests[terms, \"Pr(>F)\"]))");
     if (is_single()) {
-      const auto formula = fmt::format("{} ~ {}", response(), symbol(model_.factors.front().name));
+      const auto formula = fmt::format("{} ~ {}", response(), name_of(model_.factors.front().name));
       line(fmt::format("welch <- oneway.test({}, data = data)", formula));
       line("keep(\"Test that does not assume equal variances (Welch)\",");
       line(fmt::format("     data.frame(term = {}, f = unname(welch$statistic), p_value = welch$p.value))",
@@ -146,18 +178,19 @@ class Script {
     line(fmt::format("data${0} <- factor(data${0}, ordered = TRUE)", response()));
     line("# Its default stops at 1e-8, which is too early for p-values of four digits.");
     line(fmt::format("model <- polr({} ~ {}, data = data, Hess = TRUE, control = list(reltol = 1e-15, maxit = 1000))",
-                     response(), right_side(model_)));
+                     response(), right_side()));
     line("print(summary(model))");
     if (model_.terms.empty()) return;
     line("tests <- as.data.frame(car::Anova(model, type = 2))");
     line("keep(\"Likelihood-ratio tests (proportional odds model, type II)\",");
-    line("     data.frame(term = rownames(tests), df = tests[[\"Df\"]], chi_squared = tests[[\"LR Chisq\"]],");
+    line("     data.frame(term = " + labelled("rownames(tests)") +
+         ", df = tests[[\"Df\"]], chi_squared = tests[[\"LR Chisq\"]],");
     line("                p_value = tests[[\"Pr(>Chisq)\"]]))");
     for (const auto& factor : model_.factors) {
       if (factor.levels.size() < 2) continue;
       const bool is_family = factor.levels.size() > 2;
       line();
-      line(fmt::format("means <- emmeans(model, {}, level = {})", quoted(factor.name), level()));
+      line(fmt::format("means <- emmeans(model, {}, level = {})", quoted(name_of(factor.name)), level()));
       line(fmt::format(
           "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
           quoted(is_family ? "tukey" : "none"), level()));
@@ -173,25 +206,27 @@ class Script {
     std::string intercepts;
     for (const auto& columns : prepared_.intercepts) {
       std::string name;
-      for (const auto& column : columns) name += (name.empty() ? "" : ":") + symbol(column);
+      for (const auto& column : columns) name += (name.empty() ? "" : ":") + name_of(column);
       intercepts += " + (1 | " + name + ")";
     }
     line();
     line("# Rows of a group are not independent: random intercepts.");
-    line(fmt::format("model <- lmer({} ~ {}{}, data = data,", response(), right_side(model_), intercepts));
+    line(fmt::format("model <- lmer({} ~ {}{}, data = data,", response(), right_side(), intercepts));
     // Small variances need more digits than the default gives.
     line("              control = lmerControl(optimizer = \"bobyqa\", optCtrl = list(rhoend = 1e-9)))");
     line("emm_options(lmer.df = \"satterthwaite\", lmerTest.limit = nrow(data), pbkrtest.limit = 0)");
     if (!model_.terms.empty()) {
       line("tests <- anova(model, type = 2)");
       line("keep(\"Tests of the fixed effects (type II, Satterthwaite)\",");
-      line("     data.frame(term = rownames(tests), df = tests[[\"NumDF\"]], f = tests[[\"F value\"]],");
+      line("     data.frame(term = " + labelled("rownames(tests)") +
+           ", df = tests[[\"NumDF\"]], f = tests[[\"F value\"]],");
       line("                p_value = tests[[\"Pr(>F)\"]]))");
     }
     line("variances <- as.data.frame(VarCorr(model))");
     line("groups <- variances$grp != \"Residual\"");
     line("keep(\"Variances and intraclass correlations\",");
-    line("     data.frame(rows_with_the_same = variances$grp[groups], variance = variances$vcov[groups],");
+    line("     data.frame(rows_with_the_same = " + labelled("variances$grp[groups]") +
+         ", variance = variances$vcov[groups],");
     line("                intraclass_correlation = (variances$vcov / sum(variances$vcov))[groups]))");
   }
 
@@ -231,7 +266,7 @@ class Script {
     if (factor.levels.size() < 2) return;
     const bool is_family = factor.levels.size() > 2;
     line();
-    line(fmt::format("means <- emmeans(model, {}, level = {})", quoted(factor.name), level()));
+    line(fmt::format("means <- emmeans(model, {}, level = {})", quoted(name_of(factor.name)), level()));
     if (model_.factors.size() > 1 || !model_.groups.empty()) {
       line("shown <- as.data.frame(means)");
       line(fmt::format("keep({},", quoted("Estimated marginal means of " + factor.name)));
@@ -265,7 +300,8 @@ class Script {
   void simple_effects_of(const Factor& factor, const std::string& by) {
     const bool is_family = factor.levels.size() > 2;
     line();
-    line(fmt::format("means <- emmeans(model, {}, by = {}, level = {})", quoted(factor.name), quoted(by), level()));
+    line(fmt::format("means <- emmeans(model, {}, by = {}, level = {})", quoted(name_of(factor.name)),
+                     quoted(name_of(by)), level()));
     line(fmt::format(
         "pairs <- as.data.frame(summary(pairs(means, reverse = TRUE), adjust = {}, infer = TRUE, level = {}))",
         quoted(is_family ? "tukey" : "none"), level()));
@@ -273,7 +309,7 @@ class Script {
                                                     is_family ? "; Tukey-Kramer" : ""))));
     line(fmt::format(
         "     setNames(data.frame(as.character(pairs[[{}]]), pairs$contrast, pairs$estimate, pairs$lower.CL,",
-        quoted(by)));
+        quoted(name_of(by))));
     line(
         fmt::format("                         pairs$upper.CL, pairs$p.value), c({}, \"pair\", \"difference\", "
                     "\"lower_limit\",",
@@ -330,11 +366,11 @@ class Script {
 
   void counts() {
     std::string mains;
-    for (const auto& factor : model_.factors) mains += (mains.empty() ? "" : " + ") + symbol(factor.name);
+    for (const auto& factor : model_.factors) mains += (mains.empty() ? "" : " + ") + name_of(factor.name);
     if (mains.empty()) return;
     line();
     line("# Counts: quasi-Poisson regression, which estimates the dispersion, and negative binomial regression.");
-    line(fmt::format("quasi <- glm({} ~ {}, family = quasipoisson, data = data)", response(), right_side(model_)));
+    line(fmt::format("quasi <- glm({} ~ {}, family = quasipoisson, data = data)", response(), right_side()));
     line("print(summary(quasi))");
     if (model_.groups.empty() &&
         std::find(model_.observed.begin(), model_.observed.end(), false) == model_.observed.end()) {
@@ -343,21 +379,23 @@ class Script {
       line("terms <- head(rownames(tests), -1)");
       line("if (dispersion < 1)  # else kith's regression is negative binomial");
       line("  keep(sprintf(\"F tests of the quasi-Poisson regression (type II, dispersion %.2f)\", dispersion),");
-      line("       data.frame(term = terms, df = tests[terms, \"Df\"], f = tests[terms, \"F value\"],");
+      line("       data.frame(term = " + labelled("terms") +
+           ", df = tests[terms, \"Df\"], f = tests[terms, \"F value\"],");
       line("                  p_value = tests[terms, \"Pr(>F)\"]))");
     }
     line(fmt::format("try(print(summary(glm.nb({} ~ {}, data = data))), silent = TRUE)", response(), mains));
     if (!question_.observed) return;
     line();
     line("# Counts that were cut off.");
-    line(fmt::format("print(survfit(Surv({}, {}) ~ {}, data = data))", response(), symbol(*question_.observed), mains));
+    line(
+        fmt::format("print(survfit(Surv({}, {}) ~ {}, data = data))", response(), name_of(*question_.observed), mains));
     for (std::size_t f = 0; f < model_.factors.size(); ++f) {
       std::string strata;
       for (std::size_t g = 0; g < model_.factors.size(); ++g) {
-        if (g != f) strata += (strata.empty() ? "" : ", ") + symbol(model_.factors[g].name);
+        if (g != f) strata += (strata.empty() ? "" : ", ") + name_of(model_.factors[g].name);
       }
-      line(fmt::format("print(survdiff(Surv({}, {}) ~ {}{}, data = data))", response(), symbol(*question_.observed),
-                       symbol(model_.factors[f].name), strata.empty() ? "" : " + strata(" + strata + ")"));
+      line(fmt::format("print(survdiff(Surv({}, {}) ~ {}{}, data = data))", response(), name_of(*question_.observed),
+                       name_of(model_.factors[f].name), strata.empty() ? "" : " + strata(" + strata + ")"));
     }
   }
 
@@ -366,32 +404,30 @@ class Script {
     line("# Where kith stops. Remove the comment signs of what you need.");
     if (!model_.groups.empty()) {
       std::string name;
-      for (const auto& column : prepared_.intercepts.front()) name += (name.empty() ? "" : ":") + symbol(column);
+      for (const auto& column : prepared_.intercepts.front()) name += (name.empty() ? "" : ":") + name_of(column);
       if (model_.is_count)
-        line(fmt::format("# glmer({} ~ {} + (1 | {}), family = poisson, data = data)", response(), right_side(model_),
-                         name));
+        line(fmt::format("# glmer({} ~ {} + (1 | {}), family = poisson, data = data)", response(), right_side(), name));
       if (model_.is_binary)
-        line(fmt::format("# glmer({} ~ {} + (1 | {}), family = binomial, data = data)", response(), right_side(model_),
-                         name));
+        line(
+            fmt::format("# glmer({} ~ {} + (1 | {}), family = binomial, data = data)", response(), right_side(), name));
       if (model_.is_ordinal)
         line(fmt::format("# library(ordinal); clmm(factor({}, ordered = TRUE) ~ {} + (1 | {}), data = data)",
-                         response(), right_side(model_), name));
+                         response(), right_side(), name));
       if (!model_.factors.empty())
-        line(fmt::format("# lmer({} ~ {} + ({} | {}), data = data)  # random slopes", response(), right_side(model_),
-                         symbol(model_.factors.front().name), name));
+        line(fmt::format("# lmer({} ~ {} + ({} | {}), data = data)  # random slopes", response(), right_side(),
+                         name_of(model_.factors.front().name), name));
       line("# confint(model, method = \"boot\")");
     } else {
       if (model_.is_ordinal) {
         line(fmt::format("# library(ordinal); clmm({} ~ {} + (1 | GROUP), data = data)  # random intercepts",
-                         response(), right_side(model_)));
-        line(fmt::format("# nominal_test(clm({} ~ {}, data = data))  # proportional odds", response(),
-                         right_side(model_)));
+                         response(), right_side()));
+        line(fmt::format("# nominal_test(clm({} ~ {}, data = data))  # proportional odds", response(), right_side()));
         return;
       }
       line("# plot(model)  # residuals");
       if (model_.is_binary)
-        line(fmt::format("# glm({} ~ {}, family = binomial, data = data)", response(), right_side(model_)));
-      line(fmt::format("# library(BayesFactor); anovaBF({} ~ {}, data = data)", response(), right_side(model_)));
+        line(fmt::format("# glm({} ~ {}, family = binomial, data = data)", response(), right_side()));
+      line(fmt::format("# library(BayesFactor); anovaBF({} ~ {}, data = data)", response(), right_side()));
     }
   }
 
@@ -400,21 +436,9 @@ class Script {
   const ModelData& model_;
   const ModelQuestion& question_;
   const AnalysisOptions& options_;
+  RNames names_;
   std::string text_;
 };
-
-std::vector<std::string> columns_of(const PreparedModel& prepared, const ModelQuestion& question) {
-  std::vector<std::string> columns{prepared.model.response};
-  const auto add = [&](const std::string& column) {
-    if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
-  };
-  for (const auto& factor : prepared.model.factors) add(factor.name);
-  for (const auto& group : prepared.intercepts) {
-    for (const auto& column : group) add(column);
-  }
-  if (question.observed) add(*question.observed);
-  return columns;
-}
 
 }  // namespace
 

@@ -21,6 +21,10 @@ constexpr std::array<std::string_view, 9> kIdentifierWords{"team",    "person", 
 // Of people, who may be numbered anew in every one of the others.
 constexpr std::array<std::string_view, 6> kPeople{"person", "member", "participant", "subject", "learner", "student"};
 constexpr std::array<std::string_view, 2> kCollectives{"team", "group"};
+// "Age group" and "treatment group" are what people have in common, not who sits together.
+constexpr std::array<std::string_view, 14> kAttributes{"age",    "blood",        "condition", "control", "diagnosis",
+                                                       "ethnic", "experimental", "gender",    "income",  "language",
+                                                       "risk",   "sex",          "treatment", "weight"};
 // Of what people are asked or shown. No random intercepts are made of them unasked: the tests may be about just these.
 constexpr std::array<std::string_view, 6> kItems{"item", "stimulus", "task", "question", "problem", "scenario"};
 // In kith's own tables, the address of the random numbers that draw the people of a team.
@@ -132,6 +136,10 @@ bool is_identifier_name(const std::string& column) {
   const auto words = words_of(column);
   if (words.empty()) return false;
   auto last = words.back();
+  const auto is_attribute = [&] {
+    return std::find(kAttributes.begin(), kAttributes.end(), words[words.size() - 2]) != kAttributes.end();
+  };
+  if (last == "group" && words.size() > 1 && is_attribute()) return false;
   const auto is_known = [&] {
     return std::find(kIdentifierWords.begin(), kIdentifierWords.end(), last) != kIdentifierWords.end();
   };

@@ -75,11 +75,21 @@ TEST(RProject, HasTheRowsThatWereAnalysedAndAScriptOfTheSameModel) {
   options.by = {"h h"};
   const auto project = r_project(data, {"y ~ g*`h h`"}, options);
   EXPECT_EQ(project.data, "y,g,h h\n1.5,a,p\n2,a,q\n3,b,p\n4,b,q\n7,a,p\n");
-  EXPECT_THAT(project.script,
-              AllOf(HasSubstr("model <- lm(y ~ g + `h h` + g:`h h`, data = data)"),
-                    HasSubstr("data$`h h` <- factor(data$`h h`, levels = c(\"p\", \"q\"))"),
-                    HasSubstr("car::Anova(model, type = 2)"), HasSubstr("by = \"h h\""), Not(HasSubstr("lmer("))));
+  EXPECT_THAT(project.script, AllOf(HasSubstr("model <- lm(y ~ g + h.h + g:h.h, data = data)"),
+                                    HasSubstr("data$h.h <- factor(data$h.h, levels = c(\"p\", \"q\"))"),
+                                    HasSubstr("columns <- c(\"h h\")\nnames(columns) <- c(\"h.h\")\n"),
+                                    HasSubstr("car::Anova(model, type = 2)"),
+                                    HasSubstr("data.frame(term = label(terms)"), HasSubstr("by = \"h.h\""),
+                                    HasSubstr("Pairs of g (at each level of h h)"), Not(HasSubstr("lmer("))));
   EXPECT_THAT(project.codebook, HasSubstr("\"data.csv\""));
+}
+
+TEST(RProject, GivesEveryColumnAnotherNameThatRTakes) {
+  const auto data = Dataset::parse(
+      "age group,age.group,age-group,2nd,if,y\na,a,p,a,a,1\nb,b,p,b,b,2\na,b,q,b,a,3\nb,a,q,a,a,5\n", "t.csv");
+  const auto project = r_project(data, {"y ~ `age group` + age.group + `age-group` + `2nd` + if"}, few_draws());
+  EXPECT_THAT(project.script, AllOf(HasSubstr("lm(y ~ age.group.2 + age.group + age.group.3 + x.2nd + if., data"),
+                                    HasSubstr("columns <- c(\"age group\", \"age-group\", \"2nd\", \"if\")")));
 }
 
 TEST(RProject, FitsTheSameModelOfRatings) {
