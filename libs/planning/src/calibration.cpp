@@ -16,7 +16,6 @@
 namespace kith {
 namespace {
 
-constexpr double kChiSquared = 3.841458820694124;  // 95 %, one degree of freedom
 constexpr double kNoWorse = 1.0;  // a loss of misfit that is worth fewer changes: a parameter within its standard error
 constexpr double kLittle = 0.1;   // a loss that is worth fewer digits
 constexpr double kLeastDegrees = 0.5;
@@ -96,13 +95,13 @@ class Calibrator {
   // Around the settings that may still be the best, at least a quarter as wide as before, and a little beyond.
   [[nodiscard]] Box smaller(const Box& box, std::size_t round) const {
     constexpr std::size_t kSample = 8192;
-    constexpr double kPossible = 12.0;  // more than intervals need, which end at 3.84
+    const double possible = std::max(12.0, 2.0 * significant_loss(estimate_));  // more than intervals need
     const Objective misfit = [&](std::span<const double> unit) { return misfit_->at(unit); };
     auto sample = ranked_sample(misfit, box, Fixed(present_.size()), kSample, stream("shrink", round));
-    const double limit = misfit_->at(estimate_.unit) + kPossible;
-    const auto possible =
+    const double limit = misfit_->at(estimate_.unit) + possible;
+    const auto num_possible =
         std::count_if(sample.begin(), sample.end(), [&](const SamplePoint& one) { return one.value <= limit; });
-    sample.resize(std::max(kSample / 50, static_cast<std::size_t>(possible)));
+    sample.resize(std::max(kSample / 50, static_cast<std::size_t>(num_possible)));
     Box next = box;
     for (std::size_t k = 0; k < present_.size(); ++k) {
       std::vector<double> coordinates;
@@ -162,7 +161,7 @@ class Calibrator {
 
   void find_ranges(const Box& box) {
     const auto& best = estimate_.unit;
-    const double limit = misfit_->at(best) + kChiSquared;
+    const double limit = misfit_->at(best) + significant_loss(estimate_);
     constexpr double kEdge = 1e-9;
     for (std::size_t k = 0; k < best.size(); ++k) {
       const auto interval = profile_interval(*misfit_, box, best, k, limit);

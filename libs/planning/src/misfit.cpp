@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kith/stats/distributions.hpp"
+
 namespace kith {
 namespace {
 
@@ -151,6 +153,14 @@ DiscrepancyEstimate estimate_discrepancy(const Surfaces& surfaces, const RandomS
   const Misfit misfit{surfaces, result.discrepancy};
   result.unit = misfit.minimum(none, random);
   return result;
+}
+
+double significant_loss(const DiscrepancyEstimate& estimate) {
+  constexpr double kTail = 0.975;
+  const bool is_estimated = estimate.discrepancy > 0.0;
+  const double quantile =
+      is_estimated ? student_t_quantile(kTail, estimate.degrees_of_freedom) : normal_quantile(kTail);
+  return quantile * quantile;
 }
 
 ProfileInterval profile_interval(const Misfit& misfit, const Box& box, std::span<const double> best, std::size_t k,

@@ -47,6 +47,11 @@ struct DiscrepancyEstimate {
 };
 [[nodiscard]] DiscrepancyEstimate estimate_discrepancy(const Surfaces& surfaces, const RandomStream& random);
 
+// By how much the misfit has to exceed its least value for a setting of one parameter to be outside of its 95 %
+// interval: the square of a normal quantile, or of a t quantile where the discrepancy, which is a scale, was estimated
+// from the same misses [knapp2003].
+[[nodiscard]] double significant_loss(const DiscrepancyEstimate& estimate);
+
 // The values of parameter k at which, the others adjusted, the misfit is at most `limit`; ends at the box's edge where
 // it does not exceed it before.
 struct ProfileInterval {

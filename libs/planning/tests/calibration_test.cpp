@@ -8,6 +8,7 @@
 #include "evaluation.hpp"
 #include "item_delivery.hpp"
 #include "kith/random/distributions.hpp"
+#include "kith/stats/distributions.hpp"
 #include "kith/stats/moments.hpp"
 #include "misfit.hpp"
 #include "parameter_box.hpp"
@@ -158,7 +159,8 @@ TEST(Profile, IsTheIntervalOfANormalMean) {
   EXPECT_EQ(estimate.discrepancy, 0.0);
   EXPECT_NEAR(estimate.unit[0], 0.5, 0.01);
   const Misfit misfit{surfaces, 0.0};
-  const auto interval = profile_interval(misfit, surfaces.box(), estimate.unit, 0, misfit.at(estimate.unit) + 3.841459);
+  const auto interval =
+      profile_interval(misfit, surfaces.box(), estimate.unit, 0, misfit.at(estimate.unit) + significant_loss(estimate));
   EXPECT_NEAR(interval.low, 0.5 - 1.96 * 0.1 / std::sqrt(2.0), 0.01);
   EXPECT_NEAR(interval.high, 0.5 + 1.96 * 0.1 / std::sqrt(2.0), 0.01);
   EXPECT_FALSE(interval.reaches_low);
@@ -173,8 +175,12 @@ TEST(Profile, WidensByWhatTheModelCannotRemove) {
   // With v = 1 + tau^2 two slopes of 10 determine 200 / (200 + 12 v) of the parameter, whose prior variance is 1 / 12:
   // 18 / v = 2 - 200 / (200 + 12 v) at v = 12.6.
   EXPECT_NEAR(estimate.discrepancy, std::sqrt(11.6), 0.05);
+  // Two targets less 200 / 212 parameters.
+  EXPECT_NEAR(estimate.degrees_of_freedom, 2.0 - 200.0 / 212.0, 1e-3);
+  EXPECT_NEAR(std::sqrt(significant_loss(estimate)), student_t_quantile(0.975, estimate.degrees_of_freedom), 1e-12);
   const Misfit misfit{surfaces, estimate.discrepancy};
-  const auto interval = profile_interval(misfit, surfaces.box(), estimate.unit, 0, misfit.at(estimate.unit) + 3.841459);
+  const auto interval =
+      profile_interval(misfit, surfaces.box(), estimate.unit, 0, misfit.at(estimate.unit) + significant_loss(estimate));
   EXPECT_LT(interval.low, 0.2 + 0.02);
   EXPECT_GT(interval.high, 0.8 - 0.02);
 }

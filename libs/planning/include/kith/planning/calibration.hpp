@@ -30,12 +30,14 @@ struct CalibrationPoint {
   std::size_t teams_per_cell = 0;
   std::vector<TargetOutcome> targets;
   /// r' V^-1 r >= 0, r the misses in published standard errors and V their covariance, Calibration::discrepancy
-  /// included. Settings whose misfits differ by less than 3.84 do not differ significantly in one parameter.
+  /// included. Settings whose misfits differ by less than ParameterRange names do not differ significantly in one
+  /// parameter.
   double misfit = 0.0;
 };
 
 /// The 95 % interval of one parameter: the values at which the misfit, the other parameters adjusted, exceeds its
-/// minimum by at most 3.84 (chi-squared, one degree of freedom). Contains the calibrated value.
+/// minimum by at most 3.84 (chi-squared, one degree of freedom) or, if there is a discrepancy, by the square of the
+/// 97.5 % quantile of Student's t with Calibration::degrees_of_freedom [knapp2003]. Contains the calibrated value.
 struct ParameterRange {
   double low = 0.0;
   double high = 0.0;
