@@ -19,6 +19,7 @@
 #include "kith/hosting/event_file.hpp"
 #include "kith/hosting/session_review.hpp"
 #include "kith/hosting/session_study.hpp"
+#include "kith/live/taught_people.hpp"
 #include "kith/present/audit_report.hpp"
 #include "kith/present/wrapped.hpp"
 #include "kith/runs/journal.hpp"
@@ -56,8 +57,8 @@ AuditOptions audit_options(const AuditCommandOptions& options, const StudySpec& 
 void judge(TeachingCache& cache, const AuditOptions& how, std::vector<Observed>& people) {
   Auditor auditor{cache, how};
   for (auto& [person, periods] : people) {
-    const RandomStream random =
-        RandomStream{1}.split("audit").split(person.team).split(person.room).split(person.member);
+    auto random = RandomStream{1}.split("audit").split(person.team).split(person.room).split(person.member);
+    if (person.seat != 0) random = random.split(person.seat);
     person.components = auditor.audit(periods, random);
   }
 }
@@ -192,17 +193,18 @@ class RunAudit {
 
 // --- a live session ------------------------------------------------------------------------------------------------
 
-std::vector<Observed> people_of(const Room& room) {
+std::vector<Observed> people_of(const Room& room, const TaughtPeople& taught) {
   std::vector<Observed> people;
   const auto& setup = room.setup();
-  for (std::size_t i = 0; i < room.session().num_members(); ++i) {
+  for (auto& one : taught.all(room)) {
     AuditedPerson person;
     person.room = setup.id;
     person.group = fmt::format("room {} ({}, {})", setup.id, setup.strategy, setup.composition);
-    person.member = i + 1;
-    person.type = setup.composition.at(i);
-    person.simulated = setup.simulated.at(i);
-    people.push_back({std::move(person), observed_periods(room.session().history(), i)});
+    person.member = one.member + 1;
+    person.seat = one.seat;
+    person.type = setup.composition.at(one.member);
+    person.simulated = !one.is_person;
+    people.push_back({std::move(person), std::move(one.periods)});
   }
   return people;
 }
@@ -238,8 +240,10 @@ class SessionAudit {
     std::size_t left = 0;
     file_.for_each_event([&](const StoredEvent&) { ++left; }, stored.number);
     std::vector<Observed> people;
+    TaughtPeople taught;
     const auto replayed = replay_room(file_, stored, study_, cache, [&](const Room& room, const RoomEvent&) {
-      if (--left == 0 && !room.session().history().empty()) people = people_of(room);
+      taught.see(room);
+      if (--left == 0 && !room.session().history().empty()) people = people_of(room, taught);
     });
     if (!replayed.problem.empty()) {
       throw refusal(ErrorKind::kMismatch, "E1614",
@@ -270,10 +274,7 @@ class AuditText {
     for (const auto& person : report_.people) {
       if (person.group != group) out_ += "\n" + console_.bold(person.group) + "\n";
       group = person.group;
-      out_ += fmt::format("\nMember {} ({}{})\n", person.member, person.type,
-                          person.room.empty() ? ""
-                          : person.simulated  ? ", simulated"
-                                              : ", a person");
+      out_ += "\n" + title_of(person) + "\n";
       for (const auto& audit : person.components) component(audit);
     }
     return out_;

@@ -114,7 +114,7 @@ TEST_F(AuditCommand, ReadsLiveSessions) {
   const auto ran = run_kith({"audit", folder});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("room "));
-  EXPECT_THAT(ran.out, HasSubstr("Member 2 (P, a person)"));
+  EXPECT_THAT(ran.out, HasSubstr("Member 2 (P, a person in seat 2)"));
   EXPECT_EQ(run_kith({"audit", folder, "--team", "1"}).code, 2);
   const auto none = run_kith({"audit", folder, "--room", "r99"});
   EXPECT_EQ(none.code, 3);

@@ -111,7 +111,7 @@ std::shared_ptr<const Atlas> with_answerable_tests(std::shared_ptr<const Atlas> 
   return answerable;
 }
 
-// A start that no test would use, simple to look at, where there is room to move.
+// A start where there is room to move, which no test would use if possible, simple to look at.
 DemoIndex find_sandbox(const Atlas& atlas) {
   constexpr std::size_t kRoom = 4;
   std::optional<DemoIndex> best;
@@ -120,7 +120,7 @@ DemoIndex find_sandbox(const Atlas& atlas) {
     const DemoIndex demo{i};
     const bool tests = atlas.is_candidate(demo) && !atlas.tested_constraints(demo).without(atlas.prior()).empty();
     const auto steps = std::min(kRoom, atlas.trajectory(demo).actions.size());
-    const std::tuple rank{tests, steps < 2, atlas.domain().complexity(atlas.id(demo)), kRoom - steps};
+    const std::tuple rank{steps < 2, tests, atlas.domain().complexity(atlas.id(demo)), kRoom - steps};
     if (!best || rank < best_rank) {
       best = demo;
       best_rank = rank;

@@ -172,6 +172,11 @@ RoomStage Room::stage() const noexcept {
 
 bool Room::is_person(std::size_t seat) const { return state_->seats.at(seat - 1).is_person; }
 
+std::optional<std::size_t> Room::seat_of(std::size_t member) const {
+  const auto& seat = state_->members.at(member).seat;
+  return seat ? std::optional{*seat + 1} : std::nullopt;
+}
+
 bool Room::has_free_seat() const {
   return decide({"server", "join", Json::object(), {}}, state_->last_us).refusal == std::nullopt;
 }

@@ -132,6 +132,13 @@ TEST(LiveStudy, ChoosesASandboxThatTestsNothing) {
   EXPECT_EQ(live_study("[group]\nscreening = { tests = 4 }\n")->screening, study->screening);
 }
 
+TEST(LiveStudy, ChoosesASandboxWithRoomToMove) {
+  for (const auto* domain : {"item-delivery", "domains/gallery/frozen_lake.toml"}) {
+    const auto study = live_study({}, domain);
+    EXPECT_GE(study->atlas->trajectory(study->sandbox).actions.size(), 2u) << domain;
+  }
+}
+
 TEST(LiveStudy, RefusesStrategiesThatReadWhatSimulatedPeopleBelieve) {
   auto reading = parse_study(testing::kLiveStudy, "live.toml", {.overrides = {}, .folder = KITH_SOURCE_DIR});
   ASSERT_TRUE(reading.study);

@@ -123,10 +123,7 @@ class Page {
   }
 
   void person(const AuditedPerson& person) {
-    out_ += tag("h3", fmt::format("Member {} ({}{})", person.member, person.type,
-                                  person.room.empty() ? ""
-                                  : person.simulated  ? ", simulated"
-                                                      : ", a person"));
+    out_ += tag("h3", title_of(person));
     for (const auto& audit : person.components) component(audit);
   }
 

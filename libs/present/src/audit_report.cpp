@@ -140,6 +140,12 @@ Json component_json(const Atlas& atlas, const ComponentAudit& audit) {
 
 }  // namespace
 
+std::string title_of(const AuditedPerson& person) {
+  std::string who;
+  if (person.seat != 0) who = fmt::format(", {} in seat {}", person.simulated ? "simulated," : "a person", person.seat);
+  return fmt::format("Member {} ({}{})", person.member, person.type, who);
+}
+
 Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string& program) {
   Json components = Json::array();
   for (std::size_t k = 0; k < atlas.knowledge_components().size(); ++k) {
@@ -164,6 +170,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"team", person.team == 0 ? Json{} : Json(person.team)},
                       {"room", person.room.empty() ? Json{} : Json(person.room)},
                       {"member", person.member},
+                      {"seat", person.seat == 0 ? Json{} : Json(person.seat)},
                       {"type", std::string(1, person.type)},
                       {"simulated", person.simulated},
                       {"components", std::move(audits)}});

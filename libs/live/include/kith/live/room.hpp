@@ -100,6 +100,8 @@ class Room {
   void release();
   [[nodiscard]] std::size_t num_seats() const noexcept;
   [[nodiscard]] bool is_person(std::size_t seat) const;
+  /// Who has a place of the session, from 0; nothing while nobody does.
+  [[nodiscard]] std::optional<std::size_t> seat_of(std::size_t member) const;
   /// Whether somebody could join now.
   [[nodiscard]] bool has_free_seat() const;
   /// Whether the person has reached a last page: nothing more is expected of them.

@@ -14,11 +14,15 @@ struct AuditedPerson {
   std::size_t team = 0;    ///< Number of the team in its run; 0: of a room.
   std::string group;       ///< As people read it: "team 17 (joint, NNP, replicate 2)", "room r3 (joint, NNP)".
   std::string room;        ///< Id of the room; empty: of a run.
-  std::size_t member = 1;  ///< 1-based. In a room the place, whoever took it.
+  std::size_t member = 1;  ///< 1-based. In a room the place, which several people may have had in turn.
+  std::size_t seat = 0;    ///< Who had it, 1-based; 0: of a run.
   char type = 'N';         ///< Learner type of the place.
   bool simulated = true;   ///< Whether a simulated learner answered.
   std::vector<ComponentAudit> components;
 };
+
+/// "Member 2 (P)", "Member 2 (P, a person in seat 4)".
+[[nodiscard]] std::string title_of(const AuditedPerson& person);
 
 /// An audit of a run or of a live session.
 struct AuditReport {
