@@ -9,9 +9,8 @@ namespace kith {
 namespace {
 
 constexpr std::array<std::string_view, 19> kReserved{
-    "if",   "else",        "repeat",   "while",       "function",      "for", "in",
-    "next", "break",       "TRUE",     "FALSE",       "NULL",          "Inf", "NaN",
-    "NA",   "NA_integer_", "NA_real_", "NA_complex_", "NA_character_", "T",   "F"};
+    "if",    "else", "repeat", "while", "function", "for",         "in",       "next",        "break",        "TRUE",
+    "FALSE", "NULL", "Inf",    "NaN",   "NA",       "NA_integer_", "NA_real_", "NA_complex_", "NA_character_"};
 
 bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
