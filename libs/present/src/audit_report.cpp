@@ -1,5 +1,7 @@
 #include "kith/present/audit_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
