@@ -49,7 +49,9 @@ endif()
 
 if(KITH_SANITIZE)
   target_compile_options(kith_build INTERFACE
-    -fsanitize=${KITH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    -fsanitize=${KITH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    # What sanitizers insert makes GCC warn of members of a variant that are never read.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(kith_build INTERFACE -fsanitize=${KITH_SANITIZE})
 else()
   # _FORTIFY_SOURCE needs an optimiser.

@@ -82,8 +82,8 @@ Estimable<QuasiPoissonModel> fit_quasi_poisson(std::span<const double> counts, s
   result.observations = counts.size();
   result.residual_df = counts.size() - design->kept.size();
   result.dispersion = detail::pearson_dispersion(model.data, model.design, model.fit);
-  constexpr double kNoSpread = 1e-20;
-  if (result.dispersion <= kNoSpread) return Result::impossible("no spread around the model's values");
+  constexpr double kLeastDispersion = 1e-20;
+  if (result.dispersion <= kLeastDispersion) return Result::impossible("no spread around the model's values");
   const auto size = model.design.size;
   const Eigen::MatrixXd covariance =
       result.dispersion * Eigen::MatrixXd{detail::expected_information(model.data, model.design, model.fit)
