@@ -13,7 +13,8 @@ packages_to_build=(
 )
 packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
-  slowhttptest)
+  slowhttptest
+  r-base-core r-cran-car r-cran-emmeans r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-survival)
 
 # is_installed NAME: as a package; or, where people often have another source than Debian, as a command.
 is_installed() {
