@@ -153,16 +153,16 @@ Picture policy_picture(const Domain& domain, const GridMap& map, MdpIndex m, std
 
 std::string beside(const std::vector<Picture>& pictures, std::size_t indent) {
   // As many in a row as fit, with a blank line between rows.
-  constexpr std::size_t kGap = 4;
-  const std::size_t width = pictures.front().front().size() + kGap;
-  const std::size_t fit = std::max<std::size_t>(1, (kTextWidth - std::min(indent, kTextWidth) + kGap) / width);
+  constexpr std::size_t kBetween = 4;
+  const std::size_t width = pictures.front().front().size() + kBetween;
+  const std::size_t fit = std::max<std::size_t>(1, (kTextWidth - std::min(indent, kTextWidth) + kBetween) / width);
   std::string text;
   for (std::size_t first = 0; first < pictures.size(); first += fit) {
     if (first > 0) text += "\n";
     for (std::size_t row = 0; row < pictures.front().size(); ++row) {
       std::string line(indent, ' ');
       for (std::size_t i = first; i < std::min(first + fit, pictures.size()); ++i) {
-        line += (i > first ? std::string(kGap, ' ') : "") + pictures[i][row];
+        line += (i > first ? std::string(kBetween, ' ') : "") + pictures[i][row];
       }
       line.erase(line.find_last_not_of(' ') + 1);
       text += line + "\n";

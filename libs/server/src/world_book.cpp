@@ -4,8 +4,11 @@
 #include <nlohmann/json.hpp>
 
 namespace kith {
+namespace {
 
 using Json = nlohmann::json;
+
+}  // namespace
 
 std::optional<std::vector<int>> WorldTable::shortest_path(int start) const {
   const auto size = next.size();

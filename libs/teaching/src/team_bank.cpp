@@ -25,8 +25,8 @@ void TeamBank::restart(std::size_t i, const PriorCover& cover, const FilterOptio
 }
 
 void TeamBank::inform(std::size_t i, std::span<const HalfSpace> half_spaces, const RandomStream& random) {
-  constexpr double kSurest = 1.0 - 1e-9;
-  const double ability = std::min(members_[i].expected_present_ability(), kSurest);
+  constexpr double kMostAbility = 1.0 - 1e-9;
+  const double ability = std::min(members_[i].expected_present_ability(), kMostAbility);
   informed_[i].observe(half_spaces, HalfSpaceLikelihood{ability, likelihood_, informed_[i].dimension()}, random);
 }
 

@@ -14,7 +14,7 @@
 
 namespace kith {
 
-class LiveStudy;
+struct LiveStudy;
 
 /// How live groups are kept and served.
 struct LiveServiceOptions {
