@@ -32,6 +32,8 @@ class PolicyPartition {
   /// behave_in_favour(). @throws std::invalid_argument unless the process is exact and there is one weight per feature.
   PolicyPartition(const Mdp& mdp, std::span<const StateIndex> states, std::vector<double> robot_weights,
                   const BehaveOptions& options = {});
+  PolicyPartition(const PolicyPartition&) = delete;
+  PolicyPartition& operator=(const PolicyPartition&) = delete;
   PolicyPartition(PolicyPartition&&) noexcept;
   PolicyPartition& operator=(PolicyPartition&&) noexcept;
   ~PolicyPartition();
@@ -52,6 +54,8 @@ class PolicyPartition {
 class PolicyLookup {
  public:
   PolicyLookup();
+  PolicyLookup(const PolicyLookup&) = delete;
+  PolicyLookup& operator=(const PolicyLookup&) = delete;
   PolicyLookup(PolicyLookup&&) noexcept;
   PolicyLookup& operator=(PolicyLookup&&) noexcept;
   ~PolicyLookup();
