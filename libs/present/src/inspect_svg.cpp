@@ -104,8 +104,8 @@ std::optional<SvgFile> policy_picture(const Domain& domain, const GridMap& map, 
   const auto& mdp = domain.mdp(m);
   const auto policy = policy_to_draw(domain, map, m);
   if (!policy) return std::nullopt;
-  const auto& choice_in = policy->first;
-  const auto& path = policy->second;
+  const auto& choice_in = policy->choice;
+  const auto& path = policy->path;
   Sheet sheet{boards, fmt::format("What the robot does in MDP {} of {}", m.value(), domain.id())};
   for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
