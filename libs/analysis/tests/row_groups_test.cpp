@@ -29,8 +29,8 @@ TEST(IdentifierNames, AreWordsForWhoARowIsAbout) {
   for (const auto* name : {"team", "Team", "participant_id", "participantID", "personId", "student", "id", "ID",
                            "study.subject", "teamid", "my group", "work group", "group"})
     EXPECT_TRUE(is_identifier_name(name)) << name;
-  for (const auto* name : {"valid", "covid", "identity", "team_size", "grouping", "period", "", "1", "paid", "grid", "age group",
-                           "treatmentGroup"})
+  for (const auto* name : {"valid", "covid", "identity", "team_size", "grouping", "period", "", "1", "paid", "grid",
+                           "age group", "treatmentGroup"})
     EXPECT_FALSE(is_identifier_name(name)) << name;
 }
 
