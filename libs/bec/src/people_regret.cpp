@@ -69,9 +69,9 @@ std::vector<PeopleRegret::Mistake> PeopleRegret::mistakes(const Direction& weigh
   for (const Start& start : starts_) {
     const auto answer = behaviours_.answer(start.demo, cell);
     if (!answer) continue;
-    auto advantage = atlas_->feature_counts(start.demo) - *answer;
+    const auto advantage = atlas_->feature_counts(start.demo) - *answer;
     const double regret = domain.weights().return_of(advantage) * scale / static_cast<double>(starts_.size());
-    if (regret > 0.0) found.push_back({start.demo, regret, std::move(advantage)});
+    if (regret > 0.0) found.push_back({start.demo, regret, advantage});
   }
   return found;
 }

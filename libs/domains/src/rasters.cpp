@@ -281,12 +281,16 @@ class RasterComputer {
           const int dx = to_x - x;
           const int dy = to_y - y;
           if (dx * dx + dy * dy > reach * reach || !is_clear(scene, {x, y}, {to_x, to_y})) continue;
-          const auto cell = static_cast<std::size_t>(to_y * world_.width + to_x);
+          const auto cell = cell_at(to_x, to_y);
           if (!scene.is_wall[cell]) result[cell] = 1;
         }
       }
     }
     return result;
+  }
+
+  [[nodiscard]] std::size_t cell_at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.width) + static_cast<std::size_t>(x);
   }
 
   // Whether no cell between the two is a wall: the cells of Bresenham's line.
@@ -298,7 +302,7 @@ class RasterComputer {
     const int step_y = y < to.second ? 1 : -1;
     int error = dx + dy;
     while (std::pair{x, y} != to) {
-      if (std::pair{x, y} != from && scene.is_wall[static_cast<std::size_t>(y * world_.width + x)]) return false;
+      if (std::pair{x, y} != from && scene.is_wall[cell_at(x, y)]) return false;
       const int twice = 2 * error;
       if (twice >= dy) {
         error += dy;

@@ -143,7 +143,7 @@ class Candidates {
     candidate.slack = weight > 0.0 ? gap / weight : 0.0;
     if (candidate.normal.is_zero() || candidate.slack > kWeakest) return;
     candidate.normal = HalfSpace{candidate.normal}.normal();
-    if (is_short(candidate.normal)) all_.push_back(std::move(candidate));
+    if (is_short(candidate.normal)) all_.push_back(candidate);
   }
 
   const Domain& domain_;

@@ -92,10 +92,13 @@ BotFacilitator::BotFacilitator(asio::io_context& io, const tcp::endpoint& server
 }
 
 BotFacilitator::~BotFacilitator() {
-  asio::post(shared_->strand, [shared = shared_] {
-    shared->beating.cancel();
-    shared->socket->cut();
-  });
+  try {
+    asio::post(shared_->strand, [shared = shared_] {
+      shared->beating.cancel();
+      shared->socket->cut();
+    });
+  } catch (const std::exception&) {  // out of memory: the connection ends with its io_context
+  }
 }
 
 bool BotFacilitator::wait(std::chrono::milliseconds time, const std::function<bool()>& holds) {

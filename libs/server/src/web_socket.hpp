@@ -25,6 +25,8 @@ class WebSocketConnection final : public ServerConnection, public std::enable_sh
  public:
   WebSocketConnection(ServerContext& context, tcp::socket socket, Admission::Place place, std::string remote);
   ~WebSocketConnection() override;
+  WebSocketConnection(const WebSocketConnection&) = delete;
+  WebSocketConnection& operator=(const WebSocketConnection&) = delete;
 
   /// Says that its place is this connection's.
   void claim_place() { place_.belongs_to(weak_from_this()); }
