@@ -1,5 +1,6 @@
 // kith serve: teaches groups of real people.
 #include <fmt/format.h>
+#include <malloc.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -113,6 +114,14 @@ void raise_file_limit() {
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
   limit.rlim_cur = limit.rlim_max;
   setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+// With an arena for every thread, glibc keeps what a thread has freed from the others: 200 groups took 182 MB after the
+// server had been restarted for 139.
+void share_freed_memory() {
+#ifdef M_ARENA_MAX
+  mallopt(M_ARENA_MAX, 2);
+#endif
 }
 
 LiveServiceOptions service_options(const ServeOptions& options, const SessionStudy& session, const fs::path& folder) {
@@ -299,6 +308,7 @@ int run_serve(const ServeOptions& options, Console& console) {
   if (!console.quiet()) console.show(reading.diagnostics);
   watch_signals();
   raise_file_limit();
+  share_freed_memory();
 
   std::optional<WorkNotice> notice{std::in_place, console, "planning " + reading.domain->id()};
   const auto session = make_session_study(reading, folder_of(options));
