@@ -102,8 +102,7 @@ if part "release: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKIT
 fi
 part "headers alone" configure_and_build release -- all_verify_interface_header_sets
 part "ASan: build" configure_and_build asan -- "${all_tests[@]/%/_tests}" && part "ASan: tests" run_tests asan
-part "TSan: build" configure_and_build tsan -- kith_core_tests kith_teaching_tests kith_study_tests kith_runs_tests \
-  kith_server_tests && part "TSan: tests" run_tests tsan
+part "TSan: build" configure_and_build tsan -- kith_{core,mdp,bec,teaching,study,runs,server}_tests && part "TSan: tests" run_tests tsan
 part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers && part "fuzzing" fuzz
 part "slow tests" slow_tests
 part "clang-tidy" configure_and_build tidy -- all

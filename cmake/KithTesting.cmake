@@ -6,6 +6,13 @@ target_include_directories(kith_testing INTERFACE ${PROJECT_SOURCE_DIR}/tests/su
 target_compile_options(kith_testing INTERFACE "$<$<CONFIG:Release>:-O0;-U_FORTIFY_SOURCE>")
 target_compile_definitions(kith_testing INTERFACE KITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 
+# What ThreadSanitizer is to see of programs that mostly use one thread.
+set(kith_threaded_mdp "PolicyPartition.*:PolicyLookup.*:PartitionStore.*")
+set(kith_threaded_bec "Behaviours.*")
+set(kith_threaded_teaching "SessionEvents.ThreadsShareAnAtlasAndHandCachesOn:SessionEvents.NeitherCacheNorThreadMatters")
+set(kith_threaded_study "AnyDomain.*:RunTeams.*:Teams.*")
+set(kith_threaded_runs "StudyRunTest.*:ShardTest.*")
+
 # kith_test_program(<name> SOURCES a_test.cpp ... [DEPENDS lib ...])
 #
 # The program kith_<name>_tests; its tests appear in ctest as <name>.Suite.Test
@@ -23,7 +30,11 @@ function(kith_test_program name)
     # Seconds otherwise, minutes here; what they call is also called by quick tests.
     string(APPEND slow_suites ":Recovery.*:SolidAngleInDimensions.IsAdditive*:SolidAngleInDimensions.AgreesWithCounting*"
            ":ConeSampler.CoversMore*:ConeSampler.DrawsUniformly*")
-    add_test(NAME ${name} COMMAND ${program} --gtest_brief=1 --gtest_filter=-${slow_suites})
+    set(quick "-${slow_suites}")
+    if(KITH_SANITIZE STREQUAL thread AND DEFINED kith_threaded_${name})
+      set(quick "${kith_threaded_${name}}-${slow_suites}")
+    endif()
+    add_test(NAME ${name} COMMAND ${program} --gtest_brief=1 --gtest_filter=${quick})
     add_test(NAME ${name}.slow COMMAND ${program} --gtest_brief=1 --gtest_filter=${slow_suites})
     set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 1200)
     set_tests_properties(${name}.slow PROPERTIES LABELS slow TIMEOUT 7200)

@@ -35,7 +35,7 @@ struct TestRow {
   std::size_t seat = 0;
   std::size_t member = 0;
   const AnswerRow* answer = nullptr;
-  auto key() const { return std::tuple{period, test, member, seat}; }
+  [[nodiscard]] auto key() const { return std::tuple{period, test, member, seat}; }
 };
 
 // The writers of all tables; hashes what they write.

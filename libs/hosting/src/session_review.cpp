@@ -50,7 +50,7 @@ bool erase_person(const std::string& type, Json& body, const std::optional<std::
   if (type == "named") return blank("name", kErased);
   if (type == "seated") {
     const auto name = body.find("name");
-    const bool has_name = name != body.end() && *name != "" && blank("name", kErased);
+    const bool has_name = name != body.end() && *name != Json(std::string{}) && blank("name", kErased);
     return blank("query", Json::object()) || has_name;
   }
   if (type == "consented" || type == "turned-away") return blank("query", Json::object());

@@ -4,7 +4,8 @@
 
 namespace kith {
 
-Strands::Strands(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy)
+Strands::Strands(const std::shared_ptr<const Atlas>& atlas, std::size_t threads, std::size_t cache_bytes,
+                 BusyCount& busy)
     : busy_{busy} {
   const auto store = std::make_shared<PartitionStore>(*atlas);
   for (std::size_t i = 0; i < threads; ++i)

@@ -21,7 +21,7 @@ class Strands {
  public:
   using Job = std::function<void(TeachingCache& cache)>;
 
-  Strands(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy);
+  Strands(const std::shared_ptr<const Atlas>& atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy);
   // Does what has been posted.
   ~Strands();
   Strands(const Strands&) = delete;

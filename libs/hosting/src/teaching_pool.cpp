@@ -9,7 +9,7 @@ constexpr std::size_t kMostWaiting = 64;  // each keeps a copy of a session
 
 }  // namespace
 
-TeachingPool::TeachingPool(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes,
+TeachingPool::TeachingPool(const std::shared_ptr<const Atlas>& atlas, std::size_t threads, std::size_t cache_bytes,
                            BusyCount& busy)
     : busy_{busy} {
   const auto store = std::make_shared<PartitionStore>(*atlas);

@@ -21,7 +21,8 @@ class TeachingPool {
   using Job = std::function<void(TeachingCache& cache)>;
   enum class Urgency { kNow, kAhead };
 
-  TeachingPool(std::shared_ptr<const Atlas> atlas, std::size_t threads, std::size_t cache_bytes, BusyCount& busy);
+  TeachingPool(const std::shared_ptr<const Atlas>& atlas, std::size_t threads, std::size_t cache_bytes,
+               BusyCount& busy);
   ~TeachingPool() { stop(); }
   TeachingPool(const TeachingPool&) = delete;
   TeachingPool& operator=(const TeachingPool&) = delete;

@@ -161,7 +161,7 @@ class RoomChange {
     const auto test = event_.body.at("test").get<std::size_t>();
     auto judged = judged_path(*study_.atlas, state_.session->lesson().tests.at(test).demo, actions());
     person.paths.at(test) =
-        GivenPath{actions(), judged.is_finished, std::move(judged.counts), event_.body.at("ms").get<std::int64_t>()};
+        GivenPath{actions(), judged.is_finished, judged.counts, event_.body.at("ms").get<std::int64_t>()};
     person.draft.clear();
     person.since_us = event_.at_us;
     if (current_test(person) == person.paths.size()) step_.give_answers(actor());

@@ -151,7 +151,7 @@ class SeatDecider {
     Json answers = Json::object();
     for (const auto& question : room_.study.group().questions) {
       const auto value = given->find(question.id);
-      const bool is_missing = value == given->end() || value->is_null() || *value == "";
+      const bool is_missing = value == given->end() || value->is_null() || *value == Json(std::string{});
       if (is_missing) {
         if (question.required) {
           return refused("missing-answer", "Please answer every question that is marked as required.");

@@ -193,7 +193,7 @@ class Page {
     if (!figures.empty()) out_ += "<div class=\"boards\">\n" + figures + "</div>\n";
   }
 
-  std::string figure(DemoIndex demo, const std::string& purpose, const std::string& text) const {
+  [[nodiscard]] std::string figure(DemoIndex demo, const std::string& purpose, const std::string& text) const {
     const auto id = atlas_.id(demo);
     const auto path = atlas_.trajectory(demo);
     const auto caption =

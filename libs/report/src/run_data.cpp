@@ -181,7 +181,7 @@ class DataReader {
       estimates.actual.push_back(ability);
       estimates.estimated.push_back(fraction(row, 3));
       estimates.within += ability >= row.real(4) && ability <= row.real(5) ? 1u : 0u;
-      const auto word = row.text(6);
+      const auto& word = row.text(6);
       if (word != "proficient" && word != "not proficient") return;
       const double from = run_.study.variants[row.address().variant].proficient_ability;
       ++estimates.told;
