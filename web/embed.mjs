@@ -71,7 +71,7 @@ for (const positional of positionals) {
 const constants = assets.map(
   ({ body, gzip }, i) =>
     `constexpr std::string_view kBody${i}{${literal(body)}, ${body.length}};\n` +
-    `constexpr std::string_view kGzip${i}{${literal(gzip)}, ${gzip.length}};\n`,
+    `constexpr std::string_view kGzip${i}{${gzip.length ? `${literal(gzip)}, ${gzip.length}` : ""}};\n`,
 );
 const rows = assets.map(
   ({ path, type, etag }, i) => `    {"${path}", "${type}", "${etag}", kBody${i}, kGzip${i}},\n`,
