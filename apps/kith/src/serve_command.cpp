@@ -120,7 +120,7 @@ void raise_file_limit() {
 // server had been restarted for 139.
 void share_freed_memory() {
 #ifdef M_ARENA_MAX
-  mallopt(M_ARENA_MAX, 2);
+  mallopt(M_ARENA_MAX, 2);  // NOLINT(concurrency-mt-unsafe): before there are other threads
 #endif
 }
 
