@@ -32,7 +32,7 @@ ensure_packages "${packages_to_build[@]}"
 tests=()
 # Without GoogleTest there is nothing to test with; a folder that test.sh has made stays as it is.
 [[ -e build/release/build.ninja ]] || tests=(-DKITH_BUILD_TESTS=OFF)
-configure_and_build release "${tests[@]}" -- kith
+configure_and_build release "${tests[@]}" -- kith kith_manual  # all that cmake --install installs
 kith=$root/build/release/bin/kith
 
 case ${1:-} in
