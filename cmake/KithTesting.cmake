@@ -13,13 +13,15 @@ set(kith_threaded_teaching "SessionEvents.ThreadsShareAnAtlasAndHandCachesOn:Ses
 set(kith_threaded_study "AnyDomain.*:RunTeams.*:Teams.*")
 set(kith_threaded_runs "StudyRunTest.*:ShardTest.*")
 
+# Programs that take long, and the number of processes that share their tests where a program is not split by test.
+set(kith_processes_cli 6)
+
 # kith_test_program(<name> SOURCES a_test.cpp ... [DEPENDS lib ...])
 #
-# The program kith_<name>_tests; its tests appear in ctest as <name>.Suite.Test
-# with the label <name>. Suites whose name contains "Slow" have the label `slow`
-# instead, which the normal run of the tests leaves out. Under sanitizers a
-# program is one test: starting it anew for each of its tests, which then make
-# the same atlas again, took longer than the tests.
+# The program kith_<name>_tests. Where files are compiled many at a time (the presets release, asan and tsan) it is one
+# test, <name>, or a few that share its tests: starting it anew for each of its tests, which then make the same atlas
+# again, takes longer than the tests. Elsewhere every test of it is a test of ctest: <name>.Suite.Test. The label is
+# <name>. Suites whose name contains "Slow" have the label `slow` instead, which the normal run of the tests leaves out.
 function(kith_test_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
   set(program kith_${name}_tests)
@@ -30,19 +32,36 @@ function(kith_test_program name)
     # Seconds otherwise, minutes here; what they call is also called by quick tests.
     string(APPEND slow_suites ":Recovery.*:SolidAngleInDimensions.IsAdditive*:SolidAngleInDimensions.AgreesWithCounting*"
            ":ConeSampler.CoversMore*:ConeSampler.DrawsUniformly*")
-    set(quick "-${slow_suites}")
-    if(KITH_SANITIZE STREQUAL thread AND DEFINED kith_threaded_${name})
-      set(quick "${kith_threaded_${name}}-${slow_suites}")
-    endif()
-    add_test(NAME ${name} COMMAND ${program} --gtest_brief=1 --gtest_filter=${quick})
-    add_test(NAME ${name}.slow COMMAND ${program} --gtest_brief=1 --gtest_filter=${slow_suites})
-    set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 1200)
-    set_tests_properties(${name}.slow PROPERTIES LABELS slow TIMEOUT 7200)
-    return()
+  endif()
+  set(quick "-${slow_suites}")
+  if(KITH_SANITIZE STREQUAL thread AND DEFINED kith_threaded_${name})
+    set(quick "${kith_threaded_${name}}-${slow_suites}")
   endif()
   set(discovery TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES)
-  gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_quick TEST_FILTER "-${slow_suites}"
-    PROPERTIES LABELS ${name} TIMEOUT 120)
-  gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_slow TEST_FILTER "${slow_suites}"
-    PROPERTIES LABELS slow TIMEOUT 1800)
+  if(KITH_SANITIZE)
+    add_test(NAME ${name}.slow COMMAND ${program} --gtest_brief=1 --gtest_filter=${slow_suites})
+    set_tests_properties(${name}.slow PROPERTIES LABELS slow TIMEOUT 7200)
+  else()
+    gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_slow TEST_FILTER "${slow_suites}"
+      PROPERTIES LABELS slow TIMEOUT 1800)
+  endif()
+  if(NOT CMAKE_UNITY_BUILD)
+    gtest_discover_tests(${program} ${discovery} TEST_LIST ${program}_quick TEST_FILTER "${quick}"
+      PROPERTIES LABELS ${name} TIMEOUT 120)
+    return()
+  endif()
+  set(processes 1)
+  if(DEFINED kith_processes_${name})
+    set(processes ${kith_processes_${name}})
+  endif()
+  foreach(process RANGE 1 ${processes})
+    set(test ${name})
+    if(processes GREATER 1)
+      string(APPEND test .${process})
+    endif()
+    math(EXPR shard "${process} - 1")
+    add_test(NAME ${test} COMMAND ${program} --gtest_brief=1 --gtest_filter=${quick})
+    set_tests_properties(${test} PROPERTIES LABELS ${name} TIMEOUT 1200
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${processes};GTEST_SHARD_INDEX=${shard}")
+  endforeach()
 endfunction()
