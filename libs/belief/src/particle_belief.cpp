@@ -123,12 +123,7 @@ void ParticleBelief::observe(std::span<const HalfSpace> half_spaces, const HalfS
   if (half_spaces.empty() || is_constant(likelihood)) return;
   detail::ParticleScratch<double> factors{size()};
   weigh(half_spaces, likelihood, factors.values());
-  if (!keeps_product()) {
-    const double fitting = support(factors.values());
-    reweigh(factors.values(), random);
-    least_support_ = std::min(least_support_, fitting);
-    return;
-  }
+  if (!keeps_product()) return reweigh_and_record(factors.values(), random);
   observe_in_product(half_spaces, likelihood, factors.values(), random);
 }
 
@@ -244,9 +239,7 @@ void ParticleBelief::observe_any(std::span<const std::vector<HalfSpace>> alterna
     weigh(alternative, likelihood, factors.values());
     detail::raise(factors.values(), best.values());
   }
-  const double fitting = support(best.values());
-  reweigh(best.values(), random);
-  least_support_ = std::min(least_support_, fitting);
+  reweigh_and_record(best.values(), random);
 }
 
 // The effective number of points that satisfy all half-spaces: their factor is exactly 1, and its logarithm 0. Where
@@ -262,6 +255,13 @@ double ParticleBelief::support(std::span<const double> log_factors) const noexce
     sum_of_squares += weight * weight;
   }
   return sum_of_squares > 0.0 ? sum * sum / sum_of_squares : 0.0;
+}
+
+void ParticleBelief::reweigh_and_record(std::span<double> factors, RandomStream random) {
+  if (!options_.records_support) return reweigh(factors, random);
+  const double fitting = support(factors);
+  reweigh(factors, random);
+  least_support_ = std::min(least_support_, fitting);
 }
 
 // `factors` becomes the new log weights; nothing else changes before it is sure that some particle remains.

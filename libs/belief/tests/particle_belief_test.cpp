@@ -108,7 +108,9 @@ TEST(ParticleBelief, RemembersHowFewPointsSatisfiedWhatWasShown) {
   const HalfSpaceLikelihood likelihood{0.95};
   const std::vector<HalfSpace> quarter{HalfSpace{{1, 0, 0}}, HalfSpace{{0, 1, 0}}};
   const std::vector<HalfSpace> strip{HalfSpace{{1, 0, 0}}, HalfSpace{{-9, 10, 0}}};
-  ParticleBelief belief{lower_hemisphere(), kWeighOnly};
+  auto options = kWeighOnly;
+  options.records_support = true;
+  ParticleBelief belief{lower_hemisphere(), options};
   EXPECT_EQ(belief.least_support(), 1000.0);
   const double in_quarter = belief.mass_in(quarter) * 1000.0;
   const double in_strip = belief.mass_in(strip) * 1000.0;
@@ -132,7 +134,7 @@ TEST(ParticleBelief, CountsNoSupportWherePointsAreRenewed) {
   const auto prior = Cone::intersection(std::vector<HalfSpace>{HalfSpace{IntegerVector{0, 0, 0, -1}}}).value();
   const std::vector<HalfSpace> narrow{HalfSpace{IntegerVector{1, 0, 0, 0}}, HalfSpace{IntegerVector{-9, 10, 0, 0}}};
   for (const double noise : {0.1, 0.0}) {
-    ParticleBelief belief{prior, {.particles = 500, .process_noise = noise}};
+    ParticleBelief belief{prior, {.particles = 500, .process_noise = noise, .records_support = true}};
     belief.observe(narrow, HalfSpaceLikelihood{0.9, LikelihoodForm::kDiscontinuous, 4}, RandomStream{1});
     EXPECT_EQ(belief.least_support() == 500.0, noise > 0.0);
   }
@@ -150,7 +152,7 @@ TEST(ParticleBelief, TellsAFalsePriorByItsSupport) {
   std::size_t stuck = 0, impoverished = 0;
   for (std::uint64_t person = 0; person < 120; ++person) {
     for (const bool is_misled : {false, true}) {
-      ParticleBelief belief{cover, {}};
+      ParticleBelief belief{cover, {.records_support = true}};
       std::uint64_t event = 0;
       const auto show = [&](std::span<const HalfSpace> half_spaces, double ability, int times) {
         for (int i = 0; i < times; ++i) {

@@ -250,7 +250,9 @@ std::vector<HalfSpace> known_by_chance(double probability, const std::vector<std
 
 std::unique_ptr<Learner> make_bayesian(const ParameterValues& values, std::span<const double> traits,
                                        const LearnerStart& start, RandomStream random) {
-  const FilterOptions filter{.particles = num_particles(values), .process_noise = values.real("process_noise")};
+  const FilterOptions filter{.particles = num_particles(values),
+                             .process_noise = values.real("process_noise"),
+                             .records_support = start.records_support};
   const auto person = person_of(values, traits);
   ParticleBelief belief{start.cover(filter.particles), filter};
   if (values.real("known") > 0.0 && start.components) {

@@ -41,7 +41,8 @@ std::unique_ptr<Learner> make_learner(const StudySpec& spec, const LearnerType& 
   const LearnerStart start{
       .cover = [&](std::size_t num_points) -> const PriorCover& { return cache.cover(prior, num_points); },
       .likelihood = spec.teaching.likelihood,
-      .components = [&] { return constraints_of_components(atlas); }};
+      .components = [&] { return constraints_of_components(atlas); },
+      .records_support = spec.beliefs};
   return type.model->make(type.parameters, traits, start, person.split("learner"));
 }
 

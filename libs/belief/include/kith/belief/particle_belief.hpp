@@ -18,6 +18,7 @@ struct FilterOptions {
   std::size_t particles = 1000;  ///< M >= 1.
   double process_noise = 0.1;    ///< eta: bandwidth factor a >= 0 of the kernel after resampling.
   double resample_below = 0.5;   ///< Resample when effective sample size / M is below this; in [0, 1].
+  bool records_support = false;  ///< Whether least_support() is kept, at one pass over the points per update.
   friend bool operator==(const FilterOptions&, const FilterOptions&) = default;
 };
 
@@ -119,7 +120,7 @@ class ParticleBelief {
   /// (sum p_i)^2 / sum p_i^2 over these points. size() before any update; 0 if no point satisfied them.
   /// Where it is below kFewParticles the belief is impoverished: what it holds from then on depends on which few points
   /// happened to fit. Updates of a product of likelihoods above three dimensions do not count, since there stages and
-  /// slice moves renew the points, nor do updates that all points satisfy. Costs one pass over the points per update.
+  /// slice moves renew the points, nor do updates that all points satisfy. size() unless FilterOptions::records_support.
   [[nodiscard]] double least_support() const noexcept { return least_support_; }
 
   /// How often this belief was resampled so far.
@@ -133,6 +134,7 @@ class ParticleBelief {
   void weigh(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood,
              std::span<double> factors) const;
   [[nodiscard]] double support(std::span<const double> log_factors) const noexcept;
+  void reweigh_and_record(std::span<double> log_factors, RandomStream random);
   void reweigh(std::span<double> log_factors, RandomStream random);
   [[nodiscard]] double effective_size(double sum, double sum_of_squares) const noexcept;
   void resample(double sum, RandomStream& random);

@@ -38,6 +38,7 @@ struct LearnerStart {
   LikelihoodForm likelihood = LikelihoodForm::kDiscontinuous;  ///< As in `teacher.likelihood`.
   /// The constraints of every knowledge component, for people who know some of them; may be empty.
   std::function<std::vector<std::vector<HalfSpace>>()> components{};
+  bool records_support = false;  ///< As in FilterOptions.
 };
 
 /// A kind of simulated learner: a row of the registry. To add one, see docs/adding-a-learner.md.
