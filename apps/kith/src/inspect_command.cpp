@@ -64,6 +64,12 @@ class Inspection {
     constraints(atlas_.policy_bec_half_spaces(), "  ");
     out_ += fmt::format("  {}; the prior has {}\n", area_text(atlas_.policy_bec_area()),
                         area_text(atlas_.prior_cone().measure()));
+    if (const auto left = atlas_.regret_left()) {
+      out_ += fmt::format(
+          "  an estimate, as the robot's paths from these starts do not meet every state: people within it keep\n"
+          "  {:.2g} % of the regret that people have before any lesson\n",
+          100.0 * *left);
+    }
   }
 
   void components() {

@@ -25,6 +25,7 @@ class AtlasBuilder {
  private:
   void choose_source(BehaviourSource source);
   void plan();
+  void order_features();
   void describe_paths(MdpIndex m, const RobotPlan& robot);
   void collect_one_step(MdpIndex m, const RobotPlan& robot);
   [[nodiscard]] std::vector<bool> on_candidates_paths(MdpIndex m, const RobotPlan& robot) const;
@@ -52,6 +53,14 @@ class AtlasBuilder {
   void index_tests();
   void average_dissimilarities();
 
+  // Whether the file's feature a comes before b in an order that does not depend on the file's.
+  [[nodiscard]] bool is_before(std::size_t a, std::size_t b) const { return rank_[a] < rank_[b]; }
+  // The same for half-spaces: by their normals, entry by entry in that order.
+  [[nodiscard]] bool is_before(const HalfSpace& a, const HalfSpace& b) const;
+  // People who cover the region of a set of constraints evenly, shape [d, n], the same whatever the order of the file's
+  // features. @pre the region has interior.
+  [[nodiscard]] Eigen::MatrixXd people_within(const ConstraintSet& set, std::size_t n) const;
+
   // Positions of the demonstrations that may be shown or asked.
   [[nodiscard]] std::vector<std::size_t> candidates() const;
   [[nodiscard]] Atlas::Demo& demo(MdpIndex m, StateIndex s) {
@@ -70,6 +79,8 @@ class AtlasBuilder {
   using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, IntsHash>;
 
   Atlas& atlas_;
+  std::vector<std::size_t> order_;  // the features in an order that does not depend on the file's
+  std::vector<std::size_t> rank_;   // where each feature stands in it
   // What paths show grows with their length.
   MemoryGuard memory_{"going on to collect what the robot's paths show", "use a smaller map or fewer features"};
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.

@@ -45,9 +45,9 @@ void AtlasBuilder::make_components() {
   const auto& z = atlas_.mask_counters_;
   std::vector<std::size_t> order(z.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // Among equal counters the later feature comes first; the first is the reference, as the step is last.
+  // Among equal counters the step comes first, as the reference.
   std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return z[a] != z[b] ? z[a] > z[b] : a > b; });
+            [&](std::size_t a, std::size_t b) { return z[a] != z[b] ? z[a] > z[b] : is_before(b, a); });
   const std::size_t reference = order.front();
   order.erase(order.begin());
   std::vector<KnowledgeComponent> parts;
@@ -68,7 +68,9 @@ std::vector<std::vector<std::size_t>> AtlasBuilder::trade_offs(const std::vector
   if (order.size() < 2) return found;
   for (const std::size_t k : order) found.push_back({k});
   if (order.size() + 1 <= kMostInOrder) return found;
-  for (const auto& facet : atlas_.policy_bec_half_spaces_) {
+  auto facets = atlas_.policy_bec_half_spaces_;
+  std::sort(facets.begin(), facets.end(), [&](const auto& a, const auto& b) { return is_before(a, b); });
+  for (const auto& facet : facets) {
     std::vector<std::size_t> features;
     for (std::size_t k = 0; k < facet.dimension(); ++k) {
       if (k != reference && facet.normal()[k] != 0) features.push_back(k);
@@ -89,7 +91,7 @@ std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeCo
   auto taught = atlas_.prior_;
   std::optional<double> at_first;
   while (!candidates.empty() && chosen.size() <= atlas_.domain_.num_features()) {
-    const Eigen::MatrixXd people = people_within(atlas_.constraints_, taught, kPeople);
+    const Eigen::MatrixXd people = people_within(taught, kPeople);
     std::vector<double> lost;
     for (Eigen::Index i = 0; i < people.cols(); ++i) lost.push_back(regret.of(people.col(i)));
     const double before = std::accumulate(lost.begin(), lost.end(), 0.0) / static_cast<double>(kPeople);
@@ -110,7 +112,7 @@ std::vector<KnowledgeComponent> AtlasBuilder::worth_most(std::vector<KnowledgeCo
         inside += knows ? 1.0 : 0.0;
       }
       if (inside < static_cast<double>(kFewPeople)) {
-        const Eigen::MatrixXd others = people_within(atlas_.constraints_, after, kFewPeople);
+        const Eigen::MatrixXd others = people_within(after, kFewPeople);
         for (Eigen::Index p = 0; p < others.cols(); ++p) sum += regret.of(others.col(p));
         inside += static_cast<double>(others.cols());
       }
@@ -132,7 +134,7 @@ bool AtlasBuilder::is_of_use(const KnowledgeComponent& component) const {
   const auto& domain = atlas_.domain_;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     const bool has_all = std::all_of(component.features.begin(), component.features.end(),
-                                     [&](std::size_t k) { return domain.has_feature(m, k); });
+                                     [&](std::size_t k) { return domain.mdp(m).has_feature(k); });
     if (component.uses_mdp[m.value()] && has_all) return true;
   }
   return false;
@@ -152,7 +154,7 @@ KnowledgeComponent AtlasBuilder::component(std::vector<std::size_t> features, st
   }
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
     result.uses_mdp.push_back(std::none_of(result.masked.begin(), result.masked.end(),
-                                           [&](std::size_t k) { return domain.has_feature(m, k); }));
+                                           [&](std::size_t k) { return domain.mdp(m).has_feature(k); }));
   }
   auto all = atlas_.no_constraints();
   for (const std::size_t i : candidates()) {

@@ -29,7 +29,8 @@ struct Erring {
 };
 
 // The half-space by which most of the regret is excluded, if there is any; of equal ones the first.
-std::optional<HalfSpace> most_telling(const std::set<HalfSpace>& candidates, const std::vector<Erring>& people) {
+template <typename Candidates>
+std::optional<HalfSpace> most_telling(const Candidates& candidates, const std::vector<Erring>& people) {
   std::optional<HalfSpace> best;
   double most = 0.0;
   for (const HalfSpace& candidate : candidates) {
@@ -42,13 +43,21 @@ std::optional<HalfSpace> most_telling(const std::set<HalfSpace>& candidates, con
   return best;
 }
 
+// Regret of the people in the columns [first, people.cols()), in all.
+double regret_of(PeopleRegret& regret, const Eigen::MatrixXd& people, Eigen::Index first) {
+  double sum = 0.0;
+  for (Eigen::Index i = first; i < people.cols(); ++i) sum += regret.of(people.col(i));
+  return sum;
+}
+
 }  // namespace
 
 // If candidates' paths meet every state, nobody who satisfies all one-step constraints errs anywhere: a policy that no
 // single deviation improves is optimal. Elsewhere a better path may need two deviations, the second from a state that
 // no path meets. People who satisfy what is known so far show such paths: the robot's is compared with theirs, the
 // comparisons that exclude most regret are added to what is known, and so on, until hardly any regret is left. Each
-// start shows those comparisons with paths from there that follow from what is known in the end.
+// start shows those comparisons with paths from there that follow from what is known in the end. How much regret is
+// left then is measured with people who had no part in that.
 void AtlasBuilder::compare_whole_paths() {
   if (atlas_.tabulated_ || paths_meet_all_states_) return;
   PeopleRegret regret{atlas_, kManyStarts};
@@ -63,11 +72,13 @@ void AtlasBuilder::compare_whole_paths() {
     if (half_space) shown[mistake.start.value()].insert(*half_space);
     return half_space;
   };
-  std::optional<double> tolerated;
+  const Eigen::MatrixXd anybody = people_within(atlas_.prior_, kPathPeople);
+  const double before = regret_of(regret, anybody, 0);
   for (std::size_t round = 0; round < kMostRounds; ++round) {
-    const Eigen::MatrixXd cover = people_within(atlas_.constraints_, known, kPathPeople);
+    const Eigen::MatrixXd cover = people_within(known, kPathPeople);
     std::vector<Erring> people;
-    std::set<HalfSpace> candidates;
+    const auto in_order = [&](const HalfSpace& a, const HalfSpace& b) { return is_before(a, b); };
+    std::set<HalfSpace, decltype(in_order)> candidates{in_order};
     double left = 0.0;
     for (Eigen::Index i = 0; i < cover.cols(); ++i) {
       Erring one{cover.col(i), 0.0};
@@ -81,17 +92,13 @@ void AtlasBuilder::compare_whole_paths() {
       if (one.regret > 0.0) people.push_back(std::move(one));
     }
     if (people.empty()) break;
-    if (!tolerated) {
-      const Eigen::MatrixXd anybody = people_within(atlas_.constraints_, atlas_.prior_, kPathPeople);
-      double before = 0.0;
+    if (round == 0) {
       for (Eigen::Index i = 0; i < anybody.cols(); ++i) {
-        before += regret.of(anybody.col(i));
         for (const auto& mistake : regret.mistakes(anybody.col(i))) meet(mistake);
       }
-      tolerated = kToleratedShare * before;
     }
     bool is_new = false;
-    while (left > *tolerated) {
+    while (left > kToleratedShare * before) {
       const auto telling = most_telling(candidates, people);
       if (!telling) break;
       const auto number = atlas_.constraints_.add(*telling);
@@ -107,6 +114,8 @@ void AtlasBuilder::compare_whole_paths() {
     if (!is_new) break;
     known = regions.minimal(known);
   }
+  const double after = regret_of(regret, people_within(known, 2 * kPathPeople), kPathPeople);
+  atlas_.regret_left_ = before > 0.0 ? after / before : 0.0;
   if (shown.empty()) return;
   const auto region = Cone::intersection(atlas_.constraints_.half_spaces(known));
   KITH_ASSERT(region.has_value());  // the robot's weights lie inside

@@ -74,7 +74,7 @@ void AtlasBuilder::group_by_hulls() {
     hulls.erase(std::unique(hulls.begin(), hulls.end()), hulls.end());
     auto key = hulls;
     for (std::size_t k = 0; k < domain.num_features(); ++k) {
-      key.push_back(domain.has_feature(atlas_.demos_[i].id.mdp, k) ? -1 : -2);
+      key.push_back(domain.mdp(atlas_.demos_[i].id.mdp).has_feature(k) ? -1 : -2);
     }
     const auto [place, is_new] = index.try_emplace(std::move(key), atlas_.classes_.size());
     if (is_new) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "kith/core/assert.hpp"
-#include "kith/geometry/cone_sampler.hpp"
 #include "kith/random/stream.hpp"
 
 namespace kith {
@@ -23,12 +21,6 @@ std::vector<std::size_t> some_of(std::size_t n, std::size_t most, const RandomSt
 }
 
 }  // namespace
-
-Eigen::MatrixXd people_within(const ConstraintTable& constraints, const ConstraintSet& set, std::size_t n) {
-  const auto cone = Cone::intersection(constraints.half_spaces(set));
-  KITH_ASSERT(cone.has_value());
-  return ConeSampler{*cone}.cover(n);
-}
 
 PeopleRegret::PeopleRegret(const Atlas& atlas, const Sample& sample) : atlas_{&atlas}, behaviours_{atlas} {
   const Domain& domain = atlas.domain();

@@ -4,13 +4,8 @@
 
 #include "kith/bec/atlas.hpp"
 #include "kith/bec/behaviours.hpp"
-#include "kith/geometry/cone.hpp"
 
 namespace kith {
-
-// People who cover the region of a set of constraints evenly, shape [d, n]. @pre the region has interior.
-[[nodiscard]] Eigen::MatrixXd people_within(const ConstraintTable& constraints, const ConstraintSet& set,
-                                            std::size_t n);
 
 // How much people lose against the robot, on a sample of the starts: what not knowing something costs.
 class PeopleRegret {

@@ -158,7 +158,7 @@ TEST(Navigation, IsTaughtInFewPartsThatFollowFromThePolicy) {
     for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
       has_world = has_world || (component.uses_mdp[m.value()] &&
                                 std::all_of(component.features.begin(), component.features.end(),
-                                            [&](std::size_t k) { return domain.has_feature(m, k); }));
+                                            [&](std::size_t k) { return domain.mdp(m).has_feature(k); }));
     }
     EXPECT_TRUE(has_world) << component.name;
   }

@@ -117,6 +117,14 @@ TEST(WholePaths, LeaveHardlyAnyRegretInTheWarehouse) {
   const auto after = predictions_within(warehouse, warehouse.policy_bec(), 40);
   EXPECT_LT(after.regret, 0.02 * before.regret);
   EXPECT_GT(after.share_right, 0.95);
+  ASSERT_TRUE(warehouse.regret_left().has_value());
+  EXPECT_LT(*warehouse.regret_left(), 0.02);
+}
+
+TEST(WholePaths, AreSaidToBeAnEstimateWithItsSize) {
+  EXPECT_EQ(mud().regret_left(), 0.0);
+  EXPECT_FALSE((Atlas{muddy_domain(kMud), BehaviourSource::kOnDemand}.regret_left().has_value()));
+  EXPECT_FALSE(Atlas{load_domain("item-delivery")}.regret_left().has_value());
 }
 
 }  // namespace

@@ -150,12 +150,6 @@ std::vector<OptionalGroup> Domain::optional_groups() const {
   return groups;
 }
 
-bool Domain::has_feature(MdpIndex m, std::size_t k) const {
-  const Mdp& mdp = mdp_of(*data_, m, "Domain::has_feature");
-  if (k >= num_features()) throw std::invalid_argument{"Domain::has_feature: there is no feature " + std::to_string(k)};
-  return k + 1 == num_features() || mdp.has_feature(k);
-}
-
 namespace {
 
 int complexity_of(const GridFamily& grid, DemoId demo) {

@@ -159,8 +159,8 @@ TEST(ExplicitModel, HoldsSeveralMdpsThatShareStates) {
   EXPECT_TRUE(domain.variant(kFirst).empty());
   EXPECT_EQ(domain.num_starts(), 4u);
   EXPECT_TRUE(domain.mdp(kFirst).is_deterministic());
-  EXPECT_FALSE(domain.has_feature(kFirst, 0));
-  EXPECT_TRUE(domain.has_feature(MdpIndex{1}, 0));
+  EXPECT_FALSE(domain.mdp(kFirst).has_feature(0));
+  EXPECT_TRUE(domain.mdp(MdpIndex{1}).has_feature(0));
 }
 
 TEST(ExplicitModel, HoldsMdpsWithStatesOfTheirOwn) {

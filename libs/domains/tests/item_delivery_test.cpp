@@ -41,9 +41,9 @@ TEST_F(ItemDelivery, HasTheStatesOfThePaper) {
   EXPECT_EQ(domain.num_starts(), 9'312u);
   for (std::size_t m = 0; m < 64; ++m) {
     EXPECT_EQ(domain.mdp(MdpIndex{m}).num_states(), m % 2 == 0 ? 100u : 191u);  // the last bit is the charger
-    EXPECT_TRUE(domain.has_feature(MdpIndex{m}, 2));
-    EXPECT_EQ(domain.has_feature(MdpIndex{m}, 1), m % 2 == 1);
-    EXPECT_EQ(domain.has_feature(MdpIndex{m}, 0), m > 1);
+    EXPECT_TRUE(domain.mdp(MdpIndex{m}).has_feature(2));
+    EXPECT_EQ(domain.mdp(MdpIndex{m}).has_feature(1), m % 2 == 1);
+    EXPECT_EQ(domain.mdp(MdpIndex{m}).has_feature(0), m > 1);
   }
 }
 
@@ -115,7 +115,7 @@ class ItemDeliveryReference : public ItemDelivery {
       const auto m = env.at("env_idx").get<std::size_t>();
       const Mdp& mdp = domain.mdp(MdpIndex{m});
       for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(domain.has_feature(MdpIndex{m}, k), env.at("reward_features_present").at(k).get<bool>());
+        EXPECT_EQ(mdp.has_feature(k), env.at("reward_features_present").at(k).get<bool>());
       }
       for (const auto& start : env.at("starts")) {
         const auto s = domain.map()->find_state(MdpIndex{m}, state_of(start.at("state")));

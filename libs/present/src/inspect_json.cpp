@@ -71,7 +71,9 @@ Json inspection_json(const Atlas& atlas, const InspectionContent& content) {
   const auto& coverage = atlas.coverage();
   auto document = inspection_json(domain);
   document["bec"] = {{"constraints", to_json(atlas.policy_bec_half_spaces(), d)},
-                     {"area_sr", atlas.policy_bec_area_sr()}};
+                     {"area_sr", atlas.policy_bec_area_sr()},
+                     {"area_error", atlas.policy_bec_area().standard_error},
+                     {"regret_left", atlas.regret_left() ? Json(*atlas.regret_left()) : Json{}}};
   document["knowledge_components"] = components_to_json(atlas);
   document["mask_counters"] = atlas.mask_counters();
   if (atlas.is_tabulated()) {

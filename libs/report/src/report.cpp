@@ -1,6 +1,7 @@
 #include "kith/report/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "beliefs.hpp"
 #include "estimate_tables.hpp"
@@ -163,6 +164,16 @@ std::optional<Json> timings_table(const RunFiles& run, std::vector<std::string>&
 std::vector<double> mass_before(const RunFiles& run, const Atlas& atlas) {
   std::vector<double> masses;
   for (const auto& type : run.types()) {
+// Where the policy's class is an estimate, how good it is.
+void note_estimate(const Atlas& atlas, std::vector<std::string>& notes) {
+  const auto left = atlas.regret_left();
+  if (!left) return;
+  notes.push_back(
+      "The behaviour equivalence class of the policy is an estimate, because the robot's paths from the few "
+      "starts do not meet every state: people who satisfy it keep " +
+      shortest(std::round(1000.0 * *left) / 10.0) + " % of the regret that people have before any lesson.");
+}
+
     auto prior = atlas.prior_cone();
     if (type.prior) prior = Cone::intersection(*type.prior).value_or(prior);
     std::optional<PriorCover> cover;
@@ -312,6 +323,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   Json document{{"schema", "kith.report/1"},
                 {"title", spec.title.empty() ? spec.id : spec.title},
                 {"study", spec.id},
+  note_estimate(atlas, notes);
                 {"domain", run.domain.id()},
                 {"version", manifest_text(run, "version")},
                 {"created", manifest_text(run, "stopped")},

@@ -108,6 +108,10 @@ class Atlas {
   [[nodiscard]] double policy_bec_area_sr() const noexcept { return policy_bec_area_.value; }
   /// The same with its standard error.
   [[nodiscard]] const SolidAngle& policy_bec_area() const noexcept { return policy_bec_area_; }
+  /// Where the policy's BEC is an estimate, because candidates' paths do not meet every state and whole paths had to be
+  /// compared: the regret that 32 people keep who satisfy it and had no part in finding it, as a share of that of
+  /// people who know the prior only. Nothing where the BEC is exact.
+  [[nodiscard]] std::optional<double> regret_left() const noexcept { return regret_left_; }
   [[nodiscard]] const std::vector<KnowledgeComponent>& knowledge_components() const noexcept { return components_; }
   /// z_k: how many rows of all demonstrations' one-step minimal sets have a non-zero k-th entry, shape [d].
   [[nodiscard]] const std::vector<std::size_t>& mask_counters() const noexcept { return mask_counters_; }
@@ -213,6 +217,7 @@ class Atlas {
   ConstraintSet policy_bec_;
   std::vector<HalfSpace> policy_bec_half_spaces_;
   SolidAngle policy_bec_area_;
+  std::optional<double> regret_left_;
   std::vector<KnowledgeComponent> components_;
   std::vector<std::size_t> mask_counters_;
   std::vector<Hull> hulls_;

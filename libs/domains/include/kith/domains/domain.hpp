@@ -105,8 +105,6 @@ class Domain {
   [[nodiscard]] std::string describe_variant(MdpIndex m) const;
   /// The optional groups in the order of variant().
   [[nodiscard]] std::vector<OptionalGroup> optional_groups() const;
-  /// Whether feature k can occur in MDP m at all. The last feature counts as always present.
-  [[nodiscard]] bool has_feature(MdpIndex m, std::size_t k) const;
 
   /// A state in words, also a terminal one: "robot at (2,1), carrying the parcel". Cells are (column, row) from the top
   /// left, as in all messages. Without a map the name that the model gives it. @throws std::invalid_argument if there
