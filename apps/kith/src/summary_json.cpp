@@ -19,6 +19,7 @@ Json group_json(const CellSummary& cell, const Study& study) {
   }
   json["teams"] = cell.teams;
   json["completed"] = cell.completed;
+  json["skipped"] = cell.skipped;
   json["periods"] = mean_sd_json(cell.periods);
   json["knowledge"] = mean_sd_json(cell.knowledge);
   json["area_sr"] = mean_sd_json(cell.area_sr);

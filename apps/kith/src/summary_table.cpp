@@ -28,20 +28,27 @@ Figures figures_of(std::size_t num_features, const StudySummary& summary) {
   return std::all_of(summary.cells.begin(), summary.cells.end(), before) ? Figures::kExamBefore : Figures::kExam;
 }
 
-std::vector<std::string> header_of(Figures figures) {
+bool has_skipped(const StudySummary& summary) {
+  return std::any_of(summary.cells.begin(), summary.cells.end(), [](const auto& cell) { return cell.skipped > 0; });
+}
+
+std::vector<std::string> header_of(Figures figures, bool with_skipped) {
   std::vector<std::string> names{"teams", "completed", "periods"};
+  if (with_skipped) names.insert(names.begin() + 2, "skipped");
   if (figures == Figures::kKnowledge) {
     names.insert(names.end(), {"knowledge", "area/sr"});
     return names;
   }
   names.insert(names.end(), {"regret", "share right", "worst member"});
-  if (figures == Figures::kExamBefore) names.insert(names.begin() + 3, "regret before");
+  if (figures == Figures::kExamBefore) names.insert(names.end() - 3, "regret before");
   return names;
 }
 
-void add_row(TextTable& table, std::vector<std::string> keys, const CellSummary& cell, Figures figures) {
+void add_row(TextTable& table, std::vector<std::string> keys, const CellSummary& cell, Figures figures,
+             bool with_skipped) {
   keys.push_back(fmt::format("{}", cell.teams));
   keys.push_back(fmt::format("{}", cell.completed));
+  if (with_skipped) keys.push_back(fmt::format("{}", cell.skipped));
   keys.push_back(mean_sd_text(cell.periods, 2));
   if (figures == Figures::kKnowledge) {
     keys.push_back(mean_sd_text(cell.knowledge, 3));
@@ -69,6 +76,9 @@ std::string table_notes(const StudySummary& summary, Figures figures, const Cons
         "in the units of the domain's weights; share right: starts where they predict the robot correctly;\n"
         "worst member: the smallest share right of a member, averaged over teams";
   }
+  if (has_skipped(summary)) {
+    text += "\nskipped: teams that left a component out, because nothing that could be shown adds to what was taught";
+  }
   if (summary.group) text += "\nall groups: the teams of every strategy but the baseline, together";
   return console.dim(text) + "\n";
 }
@@ -79,7 +89,8 @@ std::string summary_table(const Study& study, std::size_t num_features, const St
                           const Console& console) {
   const auto& factors = study.variants.front().factors;
   const auto figures = figures_of(num_features, summary);
-  const auto names = header_of(figures);
+  const bool with_skipped = has_skipped(summary);
+  const auto names = header_of(figures, with_skipped);
   TextTable table{"ll" + std::string(factors.size(), 'l') + std::string(names.size(), 'r')};
   std::vector<std::string> header{"strategy", "composition"};
   for (const auto& factor : factors) header.push_back(factor.key);
@@ -88,16 +99,16 @@ std::string summary_table(const Study& study, std::size_t num_features, const St
   for (const auto& cell : summary.cells) {
     std::vector<std::string> keys{*cell.strategy, cell.composition};
     for (const auto& factor : study.variants[cell.variant].factors) keys.push_back(factor.value);
-    add_row(table, keys, cell, figures);
+    add_row(table, keys, cell, figures, with_skipped);
   }
   std::vector<std::string> all(2 + factors.size());
   if (summary.group) {
     all[0] = "all groups";
-    add_row(table, all, *summary.group, figures);
+    add_row(table, all, *summary.group, figures, with_skipped);
   }
   if (summary.baseline) {
     all[0] = "all baseline";
-    add_row(table, all, *summary.baseline, figures);
+    add_row(table, all, *summary.baseline, figures, with_skipped);
   }
   return table.text(console) + table_notes(summary, figures, console);
 }

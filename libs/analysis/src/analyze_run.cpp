@@ -13,7 +13,8 @@ namespace kith {
 namespace {
 
 std::string design_note(const RunTeams& teams) {
-  const auto cut_off = std::count(teams.completed.begin(), teams.completed.end(), false);
+  const auto skipped = std::count(teams.skipped.begin(), teams.skipped.end(), true);
+  const auto cut_off = std::count(teams.completed.begin(), teams.completed.end(), false) - skipped;
   std::string text =
       number_and_noun(teams.size(), "team") + ": " +
       (teams.strategy.levels.size() == 1 ? "1 strategy" : fmt::format("{} strategies", teams.strategy.levels.size())) +
@@ -23,6 +24,10 @@ std::string design_note(const RunTeams& teams) {
   if (cut_off > 0) {
     text += fmt::format("; {} reached the maximum number of periods unfinished and {} counted as {} stood", cut_off,
                         cut_off == 1 ? "is" : "are", cut_off == 1 ? "it" : "they");
+  }
+  if (skipped > 0) {
+    text += fmt::format("; {} left components out of which nothing could be shown, and {} counted likewise", skipped,
+                        skipped == 1 ? "is" : "are");
   }
   return text;
 }

@@ -67,7 +67,10 @@ RunTeams read_teams(const PublishedRun& run) {
   const auto keys = varied_keys(header);
   const bool has_exam =
       std::any_of(header.begin(), header.end(), [](const Column& one) { return one.name == kExamColumns.front(); });
+  const bool has_status =
+      std::any_of(header.begin(), header.end(), [](const Column& one) { return one.name == "status"; });
   auto wanted = kTeamColumns;
+  if (has_status) wanted.emplace_back("status");
   wanted.insert(wanted.end(), keys.begin(), keys.end());
   if (has_exam) wanted.insert(wanted.end(), kExamColumns.begin(), kExamColumns.end());
   const auto data = Dataset::parse(text, file.string(), wanted);
@@ -86,6 +89,9 @@ RunTeams read_teams(const PublishedRun& run) {
   teams.team = required_texts(data, "team");
   teams.seed_address = required_texts(data, "seed_address");
   for (const double value : required_numbers(data, "completed")) teams.completed.push_back(value != 0.0);
+  if (has_status) {
+    for (const auto& status : required_texts(data, "status")) teams.skipped.push_back(status == "skipped");
+  }
   teams.periods = required_numbers(data, "periods");
   teams.knowledge = required_numbers(data, "knowledge");
   teams.area_sr = required_numbers(data, "area_sr");

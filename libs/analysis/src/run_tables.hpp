@@ -23,6 +23,7 @@ struct RunTeams {
   std::vector<std::string> seed_address;
   std::vector<std::string> team;
   std::vector<bool> completed;
+  std::vector<bool> skipped;  // left components out; empty if the table does not say how teams ended
   std::vector<double> periods;
   std::vector<double> knowledge;
   std::vector<double> area_sr;

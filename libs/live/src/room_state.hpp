@@ -126,7 +126,8 @@ struct Room::State {
   std::optional<std::int64_t> paused_us;   ///< By the facilitator.
   std::int64_t period_us = 0;              ///< When the period began.
   std::vector<std::int64_t> durations_us;  ///< Of the periods so far.
-  std::string end_reason;  ///< Once teaching is over: complete, max-periods, time-limit, or why it ended early.
+  std::string
+      end_reason;  ///< Once teaching is over: complete, skipped, max-periods, time-limit, or why it ended early.
   std::string end_text;
   bool has_extra = false;                     ///< Whether a time limit was extended.
   std::map<std::string, std::size_t> groups;  ///< Of a waiting list, how many were formed: by "strategy/composition".

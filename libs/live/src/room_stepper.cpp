@@ -162,8 +162,10 @@ void RoomStepper::advance() {
     switch (state_.phase) {
       case RoomPhase::kTeaching:
         if (state_.session->finished()) {
-          const bool complete = state_.session->status() == SessionStatus::kComplete;
-          return begin_questions(complete ? "complete" : "max-periods");
+          const auto status = state_.session->status();
+          return begin_questions(status == SessionStatus::kComplete  ? "complete"
+                                 : status == SessionStatus::kSkipped ? "skipped"
+                                                                     : "max-periods");
         }
         if (state_.session->phase() != SessionPhase::kLesson) return;
         begin_watching();

@@ -34,7 +34,7 @@ double value_of(const TeamRecord& team, Quantity quantity) {
     case Quantity::kKnowledge:
       return team.knowledge;
     case Quantity::kCompleted:
-      return team.completed ? 1.0 : 0.0;
+      return team.completed() ? 1.0 : 0.0;
     case Quantity::kAreaSr:
       return team.area_sr;
     case Quantity::kExamShareRight:

@@ -29,7 +29,8 @@ class Converter {
                   {"seed_address", record.seed_address},
                   {"learners", learners},
                   {"sessions", sessions},
-                  {"completed", record.completed},
+                  {"completed", record.completed()},
+                  {"status", name_of(record.status)},
                   {"periods", record.periods},
                   {"demonstrations", record.demonstrations},
                   {"tests", record.tests},
@@ -86,7 +87,7 @@ class Converter {
     }
     return {{"members", session.members},
             {"periods", periods},
-            {"status", session.status == SessionStatus::kComplete ? "complete" : "max_periods"},
+            {"status", name_of(session.status)},
             {"components", components}};
   }
 

@@ -57,7 +57,9 @@ class TranscriptWriter {
     };
     const auto skipped = count(ComponentStatus::kSkipped);
     return fmt::format("{} {}: {} of {} knowledge components learned{}",
-                       session.status == SessionStatus::kComplete ? "Complete after" : "Stopped at the limit of",
+                       session.status == SessionStatus::kMaxPeriods ? "Stopped at the limit of"
+                       : session.status == SessionStatus::kSkipped  ? "Nothing else to show after"
+                                                                    : "Complete after",
                        counted(session.periods.size(), "period"), count(ComponentStatus::kLearned),
                        session.components.size(), skipped > 0 ? fmt::format(", {} skipped", skipped) : "");
   }

@@ -170,7 +170,7 @@ Json belief_names(const RunFiles& run, const std::string& composition, std::size
 // Whether the team came out as its row says.
 bool agrees(const TeamRecord& record, const TeamValues& row) {
   constexpr double kTolerance = 1e-12;  // the tables hold the exact number, but it may have been written elsewhere
-  return static_cast<double>(record.periods) == row.periods && record.completed == row.completed &&
+  return static_cast<double>(record.periods) == row.periods && record.completed() == row.completed &&
          std::abs(record.knowledge - row.knowledge) <= kTolerance;
 }
 

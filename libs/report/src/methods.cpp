@@ -287,8 +287,17 @@ class Paragraph {
       say("Before the first lesson everybody answered up to " + counted(options.placement_tests, "test") +
           ", without feedback, which were chosen to tell which components they knew.");
     }
-    const auto missed = static_cast<std::size_t>(
-        std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed; }));
+    const auto missed = static_cast<std::size_t>(std::count_if(
+        data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed && !team.skipped; }));
+    const auto skipped = static_cast<std::size_t>(
+        std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return team.skipped; }));
+    if (skipped > 0) {
+      say(counted(skipped, "team") +
+          " left out components of which nothing could be shown that adds to what was "
+          "taught, and " +
+          (skipped == 1 ? "was" : "were") + " treated as censored.");
+    }
+    if (missed == 0 && skipped > 0) return;
     say(missed == 0 ? "All teams learned every component."
                     : counted(missed, "team") + " reached this limit and " + (missed == 1 ? "was" : "were") +
                           " treated as censored.");

@@ -129,9 +129,12 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
   for (const auto& factor : run.spec().factors) factors.push_back(factor.key);
   const auto completed =
       std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.completed; });
+  const auto skipped =
+      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.skipped; });
   Json overview{{"teams", data.teams.size()},
                 {"people", design.people},
                 {"completed", completed},
+                {"skipped", skipped},
                 {"replicates", run.spec().replicates},
                 {"seed", std::to_string(run.spec().seed)},
                 {"strategies", std::move(strategies)},
@@ -161,9 +164,6 @@ std::optional<Json> timings_table(const RunFiles& run, std::vector<std::string>&
 }
 
 // By learner type: mass of a belief in the policy's class before teaching.
-std::vector<double> mass_before(const RunFiles& run, const Atlas& atlas) {
-  std::vector<double> masses;
-  for (const auto& type : run.types()) {
 // Where the policy's class is an estimate, how good it is.
 void note_estimate(const Atlas& atlas, std::vector<std::string>& notes) {
   const auto left = atlas.regret_left();
@@ -174,6 +174,9 @@ void note_estimate(const Atlas& atlas, std::vector<std::string>& notes) {
       shortest(std::round(1000.0 * *left) / 10.0) + " % of the regret that people have before any lesson.");
 }
 
+std::vector<double> mass_before(const RunFiles& run, const Atlas& atlas) {
+  std::vector<double> masses;
+  for (const auto& type : run.types()) {
     auto prior = atlas.prior_cone();
     if (type.prior) prior = Cone::intersection(*type.prior).value_or(prior);
     std::optional<PriorCover> cover;
@@ -237,7 +240,14 @@ void note_data(const RunFiles& run, const ReportDesign& design, const RunData& d
   for (const auto& what : run.published.missing())
     notes.push_back("The run is incomplete, and all results describe only the teams that are present: " + what + ".");
   note_impoverished_beliefs(data, notes);
-  const auto censored = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed; });
+  const auto skipped = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return t.skipped; });
+  if (skipped > 0) {
+    notes.push_back(std::to_string(skipped) + " of " + std::to_string(data.teams.size()) +
+                    " teams left a knowledge component out, because nothing that could be shown adds to what they had "
+                    "been taught. They do not count as completed: the completion curves treat them as censored.");
+  }
+  const auto censored =
+      std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed && !t.skipped; });
   if (censored > 0) {
     notes.push_back(std::to_string(censored) + " of " + std::to_string(data.teams.size()) +
                     " teams reached the limit of " + std::to_string(run.spec().teaching.max_periods) +
@@ -313,6 +323,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   auto notes = std::move(data.notes);
   const auto points = std::min(options.points_per_cell, std::max<std::size_t>(1, kMaxPoints / design.cells.size()));
   note_data(run, design, data, points, notes);
+  note_estimate(atlas, notes);
   step("computing tables");
   auto tables = tables_of(run, design, data, atlas, points, notes);
   step("analysing");
@@ -323,7 +334,6 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   Json document{{"schema", "kith.report/1"},
                 {"title", spec.title.empty() ? spec.id : spec.title},
                 {"study", spec.id},
-  note_estimate(atlas, notes);
                 {"domain", run.domain.id()},
                 {"version", manifest_text(run, "version")},
                 {"created", manifest_text(run, "stopped")},

@@ -59,7 +59,7 @@ class DataReader {
         std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.forecast_sessions > 0; });
     data_.has_estimates =
         std::any_of(variants.begin(), variants.end(), [](const auto& spec) { return spec.estimates; });
-    Names wanted{"completed", "periods", "knowledge", "area_sr", "demonstrations", "tests"};
+    Names wanted{"completed", "periods", "knowledge", "area_sr", "demonstrations", "tests", "status"};
     const auto costs = wanted.size();
     if (data_.has_costs) wanted.insert(wanted.end(), {"minutes", "person_minutes"});
     const auto exam = wanted.size();
@@ -79,6 +79,7 @@ class DataReader {
       const auto most = max_period(row) * row.address().composition.size();
       auto& team = data_.teams[last];
       team.completed = row.boolean(0);
+      team.skipped = row.text(6) == name_of(SessionStatus::kSkipped);
       team.periods = static_cast<double>(row.count(1, 0, most));
       team.knowledge = fraction(row, 2);
       team.area_sr = row.real(3);
@@ -158,7 +159,7 @@ class DataReader {
       auto& bin = bins[std::min(tenth, bins.size() - 1)];
       bin.predicted += probability;
       ++bin.n;
-      bin.done += team.completed && left <= k + 1 ? 1u : 0u;
+      bin.done += (team.completed || team.skipped) && left <= k + 1 ? 1u : 0u;
     }
   }
 

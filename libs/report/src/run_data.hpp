@@ -16,6 +16,7 @@ namespace kith::detail {
 // The row of teams.csv.
 struct TeamValues {
   bool completed = false;
+  bool skipped = false;  // ended with components left out; never in tables of earlier versions
   double periods = 0.0;
   double knowledge = 0.0;
   double area_sr = 0.0;

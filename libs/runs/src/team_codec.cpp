@@ -11,7 +11,8 @@
 namespace kith {
 namespace {
 
-constexpr char kVersion = 7;  // of the layout; another layout gets another number
+constexpr char kVersion = 8;  // of the layout; another layout gets another number
+constexpr char kOldest = 7;   // that is read: it only says whether a team was complete
 constexpr std::size_t kChecksumSize = 8;
 
 std::string checksum(std::size_t team, std::string_view content, std::string_view key) {
@@ -165,7 +166,7 @@ void code(Coder& coder, X& x) {
 template <typename Coder, Is<TeamRecord> X>
 void code(Coder& coder, X& x) {
   coder.text(x.seed_address);
-  coder.flag(x.completed);
+  coder.status(x.status);
   coder.count(x.periods);
   coder.count(x.demonstrations);
   coder.count(x.tests);
@@ -196,6 +197,7 @@ class Encoder {
   void letter(char x) { writer_.letter(x); }
   void real(double x) { writer_.real(x); }
   void flag(bool x) { writer_.flag(x); }
+  void status(SessionStatus x) { writer_.letter(static_cast<char>(x)); }
   void text(const std::string& x) { writer_.text(x); }
   void reals(const std::vector<double>& x) { writer_.reals(x); }
   void optional_real(const std::optional<double>& x) {
@@ -228,11 +230,21 @@ class Encoder {
 
 class Decoder {
  public:
-  explicit Decoder(std::string_view bytes) : reader_{bytes} {}
+  explicit Decoder(std::string_view bytes) : reader_{bytes}, version_{reader_.letter()} {}
   void count(std::size_t& x) { x = static_cast<std::size_t>(reader_.count()); }
   void letter(char& x) { x = reader_.letter(); }
   void real(double& x) { x = reader_.real(); }
   void flag(bool& x) { x = reader_.flag(); }
+  void status(SessionStatus& x) {
+    const char letter = reader_.letter();
+    if (version_ == kOldest) {
+      x = letter != 0 ? SessionStatus::kComplete : SessionStatus::kMaxPeriods;
+    } else if (letter < 0 || letter > static_cast<char>(SessionStatus::kMaxPeriods)) {
+      reader_.refuse();
+    } else {
+      x = static_cast<SessionStatus>(letter);
+    }
+  }
   void text(std::string& x) { x = reader_.text(); }
   void reals(std::vector<double>& x) { x = reader_.reals(); }
   void optional_real(std::optional<double>& x) {
@@ -266,6 +278,7 @@ class Decoder {
   }
 
   ByteReader reader_;
+  char version_;
 };
 
 }  // namespace
@@ -290,12 +303,13 @@ std::string encode_team(const TeamRecord& record, std::string_view key) {
 }
 
 bool is_intact(std::size_t team, std::string_view bytes, std::string_view key) {
-  return !bytes.empty() && bytes.front() == kVersion && unseal_record(team, bytes, key).has_value();
+  if (bytes.empty() || bytes.front() < kOldest || bytes.front() > kVersion) return false;
+  return unseal_record(team, bytes, key).has_value();
 }
 
 std::optional<TeamRecord> decode_team(const TeamAddress& address, std::string_view bytes, std::string_view key) {
   if (!is_intact(address.team, bytes, key)) return std::nullopt;
-  Decoder decoder{bytes.substr(1, bytes.size() - 1 - kChecksumSize)};
+  Decoder decoder{bytes.substr(0, bytes.size() - kChecksumSize)};
   TeamRecord record;
   record.address = address;
   code(decoder, record);

@@ -25,7 +25,7 @@ TeamRecord team() {
   TeamRecord record;
   record.address = {0, "joint", "NP", 2, 4};
   record.seed_address = "7/NP/2";
-  record.completed = true;
+  record.status = SessionStatus::kComplete;
   record.periods = 3;
   record.demonstrations = 5;
   record.tests = 4;

@@ -51,6 +51,32 @@ TEST(TeamCodec, GivesEveryRecordBack) {
   }
 }
 
+// The layout before sessions could end as skipped had a flag in the place of the status.
+TEST(TeamCodec, ReadsRecordsOfThePreviousLayout) {
+  for (auto team : teams(RecordLevel::kPeriod)) {
+    for (const auto status : {SessionStatus::kComplete, SessionStatus::kMaxPeriods}) {
+      team.status = status;
+      std::string content{unseal_record(team.address.team, encode_team(team, kKey), kKey).value()};
+      content.front() = 7;
+      content.at(2 + team.seed_address.size()) = status == SessionStatus::kComplete ? 1 : 0;
+      const auto again = decode_team(team.address, seal_record(team.address.team, content, kKey), kKey);
+      ASSERT_TRUE(again);
+      EXPECT_EQ(encode_team(*again, kKey), encode_team(team, kKey));
+    }
+  }
+}
+
+TEST(TeamCodec, KeepsHowATeamEnded) {
+  auto team = teams(RecordLevel::kTeam).front();
+  for (const auto status : {SessionStatus::kComplete, SessionStatus::kSkipped, SessionStatus::kMaxPeriods}) {
+    team.status = status;
+    const auto again = decode_team(team.address, encode_team(team, kKey), kKey);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->status, status);
+    EXPECT_EQ(again->completed(), status == SessionStatus::kComplete);
+  }
+}
+
 TEST(TeamCodec, NeedsLittleRoom) {
   for (const auto& team : teams(RecordLevel::kTeam)) EXPECT_LT(encode_team(team, kKey).size(), 300u);
 }

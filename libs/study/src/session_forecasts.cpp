@@ -6,7 +6,7 @@
 namespace kith {
 
 PastSession past_session(const TeamRecord& team, const StudySpec& spec, std::size_t num_components) {
-  PastSession session{{}, team.completed};
+  PastSession session{{}, team.status != SessionStatus::kMaxPeriods};
   std::size_t number = 0, last_period = 0, last_member = 0, last_session = 0;
   for (const auto& period : team.period_records) {
     // In the baseline every member has a session.

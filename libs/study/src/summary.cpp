@@ -16,7 +16,8 @@ struct GatheredTeams {
 
   void add(const TeamRecord& team) {
     ++cell.teams;
-    cell.completed += team.completed ? 1u : 0u;
+    cell.completed += team.completed() ? 1u : 0u;
+    cell.skipped += team.status == SessionStatus::kSkipped ? 1u : 0u;
     periods.push_back(static_cast<double>(team.periods));
     knowledge.push_back(team.knowledge);
     area_sr.push_back(team.area_sr);
@@ -73,6 +74,7 @@ std::optional<CellSummary> pooled(const Cells& cells) {
   for (const auto* cell : cells) {
     summary.teams += cell->cell.teams;
     summary.completed += cell->cell.completed;
+    summary.skipped += cell->cell.skipped;
   }
   if (summary.teams == 0) return std::nullopt;
   summary.periods = mean_sd(cells, summary.teams, &GatheredTeams::periods);

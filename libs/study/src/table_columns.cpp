@@ -93,8 +93,10 @@ Columns forecast_columns() {
 Columns team_columns(const Study& study) {
   Columns columns{
       column("seed_address", kText, "Address of the team's random numbers: seed/composition/replicate."),
-      column("status", kText, "'complete', or 'max_periods' if teaching stopped before all was learned."),
-      column("completed", kBoolean, "Whether every knowledge component was learned or had nothing to teach."),
+      column("status", kText,
+             "'complete' if every knowledge component was learned; 'skipped' if those were of which anything could be "
+             "shown; 'max_periods' if teaching stopped before."),
+      column("completed", kBoolean, "Whether the status is 'complete'."),
       column("periods", kInteger, "Interaction periods; for the baseline the sum over members."),
       column("demonstrations", kInteger, "Demonstrations shown, in all periods."),
       column("tests", kInteger, "Tests asked, in all periods; each of them of every member."),
@@ -102,7 +104,9 @@ Columns team_columns(const Study& study) {
              "Mean over members of the mass of their final belief in the policy's behaviour equivalence class."),
       column("knowledge_min", kReal, "The smallest of these masses."),
       column("kcs_learned", kInteger, "Knowledge components learned; for the baseline the sum over members."),
-      column("kcs_skipped", kInteger, "Knowledge components in which nothing was left to teach."),
+      column(
+          "kcs_skipped", kInteger,
+          "Knowledge components left out, because nothing that could be shown adds to what was taught, or by design."),
       column("area_sr", kReal, "Mean over periods of the area in periods.csv.", "sr")};
   if (writes_costs(study)) {
     columns =

@@ -75,8 +75,8 @@ class Tables {
   void add_team(const TeamRecord& team) {
     auto& row = begin_row(0, team.address);
     row.text(std::string_view{team.seed_address})
-        .text(std::string_view{team.completed ? "complete" : "max_periods"})
-        .boolean(team.completed)
+        .text(name_of(team.status))
+        .boolean(team.completed())
         .integer(count(team.periods))
         .integer(count(team.demonstrations))
         .integer(count(team.tests))

@@ -51,7 +51,6 @@ class TeamRun {
 
   // Nothing if it was stopped.
   std::optional<TeamRecord> run() {
-    record_.completed = true;
     if (record_.address.strategy == kBaseline) {
       for (const auto& person : people_) run_session({person}, lone_teacher_stream(person.stream), person.member);
     } else if (spec_.grouping == Grouping::kByType) {
@@ -132,7 +131,7 @@ class TeamRun {
       record_.learners.push_back(rows[i]);
     }
     record_.periods += session.periods();
-    record_.completed = record_.completed && session.status() == SessionStatus::kComplete;
+    record_.status = std::max(record_.status, session.status());
     for (const auto status : session.components()) {
       record_.components_learned += status == ComponentStatus::kLearned ? 1u : 0u;
       record_.components_skipped += status == ComponentStatus::kSkipped ? 1u : 0u;

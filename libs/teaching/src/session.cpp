@@ -1,6 +1,7 @@
 #include "kith/teaching/session.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -91,6 +92,11 @@ std::string_view name_of(SessionPhase phase) {
 }
 
 }  // namespace
+
+std::string_view name_of(SessionStatus status) noexcept {
+  constexpr std::array<std::string_view, 4> kNames{"running", "complete", "skipped", "max_periods"};
+  return kNames.at(static_cast<std::size_t>(status));
+}
 
 Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice strategy,
                  std::vector<RandomStream> persons, RandomStream teacher)
@@ -192,7 +198,10 @@ bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) 
   for (Seat& seat : seats_) seat = seat == Seat::kReturning ? Seat::kPresent : seat;
   for (; component_ < component; ++component_) components_[component_] = ComponentStatus::kSkipped;
   if (!prepared) {
-    status_ = SessionStatus::kComplete;
+    // Those that are left out by design do not count.
+    const auto first = options_.scaffold == Scaffold::kNone ? components_.end() - 1 : components_.begin();
+    const bool all = std::find(first, components_.end(), ComponentStatus::kSkipped) == components_.end();
+    status_ = all ? SessionStatus::kComplete : SessionStatus::kSkipped;
     phase_ = SessionPhase::kFinished;
     return false;
   }

@@ -141,7 +141,7 @@ void mutate_team(TeamRecord& record, Dice& dice) {
       [[fallthrough]];
     case 4:
       if (!places.letters.empty() && dice.one_in(3)) *dice.pick(places.letters) = static_cast<char>(dice.below(256));
-      record.completed = !record.completed;
+      record.status = static_cast<SessionStatus>(dice.below(4));
       return;
     default:
       return change_list(record, dice);

@@ -79,6 +79,7 @@ export const loggedText = (what: string): string => kLogged[what] ?? what;
 
 const kEnds: Record<string, string> = {
   complete: 'all components learned',
+  skipped: 'taught all that can be shown; some components were left out',
   'max-periods': 'reached the maximum number of periods',
   'time-limit': 'reached the time limit',
   'lobby-time': 'not enough people joined in time',

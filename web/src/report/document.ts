@@ -80,6 +80,7 @@ export interface Report {
     teams?: number;
     people?: number;
     completed?: number;
+    skipped?: number;
     replicates?: number;
     seed?: string | number;
     strategies: string[];

@@ -37,7 +37,8 @@ function facts(study: Study): [string, string][] {
       'Teams',
       overview.completed === undefined
         ? count(overview.teams)
-        : `${count(overview.teams)}, of which ${overview.completed} learned everything`,
+        : `${count(overview.teams)}, of which ${overview.completed} learned everything` +
+          (overview.skipped ? ` and ${overview.skipped} left components out` : ''),
     ],
     ['People', count(overview.people)],
     ['Replicates per cell', count(overview.replicates)],

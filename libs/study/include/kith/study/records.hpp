@@ -9,6 +9,7 @@
 
 #include "kith/core/integer_vector.hpp"
 #include "kith/study/study_spec.hpp"
+#include "kith/teaching/session.hpp"
 
 namespace kith {
 
@@ -176,7 +177,8 @@ struct LearnerRecord {
 struct TeamRecord {
   TeamAddress address;
   std::string seed_address;  ///< Readable address of the team's random streams.
-  bool completed = false;    ///< Every component learned or skipped (in every member's session, for the baseline).
+  /// How teaching ended; for several sessions, as those of the baseline, the latest of theirs in the order of the enum.
+  SessionStatus status = SessionStatus::kRunning;
   std::size_t periods = 0;
   std::size_t demonstrations = 0;
   std::size_t tests = 0;
@@ -199,6 +201,8 @@ struct TeamRecord {
   std::vector<ProgressRecord> progress;                    ///< Empty at RecordLevel::kTeam.
   std::vector<ExamRecord> exams;                           ///< Empty at ExamLevel::kNone.
   std::vector<EstimateRecord> estimates;                   ///< Empty unless StudySpec::estimates.
+
+  [[nodiscard]] bool completed() const noexcept { return status == SessionStatus::kComplete; }
 };
 
 }  // namespace kith

@@ -31,6 +31,7 @@ struct CellSummary {
   std::string composition;              ///< Empty when pooled.
   std::size_t teams = 0;
   std::size_t completed = 0;
+  std::size_t skipped = 0;  ///< Teams that left a component out because nothing that could be shown told anything.
   MeanSd periods;
   MeanSd knowledge;
   MeanSd area_sr;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,8 +19,15 @@
 
 namespace kith {
 
-/// How a session stands or ended.
-enum class SessionStatus { kRunning, kComplete, kMaxPeriods };
+/// How a session stands or ended; of several sessions of a team, the last of theirs counts.
+enum class SessionStatus : std::uint8_t {
+  kRunning,
+  kComplete,    ///< Every component was learned, but for those that Scaffold::kNone leaves out.
+  kSkipped,     ///< The others were learned; of some, nothing that could be shown would have told anything.
+  kMaxPeriods,  ///< TeachingOptions::max_periods came before.
+};
+/// "running", "complete", "skipped" or "max_periods".
+[[nodiscard]] std::string_view name_of(SessionStatus status) noexcept;
 
 /// What a session waits for.
 enum class SessionPhase {
