@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
 
+#include "domain_texts.hpp"
 #include "run_kith.hpp"
 
 namespace kith::testing {
@@ -114,6 +117,22 @@ TEST(StudyCommand, FailsWithFourAndLeavesNothingWhereNothingCanBeTaught) {
   EXPECT_EQ(ran.code, 4) << ran.err;
   EXPECT_THAT(ran.err, HasSubstr("nothing about 'road' can be taught: "));
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
+}
+
+// Whoever misses its only facet expects the robot to go to and fro for ever.
+TEST(WhatCanBeShown, IsTheSameForCurriculumTeachAndStudy) {
+  const Scratch scratch;
+  std::ofstream{scratch / "open.toml"} << kToAndFro;
+  const auto lesson = run_kith({"curriculum", scratch / "open.toml"});
+  EXPECT_EQ(lesson.code, 0) << lesson.err;
+  EXPECT_THAT(lesson.out, HasSubstr("right and step twice together cost something"));
+  const auto taught = run_kith({"teach", scratch / "open.toml", "--group", "NP", "--strategy", "common"});
+  EXPECT_EQ(taught.code, 0) << taught.err;
+  EXPECT_THAT(taught.out, HasSubstr("1 of 1 knowledge components learned"));
+  const auto ran =
+      run_kith({"study", "quick", "--set", "domain=\"" + scratch / "open.toml" + "\"", "-o", scratch / "run"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(tables_in(scratch / "run").at("teams.csv").find("skipped,"), std::string::npos);
 }
 
 TEST(CurriculumCommand, WritesAPageThatHoldsTheDocument) {

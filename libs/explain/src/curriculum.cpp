@@ -28,6 +28,7 @@ Error nothing_to_teach(const Atlas& atlas, const std::string& why) {
   return Error{ErrorKind::kInfeasible, diagnostic.message, {diagnostic}};
 }
 
+constexpr const char* kUntold = "no demonstration tells people anything that they do not know beforehand";
 constexpr std::size_t kMostPlannedBeliefs = 200;
 
 std::vector<HalfSpace> together(std::vector<HalfSpace> a, const std::vector<HalfSpace>& b) {
@@ -75,7 +76,7 @@ class CurriculumMaker {
     for (; next < atlas_.knowledge_components().size(); ++next) skip(next);
     if (curriculum_.components.empty()) {
       require_something_to_teach(atlas_);
-      throw nothing_to_teach(atlas_, "no demonstration tells people anything that they do not know beforehand");
+      throw nothing_to_teach(atlas_, kUntold);
     }
     return std::move(curriculum_);
   }
@@ -217,6 +218,14 @@ void require_something_to_teach(const Atlas& atlas) {
   if (atlas.is_tabulated() && atlas.coverage().max == 1) {
     throw nothing_to_teach(atlas, "in every world, everybody who expects the robot to finish predicts the same path");
   }
+  TeachingCache cache{atlas};
+  const VisitedDemos nothing{atlas.num_demos()};
+  for (const auto& component : atlas.knowledge_components()) {
+    Unit unit{{}, domain.prior()};
+    complete_unit(cache, unit, component, {}, nothing, 1, RandomStream{0});
+    if (!unit.demonstrations.empty()) return;
+  }
+  throw nothing_to_teach(atlas, kUntold);
 }
 
 const char* name_of(Difficulty difficulty) noexcept {

@@ -118,10 +118,18 @@ class TranscriptWriter {
     if (lesson.repeats) {
       line("  no demonstration would teach anything new: the last lesson is repeated");
     } else {
-      const auto ways = lesson.demonstrations.front().counterfactuals.size();
-      line(fmt::format("  {} simulated people with that belief would act in {}",
-                       transcript_.spec.teaching.counterfactuals,
-                       ways == 1 ? "one way" : fmt::format("{} different ways", ways)));
+      const auto& shown = lesson.demonstrations;
+      const auto ways = shown.front().counterfactuals.size();
+      if (!shown.front().completes) {
+        line(fmt::format("  {} simulated people with that belief would act in {}",
+                         transcript_.spec.teaching.counterfactuals,
+                         ways == 1 ? "one way" : fmt::format("{} different ways", ways)));
+      }
+      const auto added = std::count_if(shown.begin(), shown.end(), [](const auto& one) { return one.completes; });
+      if (added > 0) {
+        line(fmt::format("  {} for people who only just miss what those leave open",
+                         counted(static_cast<std::size_t>(added), "demonstration")));
+      }
     }
   }
 

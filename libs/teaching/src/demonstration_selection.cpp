@@ -1,10 +1,14 @@
 #include "kith/teaching/demonstration_selection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 #include <utility>
 
+#include "imagined_people.hpp"
+#include "kith/core/assert.hpp"
+#include "kith/geometry/cone_sampler.hpp"
 #include "kith/geometry/cover.hpp"
 #include "visual_order.hpp"
 
@@ -71,6 +75,31 @@ class Selection {
   std::optional<Demonstration> next(std::span<const PolicyCellIndex> cells, const ConstraintSet& taught_region,
                                     const std::vector<Demonstration>& unit, const RandomStream& random) {
     conveyed_ = cache_.behaviours().conveyed_by_class(component_, cells);
+    return best_of_all(taught_region, unit, random);
+  }
+
+  // The same for people who expect no end, where there are no tables: what is conveyed is that of these facets which
+  // single deviations from the path show, such as one step of going round for ever.
+  std::optional<Demonstration> next_for_the_endless(const ConstraintSet& facets, const ConstraintSet& taught_region,
+                                                    const std::vector<Demonstration>& unit,
+                                                    const RandomStream& random) {
+    constexpr std::size_t kBits = 64;
+    const std::size_t words = (cache_.constraints().size() + kBits - 1) / kBits;
+    rows_.assign(atlas_.num_demo_classes() * words, 0);
+    for (const auto c : classes_) {
+      const auto& shown = atlas_.one_step(atlas_.members(c).front());
+      for (const auto facet : facets.members()) {
+        if (!shown.contains(facet)) continue;
+        rows_[c.value() * words + facet.value() / kBits] |= std::uint64_t{1} << (facet.value() % kBits);
+      }
+    }
+    conveyed_ = {words, rows_, {}};
+    return best_of_all(taught_region, unit, random);
+  }
+
+ private:
+  std::optional<Demonstration> best_of_all(const ConstraintSet& taught_region, const std::vector<Demonstration>& unit,
+                                           const RandomStream& random) {
     auto prospects = prospects_with_gain(taught_region);
     // Fewest new facets first, then the best gain; classes whose members were all visited do not count.
     std::erase_if(prospects, [&](const Prospect& p) { return !has_unvisited(atlas_, p.demo_class, visited_); });
@@ -86,7 +115,6 @@ class Selection {
     return simplest(prospects, unit, random);
   }
 
- private:
   std::vector<Prospect> prospects_with_gain(const ConstraintSet& taught_region) {
     std::vector<Prospect> prospects;
     const std::size_t words = conveyed_.words;
@@ -122,6 +150,7 @@ class Selection {
   const VisitedDemos& visited_;
   std::vector<DemoClassIndex> classes_;  // those of the component
   Behaviours::Conveyed conveyed_;
+  std::vector<std::uint64_t> rows_;  // of next_for_the_endless()
   Effects effects_;
 };
 
@@ -190,15 +219,121 @@ Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const Kn
   return unit;
 }
 
+namespace {
+
+// How people miss what is open; each way only where no demonstration tells those of the one before anything. The first
+// are the same in all sessions, so that their behaviours are known.
+enum class Missed {
+  kComponent,   // facets of the component's region, whatever was shown
+  kWhatIsLeft,  // facets of what it leaves of that
+  kNearly,      // these, by less
+  kAnywhere,    // anything
+};
+constexpr std::array kMissed{Missed::kComponent, Missed::kWhatIsLeft, Missed::kNearly, Missed::kAnywhere};
+constexpr double kNearMiss = 0.02;    // see near_misses()
+constexpr std::size_t kAnybody = 32;  // who cover what was left before
+
+// What is open of `facets` where `shown`, which is minimal, is known.
+ConstraintSet open_of(TeachingCache& cache, const ConstraintSet& facets, const ConstraintSet& shown) {
+  auto& regions = cache.regions();
+  const auto is_open = [&](ConstraintIndex facet) {
+    ConstraintSet alone;
+    alone.insert(facet);
+    return regions.effect(shown, alone).gain > 1.0 + kGainTolerance;
+  };
+  ConstraintSet open;
+  for (const auto facet : facets.without(shown).members()) {
+    if (is_open(facet)) open.insert(facet);
+  }
+  return open;
+}
+
+// People who miss what is open of a component. Nobody if nothing is open.
+ImaginedPeople who_miss(TeachingCache& cache, const KnowledgeComponent& component, const ConstraintSet& shown,
+                        Missed how) {
+  ImaginedPeople people;
+  const auto& known = how == Missed::kComponent ? cache.atlas().prior() : shown;
+  const auto left = cache.regions().minimal(known | component.constraints);
+  const auto open = open_of(cache, left, shown);
+  if (open.empty()) return people;
+  if (how == Missed::kAnywhere) {
+    const auto region = Cone::intersection(cache.constraints().half_spaces(shown));
+    KITH_ASSERT(region.has_value());  // the robot's weights lie inside
+    const Eigen::MatrixXd anybody = ConeSampler{*region}.cover(kAnybody);
+    for (Eigen::Index i = 0; i < anybody.cols(); ++i) people.add(cache.behaviours(), anybody.col(i));
+  } else {
+    imagine_near_misses(cache, left, open, how == Missed::kNearly ? kNearMiss : kMiss, people);
+  }
+  return people;
+}
+
+}  // namespace
+
+void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& component,
+                   std::span<const HalfSpace> shown_before, VisitedDemos visited, std::size_t max_demonstrations,
+                   RandomStream random) {
+  auto& regions = cache.regions();
+  auto taught = regions.minimal(cache.numbers_of(unit.taught_region));
+  auto shown = regions.minimal(taught | cache.numbers_of(shown_before));
+  for (const auto& demonstration : unit.demonstrations) visited.insert(demonstration.demo);
+  const VisitedDemos nothing{cache.atlas().num_demos()};
+  Selection fresh{cache, component, visited};
+  Selection any{cache, component, nothing};
+  const std::size_t most = max_demonstrations;
+  for (std::uint64_t step = 0; most == 0 || unit.demonstrations.size() < most; ++step) {
+    std::optional<Demonstration> next;
+    ImaginedPeople people;
+    for (const auto how : kMissed) {
+      people = who_miss(cache, component, shown, how);
+      if (people.cells.empty()) break;
+      next = fresh.next(people.cells, shown, unit.demonstrations, random.split(step));
+      if (!next) next = any.next(people.cells, shown, unit.demonstrations, random.split(step));
+      if (next) break;
+    }
+    if (!next && !people.cells.empty() && !cache.atlas().is_tabulated()) {
+      const auto open = open_of(cache, component.constraints, shown);
+      people = who_miss(cache, component, shown, Missed::kComponent);
+      next = fresh.next_for_the_endless(open, shown, unit.demonstrations, random.split(step));
+      if (!next) next = any.next_for_the_endless(open, shown, unit.demonstrations, random.split(step));
+    }
+    if (!next) break;
+    const auto conveyed = cache.numbers_of(next->half_spaces);
+    const auto effect = regions.effect(taught, conveyed);
+    next->gain = effect.gain;
+    next->num_new = effect.num_new;
+    next->counterfactuals = std::move(people.weights);
+    next->completes = true;
+    visited.insert(next->demo);
+    taught = regions.minimal(taught | conveyed);
+    shown = regions.minimal(shown | conveyed);
+    unit.demonstrations.push_back(std::move(*next));
+  }
+  unit.taught_region = cache.constraints().half_spaces(taught);
+}
+
 Unit UnitSelector::for_belief(const ParticleBelief& belief, RandomStream random) {
   const auto& component = view_->atlas.knowledge_components()[view_->component];
   auto unit = select_demonstrations(*cache_, belief, component, view_->taught_region, view_->visited, options_,
                                     random.split("new"));
+  // Without tables lessons examine the whole component (Session), so that they show it, too.
+  if (unit.demonstrations.empty() || !view_->atlas.is_tabulated()) complete(unit, random.split("open"));
   if (unit.demonstrations.empty() && view_->last_of_component != nullptr) {
     unit = select_demonstrations(*cache_, belief, component, view_->taught_region,
                                  VisitedDemos{view_->atlas.num_demos()}, options_, random.split("again"));
   }
   return unit;
+}
+
+void UnitSelector::complete(Unit& unit, RandomStream random) {
+  std::vector<HalfSpace> shown;
+  for (auto past = view_->history.end(); past != view_->history.begin();) {
+    const auto& lesson = (--past)->lesson;
+    if (lesson.component != view_->component) break;
+    shown.insert(shown.end(), lesson.taught.begin(), lesson.taught.end());
+  }
+  if (unit.demonstrations.empty()) unit.taught_region.assign(view_->taught_region.begin(), view_->taught_region.end());
+  complete_unit(*cache_, unit, view_->atlas.knowledge_components()[view_->component], shown, view_->visited,
+                options_.max_demonstrations, random);
 }
 
 }  // namespace kith

@@ -6,17 +6,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "kith/bec/near_miss.hpp"
-#include "kith/core/assert.hpp"
 #include "kith/geometry/cone.hpp"
-#include "kith/random/distributions.hpp"
 #include "visual_order.hpp"
 
 namespace kith {
 namespace {
 
 constexpr double kTie = 1e-12;  // values of U within this are equal
-constexpr double kMiss = 0.5;   // see near_misses()
 
 // Demonstration classes that convey the same.
 struct Candidate {
@@ -121,64 +117,7 @@ double value_of_shown(TeachingCache& cache, UnitValue& value, std::span<const Co
   return value.of(taken, taught.without(missed));
 }
 
-// The first particle at which the cumulative weight exceeds q.
-std::size_t quantile(const ParticleBelief& belief, double q) {
-  const auto weights = belief.weights();
-  double sum = 0.0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    sum += weights[i];
-    if (sum > q) return i;
-  }
-  return weights.size() - 1;
-}
-
 }  // namespace
-
-ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs, std::size_t n,
-                              RandomStream random) {
-  std::vector<Direction> drawn;
-  const auto& cover = cache.cover(cache.atlas().prior_cone(), beliefs.front()->size());
-  const auto positions = [&](RandomStream stream) {
-    const double offset = uniform01(stream);
-    std::vector<double> result;
-    for (std::size_t i = 0; i < n; ++i) result.push_back((static_cast<double>(i) + offset) / static_cast<double>(n));
-    return result;
-  };
-  const auto at = [](double position, std::size_t size) {
-    return std::min(static_cast<std::size_t>(position * static_cast<double>(size)), size - 1);
-  };
-  for (const double position : positions(random.split("prior"))) {
-    drawn.push_back(cover.point(at(position, cover.size())));
-  }
-  for (const double position : positions(random.split("beliefs"))) {
-    const auto i = at(position, beliefs.size());
-    const double within = position * static_cast<double>(beliefs.size()) - static_cast<double>(i);
-    drawn.push_back(beliefs[i]->point(quantile(*beliefs[i], within)));
-  }
-  ImaginedPeople people;
-  for (const auto& weights : drawn) {
-    const auto cell = cache.behaviours().locate(weights);
-    if (std::find(people.cells.begin(), people.cells.end(), cell) != people.cells.end()) continue;
-    people.cells.push_back(cell);
-    people.weights.push_back(weights);
-  }
-  std::sort(people.cells.begin(), people.cells.end());
-  return people;
-}
-
-void imagine_near_misses(TeachingCache& cache, const KnowledgeComponent& component, ImaginedPeople& people) {
-  const auto& atlas = cache.atlas();
-  const auto region = Cone::intersection(atlas.constraints().half_spaces(component.constraints | atlas.prior()));
-  KITH_ASSERT(region.has_value());  // the robot's weights lie inside
-  const auto facets = atlas.constraints().half_spaces(component.constraints);
-  for (const auto& weights : near_misses(*region, facets, kMiss)) {
-    const auto cell = cache.behaviours().locate(weights);
-    if (std::find(people.cells.begin(), people.cells.end(), cell) != people.cells.end()) continue;
-    people.cells.push_back(cell);
-    people.weights.push_back(weights);
-  }
-  std::sort(people.cells.begin(), people.cells.end());
-}
 
 Unit plan_unit(TeachingCache& cache, const TeachingView& view, UnitValue& value, const ImaginedPeople& people,
                const PlanOptions& options, RandomStream random) {

@@ -3,26 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "imagined_people.hpp"
 #include "kith/teaching/demonstration_selection.hpp"
 #include "kith/teaching/unit_value.hpp"
 
 namespace kith {
-
-// Whom the candidates of a plan are imagined to be shown to.
-struct ImaginedPeople {
-  std::vector<PolicyCellIndex> cells;  // ascending, each once
-  std::vector<Direction> weights;      // one per cell, in the order of the draws
-};
-
-// `n` systematic draws from the prior and as many from the beliefs together, each belief weighing the same.
-// @param beliefs  in an order that does not depend on seats. Not empty.
-[[nodiscard]] ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
-                                            std::size_t n, RandomStream random);
-
-// Adds, for every facet of the component's region, somebody who only just misses it: who is right about everything
-// else. What is conveyed to them is the facet itself, which people who know nothing, or nearly everything, may not
-// bring up.
-void imagine_near_misses(TeachingCache& cache, const KnowledgeComponent& component, ImaginedPeople& people);
 
 struct PlanOptions {
   std::size_t max_demonstrations = 2;  // >= 1, but 0 in parameters: Lookahead::plan_for() decides

@@ -102,7 +102,10 @@ Unit Lookahead::best_unit(TeachingCache& cache, const TeachingView& view,
   }
   auto imagined = imagine_people(cache, beliefs, people, random.split("people"));
   const auto& atlas = cache.atlas();
-  if (!atlas.is_tabulated()) imagine_near_misses(cache, atlas.knowledge_components()[view.component], imagined);
+  if (!atlas.is_tabulated()) {
+    const auto& facets = atlas.knowledge_components()[view.component].constraints;
+    imagine_near_misses(cache, facets | atlas.prior(), facets, kMiss, imagined);
+  }
   return plan_unit(cache, view, units, imagined, plan_for(view), random.split("looks"));
 }
 

@@ -244,6 +244,7 @@ std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::siz
                        .max_demonstrations = options_.max_demonstrations}};
   auto strategy = strategy_->clone();
   auto proposal = strategy->propose(view, select, random.split("demonstrations"));
+  if (proposal.unit.demonstrations.empty() && last == nullptr) select.complete(proposal.unit, random.split("open"));
   next.strategy = std::move(strategy);
 
   Lesson& lesson = next.lesson;

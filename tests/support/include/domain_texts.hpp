@@ -75,4 +75,67 @@ weights = { rubble = -2.7, mud = -1.3, step = -1 }
 )";
 }
 
+/// Four features, of which people in the way are met in one world only; 3 worlds. Without tables.
+inline constexpr const char* kHospital = R"toml(schema = "kith.domain/1"
+id = "hospital"
+[mdp]
+max_steps = 40
+[map]
+rows = ["...p.H",
+        ".#w#p.",
+        "D#w#.#",
+        ".#.w..",
+        "S..#.."]
+[map.legend]
+"." = "floor"
+"#" = "wall"
+"w" = { terrain = "wet", optional = true }
+"p" = { terrain = "people", optional = true }
+"D" = { station = "disinfection", optional = true }
+"S" = { start = true }
+"H" = { goal = true }
+[[family.world]]
+present = ["disinfection"]
+[[family.world]]
+present = ["wet", "disinfection"]
+[[family.world]]
+present = ["people", "wet(4,4)", "disinfection"]
+[[feature]]
+name = "wet"
+when = "enter:wet"
+[[feature]]
+name = "disinfect"
+when = "enter:disinfection"
+[[feature]]
+name = "people"
+when = "enter:people"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { wet = -2, disinfect = 3, people = -1.5, step = -1 }
+[prior]
+halfspaces = [ { step = -1 } ]
+)toml";
+
+/// A domain with a single open facet: whoever likes going right expects the robot to go to and fro for ever.
+inline constexpr const char* kToAndFro = R"toml(schema = "kith.domain/1"
+id = "open"
+[mdp]
+max_steps = 60
+[map]
+rows = ["S..", "...", "..G"]
+legend = { "." = "floor", "S" = { start = true }, "G" = { goal = true } }
+[[feature]]
+name = "right"
+when = "action:right"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { right = -0.7, step = -1 }
+[prior]
+halfspaces = [ { step = -1 } ]
+)toml";
+
 }  // namespace kith::testing

@@ -65,9 +65,9 @@ struct CurriculumOptions {
   std::size_t beliefs = 4000;  ///< Points of the regular cover by which share_right is measured, >= 1.
 };
 
-/// Refuses domains of which the atlas alone says that nobody can be taught anything.
-/// @throws kith::Error (kInfeasible, E1101) with the reason: the prior implies the whole policy, or everybody who
-/// expects an end expects the same.
+/// Refuses domains about which nobody can be taught anything.
+/// @throws kith::Error (kInfeasible, E1101) with the reason: the prior implies the whole policy, everybody who expects
+/// an end expects the same, or no demonstration tells anybody anything else (complete_unit()).
 void require_something_to_teach(const Atlas& atlas);
 
 /// Teaches one person all components by the baseline strategy and keeps what was shown. A pure function.

@@ -46,6 +46,19 @@ struct SelectionOptions {
                                          const KnowledgeComponent& component, std::span<const HalfSpace> taught_region,
                                          VisitedDemos visited, const SelectionOptions& options, RandomStream random);
 
+/// Adds demonstrations of what is still open: of the facets of the component's region that neither the unit nor what
+/// was shown before implies, whatever people believe. They are chosen by the same rule for somebody who only just
+/// misses each of these facets (near_misses()); what was not met yet comes first. Where behaviours are not tabulated,
+/// those who then expect no end are told the facets among Atlas::one_step(). Afterwards nothing that could be shown
+/// cuts what is left any further, unless the limit ends the unit before.
+///
+/// @param unit  with its taught_region, from which teaching begins if it has no demonstrations.
+/// @param shown_before  by other lessons of the component. @param visited  before the unit.
+/// @param max_demonstrations  of the unit; 0: as many as have gain.
+void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& component,
+                   std::span<const HalfSpace> shown_before, VisitedDemos visited, std::size_t max_demonstrations,
+                   RandomStream random);
+
 /// What a strategy chooses demonstrations with: select_demonstrations() with the options, the component, the region
 /// and the history of a session.
 class UnitSelector {
@@ -53,10 +66,14 @@ class UnitSelector {
   UnitSelector(TeachingCache& cache, const TeachingView& view, const SelectionOptions& options)
       : cache_{&cache}, view_{&view}, options_{options} {}
 
-  /// The best unit for a belief among what was not shown before; if none of that has gain and the component is under
-  /// way, among everything. Without demonstrations if none has gain. Each call within a proposal needs a stream of its
-  /// own.
+  /// The best unit for a belief among what was not shown before; completed (see complete()) if it is empty and, where
+  /// behaviours are not tabulated and lessons examine the whole component, in any case; if it still is empty and the
+  /// component is under way, the best unit among everything. Without demonstrations if none has gain. Each call within
+  /// a proposal needs a stream of its own.
   [[nodiscard]] Unit for_belief(const ParticleBelief& belief, RandomStream random);
+
+  /// complete_unit() for the session: earlier lessons of the component count as shown.
+  void complete(Unit& unit, RandomStream random);
 
   /// For strategies that choose by a rule of their own: what people would do, and regions of constraints.
   [[nodiscard]] TeachingCache& cache() noexcept { return *cache_; }

@@ -35,6 +35,7 @@ struct Demonstration {
   std::size_t num_new = 0;                 ///< New facets of the taught region.
   std::vector<Direction> counterfactuals;  ///< The beliefs it was chosen for: one weight per distinct behaviour, in the
                                            ///< order of the draws.
+  bool completes = false;  ///< Chosen for people who miss what was still open, whatever is believed; see UnitSelector.
   friend bool operator==(const Demonstration&, const Demonstration&) = default;
 };
 

@@ -60,9 +60,9 @@ enum class ComponentStatus { kOpen, kLearned, kSkipped };
 /// keeps the atlas alive if the cache does.
 ///
 /// Each knowledge component is taught until all members present answer all tests of a
-/// period correctly, or as TeachingOptions::mastery says; a component for which no demonstration has gain at the
-/// outset is skipped; another one is never left early before max_periods. Seats do not
-/// matter: members are told apart by their streams only.
+/// period correctly, or as TeachingOptions::mastery says; a component is skipped if nothing that could be shown cuts
+/// the taught region any further (UnitSelector::complete()); another one is never left early before max_periods. Seats
+/// do not matter: members are told apart by their streams only.
 ///
 /// What an answer tells the teacher. A wrong one: the half-space of weights under which its path is better than the
 /// robot's. A right one with the feature counts of the robot's path: the taught constraints that the test covers. A

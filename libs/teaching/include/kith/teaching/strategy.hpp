@@ -65,8 +65,9 @@ class Strategy {
   [[nodiscard]] virtual std::unique_ptr<Strategy> clone() const = 0;
 
   /// The next unit for the component. If it is empty the last unit of the component is shown again or, if there was
-  /// none, the component is skipped. Called on a clone, which takes this object's place once the lesson is complete: if
-  /// anything throws, the session and its strategy stay as they were.
+  /// none, one that UnitSelector::complete() makes; if that is empty, too, the component is skipped. Called on a clone,
+  /// which takes this object's place once the lesson is complete: if anything throws, the session and its strategy stay
+  /// as they were.
   /// @param select  chooses demonstrations for a belief. @param random  the root of all that the strategy draws here.
   [[nodiscard]] virtual UnitProposal propose(const TeachingView& view, UnitSelector& select, RandomStream random) = 0;
 };
