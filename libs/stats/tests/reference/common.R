@@ -26,13 +26,15 @@ scalars <- function(x) {
   if (is.logical(x) && !anyNA(x)) return(ifelse(x, "true", "false"))
   ifelse(is.na(x), "null", formatC(x, digits = 17, format = "g", width = 1))
 }
-as_json <- function(x) {
+# A data set is one line: members of the document, and entries of their lists, begin on lines of their own.
+as_json <- function(x, depth = 1) {
   if (inherits(x, "one")) return(scalars(x[[1]]))
   if (!is.list(x)) return(paste0("[", paste(scalars(x), collapse = ","), "]"))
-  parts <- vapply(x, as_json, "")
-  if (length(x) && is.null(names(x))) return(paste0("[", paste(parts, collapse = ",\n"), "]"))
   if (!length(x)) return("[]")
-  paste0("{", paste0('"', names(x), '":', parts, collapse = ",\n"), "}")
+  parts <- vapply(x, as_json, "", depth = depth + 1)
+  between <- if (depth <= 2) ",\n" else ","
+  if (is.null(names(x))) return(paste0("[", if (depth == 2) "\n", paste(parts, collapse = between), "]"))
+  paste0("{", paste0('"', names(x), '":', parts, collapse = between), "}")
 }
 
 # ---- factors ----
