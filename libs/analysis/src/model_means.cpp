@@ -202,7 +202,7 @@ std::vector<Comparison> planned(const FixedEffects& model, std::size_t factor, s
   const auto at = by ? std::vector{*by} : std::vector<std::size_t>{};
   const auto adjustment = contrasts.size() > 1 && !by ? adjustment_of(options.correction) : Adjustment::kNone;
   std::vector<Comparison> comparisons;
-  for (const auto& group : marginal_means(model, over, at, MarginalWeights::kEqual, 1.0 - options.alpha).groups) {
+  for (const auto& group : marginal_means(model, over, at, 1.0 - options.alpha).groups) {
     for (auto& estimate : estimate_contrasts(model, group, contrasts, adjustment, 1.0 - options.alpha))
       comparisons.push_back({std::move(estimate), group.name});
   }
@@ -266,7 +266,7 @@ class Writer {
   [[nodiscard]] MarginalMeans means_of(std::size_t factor, std::optional<std::size_t> by) const {
     const std::vector<std::size_t> over{factor};
     const auto at = by ? std::vector{*by} : std::vector<std::size_t>{};
-    return marginal_means(model_, over, at, MarginalWeights::kEqual, 1.0 - options_.alpha);
+    return marginal_means(model_, over, at, 1.0 - options_.alpha);
   }
 
   void add_pairs_of(std::size_t f, std::optional<std::size_t> by) {

@@ -4,7 +4,6 @@
 
 #include "kith/random/distributions.hpp"
 #include "kith/stats/anova.hpp"
-#include "kith/stats/effect_size.hpp"
 #include "kith/stats/linear_model.hpp"
 #include "kith/stats/marginal_means.hpp"
 #include "kith/stats/multiple.hpp"
@@ -37,23 +36,12 @@ void BM_Anova(benchmark::State& state) {
 }
 BENCHMARK(BM_Anova)->Arg(240)->Arg(20'000)->Unit(benchmark::kMicrosecond);
 
-// What do intervals of all effects cost, with 2000 resamples?
-void BM_BootstrapPartialEtaSquared(benchmark::State& state) {
-  const Teams teams{static_cast<std::size_t>(state.range(0))};
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(bootstrap_partial_eta_squared(teams.response, teams.factors, kCrossed,
-                                                           SumsOfSquares::kTypeII, {}, RandomStream{1}));
-  }
+// What does the critical value of all pairs of four groups cost, most of what they cost?
+void BM_StudentizedRangeQuantile(benchmark::State& state) {
+  for (auto _ : state)
+    benchmark::DoNotOptimize(studentized_range_quantile(0.05, 4, static_cast<double>(state.range(0))));
 }
-BENCHMARK(BM_BootstrapPartialEtaSquared)->Arg(240)->Arg(20'000)->Unit(benchmark::kMillisecond);
-
-// What do all pairs of four groups cost? The critical value is most of it.
-void BM_Tukey(benchmark::State& state) {
-  const std::vector<double> means{1.0, 1.2, 1.5, 2.0};
-  const std::vector<std::size_t> counts(4, 60);
-  for (auto _ : state) benchmark::DoNotOptimize(tukey_hsd(means, counts, 1.0, static_cast<double>(state.range(0))));
-}
-BENCHMARK(BM_Tukey)->Arg(5)->Arg(224)->Arg(19'984)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_StudentizedRangeQuantile)->Arg(5)->Arg(224)->Arg(19'984)->Unit(benchmark::kMillisecond);
 
 // What do marginal means with all their pairs cost, of a factor at each level of another?
 void BM_MarginalMeans(benchmark::State& state) {

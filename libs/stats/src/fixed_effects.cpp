@@ -213,14 +213,17 @@ std::vector<std::size_t> levels_of_cell(const FactorDesign& design, std::size_t 
   return levels;
 }
 
-double covariance_of(const FixedEffects& model, std::span<const double> a, std::span<const double> b) {
+namespace {
+
+double variance_of(const FixedEffects& model, std::span<const double> combination) {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto p = place(a.size());
+  const auto p = place(combination.size());
   const Eigen::Map<const Matrix> covariance{model.covariance.data(), p, p};
-  const Eigen::Map<const Eigen::VectorXd> left{a.data(), p};
-  const Eigen::Map<const Eigen::VectorXd> right{b.data(), p};
-  return left.dot(covariance * right);
+  const Eigen::Map<const Eigen::VectorXd> weights{combination.data(), p};
+  return weights.dot(covariance * weights);
 }
+
+}  // namespace
 
 LinearEstimate estimate_combination(const FixedEffects& model, std::string name, std::vector<double> combination,
                                     double confidence) {
@@ -244,7 +247,7 @@ LinearEstimate estimate_combination(const FixedEffects& model, std::string name,
     result.inference = Estimable<Inference>::impossible(model.no_standard_errors);
     return result;
   }
-  const double variance = covariance_of(model, result.combination, result.combination);
+  const double variance = variance_of(model, result.combination);
   if (!(variance > 0.0)) {
     result.inference = Estimable<Inference>::impossible("its standard error is zero");
     return result;

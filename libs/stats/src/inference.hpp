@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "kith/stats/fixed_effects.hpp"
@@ -10,8 +9,5 @@ namespace kith {
 
 // The level of every factor in a cell of the reference grid.
 [[nodiscard]] std::vector<std::size_t> levels_of_cell(const FactorDesign& design, std::size_t cell);
-
-// Covariance of two combinations of the coefficients.
-[[nodiscard]] double covariance_of(const FixedEffects& model, std::span<const double> a, std::span<const double> b);
 
 }  // namespace kith

@@ -1,6 +1,5 @@
 #include "kith/stats/marginal_means.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,8 +10,6 @@
 #include "inference.hpp"
 #include "kith/stats/distributions.hpp"
 #include "kith/stats/multiple.hpp"
-#include "kith/stats/multivariate_t.hpp"
-#include "term_hypotheses.hpp"
 
 namespace kith {
 namespace {
@@ -67,14 +64,6 @@ class Projection {
   std::vector<std::size_t> factors_;
 };
 
-std::vector<std::size_t> others_of(const FactorDesign& design, std::span<const std::size_t> kept) {
-  std::vector<std::size_t> others;
-  for (std::size_t f = 0; f < design.factors.size(); ++f) {
-    if (std::find(kept.begin(), kept.end(), f) == kept.end()) others.push_back(f);
-  }
-  return others;
-}
-
 // "no observation has strategy 'joint' and composition 'mixed'"
 std::string describe_empty_cell(const FactorDesign& design, std::size_t cell) {
   std::string text = "no observation has ";
@@ -82,29 +71,6 @@ std::string describe_empty_cell(const FactorDesign& design, std::size_t cell) {
   for (std::size_t f = 0; f < levels.size(); ++f)
     text += (f == 0 ? "" : " and ") + design.factors[f].name + " '" + design.factors[f].levels[levels[f]] + "'";
   return text;
-}
-
-// Weight of every cell of the reference grid in the marginal mean that it belongs to; they sum to 1 in each.
-std::vector<double> cell_weights(const FactorDesign& design, const Projection& kept, const Projection& averaged,
-                                 MarginalWeights weights) {
-  const auto cells = design.counts.size();
-  std::vector<double> weight(cells, 1.0);
-  if (weights == MarginalWeights::kCells) {
-    for (std::size_t c = 0; c < cells; ++c) weight[c] = static_cast<double>(design.counts[c]);
-  } else if (weights == MarginalWeights::kProportional) {
-    std::vector<double> observations(averaged.size(), 0.0);
-    for (std::size_t c = 0; c < cells; ++c)
-      observations[averaged.index_of(levels_of_cell(design, c))] += static_cast<double>(design.counts[c]);
-    for (std::size_t c = 0; c < cells; ++c) weight[c] = observations[averaged.index_of(levels_of_cell(design, c))];
-  }
-  std::vector<double> total(kept.size(), 0.0);
-  for (std::size_t c = 0; c < cells; ++c) total[kept.index_of(levels_of_cell(design, c))] += weight[c];
-  for (std::size_t c = 0; c < cells; ++c) {
-    const double sum = total[kept.index_of(levels_of_cell(design, c))];
-    // A mean without observations has no cells to weigh by; equal weights make it say that it cannot be estimated.
-    weight[c] = sum > 0.0 ? weight[c] / sum : static_cast<double>(kept.size()) / static_cast<double>(cells);
-  }
-  return weight;
 }
 
 struct Accumulated {
@@ -124,7 +90,7 @@ std::string empty_cells_reason(const FactorDesign& design, const std::vector<std
 }  // namespace
 
 MarginalMeans marginal_means(const FixedEffects& model, std::span<const std::size_t> over,
-                             std::span<const std::size_t> by, MarginalWeights weights, double confidence) {
+                             std::span<const std::size_t> by, double confidence) {
   require_confidence(confidence, "marginal_means");
   const auto& design = model.design;
   require_factors(design, over, by);
@@ -132,19 +98,17 @@ MarginalMeans marginal_means(const FixedEffects& model, std::span<const std::siz
   auto indices = result.by;
   indices.insert(indices.end(), over.begin(), over.end());
   const Projection kept{design, indices};
-  const Projection averaged{design, others_of(design, indices)};
   const Projection groups{design, result.by};
   const Projection means{design, result.over};
 
   const auto p = design.columns.size();
   std::vector<Accumulated> sums(kept.size(), {std::vector<double>(p, 0.0), {}, 0});
-  const auto weight = cell_weights(design, kept, averaged, weights);
+  const double weight = static_cast<double>(kept.size()) / static_cast<double>(design.counts.size());
   for (std::size_t c = 0; c < design.counts.size(); ++c) {
     auto& sum = sums[kept.index_of(levels_of_cell(design, c))];
     sum.observations += design.counts[c];
-    if (weight[c] == 0.0) continue;
     if (design.counts[c] == 0) sum.empty_cells.push_back(c);
-    for (std::size_t j = 0; j < p; ++j) sum.combination[j] += weight[c] * design.grid[c * p + j];
+    for (std::size_t j = 0; j < p; ++j) sum.combination[j] += weight * design.grid[c * p + j];
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {
     MarginalGroup group{groups.name(g), groups.levels(g), {}};
@@ -165,26 +129,6 @@ MarginalMeans marginal_means(const FixedEffects& model, std::span<const std::siz
     result.groups.push_back(std::move(group));
   }
   return result;
-}
-
-std::string_view to_string(Adjustment adjustment) noexcept {
-  switch (adjustment) {
-    case Adjustment::kBonferroni:
-      return "Bonferroni";
-    case Adjustment::kSidak:
-      return "Sidak";
-    case Adjustment::kHolm:
-      return "Holm";
-    case Adjustment::kFdr:
-      return "Benjamini-Hochberg";
-    case Adjustment::kTukey:
-      return "Tukey-Kramer";
-    case Adjustment::kMultivariateT:
-      return "multivariate t";
-    case Adjustment::kNone:
-      break;
-  }
-  return "none";
 }
 
 std::string contrast_error(std::span<const double> weights, std::size_t num_means) {
@@ -211,19 +155,6 @@ std::vector<MeanContrast> pairwise_contrasts(const MarginalGroup& group) {
       contrasts.back().weights[first] = -1.0;
       contrasts.back().weights[second] = 1.0;
     }
-  }
-  return contrasts;
-}
-
-std::vector<MeanContrast> control_contrasts(const MarginalGroup& group, std::size_t control) {
-  const auto& means = group.means;
-  if (control >= means.size()) throw std::invalid_argument{"control_contrasts: the control is none of the means"};
-  std::vector<MeanContrast> contrasts;
-  for (std::size_t other = 0; other < means.size(); ++other) {
-    if (other == control) continue;
-    contrasts.push_back({means[other].name + " - " + means[control].name, std::vector<double>(means.size(), 0.0)});
-    contrasts.back().weights[control] = -1.0;
-    contrasts.back().weights[other] = 1.0;
   }
   return contrasts;
 }
@@ -256,21 +187,14 @@ void set_p(LinearEstimate& contrast, double p) {
   contrast.inference = inference;
 }
 
-// Both adjust each p-value by itself, and widen the interval to the level of a family of n.
+// Adjusts p-values, and widens the interval to the level of the family where the procedure has simple ones.
 void adjust_one_by_one(std::span<LinearEstimate*> family, Adjustment adjustment, double confidence) {
-  const auto n = static_cast<double>(family.size());
-  const double alpha = 1.0 - confidence;
+  const bool widens = adjustment == Adjustment::kBonferroni || adjustment == Adjustment::kHolm;
+  const double each = (1.0 - confidence) / (widens ? static_cast<double>(family.size()) : 1.0);  // level of an interval
   std::vector<double> p;
   for (const auto* contrast : family) p.push_back(contrast->inference->p_unadjusted);
   p = adjust(p, correction_of(adjustment));
   for (std::size_t i = 0; i < family.size(); ++i) {
-    double each = alpha;  // level of one interval
-    if (adjustment == Adjustment::kSidak) {
-      p[i] = -std::expm1(n * std::log1p(-std::min(p[i], 1.0)));
-      each = -std::expm1(std::log1p(-alpha) / n);
-    } else if (adjustment == Adjustment::kBonferroni || adjustment == Adjustment::kHolm) {
-      each = alpha / n;
-    }
     set_p(*family[i], p[i]);
     set_interval(*family[i], -student_t_quantile(each / 2.0, family[i]->inference->df));
   }
@@ -292,30 +216,6 @@ void adjust_by_range(std::span<LinearEstimate*> family, std::size_t num_means, d
     }
     const double q = std::numbers::sqrt2 * std::abs(contrast->inference->statistic);
     set_p(*contrast, studentized_range_upper(q, num_means, df));
-    set_interval(*contrast, critical);
-  }
-}
-
-void adjust_by_largest(std::span<LinearEstimate*> family, const FixedEffects& model, double confidence) {
-  const auto k = family.size();
-  std::vector<double> correlations(k * k, 1.0);
-  for (std::size_t i = 0; i < k; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const double covariance = covariance_of(model, family[i]->combination, family[j]->combination);
-      correlations[i * k + j] = correlations[j * k + i] = std::clamp(
-          covariance / family[i]->inference->standard_error / family[j]->inference->standard_error, -1.0, 1.0);
-    }
-  }
-  const LargestT largest{correlations};
-  double df_of_critical = 0.0;
-  double critical = 0.0;
-  for (auto* contrast : family) {
-    const double df = contrast->inference->df;
-    if (df != df_of_critical) {
-      critical = largest.quantile(1.0 - confidence, df);
-      df_of_critical = df;
-    }
-    set_p(*contrast, largest.upper(std::abs(contrast->inference->statistic), df));
     set_interval(*contrast, critical);
   }
 }
@@ -359,42 +259,10 @@ std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const 
   if (adjustment == Adjustment::kTukey) {
     const auto num_means = static_cast<std::size_t>(std::count(in_family.begin(), in_family.end(), true));
     adjust_by_range(family, num_means, confidence);
-  } else if (adjustment == Adjustment::kMultivariateT) {
-    adjust_by_largest(family, model, confidence);
   } else if (adjustment != Adjustment::kNone) {
     adjust_one_by_one(family, adjustment, confidence);
   }
   return results;
-}
-
-Estimable<TestResult> test_equal_means(const FixedEffects& model, const MarginalGroup& means) {
-  using Result = Estimable<TestResult>;
-  std::vector<const MarginalMean*> estimable;
-  for (const auto& mean : means.means) {
-    if (mean.estimate) estimable.push_back(&mean);
-  }
-  if (estimable.size() < 2)
-    return Result::impossible(means.means.size() < 2 || estimable.size() == means.means.size()
-                                  ? "fewer than two means"
-                                  : "fewer than two means can be estimated");
-  if (!model.no_standard_errors.empty()) return Result::impossible(model.no_standard_errors);
-  const auto p = static_cast<Eigen::Index>(model.coefficients.size());
-  Eigen::MatrixXd differences(static_cast<Eigen::Index>(estimable.size()) - 1, p);
-  const auto combination_of = [&](std::size_t m) {
-    return Eigen::Map<const Eigen::VectorXd>{estimable[m]->combination.data(), p};
-  };
-  for (Eigen::Index i = 0; i < differences.rows(); ++i)
-    differences.row(i) = (combination_of(static_cast<std::size_t>(i) + 1) - combination_of(0)).transpose();
-  const Eigen::Map<const Eigen::MatrixXd> covariance{model.covariance.data(), p, p};
-  const Eigen::Map<const Eigen::VectorXd> coefficients{model.coefficients.data(), p};
-  const auto df = [&](const Eigen::VectorXd& contrast) {
-    return model.df({contrast.data(), static_cast<std::size_t>(p)});
-  };
-  auto test = detail::satterthwaite_test("", differences, coefficients, covariance, df).test;
-  if (!test) return Result::impossible("the standard errors of all differences are zero");
-  if (!std::isinf(test->df[1])) return test;
-  const double sum = test->statistic * test->df[0], rank = test->df[0];
-  return TestResult{"chi-squared", sum, {rank}, chi_squared_upper(sum, rank)};
 }
 
 namespace {

@@ -1,11 +1,8 @@
 #include "kith/stats/multiple.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
-
-#include "checks.hpp"
 
 namespace kith {
 
@@ -64,35 +61,6 @@ std::vector<double> adjust(std::span<const double> p_values, Correction correcti
     }
   }
   return adjusted;
-}
-
-Estimable<std::vector<PairwiseDifference>> tukey_hsd(std::span<const double> means, std::span<const std::size_t> counts,
-                                                     double mean_square, double df, double confidence) {
-  using Result = Estimable<std::vector<PairwiseDifference>>;
-  require_confidence(confidence, "tukey_hsd");
-  require_finite(means, "tukey_hsd");
-  if (means.size() != counts.size()) throw std::invalid_argument{"tukey_hsd: one count per mean is needed"};
-  if (!(mean_square >= 0.0) || !(df >= 0.0)) throw std::invalid_argument{"tukey_hsd: mean_square and df must be >= 0"};
-  if (means.size() < 2) return Result::impossible("fewer than two groups");
-  if (std::find(counts.begin(), counts.end(), std::size_t{0}) != counts.end())
-    return Result::impossible("a group without observations");
-  if (df < 2.0) return Result::impossible("fewer than two residual degrees of freedom");
-  if (mean_square == 0.0) return Result::impossible("no residual spread");
-  if (std::isinf(mean_square)) return Result::impossible("the residual spread is beyond the range of numbers");
-  const auto groups = means.size();
-  const double critical = studentized_range_quantile(1.0 - confidence, groups, df);
-  std::vector<PairwiseDifference> pairs;
-  for (std::size_t first = 0; first < groups; ++first) {
-    for (std::size_t second = first + 1; second < groups; ++second) {
-      const double weight = 1.0 / static_cast<double>(counts[first]) + 1.0 / static_cast<double>(counts[second]);
-      const double standard_error = std::sqrt(mean_square) * std::sqrt(weight / 2.0);
-      const double difference = means[second] - means[first];
-      const double reach = critical * standard_error;
-      pairs.push_back({first, second, difference, difference - reach, difference + reach,
-                       studentized_range_upper(std::abs(difference) / standard_error, groups, df)});
-    }
-  }
-  return pairs;
 }
 
 }  // namespace kith

@@ -10,26 +10,16 @@
 #include "checks.hpp"
 #include "f_test.hpp"
 #include "kith/stats/distributions.hpp"
+#include "samples.hpp"
 
 namespace kith {
 namespace {
 
-struct Group {
-  std::string level;
-  double n = 0.0;
-  double mean = 0.0;
-  double sum_of_squares = 0.0;  // around the mean
-  [[nodiscard]] double variance() const { return sum_of_squares / (n - 1.0); }
-};
+using detail::no_spread;
 
-Group describe(std::string level, std::span<const double> values) {
-  Group group{std::move(level), static_cast<double>(values.size())};
-  const double origin = values.front();  // Equal values have exactly no spread.
-  for (const double value : values) group.mean += value - origin;
-  group.mean = origin + group.mean / group.n;
-  for (const double value : values) group.sum_of_squares += (value - group.mean) * (value - group.mean);
-  return group;
-}
+struct Group : detail::Sample {
+  std::string level;
+};
 
 // The groups that have observations, of standardised values.
 struct Groups {
@@ -48,14 +38,10 @@ Groups describe_groups(std::span<const double> values, const Factor& factor, con
   groups.rounding = standardized.rounding;
   const auto by_level = split_by(standardized.values, factor);
   for (std::size_t level = 0; level < by_level.size(); ++level) {
-    if (!by_level[level].empty()) groups.all.push_back(describe(factor.levels[level], by_level[level]));
+    if (!by_level[level].empty()) groups.all.push_back({detail::describe(by_level[level]), factor.levels[level]});
   }
   if (groups.all.size() < 2) groups.reason = "fewer than two groups have observations";
   return groups;
-}
-
-bool no_spread(double sum_of_squares, double n, double rounding) {
-  return sum_of_squares <= negligible_sum_of_squares(rounding, static_cast<std::size_t>(n));
 }
 
 double median(std::vector<double> values) {
@@ -178,20 +164,17 @@ Estimable<MeanDifference> welch_t_test(std::span<const double> a, std::span<cons
   require_finite(b, "welch_t_test");
   require_confidence(confidence, "welch_t_test");
   if (a.size() < 2 || b.size() < 2) return Result::impossible("fewer than two values in a group");
-  std::vector<double> both{a.begin(), a.end()};
-  both.insert(both.end(), b.begin(), b.end());
-  const auto standardized = standardize(both);
-  const std::span<const double> values{standardized.values};
-  const auto first = describe("", values.first(a.size()));
-  const auto second = describe("", values.subspan(a.size()));
-  if (no_spread(first.sum_of_squares + second.sum_of_squares, first.n + second.n, standardized.rounding))
+  const auto samples = detail::describe(a, b);
+  if (no_spread(samples.within(), samples.n(), samples.rounding))
     return Result::impossible("no spread within the groups");
+  const auto& first = samples.first;
+  const auto& second = samples.second;
   const double of_first = first.variance() / first.n;
   const double of_second = second.variance() / second.n;
   const double variance = of_first + of_second;
   const double df =
       variance * variance / (of_first * of_first / (first.n - 1.0) + of_second * of_second / (second.n - 1.0));
-  return t_difference(first.mean - second.mean, std::sqrt(variance), df, confidence, standardized.exponent);
+  return t_difference(first.mean - second.mean, std::sqrt(variance), df, confidence, samples.exponent);
 }
 
 Estimable<MeanDifference> paired_t_test(std::span<const double> a, std::span<const double> b, double confidence) {
@@ -209,7 +192,7 @@ Estimable<MeanDifference> paired_t_test(std::span<const double> a, std::span<con
   const int exponent = largest > 0.0 ? std::ilogb(largest) + 1 : 0;
   std::vector<double> differences(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] = std::ldexp(a[i], -exponent) - std::ldexp(b[i], -exponent);
-  const auto described = describe("", differences);
+  const auto described = detail::describe(differences);
   if (no_spread(described.sum_of_squares, described.n, std::numeric_limits<double>::epsilon()))
     return Result::impossible("all differences are equal");
   return t_difference(described.mean, std::sqrt(described.variance() / described.n), described.n - 1.0, confidence,
@@ -222,14 +205,11 @@ Estimable<VarianceRatio> variance_ratio(std::span<const double> a, std::span<con
   require_finite(b, "variance_ratio");
   require_confidence(confidence, "variance_ratio");
   if (a.size() < 2 || b.size() < 2) return Result::impossible("fewer than two values in a group");
-  std::vector<double> both{a.begin(), a.end()};
-  both.insert(both.end(), b.begin(), b.end());
-  const auto standardized = standardize(both);
-  const std::span<const double> values{standardized.values};
-  const auto first = describe("", values.first(a.size()));
-  const auto second = describe("", values.subspan(a.size()));
-  for (const auto* group : {&first, &second}) {
-    if (no_spread(group->sum_of_squares, group->n, standardized.rounding))
+  const auto samples = detail::describe(a, b);
+  const auto& first = samples.first;
+  const auto& second = samples.second;
+  for (const auto* sample : {&first, &second}) {
+    if (no_spread(sample->sum_of_squares, sample->n, samples.rounding))
       return Result::impossible("no spread within a group");
   }
   const double ratio = first.variance() / second.variance();

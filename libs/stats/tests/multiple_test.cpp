@@ -105,35 +105,5 @@ TEST(StudentizedRange, EndsAreExact) {
   EXPECT_THROW((void)studentized_range_quantile(0.0, 4, 56), std::invalid_argument);
 }
 
-TEST(Tukey, OfTwoGroupsIsTheTTest) {
-  const auto pairs = tukey_hsd(std::vector<double>{1.0, 2.5}, std::vector<std::size_t>{4, 9}, 1.3, 11.0);
-  ASSERT_TRUE(pairs);
-  const double standard_error = std::sqrt(1.3 * (1.0 / 4.0 + 1.0 / 9.0));
-  EXPECT_NEAR(pairs->at(0).p, student_t_two_sided(1.5 / standard_error, 11.0), 1e-12);
-  EXPECT_NEAR(pairs->at(0).high, 1.5 + student_t_quantile(0.975, 11.0) * standard_error, 1e-10);
-}
-
-TEST(Tukey, IntervalsHoldZeroIffNotSignificant) {
-  const std::vector<double> means{1.0, 1.4, 2.1, 4.0};
-  const auto pairs = tukey_hsd(means, std::vector<std::size_t>{5, 8, 6, 7}, 1.0, 22.0, 0.9);
-  ASSERT_EQ(pairs->size(), 6u);
-  for (const auto& pair : *pairs) {
-    EXPECT_LT(pair.first, pair.second);
-    EXPECT_EQ(pair.difference, means[pair.second] - means[pair.first]);
-    EXPECT_EQ(pair.low <= 0.0 && pair.high >= 0.0, pair.p >= 0.1);
-  }
-}
-
-TEST(Tukey, SaysWhyNothingCanBeCompared) {
-  const std::vector<double> means{1.0, 2.0};
-  const std::vector<std::size_t> counts{3, 3};
-  EXPECT_EQ(tukey_hsd(means, counts, 0.0, 4).reason(), "no residual spread");
-  EXPECT_EQ(tukey_hsd(means, counts, 1.0, 1).reason(), "fewer than two residual degrees of freedom");
-  EXPECT_EQ(tukey_hsd(means, std::vector<std::size_t>{3, 0}, 1.0, 4).reason(), "a group without observations");
-  EXPECT_EQ(tukey_hsd(std::vector<double>{1}, std::vector<std::size_t>{3}, 1.0, 4).reason(), "fewer than two groups");
-  EXPECT_THROW((void)tukey_hsd(means, std::vector<std::size_t>{3}, 1.0, 4), std::invalid_argument);
-  EXPECT_THROW((void)tukey_hsd(means, counts, -1.0, 4), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace kith

@@ -107,7 +107,6 @@ one_factor <- function(y, g) {
     pooled <- sqrt(((n[1] - 1) * var(groups[[1]]) + (n[2] - 1) * var(groups[[2]])) / (n[1] + n[2] - 2))
     df <- n[1] + n[2] - 2
     d <- (mean(groups[[1]]) - mean(groups[[2]])) / pooled
-    result$cohens_d <- d
     result$hedges_g <- d * exp(lgamma(df / 2) - lgamma((df - 1) / 2)) / sqrt(df / 2)
   }
   if (df.residual(aov(y ~ g)) >= 2) result$tukey <- tukey(y, g)

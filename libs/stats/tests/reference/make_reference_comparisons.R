@@ -2,48 +2,16 @@
 #
 #   Rscript libs/stats/tests/reference/make_reference_comparisons.R libs/stats/tests/reference/comparisons.json
 #
-# Needs R >= 4.2 with car, emmeans and mvtnorm. Data are drawn here with a fixed seed and stored with the results, so that neither
+# Needs R >= 4.2 with car. Data are drawn here with a fixed seed and stored with the results, so that neither
 # the build nor the tests need R. Confidence limits of non-centralities are roots of R's pt and pf; tails of the
 # studentised range are the integral that defines them, because ptukey is off for few degrees of freedom.
 
-suppressPackageStartupMessages({ library(car); library(emmeans); library(mvtnorm) })
+suppressPackageStartupMessages({ library(car) })
 options(warn = -1)  # about precision far from the roots, and about epsilons above 1
 set.seed(20261123, kind = "Mersenne-Twister", normal.kind = "Inversion", sample.kind = "Rejection")
 
 folder <- dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE)))
 source(file.path(folder, "common.R"))
-
-# ---- the largest of several |t| ----
-
-# Product correlations of comparisons with a control of n[1] observations; by the integral that defines them.
-dunnett_upper <- function(t, loadings, df) {
-  given <- function(r) vapply(r, function(r) integrate(function(y) dnorm(y) * vapply(y, function(y) {
-    s <- sqrt(1 - loadings^2)
-    -expm1(sum(log1p(-pmin(1, pnorm((r - loadings * y) / s, lower.tail = FALSE) + pnorm((r + loadings * y) / s, lower.tail = FALSE)))))
-  }, 0), -9 - r, 9 + r, rel.tol = 1e-10, subdivisions = 1000)$value, 0)
-  if (is.infinite(df)) return(given(t))
-  density <- function(s) exp(log(2) + df / 2 * log(df / 2) - lgamma(df / 2) + (df - 1) * log(s) - df * s^2 / 2)
-  sd <- 1 / sqrt(2 * df)
-  integrate(function(s) density(s) * given(t * s), max(0, 1 - 12 * sd), 1 + 12 * sd, rel.tol = 1e-9, subdivisions = 1000)$value
-}
-largest_t <- list()
-for (n in list(c(10, 10, 10), c(5, 10, 20, 7), c(30, 3), c(4, 4, 4, 4, 4, 4))) for (df in c(3, 11, 60, Inf)) for (t in c(0.5, 2, 3.5)) {
-  loadings <- sqrt(n[-1] / (n[1] + n[-1]))
-  correlations <- outer(loadings, loadings)
-  diag(correlations) <- 1
-  largest_t[[length(largest_t) + 1]] <- list(kind = "product", correlations = array_of(as.vector(correlations)), t = t,
-                                             df = if (is.infinite(df)) 0 else df, p = dunnett_upper(t, loadings, df))
-}
-general <- function(contrasts, covariance) cov2cor(contrasts %*% covariance %*% t(contrasts))
-random_covariance <- function(k) crossprod(matrix(rnorm(k * (k + 2)), k + 2))
-with_control <- function(k) cbind(-1, diag(k - 1))
-all_pairs <- function(k) t(combn(k, 2, function(p) { x <- numeric(k); x[p] <- c(-1, 1); x }))
-for (k in 3:5) for (contrasts in list(with_control(k), all_pairs(k))) for (df in c(5, 40)) for (t in c(1, 2.5, 4)) {
-  r <- general(contrasts, random_covariance(k))
-  p <- 1 - pmvt(rep(-t, nrow(r)), rep(t, nrow(r)), df = df, corr = r, algorithm = GenzBretz(maxpts = 3e5, abseps = 1e-7))
-  if (attr(p, "error") < 2e-5 * p) largest_t[[length(largest_t) + 1]] <- list(kind = "general", correlations = array_of(as.vector(r)), t = t, df = df, p = as.numeric(p))
-}
-cat(length(largest_t), "tails of the largest t\n")
 
 # ---- effect sizes ----
 
@@ -95,30 +63,8 @@ for (f in c(0.3, 1, 2.4, 9, 60)) for (df in list(c(1, 8), c(3, 56), c(9, 224), c
   low <- ncp_f(f, df[1], df[2], 0.025)
   high <- ncp_f(f, df[1], df[2], 0.975)
   shares[[length(shares) + 1]] <- list(f = f, df1 = df[1], df2 = df[2], n = n, eta = f * df[1] / (f * df[1] + df[2]),
-                                       low = low / (low + n), high = high / (high + n),
-                                       omega = max(0, df[1] * (f - 1)) / (max(0, df[1] * (f - 1)) + n))
+                                       low = low / (low + n), high = high / (high + n))
 }
-
-# ---- Games and Howell ----
-
-games_howell <- list()
-add_games <- function(name, sizes, sds) {
-  g <- rep(seq_along(sizes), sizes)
-  y <- rnorm(length(g), 0.6 * g, sds[g])
-  pairs <- combn(length(sizes), 2, function(p) {
-    test <- t.test(y[g == p[2]], y[g == p[1]])
-    df <- test$parameter[[1]]
-    t <- test$statistic[[1]]
-    list(first = p[1] - 1, second = p[2] - 1, diff = test$estimate[[1]] - test$estimate[[2]], se = test$stderr, df = df,
-         p = if (df < 2) NA else tukey_upper(sqrt(2) * abs(t), length(sizes), df),
-         reach = if (df < 2) NA else qtukey(0.95, length(sizes), df) / sqrt(2) * test$stderr)
-  }, simplify = FALSE)
-  games_howell[[length(games_howell) + 1]] <<- list(name = name, y = array_of(y), g = array_of(g - 1), pairs = pairs)
-}
-add_games("equal sizes", c(8, 8, 8), c(1, 1, 1))
-add_games("unequal sizes and variances", c(5, 20, 12, 40), c(3, 0.5, 1, 2))
-add_games("two groups", c(6, 9), c(1, 4))
-add_games("pairs of values", c(2, 30, 4), c(1, 0.1, 2))
 
 # ---- sphericity ----
 
@@ -166,31 +112,10 @@ add_blocks("three groups of eight", 4, c(8, 8, 8), 0.6)
 add_blocks("groups of unequal size", 3, c(4, 9, 6), 0.7)
 add_blocks("six levels, many blocks", 6, c(40, 40), 0.3)
 
-# ---- simple effects ----
-
-simple_effects <- list()
-add_simple <- function(name, counts, formula, over, by) {
-  index <- arrayInd(rep(seq_along(counts), counts), dim(counts))
-  d <- data.frame(a = factor(index[, 1]), b = factor(index[, 2]))
-  d$y <- rnorm(nrow(d)) + 0.4 * index[, 1] * index[, 2]
-  tests <- joint_tests(lm(formula, d), by = by)
-  tests <- tests[tests[["model term"]] == over, ]
-  simple_effects[[length(simple_effects) + 1]] <<- list(
-    name = name, y = array_of(d$y), a = array_of(index[, 1] - 1), b = array_of(index[, 2] - 1),
-    terms = if (grepl("[*]", as.character(formula)[3])) list(list(0), list(1), list(0, 1)) else list(list(0), list(1)),
-    over = if (over == "a") 0 else 1,
-    f = array_of(tests$F.ratio), df1 = array_of(tests$df1), df2 = array_of(tests$df2), p = array_of(tests$p.value))
-}
-add_simple("balanced", array(6, c(4, 3)), y ~ a * b, "a", "b")
-add_simple("unbalanced", array(c(3, 5, 2, 7, 4, 6), c(2, 3)), y ~ a * b, "b", "a")
-add_simple("additive", array(c(3, 5, 2, 7, 4, 6), c(3, 2)), y ~ a + b, "a", "b")
-
 # ---- write ----
 
-made_by <- paste0(R.version.string, ", car ", packageVersion("car"), ", emmeans ", packageVersion("emmeans"),
-                  ", mvtnorm ", packageVersion("mvtnorm"))
+made_by <- paste0(R.version.string, ", car ", packageVersion("car"))
 writeLines(paste0("{\"made_by\":\"", made_by, "\",\n",
-                  paste(lines("largest_t", largest_t), lines("two_groups", two_groups), lines("shares", shares),
-                        lines("games_howell", games_howell), lines("sphericity", sphericity),
-                        lines("simple_effects", simple_effects), sep = ",\n"), "\n}"),
+                  paste(lines("two_groups", two_groups), lines("shares", shares), lines("sphericity", sphericity), sep = ",\n"),
+                  "\n}"),
            commandArgs(TRUE)[1])

@@ -3,22 +3,13 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "kith/stats/effect_size.hpp"
 #include "kith/stats/estimable.hpp"
 #include "kith/stats/fixed_effects.hpp"
-#include "kith/stats/tests.hpp"
 
 namespace kith {
-
-/// How marginal means weigh the combinations of levels of the factors that they average over.
-enum class MarginalWeights {
-  kEqual,         ///< Every combination counts once.
-  kProportional,  ///< By how many observations have it in all, whatever the level whose mean is asked for.
-  kCells,         ///< By how many observations of that level have it: raw means, if the model is saturated.
-};
 
 /// The estimated marginal mean of a combination of levels [searle1980] (R: emmeans).
 struct MarginalMean : LinearEstimate {
@@ -40,25 +31,21 @@ struct MarginalMeans {
 };
 
 /// Marginal means of every combination of levels of the factors `over`, at each combination of levels of the factors
-/// `by`, averaged over all other factors of the model on the scale of the link. Intervals are not adjusted.
+/// `by`, averaged over all other factors of the model, whose combinations of levels count equally, on the scale of the
+/// link. Intervals are not adjusted.
 /// @param over, by  indices of model.design.factors, none twice; `over` is not empty.
 /// @throws std::invalid_argument if an index is out of range or occurs twice, or confidence is not in (0, 1).
 [[nodiscard]] MarginalMeans marginal_means(const FixedEffects& model, std::span<const std::size_t> over,
-                                           std::span<const std::size_t> by = {},
-                                           MarginalWeights weights = MarginalWeights::kEqual, double confidence = 0.95);
+                                           std::span<const std::size_t> by = {}, double confidence = 0.95);
 
 /// How p-values and intervals of a family of contrasts are adjusted.
 enum class Adjustment {
   kNone,
   kBonferroni,
-  kSidak,
-  kHolm,           ///< Intervals are Bonferroni's: Holm's procedure has no simple ones.
-  kFdr,            ///< Benjamini and Hochberg [benjamini1995]; intervals are not adjusted.
-  kTukey,          ///< Tukey-Kramer: the studentised range of all means [tukey1949; kramer1956]. For all pairs.
-  kMultivariateT,  ///< LargestT with the correlations of the contrasts: Dunnett's test if they compare with a control
-                   ///< [dunnett1955].
+  kHolm,   ///< Intervals are Bonferroni's: Holm's procedure has no simple ones.
+  kFdr,    ///< Benjamini and Hochberg [benjamini1995]; intervals are not adjusted.
+  kTukey,  ///< Tukey-Kramer: the studentised range of all means [tukey1949; kramer1956]. For all pairs.
 };
-[[nodiscard]] std::string_view to_string(Adjustment adjustment) noexcept;
 
 /// A weight for every mean of a group, in the order of MarginalGroup::means.
 struct MeanContrast {
@@ -70,11 +57,8 @@ struct MeanContrast {
 /// sum is 0 within 1e-6 of the largest.
 [[nodiscard]] std::string contrast_error(std::span<const double> weights, std::size_t num_means);
 
-/// Every pair of means: "second - first", in the order of tukey_hsd().
+/// Every pair of means: "second - first", in the order of R: the first with every later one, then the second.
 [[nodiscard]] std::vector<MeanContrast> pairwise_contrasts(const MarginalGroup& group);
-/// Every other mean less that of the control. @throws std::invalid_argument unless control < number of means.
-[[nodiscard]] std::vector<MeanContrast> control_contrasts(const MarginalGroup& group, std::size_t control);
-
 /// Estimates the contrasts of one group as one family (R: emmeans::contrast); of a log or logit model they are
 /// logarithms of ratios. Contrasts that cannot be estimated do not count in the family.
 /// @param means  of the same model.
@@ -82,13 +66,6 @@ struct MeanContrast {
 [[nodiscard]] std::vector<LinearEstimate> estimate_contrasts(const FixedEffects& model, const MarginalGroup& means,
                                                              std::span<const MeanContrast> contrasts,
                                                              Adjustment adjustment, double confidence = 0.95);
-
-/// Test that all means of a group are equal: the simple effect of the factors `over` at the group's levels of the
-/// factors `by` (R: emmeans::joint_tests). F; if the degrees of freedom are infinite, chi-squared. Where they differ
-/// between contrasts, those of the denominator are such that F has the mean of the sum of the squared t statistics of
-/// independent contrasts (R: lmerTest). Means that cannot be estimated do not count.
-/// Not estimable below two means, or as their differences' inference is not.
-[[nodiscard]] Estimable<TestResult> test_equal_means(const FixedEffects& model, const MarginalGroup& means);
 
 /// A marginal mean with its interval on the scale of the response: exp() of a log link, 1 / (1 + exp(-x)) of a logit.
 [[nodiscard]] Estimable<Interval> response_mean(Link link, const LinearEstimate& mean);

@@ -1,12 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include "kith/stats/estimable.hpp"
-#include "kith/stats/factor.hpp"
-#include "kith/stats/tests.hpp"
 
 namespace kith {
 
@@ -26,35 +23,5 @@ enum class Correction { kNone, kBonferroni, kHolm, kFdr };
 [[nodiscard]] double studentized_range_upper(double q, std::size_t groups, double df);
 /// The q with studentized_range_upper(q, groups, df) = p, for p in (0, 1).
 [[nodiscard]] double studentized_range_quantile(double p, std::size_t groups, double df);
-
-/// One pair of groups of a Tukey test.
-struct PairwiseDifference {
-  std::size_t first = 0;  ///< Indices of levels; the difference is mean(second) - mean(first), as in R.
-  std::size_t second = 0;
-  double difference = 0.0;
-  double low = 0.0;  ///< Simultaneous confidence interval.
-  double high = 0.0;
-  double p = 1.0;  ///< Adjusted for all pairs.
-};
-/// Tukey's honestly significant differences with the Tukey-Kramer standard error, in R's order of pairs.
-/// @param means, counts  per group. @param mean_square, df  of the residuals of the model.
-[[nodiscard]] Estimable<std::vector<PairwiseDifference>> tukey_hsd(std::span<const double> means,
-                                                                   std::span<const std::size_t> counts,
-                                                                   double mean_square, double df,
-                                                                   double confidence = 0.95);
-
-/// One pair of groups of a Games-Howell test.
-struct UnequalVariancePair {
-  std::size_t first = 0;  ///< Indices of levels; the difference is mean(second) - mean(first).
-  std::size_t second = 0;
-  /// Welch's standard error and degrees of freedom; interval and p by the studentised range of all groups.
-  Estimable<MeanDifference> difference = Estimable<MeanDifference>::impossible("not computed");
-};
-/// Pairwise differences without equal variances [games1976], of the groups that have observations; in the order of
-/// tukey_hsd(). A pair says why it cannot be compared: fewer than two values in a group, no spread in both, or fewer
-/// than two degrees of freedom. Not estimable with fewer than two groups.
-/// @throws std::invalid_argument as welch_anova() does, or if confidence is not in (0, 1).
-[[nodiscard]] Estimable<std::vector<UnequalVariancePair>> games_howell(std::span<const double> values,
-                                                                       const Factor& groups, double confidence = 0.95);
 
 }  // namespace kith

@@ -53,7 +53,7 @@ struct MeanDifference {
                                                       double confidence = 0.95);
 
 /// The ratio of two variances with its interval and two-sided F test (R: var.test). Both assume normal values; where
-/// they are not, brown_forsythe() and bootstrap_variance_ratio() do without.
+/// they are not, brown_forsythe() does without.
 struct VarianceRatio {
   Interval ratio;   ///< variance(a) / variance(b)
   TestResult test;  ///< F(a - 1, b - 1)
