@@ -2,9 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -15,6 +13,7 @@
 #include "f_test.hpp"
 #include "kith/stats/distributions.hpp"
 #include "mixed_deviance.hpp"
+#include "root.hpp"
 #include "term_hypotheses.hpp"
 
 namespace kith {
@@ -206,11 +205,7 @@ Interval profile_interval(MixedDeviance& data, const Optimum& optimum, double co
     return data.evaluate(VectorXd::Constant(1, std::exp(log_tau))).deviance - limit;
   };
   const auto root = [&](double inside, double outside) {
-    std::uintmax_t evaluations = 100;
-    const auto [from, to] = boost::math::tools::toms748_solve(
-        [&](double x) { return excess(x); }, std::min(inside, outside), std::max(inside, outside),
-        boost::math::tools::eps_tolerance<double>(32), evaluations);
-    return std::exp(from + (to - from) / 2.0);
+    return std::exp(detail::root_between(std::min(inside, outside), std::max(inside, outside), 32, excess));
   };
   const double tau = optimum.tau(0);
   Interval interval{tau / (1.0 + tau), 0.0, 1.0};

@@ -2,36 +2,15 @@
 #include <stdexcept>
 
 #include "kith/stats/distributions.hpp"
+#include "root.hpp"
 
 namespace kith {
 namespace {
 
+constexpr unsigned kBits = 45;
+
 void require_limit(bool holds, const char* rule) {
   if (!holds) throw std::invalid_argument{rule};
-}
-
-// A root of a function that falls, between a place where it is >= 0 and one where it is <= 0, to the last digits.
-template <typename Function>
-double root_of_falling(double low, double high, Function f) {
-  double at_low = f(low);
-  double at_high = f(high);
-  for (int i = 0; i < 200 && high - low > 1e-13 * (std::abs(low) + std::abs(high)); ++i) {
-    // False position, halving the weight of an end that stays (Illinois); bisection every third step.
-    double middle = i % 3 == 2 ? 0.5 * (low + high) : (low * at_high - high * at_low) / (at_high - at_low);
-    if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
-    const double at_middle = f(middle);
-    if (at_middle == 0.0) return middle;
-    if (at_middle > 0.0) {
-      low = middle;
-      at_low = at_middle;
-      at_high *= 0.5;
-    } else {
-      high = middle;
-      at_high = at_middle;
-      at_low *= 0.5;
-    }
-  }
-  return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -48,7 +27,7 @@ double non_centrality_of_t(double t, double df, double p) {
   while (excess(low) < 0.0) low -= reach *= 2.0;
   double high = t + reach;
   while (excess(high) > 0.0) high += reach *= 2.0;
-  return root_of_falling(low, high, excess);
+  return detail::root_between(low, high, kBits, excess);
 }
 
 double non_centrality_of_f(double f, double df1, double df2, double p) {
@@ -58,7 +37,7 @@ double non_centrality_of_f(double f, double df1, double df2, double p) {
   if (excess(0.0) <= 0.0) return 0.0;
   double high = f * df1 + 1.0;
   while (excess(high) > 0.0) high *= 2.0;
-  return root_of_falling(0.0, high, excess);
+  return detail::root_between(0.0, high, kBits, excess);
 }
 
 }  // namespace kith

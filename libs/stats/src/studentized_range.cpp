@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "kith/stats/multiple.hpp"
-#include "tail_integral.hpp"
+#include "root.hpp"
 
 // The studentised range Q = R / S: R is the range of k standard normals, and df S^2 an independent chi-squared.
 //
@@ -20,6 +21,26 @@
 
 namespace kith {
 namespace {
+
+// Sum of f(start + i * step) over all integers i, from 0 outwards until terms no longer count. f has one peak, near
+// `start`. As a trapezoidal rule it converges faster than any power of its step if f is analytic.
+template <typename Function>
+double sum_outwards(double start, double step, Function f) {
+  constexpr double kNegligible = 1e-18;
+  double sum = f(start);
+  for (const double direction : {-step, step}) {
+    for (int i = 1;; ++i) {
+      const double term = f(start + i * direction);
+      sum += term;
+      if (term <= kNegligible * sum) break;
+    }
+  }
+  return sum;
+}
+
+// The density, up to a factor, of u = log s where df s^2 is chi-squared with df degrees of freedom; 1 at its mode u =
+// 0.
+double log_scale_density(double u, double df) { return std::exp(df * (u - 0.5 * std::expm1(2.0 * u))); }
 
 double normal_lower(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
@@ -85,22 +106,27 @@ double studentized_range_upper(double q, std::size_t groups, double df) {
 
   // Bounded by how steeply P(R > r) falls, steeper for many groups, and by the width of the density.
   const double step = std::min(groups <= 20 ? 0.1 : 0.05, 0.7 / std::sqrt(2.0 * df));
-  const auto density = [df](double u) { return detail::log_scale_density(u, df); };
+  const auto density = [df](double u) { return log_scale_density(u, df); };
   // Both factors are log-concave in u, so their product has one peak: here if P(R > r) fades as exp(-r^2 / 4).
   const double mode = -0.5 * std::log1p(0.5 * q * (q / df));
   if (std::isinf(mode)) return 0.0;
-  const double tail = detail::sum_outwards(mode, step, [&](double u) {
+  const double tail = sum_outwards(mode, step, [&](double u) {
     const double weight = density(u);
     return weight > 0.0 ? weight * range_upper(q * std::exp(u)) : 0.0;
   });
-  const double total = detail::sum_outwards(0.0, step, density);
+  const double total = sum_outwards(0.0, step, density);
   return std::min(1.0, tail / total);
 }
 
 double studentized_range_quantile(double p, std::size_t groups, double df) {
   require_range(groups, df, "studentized_range_quantile: groups and df must be >= 2");
   if (!(p > 0.0 && p < 1.0)) throw std::invalid_argument{"studentized_range_quantile: p must be in (0, 1)"};
-  return detail::upper_quantile(p, [&](double q) { return studentized_range_upper(q, groups, df); });
+  const auto excess = [&](double q) {
+    return std::log(std::max(studentized_range_upper(q, groups, df), std::numeric_limits<double>::min()) / p);
+  };
+  double high = 4.0;
+  while (excess(high) > 0.0) high *= 2.0;
+  return detail::root_between(0.0, high, 49, excess);
 }
 
 }  // namespace kith

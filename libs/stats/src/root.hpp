@@ -1,0 +1,18 @@
+#pragma once
+
+#include <boost/math/tools/roots.hpp>
+#include <cstdint>
+
+namespace kith::detail {
+
+// The root of a function that has different signs at `low` and `high`, to `bits` binary digits (Alefeld, Potra and
+// Shi).
+template <typename Function>
+[[nodiscard]] double root_between(double low, double high, unsigned bits, Function f) {
+  std::uintmax_t evaluations = 200;
+  const auto [from, to] =
+      boost::math::tools::toms748_solve(f, low, high, boost::math::tools::eps_tolerance<double>(bits), evaluations);
+  return from + (to - from) / 2.0;
+}
+
+}  // namespace kith::detail
