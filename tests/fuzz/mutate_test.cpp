@@ -3,7 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "kith/table/csv.hpp"
+#include "kith/table/csv_reader.hpp"
+#include "kith/table/csv_writer.hpp"
 #include "kith/toml/document.hpp"
 #include "mutate/csv_edit.hpp"
 #include "mutate/mutate.hpp"

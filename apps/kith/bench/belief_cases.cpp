@@ -13,20 +13,23 @@ namespace kith::bench {
 namespace {
 
 constexpr std::size_t kConstraints = 3;
-using Normal = NormalPairs::Block::value_type;
 
 std::string out_of_line(const std::string& what, double kith, double rival) {
   return what + ": " + std::to_string(kith) + " and, of the rival, " + std::to_string(rival);
 }
 
-// Mean and variance of 200 000 normals: within 5 standard errors of 0 and 1, of either.
+// Mean and variance of many normals: within 5 standard errors of 0 and 1, of either.
 std::string normals_disagree() {
-  std::vector<Normal> batch(200'000);
-  std::vector<double> ours(batch.size()), theirs(batch.size());
+  std::vector<double> ours, theirs(400 * 2 * NormalPairs::kBlock);
   RandomStream random{1};
-  batch_standard_normal(batch, random);
+  const NormalPairs normal{random};
+  NormalPairs::Block cosine, sine;
+  for (std::uint64_t block = 0; ours.size() < theirs.size(); ++block) {
+    normal.fill(block, cosine, sine);
+    ours.insert(ours.end(), cosine.begin(), cosine.end());
+    ours.insert(ours.end(), sine.begin(), sine.end());
+  }
   naive_normals(theirs, random);
-  std::copy(batch.begin(), batch.end(), ours.begin());
   const auto n = static_cast<double>(ours.size());
   for (const auto* values : {&ours, &theirs}) {
     double sum = 0.0, squares = 0.0;
@@ -42,15 +45,20 @@ std::string normals_disagree() {
 }
 
 Prepared normals(Workbench& /*bench*/) {
-  constexpr std::size_t kCount = 2000;
+  constexpr std::size_t kBlocks = 4;
   Prepared prepared;
-  prepared.work = [out = std::vector<Normal>(kCount), random = RandomStream{1}](std::size_t rounds) mutable {
+  prepared.work = [random = RandomStream{1}](std::size_t rounds) mutable {
+    NormalPairs::Block cosine, sine;
     for (; rounds > 0; --rounds) {
-      batch_standard_normal(out, random);
-      keep(out[0]);
+      const NormalPairs normal{random};
+      for (std::uint64_t block = 0; block < kBlocks; ++block) {
+        normal.fill(block, cosine, sine);
+        keep(cosine[0]);
+      }
     }
   };
-  prepared.rival = [out = std::vector<double>(kCount), random = RandomStream{1}](std::size_t rounds) mutable {
+  prepared.rival = [out = std::vector<double>(kBlocks * 2 * NormalPairs::kBlock),
+                    random = RandomStream{1}](std::size_t rounds) mutable {
     for (; rounds > 0; --rounds) {
       naive_normals(out, random);
       keep(out[0]);

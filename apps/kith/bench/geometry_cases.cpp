@@ -75,7 +75,7 @@ double angle_by_counting(const Cone& cone, const Eigen::Matrix3Xd& points) {
 
 Prepared solid_angle(Workbench& /*bench*/) {
   const auto cone = Cone::intersection(feasible_half_spaces(5, 40, RandomStream{1})).value();
-  const Eigen::Matrix3Xd points = fibonacci_cover(10'000);
+  const Eigen::Matrix3Xd points = fibonacci_cover(Cone{}, 10'000);
   Prepared prepared;
   prepared.work = [=](std::size_t rounds) {
     for (; rounds > 0; --rounds) keep(cone.solid_angle());

@@ -21,7 +21,7 @@ std::vector<Eigen::Vector3d> some_weights(std::size_t n) {
   RandomStream random{8};
   std::vector<Eigen::Vector3d> weights;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto p = uniform_on_sphere(random);
+    const Eigen::Vector3d p = Cone{}.sample(random);
     weights.emplace_back(p[0], p[1], -std::abs(p[2]));
   }
   return weights;

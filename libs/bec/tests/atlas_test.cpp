@@ -18,10 +18,7 @@ using ::testing::ElementsAre;
 using testing::half_spaces;
 using testing::item_delivery;
 
-Eigen::Vector3d random_weights(RandomStream& random) {
-  const auto p = uniform_on_sphere(random);
-  return {p[0], p[1], p[2]};
-}
+Eigen::Vector3d random_weights(RandomStream& random) { return Cone{}.sample(random); }
 
 // The facts of the paper's domain.
 

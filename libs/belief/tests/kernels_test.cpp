@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kith/geometry/cone.hpp"
 #include "kith/random/batch_normal.hpp"
 #include "kith/random/distributions.hpp"
 #include "script.hpp"
@@ -24,7 +25,7 @@ Cloud random_cloud(std::size_t n, RandomStream& random) {
   Cloud cloud;
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto p = uniform_on_sphere(random);
+    const Eigen::Vector3d p = Cone{}.sample(random);
     cloud.x.push_back(p[0]);
     cloud.y.push_back(p[1]);
     cloud.z.push_back(p[2]);

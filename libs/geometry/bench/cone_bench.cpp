@@ -90,7 +90,7 @@ BENCHMARK(BM_SolidAngle)->Arg(3)->Arg(5)->Arg(20);
 // The baseline: the share of n uniform points of the sphere that are inside.
 void BM_SolidAngleByCounting(benchmark::State& state) {
   const Cone cone = Cone::intersection(system_of(5)).value();
-  const Eigen::Matrix3Xd points = fibonacci_cover(static_cast<std::size_t>(state.range(0)));
+  const Eigen::Matrix3Xd points = fibonacci_cover(Cone{}, static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
     std::int64_t inside = 0;
     for (Eigen::Index i = 0; i < points.cols(); ++i) inside += cone.contains(Eigen::Vector3d{points.col(i)}) ? 1 : 0;
@@ -115,8 +115,7 @@ void BM_SampleByRejection(benchmark::State& state) {
   for (auto _ : state) {
     Eigen::Vector3d w;
     do {
-      const std::array<double, 3> p = uniform_on_sphere(random);
-      w = {p[0], p[1], p[2]};
+      w = Cone{}.sample(random);
     } while (!cone.contains(w));
     benchmark::DoNotOptimize(w);
   }

@@ -373,35 +373,5 @@ TEST(Sobol, AgreesWithAnotherImplementation) {
   }
 }
 
-TEST(KCentresInDimensions, AndTheMedianAreThoseInSpace) {
-  RandomStream random{10};
-  const Eigen::Matrix3Xd points = fibonacci_cover(Cone::intersection(testing::random_system(2, 5, random)).value(), 60);
-  const Eigen::MatrixXd same = points;
-  EXPECT_EQ(k_centres(same, 7, 3), k_centres(points, 7, 3));
-  std::vector<double> weights(60);
-  for (double& weight : weights) weight = uniform01(random);
-  EXPECT_LT((geodesic_median(same, weights) - geodesic_median(points, weights)).norm(), 1e-9);
-}
-
-TEST(GeodesicMedianInDimensions, IsBetterThanItsNeighbours) {
-  RandomStream random{11};
-  for (const std::size_t d : {std::size_t{2}, std::size_t{4}, std::size_t{8}}) {
-    std::vector<HalfSpace> orthant;
-    for (std::size_t k = 0; k < d; ++k) orthant.emplace_back(axis(d, k));
-    const Eigen::MatrixXd points = cover(cone_of(d, orthant), 40);
-    const std::vector<double> weights(40, 1.0);
-    const auto cost = [&](const Direction& c) {
-      double sum = 0.0;
-      for (Eigen::Index i = 0; i < points.cols(); ++i) sum += std::acos(std::clamp(c.dot(points.col(i)), -1.0, 1.0));
-      return sum;
-    };
-    const Direction median = geodesic_median(points, weights);
-    for (int i = 0; i < 50; ++i) {
-      const Direction near = (median + 1e-3 * uniform_direction(d, random)).normalized();
-      EXPECT_GT(cost(near), cost(median) - 1e-9);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace kith

@@ -156,20 +156,4 @@ void WordPairs::fill(std::uint64_t block, Block& first, Block& second) const noe
   fill_words(block * kHalf, key_[0], key_[1], first.data(), second.data());
 }
 
-void batch_standard_normal(std::span<float> out, RandomStream& random) noexcept {
-  const NormalPairs normal{random};
-  const std::span<float> first = out.first((out.size() + 1) / 2);
-  const std::span<float> second = out.subspan(first.size());
-  NormalPairs::Block cosine;
-  NormalPairs::Block sine;
-  for (std::size_t begin = 0; begin < first.size(); begin += kBlock) {
-    normal.fill(begin / kBlock, cosine, sine);
-    std::copy_n(cosine.begin(), std::min(kBlock, first.size() - begin),
-                first.begin() + static_cast<std::ptrdiff_t>(begin));
-    if (begin >= second.size()) break;
-    std::copy_n(sine.begin(), std::min(kBlock, second.size() - begin),
-                second.begin() + static_cast<std::ptrdiff_t>(begin));
-  }
-}
-
 }  // namespace kith

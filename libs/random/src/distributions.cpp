@@ -22,19 +22,6 @@ NormalPair normal_pair(RandomStream& random) noexcept {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-// x cos(angle) u + x sin(angle) v + z n for a right-handed frame (u, v, n), by
-// the branchless construction of Duff et al. (2017).
-std::array<double, 3> around(std::span<const double, 3> n, double z, double radius, double angle) noexcept {
-  const double sign = std::copysign(1.0, n[2]);
-  const double a = -1.0 / (sign + n[2]);
-  const double b = n[0] * n[1] * a;
-  const std::array u{1.0 + sign * n[0] * n[0] * a, sign * b, -sign * n[0]};
-  const std::array v{b, sign + n[1] * n[1] * a, -n[1]};
-  const double x = radius * std::cos(angle);
-  const double y = radius * std::sin(angle);
-  return {x * u[0] + y * v[0] + z * n[0], x * u[1] + y * v[1] + z * n[1], x * u[2] + y * v[2] + z * n[2]};
-}
-
 std::size_t wide_index(std::uint64_t n, RandomStream& random) {
   const std::uint64_t threshold = (std::uint64_t{0} - n) % n;
   for (;;) {
@@ -90,24 +77,6 @@ std::size_t categorical(std::span<const double> weights, RandomStream& random) {
     left -= weights[i];
   }
   return last_possible;  // also where rounding leaves a little over
-}
-
-std::array<double, 3> uniform_on_sphere(RandomStream& random) noexcept {
-  const double u = uniform01(random);
-  const double angle = 2.0 * std::numbers::pi * uniform01(random);
-  const double radius = 2.0 * std::sqrt(u * (1.0 - u));
-  return {radius * std::cos(angle), radius * std::sin(angle), 1.0 - 2.0 * u};
-}
-
-std::array<double, 3> von_mises_fisher(std::span<const double, 3> mean, double kappa, RandomStream& random) {
-  if (!(kappa >= 0.0) || !std::isfinite(kappa)) {
-    throw std::invalid_argument{"von_mises_fisher: kappa must be at least 0 and finite, not " + std::to_string(kappa)};
-  }
-  const double u = uniform01(random);
-  const double angle = 2.0 * std::numbers::pi * uniform01(random);
-  // depth = 1 - cosine in [0, 2]; kept apart because 1 - cosine^2 would cancel for large kappa.
-  const double depth = std::clamp(kappa > 0.0 ? -std::log1p(u * std::expm1(-2.0 * kappa)) / kappa : 2.0 * u, 0.0, 2.0);
-  return around(mean, 1.0 - depth, std::sqrt(depth * (2.0 - depth)), angle);
 }
 
 }  // namespace kith

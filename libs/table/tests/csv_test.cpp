@@ -1,4 +1,5 @@
-#include "kith/table/csv.hpp"
+#include "kith/table/csv_reader.hpp"
+#include "kith/table/csv_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,8 @@
 #include <array>
 
 #include "../fuzzing.hpp"
-#include "kith/table/csv.hpp"
+#include "kith/table/csv_reader.hpp"
+#include "kith/table/csv_writer.hpp"
 
 using namespace kith;
 

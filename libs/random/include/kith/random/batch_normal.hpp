@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "kith/random/stream.hpp"
 
@@ -50,10 +49,5 @@ class WordPairs {
  private:
   std::uint32_t key_[2];
 };
-
-/// Fills `out` with independent standard normals. The first half (rounded up) holds
-/// the first values of NormalPairs{random}, the rest the second. So the values
-/// depend on the stream and out.size() only.
-void batch_standard_normal(std::span<float> out, RandomStream& random) noexcept;
 
 }  // namespace kith

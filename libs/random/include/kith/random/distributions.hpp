@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,17 +40,5 @@ void fill_standard_normal(std::span<double> out, RandomStream& random) noexcept;
 /// Weights are >= 0 with a positive, finite sum.
 /// @throws std::invalid_argument otherwise.
 [[nodiscard]] std::size_t categorical(std::span<const double> weights, RandomStream& random);
-
-/// A uniform point of the unit sphere in three dimensions (Archimedes: z and azimuth uniform; 4 draws).
-[[nodiscard]] std::array<double, 3> uniform_on_sphere(RandomStream& random) noexcept;
-
-/// A von Mises-Fisher draw on the sphere in three dimensions with unit mean
-/// direction and concentration kappa >= 0: density proportional to
-/// exp(kappa mean . x). Closed-form inverse of [jakob2012], written with expm1
-/// and log1p so that it holds from kappa = 0 (uniform) to 1e300; 4 draws.
-/// @param mean shape [3], length 1.
-/// @throws std::invalid_argument unless kappa is >= 0 and finite.
-[[nodiscard]] std::array<double, 3> von_mises_fisher(std::span<const double, 3> mean, double kappa,
-                                                     RandomStream& random);
 
 }  // namespace kith
