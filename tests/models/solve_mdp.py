@@ -1,78 +1,13 @@
 #!/usr/bin/env python3
 """Reads an MDP in another program's format, by a reader of its own, and prints the optimal value of every state.
 
-usage: solve_mdp.py drn FILE DISCOUNT
-       solve_mdp.py cassandra FILE
-       solve_mdp.py gym-json FILE DISCOUNT
+usage: solve_mdp.py gym-json FILE DISCOUNT
        solve_mdp.py prism FILE.tra DISCOUNT FILE.trew=WEIGHT ...
 
 Knows nothing of kith: a second opinion about what its exports mean. Standard library only.
 """
 import json
-import re
 import sys
-
-
-def read_drn(path):
-    """Storm's DRN with the reward model "reward": {state: [[(probability, next, reward), ...], ...]}."""
-    lines = [line.rstrip("\n") for line in open(path, encoding="utf-8")]
-    lines = [line for line in lines if not line.startswith("//")]
-    assert "@type: MDP" in lines
-    models = lines[lines.index("@reward_models") + 1].split()
-    which = models.index("reward")
-    num_states = int(lines[lines.index("@nr_states") + 1])
-    num_choices = int(lines[lines.index("@nr_choices") + 1])
-    states, choices = {}, 0
-    state_reward = action_reward = 0.0
-    for line in lines[lines.index("@model") + 1:]:
-        rewards = re.search(r"\[(.*?)\]", line)
-        if line.startswith("state "):
-            current = states.setdefault(int(line.split()[1]), [])
-            assert len(states) - 1 == int(line.split()[1])
-            state_reward = float(rewards.group(1).split(",")[which])
-        elif line.startswith("\taction "):
-            action_reward = float(rewards.group(1).split(",")[which])
-            current.append([])
-            choices += 1
-        elif line:
-            target, probability = line.split(" : ")
-            current[-1].append((float(probability), int(target), state_reward + action_reward))
-    assert len(states) == num_states and choices == num_choices
-    return states
-
-
-def read_cassandra(path):
-    """An MDP as pomdp.org has it, without observations; returns the discount too."""
-    transitions, rewards = {}, {}
-    discount = num_states = None
-    actions = []
-    for line in open(path, encoding="utf-8"):
-        line = line.split("#")[0].strip()
-        if not line:
-            continue
-        key, rest = line.split(":", 1)
-        if key == "discount":
-            discount = float(rest)
-        elif key == "values":
-            assert rest.strip() == "reward"
-        elif key == "states":
-            num_states = int(rest)
-        elif key == "actions":
-            actions = rest.split()
-            assert all(re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name) for name in actions)
-        elif key in ("T", "R"):
-            action, state, last = rest.split(":")
-            target, number = last.split()
-            assert re.fullmatch(r"-?\d+\.\d+", number), number
-            table = transitions if key == "T" else rewards
-            where = (int(state), int(action), int(target))
-            assert where not in table
-            table[where] = float(number)
-    states = {s: [[] for _ in actions] for s in range(num_states)}
-    for (s, a, t), probability in transitions.items():
-        states[s][a].append((probability, t, rewards.pop((s, a, t), 0.0)))
-    assert not rewards
-    return states, discount
 
 
 def read_gym(path):
@@ -133,17 +68,13 @@ def solve(states, discount):
 
 
 def main(arguments):
-    kind, path = arguments[:2]
-    if kind == "cassandra":
-        states, discount = read_cassandra(path)
+    kind, path, discount = arguments[:3]
+    rewards = [argument.rsplit("=", 1) for argument in arguments[3:]]
+    if kind == "prism":
+        states = read_prism(path, [(file, float(weight)) for file, weight in rewards])
     else:
-        discount = float(arguments[2])
-        if kind == "prism":
-            rewards = [argument.rsplit("=", 1) for argument in arguments[3:]]
-            states = read_prism(path, [(file, float(weight)) for file, weight in rewards])
-        else:
-            states = {"drn": read_drn, "gym-json": read_gym}[kind](path)
-    for value in solve(states, discount):
+        states = read_gym(path)
+    for value in solve(states, float(discount)):
         print(repr(value))
 
 

@@ -1,4 +1,4 @@
-// Storm's DRN, PRISM's explicit files, Cassandra's MDP format and Gymnasium's transition tables.
+// PRISM's explicit files and Gymnasium's transition tables.
 #include <nlohmann/json.hpp>
 
 #include "export_view.hpp"
@@ -7,86 +7,9 @@
 namespace kith::detail {
 namespace {
 
-// "[0, 2.5, 1]"
-std::string rewards_text(const std::vector<double>& features, double reward) {
-  std::string text = "[";
-  for (const double x : features) text += number_text(x) + ", ";
-  return text + number_text(reward) + "]";
-}
-
 std::string index_text(std::size_t number) { return std::to_string(number); }
 
 }  // namespace
-
-// Storm: src/storm-parsers/parser/DirectEncodingParser.cpp says what is read.
-std::string drn_text(const ExportView& view) {
-  const std::size_t d = view.domain().num_features();
-  const auto actions = plain_names(view.domain().action_names());
-  std::size_t num_choices = view.mdp().num_terminals();
-  for (std::size_t s = 0; s < view.mdp().num_states(); ++s) num_choices += view.mdp().choices(StateIndex{s}).size();
-  std::string text = "// " + view.title() + "\n// discount " + number_text(view.mdp().discount()) +
-                     "\n@type: MDP\n@parameters\n\n@reward_models\n";
-  for (const std::string& feature : plain_names(view.domain().feature_names())) text += "feature_" + feature + " ";
-  text += "reward\n@nr_states\n" + index_text(view.num_states()) + "\n@nr_choices\n" + index_text(num_choices) +
-          "\n@model\n";
-  const std::vector<double> nothing(d, 0.0);
-  for (std::size_t s = 0; s < view.num_states(); ++s) {
-    text += "state " + index_text(s) + " " + rewards_text(nothing, 0.0);
-    if (s == view.initial()) text += " init";
-    if (view.is_start(s)) text += " start";
-    if (view.is_terminal(s)) text += " goal";
-    text += "\n// " + view.state_name(s) + "\n";
-    if (view.is_terminal(s)) {
-      text += "\taction end " + rewards_text(nothing, 0.0) + "\n\t\t" + index_text(s) + " : 1\n";
-    }
-    for (const ExportedChoice& choice : view.choices(s)) {
-      std::vector<double> expected(d, 0.0);
-      double reward = 0.0;
-      for (const ExportedOutcome& one : choice.outcomes) {
-        for (std::size_t k = 0; k < d; ++k) expected[k] += one.probability * one.features[k];
-        reward += one.probability * one.reward;
-      }
-      text += "\taction " + actions[choice.action] + " " + rewards_text(expected, reward) + "\n";
-      for (const ExportedOutcome& one : choice.outcomes) {
-        text += "\t\t" + index_text(one.next) + " : " + number_text(one.probability) + "\n";
-      }
-    }
-  }
-  return text;
-}
-
-// pomdp.org's file format, of which an MDP is what has no observations: then rewards have no observation either.
-std::string cassandra_text(const ExportView& view) {
-  const auto actions = plain_names(view.domain().action_names());
-  std::string text = "# " + view.title() +
-                     "\n# states are numbered; terminal ones, which are left by nothing, come last\n" +
-                     "discount: " + decimal_text(view.mdp().discount()) +
-                     "\nvalues: reward\nstates: " + index_text(view.num_states()) + "\nactions:";
-  // Names begin with a letter there.
-  for (const std::string& action : actions) text += " a_" + action;
-  text += "\nstart: " + index_text(view.initial()) + "\n";
-  const std::string loss = decimal_text(view.loss());
-  for (std::size_t s = 0; s < view.num_states(); ++s) {
-    text += "\n# " + view.state_name(s) + "\n";
-    const auto choices = view.choices(s);
-    auto choice = choices.begin();
-    for (std::size_t a = 0; a < actions.size(); ++a) {
-      const std::string where = index_text(a) + " : " + index_text(s) + " : ";
-      if (choice == choices.end() || choice->action != a) {
-        text += "T: " + where + index_text(s) + " 1.0\n";
-        if (!view.is_terminal(s))
-          text.append("R: ").append(where).append(index_text(s)).append(" ").append(loss).append("\n");
-        continue;
-      }
-      for (const ExportedOutcome& one : choice->outcomes) {
-        text += "T: " + where + index_text(one.next) + " " + decimal_text(one.probability) + "\n";
-        if (one.reward != 0.0) text += "R: " + where + index_text(one.next) + " " + decimal_text(one.reward) + "\n";
-      }
-      ++choice;
-    }
-  }
-  return text;
-}
 
 std::string gym_text(const ExportView& view) {
   using Json = nlohmann::ordered_json;

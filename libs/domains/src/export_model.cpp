@@ -75,20 +75,15 @@ std::string decimal_text(double number) {
   return text.find('.') == std::string::npos ? text + ".0" : text;
 }
 
-std::string plain_name(std::string_view name) {
-  std::string plain{name};
-  for (char& c : plain) {
-    const bool keep =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    if (!keep) c = '_';
-  }
-  return plain.empty() ? "_" : plain;
-}
-
 std::vector<std::string> plain_names(const std::vector<std::string>& names) {
   std::vector<std::string> plain;
-  for (const std::string& name : names) {
-    std::string one = plain_name(name);
+  for (std::string one : names) {
+    for (char& c : one) {
+      const bool keep =
+          (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+      if (!keep) c = '_';
+    }
+    if (one.empty()) one = "_";
     if (std::find(plain.begin(), plain.end(), one) != plain.end()) one += "_" + std::to_string(plain.size());
     plain.push_back(std::move(one));
   }
@@ -139,22 +134,13 @@ std::string domain_text(const ExportView& view, const std::vector<std::string>& 
 }  // namespace detail
 
 const std::vector<std::string>& model_format_names() {
-  static const std::vector<std::string> kNames{"drn", "prism", "cassandra", "gym-json"};
+  static const std::vector<std::string> kNames{"prism", "gym-json"};
   return kNames;
 }
 
 std::vector<ExportedFile> export_mdp(const Domain& domain, MdpIndex m, ModelFormat format, const std::string& name) {
   const detail::ExportView view{domain, m};
-  switch (format) {
-    case ModelFormat::kDrn:
-      return {{name, detail::drn_text(view)}};
-    case ModelFormat::kCassandra:
-      return {{name, detail::cassandra_text(view)}};
-    case ModelFormat::kPrism:
-      return detail::prism_files(view, name);
-    case ModelFormat::kGymJson:
-      break;
-  }
+  if (format == ModelFormat::kPrism) return detail::prism_files(view, name);
   const std::string model = "[model]\nformat = \"gym-json\"\n[[model.mdp]]\nfile = " + to_toml(TomlValue{name}) + "\n";
   const std::string stem = name.ends_with(".json") ? name.substr(0, name.size() - 5) : name;
   return {{name, detail::gym_text(view)}, {stem + ".toml", detail::domain_text(view, domain.action_names(), model)}};

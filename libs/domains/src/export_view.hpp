@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "kith/domains/export_model.hpp"
@@ -52,13 +51,9 @@ class ExportView {
 [[nodiscard]] std::string number_text(double number);
 // The same without an exponent and with a decimal point.
 [[nodiscard]] std::string decimal_text(double number);
-// The text with everything but letters, digits, '_' and '-' replaced by '_'.
-[[nodiscard]] std::string plain_name(std::string_view name);
-// plain_name() of each; where that makes equal ones of them, numbered.
+// The texts with everything but letters, digits, '_' and '-' replaced by '_'; where that makes equal ones, numbered.
 [[nodiscard]] std::vector<std::string> plain_names(const std::vector<std::string>& names);
 
-[[nodiscard]] std::string drn_text(const ExportView& view);
-[[nodiscard]] std::string cassandra_text(const ExportView& view);
 [[nodiscard]] std::string gym_text(const ExportView& view);
 [[nodiscard]] std::vector<ExportedFile> prism_files(const ExportView& view, const std::string& name);
 

@@ -22,10 +22,6 @@ inline constexpr std::size_t kMaxVariables = 64;
 void read_csv_model(const ModelText& states, const ModelText& transitions, const std::vector<std::string>& features,
                     RawModel& model, ModelReport& report);
 
-// The same as one JSON document.
-void read_json_model(const ModelText& file, const std::vector<std::string>& features, RawModel& model,
-                     ModelReport& report);
-
 // One MDP in PRISM's files.
 struct PrismFiles {
   const ModelText* transitions = nullptr;                // .tra

@@ -11,7 +11,7 @@ namespace kith::detail {
 namespace {
 
 const std::vector<std::string>& formats() {
-  static const std::vector<std::string> kFormats{"csv", "json", "prism", "gym-json"};
+  static const std::vector<std::string> kFormats{"csv", "prism", "gym-json"};
   return kFormats;
 }
 
@@ -31,9 +31,8 @@ class ModelReader {
     reading_.place = table->place();
     const auto format = table->word("format", Presence::kRequired, formats());
     if (format == std::size_t{0}) read_csv(*table);
-    if (format == std::size_t{1}) read_json(*table);
-    if (format == std::size_t{2}) read_prism(*table);
-    if (format == std::size_t{3}) read_gym(*table);
+    if (format == std::size_t{1}) read_prism(*table);
+    if (format == std::size_t{2}) read_gym(*table);
     if (format && is_sound() && !reading_.weights) refuse_rewards();
     read_drawing_of(*table);
     if (format) table->finish();
@@ -149,12 +148,6 @@ class ModelReader {
     const ModelText* transitions = file_of(table, "transitions", Presence::kRequired);
     if (!need_features() || states == nullptr || transitions == nullptr || report_.has_errors()) return;
     read_csv_model(*states, *transitions, reading_.dynamics.feature_names(), reading_.model, model_report_);
-  }
-
-  void read_json(TomlReader& table) {
-    const ModelText* file = file_of(table, "file", Presence::kRequired);
-    if (!need_features() || file == nullptr || report_.has_errors()) return;
-    read_json_model(*file, reading_.dynamics.feature_names(), reading_.model, model_report_);
   }
 
   // visit(reader, name) for each [[model.mdp]], whose names must differ.

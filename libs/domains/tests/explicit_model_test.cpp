@@ -65,7 +65,6 @@ TEST(ExplicitModel, HasNoActionThatSurelyChangesNothing) {
 
 TEST(ExplicitModel, IsTheSameInAllLayouts) {
   const std::string tables = content_of(sound_model(kIceCsv));
-  EXPECT_EQ(content_of(sound_model(kIceJson)), tables);
   EXPECT_EQ(content_of(sound_model(kIcePrism)), tables);
   EXPECT_THAT(tables, HasSubstr("1 go, 0 0.250000 1.000000 1.000000, 2 0.750000 0.000000 1.000000\n"));
 }
@@ -73,7 +72,7 @@ TEST(ExplicitModel, IsTheSameInAllLayouts) {
 TEST(ExplicitModel, HasTheValuesWorkedOutByHand) {
   // Creeping: V(ice) = -1 + V(ice) / 2, so -2; going: -1 - 0.25 * 2 + 0.25 * V(bank), V(bank) = -1 + V(ice):
   // V(ice) = -1.75 + V(ice) / 4, so -7/3. Creeping is better.
-  for (const auto& texts : {kIceCsv, kIceJson, kIcePrism}) {
+  for (const auto& texts : {kIceCsv, kIcePrism}) {
     const Domain domain = sound_model(texts);
     const auto result = value_iteration(domain.mdp(kFirst), domain.weights().raw);
     ASSERT_TRUE(result.converged);

@@ -52,21 +52,18 @@ class Exports : public ::testing::Test {
 
   static bool has_python() { return std::system("python3 -c 'import json' > /dev/null 2>&1") == 0; }
 
-  // All four exports, solved elsewhere.
+  // Both exports, solved elsewhere.
   void expect_equal_values(const Domain& domain, MdpIndex m) {
     const auto behaviour = behave(domain.mdp(m), domain.weights().raw, {.scale = domain.count_scale()});
     ASSERT_TRUE(behaviour);
     const std::string discount = " " + std::to_string(domain.mdp(m).discount());
-    write(domain, m, ModelFormat::kDrn, "m.drn");
-    write(domain, m, ModelFormat::kCassandra, "m.MDP");
     write(domain, m, ModelFormat::kGymJson, "m.json");
     const auto prism = write(domain, m, ModelFormat::kPrism, "m");
     std::string rewards;
     for (std::size_t k = 0; k < domain.num_features(); ++k) {
       rewards += " '" + prism[3 + k].name + "=" + std::to_string(domain.weights().raw[k]) + "'";
     }
-    for (const std::string& arguments : {"drn m.drn" + discount, std::string{"cassandra m.MDP"},
-                                         "gym-json m.json" + discount, "prism m.tra" + discount + rewards}) {
+    for (const std::string& arguments : {"gym-json m.json" + discount, "prism m.tra" + discount + rewards}) {
       const auto values = solve(arguments);
       ASSERT_TRUE(values) << arguments;
       ASSERT_EQ(values->size(), behaviour->values.size()) << arguments;
@@ -144,16 +141,6 @@ TEST_F(Exports, AreReadAgainAsTheSame) {
 
 TEST_F(Exports, SayWhatTheyAre) {
   const Domain ice = discounted_ice();
-  const auto drn = export_mdp(ice, kFirst, ModelFormat::kDrn, "ice.drn");
-  ASSERT_EQ(drn.size(), 1u);
-  EXPECT_THAT(drn[0].text, HasSubstr("@type: MDP\n@parameters\n\n@reward_models\nfeature_slip feature_step reward\n"
-                                     "@nr_states\n3\n@nr_choices\n4\n@model\n"));
-  EXPECT_THAT(drn[0].text, HasSubstr("state 1 [0, 0, 0] start\n// on the ice\n\taction go [0.25, 1, -1.5]\n"
-                                     "\t\t0 : 0.25\n\t\t2 : 0.75\n"));
-  EXPECT_THAT(drn[0].text, HasSubstr("// discount 0.9\n"));
-  const auto cassandra = export_mdp(ice, kFirst, ModelFormat::kCassandra, "ice.MDP")[0].text;
-  EXPECT_THAT(cassandra, HasSubstr("discount: 0.9\nvalues: reward\nstates: 3\nactions: a_go a_creep\nstart: 0\n"));
-  EXPECT_THAT(cassandra, HasSubstr("T: 0 : 1 : 0 0.25\nR: 0 : 1 : 0 -3.0\n"));
   const auto prism = export_mdp(ice, kFirst, ModelFormat::kPrism, "ice");
   ASSERT_EQ(prism.size(), 6u);
   EXPECT_EQ(prism[0].name, "ice.tra");
@@ -162,7 +149,7 @@ TEST_F(Exports, SayWhatTheyAre) {
   EXPECT_EQ(prism[3].text, "# Reward structure \"slip\"\n# Transition rewards\n3 4 1\n1 0 0 1\n");
   const auto gym = export_mdp(ice, kFirst, ModelFormat::kGymJson, "ice.json")[0].text;
   EXPECT_THAT(gym, HasSubstr("\"1\":[[1.0,0,-7.0,false]]"));  // creeping on the bank: no action of the robot
-  EXPECT_THROW((void)export_mdp(ice, MdpIndex{1}, ModelFormat::kDrn, "x"), std::invalid_argument);
+  EXPECT_THROW((void)export_mdp(ice, MdpIndex{1}, ModelFormat::kPrism, "x"), std::invalid_argument);
 }
 
 }  // namespace

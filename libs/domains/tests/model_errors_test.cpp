@@ -40,7 +40,6 @@ const std::string kNine =
 std::vector<ModelCase> model_cases() {
   const auto* csv = &kIceCsv;
   const auto* drawn = &kIceDrawn;
-  const auto* json = &kIceJson;
   const auto* prism = &kIcePrism;
   const auto* gym = &kIceGym;
   const std::string toml = "domain.toml";
@@ -142,29 +141,6 @@ std::vector<ModelCase> model_cases() {
       // optimum
       {"for_ever", csv, rows, "bank,creep,bank,1,0,1\n", "ice,pace,bank,0.5,-9,1\nice,pace,ice,0.5,-9,1\n",
        "E0323 domain.toml 14:11", "collect reward for ever", "discount", true},
-      // JSON
-      {"json_broken", json, "ice.json", "\"features\": [", "\"features\" [", "E0234 ice.json 2:13", "not valid JSON",
-       "validator"},
-      {"json_key_twice", json, "ice.json", "\"variables\": [\"x\"]", "\"features\": []", "E0234 ice.json 3:2", "twice"},
-      {"json_deep", json, "ice.json", "[\"x\"]", "[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]", "E0234 ice.json 3:30",
-       "deeper"},
-      {"json_schema", json, "ice.json", "kith.model/1", "kith.model/9", "E0235 ice.json 1:12", "kith.model/9"},
-      {"json_key_missing", json, "ice.json", "\"transitions\"", "\"transition\"", "E0235 ice.json 9:3", "unknown key",
-       "'transitions'"},
-      {"json_kind", json, "ice.json", "0.75", "\"0.75\"", "E0235 ice.json 11:69",
-       "\"probability\" must be a number, not a string"},
-      {"json_features_short", json, "ice.json", "\"features\": [1, 0]}", "\"features\": [1]}", "E0250 ice.json 10:65",
-       "there are 1 features, not 2"},
-      {"json_features_null", json, "ice.json", "\"features\": [1, 0]}", "\"features\": [1, null]}",
-       "E0235 ice.json 10:69", "not null"},
-      {"json_state_unknown", json, "ice.json", "\"next\": \"shore\"", "\"next\": \"sea\"", "E0240 ice.json 11:45",
-       "no state 'sea'", "known: bank, ice, shore"},
-      {"json_other_features", json, "ice.json", "[\"step\", \"slip\"]", "[\"step\", \"slap\"]", "E0253 ice.json 2:23",
-       "no feature 'slap'", "'slip'"},
-      {"json_variables_short", json, "ice.json", "\"variables\": [1]", "\"variables\": []", "E0250 ice.json 7:71",
-       "0 variables, not 1"},
-      {"json_state_twice", json, "ice.json", "\"state\": \"ice\"", "\"state\": \"bank\"", "E0241 ice.json 7:14",
-       "twice"},
       // PRISM
       {"prism_header", prism, "ice.tra", "3 4 6", "3 6", "E0236 ice.tra 1:1", "as in '6 10 16'"},
       {"prism_line", prism, "ice.tra", "1 1 1 0.5 creep", "1 1 0.5", "E0236 ice.tra 5:1",
@@ -187,6 +163,12 @@ std::vector<ModelCase> model_cases() {
       {"prism_rewards_of_another", prism, "ice.step.srew", "3 3", "4 3", "E0237 ice.step.srew 3:1", "it has 3 states"},
       {"prism_feature_unknown", prism, toml, "{ slip =", "{ slap =", "E0253 domain.toml 11:11", "no rewards"},
       // Gymnasium
+      {"gym_broken", gym, "ice.json", "\"1\": {", "\"1\" {", "E0234 ice.json 3:6", "not valid JSON", "validator"},
+      {"gym_key_twice", gym, "ice.json", "\"2\": {", "\"1\": {", "E0234 ice.json 4:2", "twice"},
+      {"gym_deep", gym, "ice.json", "[[1.0, 1, -1.0, false]]", "[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]",
+       "E0234 ice.json 2:26", "deeper"},
+      {"gym_vector_short", gym, "ice.json", "[1.0, 1, -1.0, false]", "[1.0, 1, [-1.0], false]", "E0250 ice.json 2:23",
+       "there are 1 features, not 0"},
       {"gym_outcome", gym, "ice.json", "[1.0, 1, -1.0, false]", "[1.0, 1, -1.0]", "E0235 ice.json 2:14",
        "[probability, next state, reward, terminated]"},
       {"gym_gap", gym, "ice.json", "\"2\": {", "\"3\": {", "E0237 ice.json 1:7", "one is number 3"},
@@ -235,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(All, ModelError, ::testing::ValuesIn(model_cases()),
                          [](const auto& c) { return c.param.name; });
 
 TEST(ModelErrors, AreNoneInSoundModels) {
-  for (const auto* texts : {&kIceCsv, &kIceJson, &kIcePrism, &kIceGym}) {
+  for (const auto* texts : {&kIceCsv, &kIcePrism, &kIceGym}) {
     const auto diagnostics = read_model_texts(*texts).diagnostics;
     EXPECT_FALSE(has_errors(diagnostics)) << to_text(diagnostics.front());
   }

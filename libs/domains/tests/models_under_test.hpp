@@ -67,34 +67,6 @@ shore,ashore,true,false,2,0,2,0
 )"},
                                   {"transitions.csv", kIceCsv.at("transitions.csv")}};
 
-inline const ModelTexts kIceJson{{"domain.toml", R"(schema = "kith.domain/1"
-id = "ice"
-[model]
-format = "json"
-file = "ice.json"
-[[feature]]
-name = "slip"
-[[feature]]
-name = "step"
-[reward]
-weights = { slip = -2, step = -1 }
-)"},
-                                 {"ice.json", R"({"schema": "kith.model/1",
- "features": ["step", "slip"],
- "variables": ["x"],
- "mdps": [{
-  "states": [
-   {"state": "bank", "name": "on the bank", "start": true, "variables": [0]},
-   {"state": "ice", "name": "on the ice", "start": true, "variables": [1]},
-   {"state": "shore", "name": "ashore", "terminal": true, "variables": [2]}],
-  "transitions": [
-   {"state": "bank", "action": "go", "next": "ice", "features": [1, 0]},
-   {"state": "ice", "action": "go", "next": "shore", "probability": 0.75, "features": [1, 0]},
-   {"state": "ice", "action": "go", "next": "bank", "probability": 0.25, "features": [1, 1]},
-   {"state": "ice", "action": "creep", "next": "shore", "probability": 0.5, "features": [1, 0]},
-   {"state": "ice", "action": "creep", "next": "ice", "probability": 0.5, "features": [1, 0]}]}]}
-)"}};
-
 inline const ModelTexts kIcePrism{
     {"domain.toml", R"(schema = "kith.domain/1"
 id = "ice"

@@ -38,21 +38,21 @@ TEST(Chance, ShowsRunsOfTheRobotWhereItHasAPart) {
 }
 
 // The same way in two worlds; in the second the robot may slip back.
-constexpr const char* kIce = R"({"schema": "kith.model/1", "features": ["slip", "step"], "mdps": [
- {"name": "firm", "states": [{"state": "bank", "start": true}, {"state": "shore", "terminal": true}],
-  "transitions": [{"state": "bank", "action": "go", "next": "shore", "features": [0, 1]}]},
- {"name": "icy", "states": [{"state": "bank", "start": true}, {"state": "shore", "terminal": true}],
-  "transitions": [
-   {"state": "bank", "action": "go", "next": "shore", "probability": 0.75, "features": [0, 1]},
-   {"state": "bank", "action": "go", "next": "bank", "probability": 0.25, "features": [1, 1]}]}]}
+constexpr const char* kStates = "state,start,terminal\nbank,true,false\nshore,false,true\n";
+constexpr const char* kTransitions = R"(mdp,state,action,next,probability,slip,step
+firm,bank,go,shore,1,0,1
+icy,bank,go,shore,0.75,0,1
+icy,bank,go,bank,0.25,1,1
 )";
 
 TEST(Chance, IsNotSpokenOfInFeedbackAboutAWorldWithoutAny) {
-  const auto reading = parse_domain(R"(schema = "kith.domain/1"
+  const auto reading = parse_domain(
+      R"(schema = "kith.domain/1"
 id = "ice"
 [model]
-format = "json"
-file = "ice.json"
+format = "csv"
+states = "states.csv"
+transitions = "transitions.csv"
 [[feature]]
 name = "slip"
 [[feature]]
@@ -60,7 +60,7 @@ name = "step"
 [reward]
 weights = { slip = -2, step = -1 }
 )",
-                                    "domain.toml", {}, {.folder = {}, .known = {{"ice.json", kIce}}});
+      "domain.toml", {}, {.folder = {}, .known = {{"states.csv", kStates}, {"transitions.csv", kTransitions}}});
   ASSERT_TRUE(reading.domain) << to_text(reading.diagnostics.front());
   const auto& domain = *reading.domain;
   const auto step = domain.count_scale();
