@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kith/stats/censored_counts.hpp"
 #include "kith/stats/count_model.hpp"
 #include "kith/stats/quasi_poisson.hpp"
 #include "kith/stats/survival.hpp"
@@ -42,25 +41,11 @@ void add_log_linear(const std::string& family, const std::string& detail, const 
   }
 }
 
-// Counts that may be larger than they are known to be.
-void add_censored_rates(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
-  const auto model = fit_censored_counts(data.values, data.observed, data.factors, data.terms);
-  if (!model) {
-    finding.warnings.push_back("the regression of censored counts could not be fitted: " + model.reason());
-    return;
-  }
-  add_log_linear(model->theta ? "censored negative binomial" : "censored Poisson",
-                 model->theta ? fmt::format(", theta {:.2f}", *model->theta) : std::string{}, model->term_tests,
-                 model->fixed, options, finding);
-  add_method(finding, {std::string{model->theta ? "negative binomial" : "Poisson"} +
-                       " regression of censored counts with likelihood-ratio tests"});
-}
-
 // Counts that vary as Poisson's or less.
 void add_quasi_poisson(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
   const auto model = fit_quasi_poisson(data.values, data.factors, data.terms);
   if (!model) {
-    finding.warnings.push_back("the count regression could not be fitted: " + model.reason());
+    finding.warnings.push_back("the regression of counts could not be fitted: " + model.reason());
     return;
   }
   add_log_linear("quasi-Poisson", fmt::format(", dispersion {:.2f}", model->dispersion), model->term_tests,
@@ -69,34 +54,19 @@ void add_quasi_poisson(const ModelData& data, const AnalysisOptions& options, Fi
 }
 
 void add_rates(const ModelData& data, const AnalysisOptions& options, Finding& finding) {
-  if (std::find(data.observed.begin(), data.observed.end(), false) != data.observed.end())
-    return add_censored_rates(data, options, finding);
-  const auto model = fit_count_model(data.values, data.factors, 1.0 - options.alpha);
+  const auto model = fit_count_model(data.values, data.observed, data.factors, data.terms);
   if (!model) {
-    finding.warnings.push_back("the count regression could not be fitted: " + model.reason());
+    finding.warnings.push_back("the regression of counts could not be fitted: " + model.reason());
     return;
   }
-  if (!model->theta) return add_quasi_poisson(data, options, finding);
-  const auto detail = fmt::format("theta {:.2f}", *model->theta);
-  ResultTable table{"Rate ratios (negative binomial regression, main effects, " + detail + ")",
-                    {{"ratio", Kind::kText},
-                     {"estimate", Kind::kFraction},
-                     {"lower limit", Kind::kFraction},
-                     {"upper limit", Kind::kFraction},
-                     {"p-value", Kind::kP}},
-                    {}};
-  for (const auto& ratio : model->ratios)
-    table.rows.push_back(
-        {text_cell(ratio.name), ratio.ratio.estimate, ratio.ratio.low, ratio.ratio.high, ratio.test.p});
-  ResultTable tests{
-      "Likelihood-ratio tests (negative binomial regression, " + detail + ")",
-      {{"factor", Kind::kText}, {"chi-squared", Kind::kNumber}, {"df", Kind::kCount}, {"p-value", Kind::kP}},
-      {}};
-  for (std::size_t f = 0; f < data.factors.size(); ++f)
-    tests.rows.push_back(chi_squared_row(data.factors[f].name, model->factor_tests[f]));
-  add_method(finding, {"negative binomial regression with likelihood-ratio tests"});
-  finding.tables.push_back(std::move(tests));
-  finding.tables.push_back(std::move(table));
+  const bool is_censored = model->censored > 0;
+  if (!is_censored && !model->theta) return add_quasi_poisson(data, options, finding);
+  const std::string family = model->theta ? "negative binomial" : "Poisson";
+  add_log_linear((is_censored ? "censored " : "") + family,
+                 model->theta ? fmt::format(", theta {:.2f}", *model->theta) : std::string{}, model->term_tests,
+                 model->fixed, options, finding);
+  add_method(finding,
+             {family + " regression" + (is_censored ? " of censored counts" : "") + " with likelihood-ratio tests"});
 }
 
 // All other factors together, as strata.

@@ -383,7 +383,7 @@ class Script {
            ", df = tests[terms, \"Df\"], f = tests[terms, \"F value\"],");
       line("                  p_value = tests[terms, \"Pr(>F)\"]))");
     }
-    line(fmt::format("try(print(summary(glm.nb({} ~ {}, data = data))), silent = TRUE)", response(), mains));
+    line(fmt::format("try(print(summary(glm.nb({} ~ {}, data = data))), silent = TRUE)", response(), right_side()));
     if (!question_.observed) return;
     line();
     line("# Counts that were cut off.");

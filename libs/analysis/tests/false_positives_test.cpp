@@ -304,7 +304,7 @@ TEST(FalsePositivesSlow, OfCounts) {
     const auto over =
         analyse(crossed(sizes, [&] { return fmt::format("{}", negative_binomial(8.0, random)); }), main_effects, how);
     for (const auto* term : {"a", "b"})
-      rates.add(std::string{"Negative binomial: "} + term, p_of(over, "Likelihood-ratio tests (neg", term));
+      rates.add(std::string{"Negative binomial: "} + term, p_of(over, "Likelihood-ratio tests of the neg", term));
     const auto cut = [&](std::size_t value, std::size_t limit) {
       return fmt::format("{},{}", std::min(value, limit), value <= limit ? "true" : "false");
     };

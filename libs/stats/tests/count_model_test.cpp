@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "kith/random/distributions.hpp"
-#include "kith/stats/distributions.hpp"
+#include "kith/stats/quasi_poisson.hpp"
 #include "reference.hpp"
 
 namespace kith {
@@ -25,60 +25,63 @@ const json& count_cases() {
   return reference;
 }
 
-void expect_equal_ratio(const RateRatio& ratio, const json& one, std::size_t coefficient) {
-  const double log_ratio = one.at("coefficients")[coefficient];
-  const double margin = one.at("standard_errors")[coefficient].get<double>() * normal_quantile(0.975);
-  EXPECT_LE(relative_error(ratio.ratio.estimate, std::exp(log_ratio)), kSearchError);
-  EXPECT_LE(relative_error(ratio.ratio.low, std::exp(log_ratio - margin)), kSearchError);
-  EXPECT_LE(relative_error(ratio.ratio.high, std::exp(log_ratio + margin)), kSearchError);
-  EXPECT_EQ(ratio.test.statistic_name, "z");
-  EXPECT_LE(relative_error(ratio.test.statistic, one.at("z")[coefficient]), kSearchError);
-  EXPECT_LE(relative_error(ratio.test.p, one.at("p")[coefficient]), kSearchError);
+// All of the counts are observed, and the terms are the factors.
+Estimable<CountModel> fit_main_effects(const std::vector<double>& counts, const std::vector<Factor>& factors) {
+  std::vector<std::vector<std::size_t>> terms;
+  for (std::size_t f = 0; f < factors.size(); ++f) terms.push_back({f});
+  return fit_count_model(counts, {}, factors, terms);
 }
 
 TEST(CountModel, AgreesWithRsGlmNbAndGlm) {
   for (const auto& one : count_cases()) {
     SCOPED_TRACE(one.at("name").get<std::string>());
-    const auto model = fit_count_model(one.at("counts").get<std::vector<double>>(), read_factors(one.at("factors")));
+    const std::vector<double> counts = one.at("counts");
+    const auto factors = read_factors(one.at("factors"));
+    const auto model = fit_main_effects(counts, factors);
     ASSERT_TRUE(model) << model.reason();
     ASSERT_EQ(model->theta.has_value(), !one.at("theta").is_null());
     if (model->theta) {
       EXPECT_LE(relative_error(*model->theta, one.at("theta")), kSearchError);
     }
     EXPECT_LE(relative_error(model->log_likelihood, one.at("log_likelihood")), kSearchError);
-    EXPECT_LE(relative_error(model->dispersion, one.at("dispersion")), kSearchError);
-    ASSERT_EQ(model->coefficients.size(), one.at("coefficients").size());
-    ASSERT_EQ(model->ratios.size() + 1, model->coefficients.size());
-    for (std::size_t c = 0; c < model->coefficients.size(); ++c) {
-      EXPECT_LE(relative_error(model->coefficients[c], one.at("coefficients")[c]), kSearchError);
-      if (c > 0) expect_equal_ratio(model->ratios[c - 1], one, c);
+    const auto& coefficients = model->fixed.coefficients;
+    ASSERT_EQ(coefficients.size(), one.at("coefficients").size());
+    for (std::size_t c = 0; c < coefficients.size(); ++c) {
+      EXPECT_LE(relative_error(coefficients[c], one.at("coefficients")[c]), kSearchError);
+      const double standard_error = std::sqrt(model->fixed.covariance[c * coefficients.size() + c]);
+      EXPECT_LE(relative_error(standard_error, one.at("standard_errors")[c]), kSearchError);
     }
-    ASSERT_EQ(model->factor_tests.size(), one.at("tests").size());
-    for (std::size_t f = 0; f < model->factor_tests.size(); ++f) {
+    ASSERT_EQ(model->term_tests.size(), one.at("tests").size());
+    std::vector<std::vector<std::size_t>> terms;
+    for (std::size_t f = 0; f < model->term_tests.size(); ++f) {
+      terms.push_back({f});
       const auto& expected = one.at("tests")[f];
-      ASSERT_TRUE(model->factor_tests[f]);
-      EXPECT_EQ(model->factor_tests[f]->df, std::vector<double>{expected.at("df").get<double>()});
-      EXPECT_LE(relative_error(model->factor_tests[f]->statistic, expected.at("statistic")), kSearchError);
-      EXPECT_LE(relative_error(model->factor_tests[f]->p, expected.at("p")), kSearchError);
+      const auto& test = model->term_tests[f].test;
+      ASSERT_TRUE(test);
+      EXPECT_EQ(test->df, std::vector<double>{expected.at("df").get<double>()});
+      EXPECT_LE(relative_error(test->statistic, expected.at("statistic")), kSearchError);
+      EXPECT_LE(relative_error(test->p, expected.at("p")), kSearchError);
     }
+    const auto poisson = fit_quasi_poisson(counts, factors, terms);
+    ASSERT_TRUE(poisson) << poisson.reason();
+    EXPECT_LE(relative_error(poisson->dispersion, one.at("dispersion")), kSearchError);
   }
 }
 
 const Factor kTwoStrategies{"strategy", {"low", "joint"}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
 TEST(CountModel, OfOneFactorHasTheRatiosOfTheMeans) {
-  const auto model = fit_count_model(std::vector<double>{1, 9, 2, 8, 20, 4, 1, 35}, std::vector{kTwoStrategies});
+  const auto model = fit_main_effects({1, 9, 2, 8, 20, 4, 1, 35}, {kTwoStrategies});
   ASSERT_TRUE(model) << model.reason();
-  EXPECT_EQ(model->ratios.front().name, "strategy joint / low");
-  EXPECT_NEAR(model->ratios.front().ratio.estimate, 15.0 / 5.0, 1e-9);
-  EXPECT_NEAR(model->coefficients.front(), std::log(5.0), 1e-9);
+  EXPECT_EQ(model->fixed.design.columns.at(1), "strategy[joint]");
+  EXPECT_NEAR(model->fixed.coefficients.at(1), std::log(15.0 / 5.0), 1e-9);
+  EXPECT_NEAR(model->fixed.coefficients.front(), std::log(5.0), 1e-9);
 }
 
 TEST(CountModel, IsPoissonsWhereCountsVaryLess) {
-  const auto model = fit_count_model(std::vector<double>{7, 8, 8, 7, 9, 8, 8, 9}, std::vector{kTwoStrategies});
+  const auto model = fit_main_effects({7, 8, 8, 7, 9, 8, 8, 9}, {kTwoStrategies});
   ASSERT_TRUE(model) << model.reason();
   EXPECT_FALSE(model->theta.has_value());
-  EXPECT_LT(model->dispersion, 0.1);
 }
 
 // The profile likelihood of theta, with constants left out, by brute force over a grid: one factor, so that
@@ -102,7 +105,7 @@ TEST(CountModel, HasTheThetaOfTheLargestLikelihood) {
     // Small counts, and such beyond the terms that are summed one by one.
     const double scale = round % 2 == 0 ? 10.0 : 3000.0;
     for (int i = 0; i < 8; ++i) counts.push_back(std::floor(-scale * std::log1p(-uniform01(random))));
-    const auto model = fit_count_model(counts, std::vector{kTwoStrategies});
+    const auto model = fit_main_effects(counts, {kTwoStrategies});
     if (!model || !model->theta) continue;
     ++overdispersed;
     const double best = profile_likelihood(counts, *model->theta);
@@ -117,10 +120,10 @@ TEST(CountModel, DoesNotDependOnTheOrderOfObservations) {
   for (const auto& one : count_cases()) {
     auto counts = one.at("counts").get<std::vector<double>>();
     auto factors = read_factors(one.at("factors"));
-    const auto model = fit_count_model(counts, factors);
+    const auto model = fit_main_effects(counts, factors);
     std::ranges::reverse(counts);
     for (auto& factor : factors) std::ranges::reverse(factor.codes);
-    const auto reversed = fit_count_model(counts, factors);
+    const auto reversed = fit_main_effects(counts, factors);
     ASSERT_TRUE(model && reversed);
     // The largest data set's terms are of size 1e7 and cancel to 1e3.
     EXPECT_LE(relative_error(reversed->log_likelihood, model->log_likelihood), 1e-11);
@@ -131,31 +134,38 @@ TEST(CountModel, DoesNotDependOnTheOrderOfObservations) {
 TEST(CountModel, LeavesOutLevelsThatNoObservationHas) {
   const std::vector<double> counts{1, 9, 2, 8, 20, 4, 1, 35};
   const Factor with_unused{"strategy", {"none", "low", "other", "joint"}, {1, 1, 1, 1, 3, 3, 3, 3}};
-  const auto model = fit_count_model(counts, std::vector{with_unused});
+  const auto model = fit_main_effects(counts, {with_unused});
   ASSERT_TRUE(model);
-  ASSERT_EQ(model->ratios.size(), 1U);
-  EXPECT_EQ(model->ratios.front().name, "strategy joint / low");
+  EXPECT_EQ(model->fixed.design.columns, (std::vector<std::string>{"(Intercept)", "strategy[joint]"}));
 }
 
 TEST(CountModel, FitsCountsOfAnySize) {
-  const auto model =
-      fit_count_model(std::vector<double>{1e9, 3e9, 2e9, 1e9, 5e9, 1e10, 2e9, 7e9}, std::vector{kTwoStrategies});
+  const auto model = fit_main_effects({1e9, 3e9, 2e9, 1e9, 5e9, 1e10, 2e9, 7e9}, {kTwoStrategies});
   ASSERT_TRUE(model) << model.reason();
-  EXPECT_NEAR(model->ratios.front().ratio.estimate, 24.0 / 7.0, 1e-6);
+  EXPECT_NEAR(std::exp(model->fixed.coefficients.at(1)), 24.0 / 7.0, 1e-6);
   ASSERT_TRUE(model->theta.has_value());
   EXPECT_GT(*model->theta, 1.0);  // the moments say 1.9
   EXPECT_LT(*model->theta, 4.0);
 }
 
+// A hundred times Poisson's variance, though theta is 10^7.
+TEST(CountModel, SeesOverdispersionOfHugeCounts) {
+  std::vector<double> counts;
+  for (const double deviation : {-1.3, -0.9, 1.1, 1.1, -1.2, 1.0, 0.8, -0.6})
+    counts.push_back(1e9 + std::round(deviation * 10.0 * std::sqrt(1e9)));
+  const auto model = fit_main_effects(counts, {kTwoStrategies});
+  ASSERT_TRUE(model && model->theta) << model.reason();
+  EXPECT_NEAR(std::log10(*model->theta), 7.0, 0.3);
+}
+
 std::string reason_of(const std::vector<double>& counts, const std::vector<Factor>& factors) {
-  const auto model = fit_count_model(counts, factors);
+  const auto model = fit_main_effects(counts, factors);
   EXPECT_EQ(model.has_value(), model.reason().empty());
   return model.reason();
 }
 
 TEST(CountModel, SaysWhyThereIsNone) {
-  const std::vector<double> good{1, 2, 3, 4, 5, 6, 7, 9};
-  EXPECT_EQ(reason_of({}, {}), "there are no observations");
+  EXPECT_EQ(reason_of({}, {}), "no observations");
   EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, 8.5}, {kTwoStrategies}),
             "counts must be whole numbers that are not negative");
   EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, -1}, {kTwoStrategies}),
@@ -163,17 +173,24 @@ TEST(CountModel, SaysWhyThereIsNone) {
   EXPECT_EQ(reason_of({1, 2, 3, 4, 5, 6, 7, std::nan("")}, {kTwoStrategies}),
             "counts must be whole numbers that are not negative");
   EXPECT_EQ(reason_of(std::vector<double>(8, 0.0), {kTwoStrategies}), "all counts are zero");
-  EXPECT_EQ(reason_of(good, {Factor{"f", {"a", "b"}, std::vector<std::size_t>(8, 1)}}), "f has only one level");
-  EXPECT_EQ(reason_of({1, 2, 3, 4, 0, 0, 0, 0}, {kTwoStrategies}),
-            "all counts of strategy joint are zero, so its ratio has no lower bound");
-  EXPECT_EQ(reason_of(good, {kTwoStrategies, kTwoStrategies}),
-            "the factors cannot be told apart: some levels only occur together");
   EXPECT_EQ(reason_of({1, 2}, {Factor{"f", {"a", "b"}, {0, 1}}}), "there are no more observations than coefficients");
+}
+
+TEST(CountModel, SaysWhichTermsCannotBeTested) {
+  const std::vector<double> counts{1, 2, 3, 4, 5, 6, 7, 9};
+  const auto one_level = fit_main_effects(counts, {Factor{"f", {"a", "b"}, std::vector<std::size_t>(8, 1)}});
+  ASSERT_TRUE(one_level) << one_level.reason();
+  EXPECT_FALSE(one_level->term_tests.at(0).test);
+  const auto twice = fit_main_effects(counts, {kTwoStrategies, kTwoStrategies});
+  ASSERT_TRUE(twice) << twice.reason();
+  for (const auto& term : twice->term_tests)
+    EXPECT_EQ(term.test.reason(), "its levels cannot be told apart from those of other terms");
 }
 
 const std::string kSeparated = "combinations of levels with only zeros leave some ratios without a bound";
 
 TEST(CountModel, SaysSoIfZerosOfSomeCombinationsSeparateTheCounts) {
+  EXPECT_EQ(reason_of({1, 2, 3, 4, 0, 0, 0, 0}, {kTwoStrategies}), kSeparated);
   // Only the cells of a1 compare b2 with b1, and there b2 has none but zeros.
   const Factor a{"a", {"1", "2"}, {0, 0, 0, 0, 1, 1}};
   const Factor b{"b", {"1", "2"}, {0, 0, 1, 1, 1, 1}};
@@ -207,16 +224,15 @@ TEST(CountModel, FitsWhereOnlyZerosTellTwoFactorsApart) {
   const Factor a{"a", {"1", "2"}, {0, 1, 0, 0, 0, 1, 1}};
   const Factor b{"b", {"1", "2"}, {1, 1, 0, 1, 1, 1, 0}};
   const Factor c{"c", {"1", "2"}, {0, 0, 0, 0, 1, 1, 1}};
-  const auto model = fit_count_model(std::vector<double>{48391, 0, 6068, 0, 0, 13715, 2930}, std::vector{a, b, c});
+  const auto model = fit_main_effects({48391, 0, 6068, 0, 0, 13715, 2930}, {a, b, c});
   ASSERT_TRUE(model) << model.reason();
-  EXPECT_NEAR(model->coefficients[1], model->coefficients[3], 1e-6);  // a and c enter alike
+  EXPECT_NEAR(model->fixed.coefficients[1], model->fixed.coefficients[3], 1e-6);  // a and c enter alike
 }
 
 TEST(CountModel, NamesWhatItCannotTake) {
   const std::vector<double> counts{1, 2, 3};
-  EXPECT_THROW((void)fit_count_model(counts, std::vector{kTwoStrategies}), std::invalid_argument);
-  EXPECT_THROW((void)fit_count_model(counts, std::vector{Factor{"f", {"a"}, {0, 0, 1}}}), std::invalid_argument);
-  EXPECT_THROW((void)fit_count_model(counts, {}, 0.0), std::invalid_argument);
+  EXPECT_THROW((void)fit_main_effects(counts, {kTwoStrategies}), std::invalid_argument);
+  EXPECT_THROW((void)fit_main_effects(counts, {Factor{"f", {"a"}, {0, 0, 1}}}), std::invalid_argument);
 }
 
 // Under the null the likelihood-ratio test's p-values are uniform, here to what 400 data sets tell: four standard
@@ -231,9 +247,9 @@ TEST(CountModel, RejectsATrueHypothesisAsOftenAsItSays) {
     std::vector<double> counts;
     for (std::size_t i = 0; i < observations; ++i)
       counts.push_back(std::floor(std::log1p(-uniform01(random)) / std::log(0.8)));
-    const auto model = fit_count_model(counts, std::vector{groups});
+    const auto model = fit_main_effects(counts, {groups});
     ASSERT_TRUE(model);
-    if (model->factor_tests.front()->p < 0.1) ++rejected;
+    if (model->term_tests.front().test->p < 0.1) ++rejected;
   }
   EXPECT_NEAR(rejected / 400.0, 0.1, 0.06);
 }
