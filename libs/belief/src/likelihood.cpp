@@ -34,10 +34,10 @@ double checked_ability(double ability) {
 
 // The positive root of q k + exp(-k) - 1, for q = (1 - beta) / beta. The
 // function is convex and its root lies left of 1/q, so Newton's iteration from
-// there falls monotonically until rounding stops it.
+// there falls monotonically until rounding stops it. Near 0.5 its terms cancel.
 double continuous_concentration(double ability) {
-  if (ability <= 0.5) return 0.0;
-  if (ability >= 1.0) return kInfinity;
+  constexpr double kCancels = 0.501;
+  if (ability < kCancels) return detail::concentration_of_half(ability, kSpace);
   const double q = (1.0 - ability) / ability;
   double k = 1.0 / q;
   for (int step = 0; step < 200; ++step) {
@@ -50,14 +50,13 @@ double continuous_concentration(double ability) {
 }
 
 // ln(beta / (1 - beta)), exact near 0.5.
-double log_odds(double ability) { return ability >= 1.0 ? kInfinity : 2.0 * std::atanh(2.0 * ability - 1.0); }
+double log_odds(double ability) { return 2.0 * std::atanh(2.0 * ability - 1.0); }
 
 double concentration_for(double ability, LikelihoodForm form, std::size_t dimension) {
+  if (ability >= 1.0) return kInfinity;
   const bool jumps = form == LikelihoodForm::kDiscontinuous;
   if (dimension == kSpace) return jumps ? log_odds(ability) : continuous_concentration(ability);
-  if (ability >= 1.0) return kInfinity;
-  const double odds = (1.0 - ability) / ability;
-  return jumps ? detail::concentration_of_sphere(odds, dimension) : detail::concentration_of_half(odds, dimension);
+  return jumps ? detail::concentration_of_sphere(ability, dimension) : detail::concentration_of_half(ability, dimension);
 }
 
 // log of the density just beyond the boundary over that on the near side: 1 - beta over the mass of exp(kappa t) on the

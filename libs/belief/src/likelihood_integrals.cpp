@@ -1,6 +1,6 @@
 #include "likelihood_integrals.hpp"
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
@@ -9,38 +9,77 @@
 namespace kith::detail {
 namespace {
 
-// The kappa at which a function that falls from 1 at kappa = 0 towards 0 takes the value `odds`.
+// int_0^upper value(sin u) cos(u)^(d-2) du of a function that falls or rises by at most about exp(60) on the way, so that
+// it is smooth in each part: quadrature over the whole right angle would miss a narrow peak at 0.
 template <typename Function>
-double where_it_falls_to(double odds, Function function) {
-  if (odds >= 1.0) return 0.0;
-  const double target = std::log(odds);
-  const auto excess = [&](double kappa) { return std::log(function(kappa)) - target; };
-  double upper = 1.0;
-  while (excess(upper) > 0.0) upper *= 2.0;
-  std::uintmax_t steps = 100;
-  const auto [below, above] =
-      boost::math::tools::toms748_solve(excess, 0.0, upper, boost::math::tools::eps_tolerance<double>{50}, steps);
+double integral(std::size_t dimension, double upper, Function value) {
+  const auto power = static_cast<int>(dimension) - 2;
+  const auto integrand = [&](double u) { return value(std::sin(u)) * std::pow(std::cos(u), power); };
+  constexpr int kParts = 4;
+  const double width = upper / kParts;
+  double sum = 0.0;
+  for (int part = 0; part < kParts; ++part)
+    sum += boost::math::quadrature::gauss<double, 30>::integrate(integrand, part * width, (part + 1) * width);
+  return sum;
+}
+
+constexpr double kRightAngle = std::numbers::pi / 2.0;
+
+// exp(-kappa) far_integral(-kappa): the near half, relative to its largest density.
+double scaled_near_integral(double kappa, std::size_t dimension) {
+  return integral(dimension, kRightAngle, [&](double t) { return std::exp(kappa * (t - 1.0)); });
+}
+
+// The kappa > 0 at which a rising function is 0, from a guess of the right order.
+template <typename Function>
+double root_near(double guess, Function rising) {
+  std::uintmax_t steps = 200;
+  constexpr double kWiden = 2.0;
+  const auto [below, above] = boost::math::tools::bracket_and_solve_root(
+      rising, guess, kWiden, true, boost::math::tools::eps_tolerance<double>{50}, steps);
   return 0.5 * (below + above);
 }
+
+constexpr double kLargeOdds = 0.5;  // above it, 1 - odds is solved for, which keeps its digits near odds of 1
 
 }  // namespace
 
 double far_integral(double kappa, std::size_t dimension) {
-  const auto power = static_cast<int>(dimension) - 2;
-  const auto integrand = [&](double u) { return std::exp(-kappa * std::sin(u)) * std::pow(std::cos(u), power); };
-  constexpr unsigned kMostHalvings = 12;
-  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(integrand, 0.0, std::numbers::pi / 2.0,
-                                                                       kMostHalvings, 1e-13);
+  constexpr double kNothing = 40.0;  // exp(-40) is less than a double resolves beside 1
+  const double upper = kappa > kNothing ? std::asin(kNothing / kappa) : kRightAngle;
+  return integral(dimension, upper, [&](double t) { return std::exp(-kappa * t); });
 }
 
-double concentration_of_sphere(double odds, std::size_t dimension) {
-  return where_it_falls_to(
-      odds, [&](double kappa) { return far_integral(kappa, dimension) / far_integral(-kappa, dimension); });
+double concentration_of_sphere(double ability, std::size_t dimension) {
+  const double s = 2.0 * ability - 1.0;  // (near - far) / (near + far), exactly
+  if (s <= 0.0) return 0.0;
+  const double log_odds = 2.0 * std::atanh(s);  // the concentration in space
+  if (s < kLargeOdds) {
+    return root_near(log_odds, [&](double kappa) {
+      const double odd = integral(dimension, kRightAngle, [&](double t) { return std::sinh(kappa * t); });
+      const double even = integral(dimension, kRightAngle, [&](double t) { return std::cosh(kappa * t); });
+      return odd / even - s;
+    });
+  }
+  return root_near(log_odds, [&](double kappa) {
+    const double ratio = scaled_near_integral(kappa, dimension) / far_integral(kappa, dimension);
+    return kappa + std::log(ratio) - log_odds;
+  });
 }
 
-double concentration_of_half(double odds, std::size_t dimension) {
+double concentration_of_half(double ability, std::size_t dimension) {
+  const double s = 2.0 * ability - 1.0;
+  if (s <= 0.0) return 0.0;
+  const double odds = (1.0 - ability) / ability;
   const double half = far_integral(0.0, dimension);
-  return where_it_falls_to(odds, [&](double kappa) { return far_integral(kappa, dimension) / half; });
+  const double guess = s / (1.0 - ability);  // right in order at both ends
+  if (odds > kLargeOdds) {
+    return root_near(guess, [&](double kappa) {
+      const double lost = integral(dimension, kRightAngle, [&](double t) { return -std::expm1(-kappa * t); });
+      return lost / half - s / ability;
+    });
+  }
+  return root_near(guess, [&](double kappa) { return std::log(odds * half / far_integral(kappa, dimension)); });
 }
 
 }  // namespace kith::detail

@@ -22,7 +22,7 @@ enum class LikelihoodForm {
 /// so that beta is the mass on the near side; the total mass is 1.
 /// [jayaraman2024, section III]; kappa in closed form (docs/notation.md). In other dimensions the same shapes: beta
 /// over half the sphere's area on the near side, exp(kappa t) beyond, with kappa such that the whole von Mises-Fisher
-/// density, or its half, leaves 1 - beta there; by quadrature, to about 12 digits.
+/// density, or its half, leaves 1 - beta there; by quadrature, to 12 digits for every ability below 1.
 class HalfSpaceLikelihood {
  public:
   /// @throws std::invalid_argument unless 0.5 <= ability <= 1 (below 0.5 a person would learn the opposite) and
