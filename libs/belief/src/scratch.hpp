@@ -28,8 +28,9 @@ class Scratch {
   std::array<T, Usual> stack_;
 };
 
-// One number per particle.
-inline constexpr std::size_t kUsualParticles = 2048;
+// One number per particle. An update has up to eight such lists at a time, which is why they end soon beyond the 1000
+// particles of most beliefs: threads can have stacks of 128 kB.
+inline constexpr std::size_t kUsualParticles = 1024;
 template <typename T>
 using ParticleScratch = Scratch<T, kUsualParticles>;
 
