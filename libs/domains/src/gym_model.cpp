@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "json_tree.hpp"
@@ -46,8 +47,8 @@ class GymReader {
     if (phi) rewards_ = GymRewards::kVectors;
     num_states_ = check_numbering(*table, "P");
     if (report_.has_errors()) return std::nullopt;
-    for_each_entry(*table, [&](std::uint32_t s, const Value& actions) {
-      for_each_entry(actions, [&](std::uint32_t a, const Value& list) { read_list(s, a, list); });
+    for_each_entry(*table, kState, [&](std::uint32_t s, const Value& actions) {
+      for_each_entry(actions, kAction, [&](std::uint32_t a, const Value& list) { read_list(s, a, list); });
     });
     if (phi && !report_.has_errors()) read_phi(*phi);
     if (!report_.has_errors()) make_states();
@@ -62,6 +63,13 @@ class GymReader {
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
+  // What the numbers of a table count, and the error if one of them occurs twice.
+  struct Numbered {
+    const char* what;
+    const char* twice;
+  };
+  static constexpr Numbered kState{"state", "E0241"}, kAction{"action", "E0238"};
+
   void malformed(const ModelPlace& place, const std::string& message, const std::string& hint) {
     report_.error("E0235", place, message, hint);
   }
@@ -73,9 +81,9 @@ class GymReader {
                                                                                      : std::nullopt;
   }
 
-  // Visits the entries of a list, or of an object whose keys are numbers.
+  // Visits the entries of a list, or of an object whose keys are numbers, no two alike: "0" and "00" are.
   template <typename Visit>
-  void for_each_entry(const Value& table, const Visit& visit) {
+  void for_each_entry(const Value& table, const Numbered& numbered, const Visit& visit) {
     if (table.is(Kind::kList)) {
       std::uint32_t index = 0;
       table.for_each_element([&](const Value& one) { visit(index++, one); });
@@ -85,12 +93,20 @@ class GymReader {
       return malformed(table.place(), "expected a list or an object, not " + std::string{table.kind_name()},
                        "P[s][a] is a list of [probability, next state, reward, terminated]");
     }
+    std::unordered_map<std::uint32_t, Value> seen;
     table.for_each_member([&](const Value& key, const Value& value) {
       if (report_.is_full()) return;
       const auto index = index_from(key.string());
-      if (index) return visit(*index, value);
-      malformed(key.place(), "expected a number as key, not \"" + key.string() + "\"",
-                "states and actions are numbered from 0");
+      if (!index) {
+        return malformed(key.place(), "expected a number as key, not \"" + key.string() + "\"",
+                         "states and actions are numbered from 0");
+      }
+      const auto [known, is_new] = seen.try_emplace(*index, key);
+      if (is_new) return visit(*index, value);
+      report_.error(numbered.twice, key.place(),
+                    std::string{numbered.what} + " " + std::to_string(*index) + " is given twice, as \"" +
+                        known->second.string() + "\" and as \"" + key.string() + "\"",
+                    "write numbers without zeros in front, each of them once");
     });
   }
 
@@ -98,7 +114,7 @@ class GymReader {
   std::uint32_t check_numbering(const Value& table, const std::string& what) {
     std::size_t count = 0;
     std::uint32_t largest = 0;
-    for_each_entry(table, [&](std::uint32_t s, const Value&) {
+    for_each_entry(table, kState, [&](std::uint32_t s, const Value&) {
       ++count;
       largest = std::max(largest, s);
     });
@@ -196,8 +212,8 @@ class GymReader {
   // "phi" has the same shape as P, with a vector in the place of every outcome.
   void read_phi(const Value& phi) {
     std::size_t position = 0;
-    for_each_entry(phi, [&](std::uint32_t s, const Value& actions) {
-      for_each_entry(actions, [&](std::uint32_t a, const Value& list) {
+    for_each_entry(phi, kState, [&](std::uint32_t s, const Value& actions) {
+      for_each_entry(actions, kAction, [&](std::uint32_t a, const Value& list) {
         list.for_each_element([&](const Value& vector) {
           const bool fits = position < outcomes_.size() && outcomes_[position].state == s &&
                             outcomes_[position].action == a && vector.is(Kind::kList);
@@ -255,6 +271,10 @@ class GymReader {
       if (end_[s] != kNone) mdp_.states[end_[s]].name = name.string();
     });
     for_each_text(root, "actions", [&](std::uint32_t, const Value& name) {
+      if (std::find(action_names_.begin(), action_names_.end(), name.string()) != action_names_.end()) {
+        return report_.error("E0222", name.place(), "action '" + name.string() + "' is listed twice",
+                             "give every action a name of its own");
+      }
       action_names_.push_back(name.string());
       action_places_.push_back(name.place());
     });

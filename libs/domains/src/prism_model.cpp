@@ -1,9 +1,11 @@
 // PRISM's explicit files: .tra, .sta, .lab, .srew and .trew (PRISM manual, appendix "Explicit model files").
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
@@ -309,6 +311,7 @@ class PrismReader {
                     "export all files at once");
       return;
     }
+    std::set<std::array<std::uint32_t, 3>> seen;  // state, choice, next state
     while (lines.next() && !report_.is_full()) {
       const std::size_t width = of_states ? 2 : 4;
       if (lines.words().size() != width) {
@@ -319,6 +322,14 @@ class PrismReader {
       const auto reward = number_from(lines.words()[width - 1]);
       if (!reward) (void)malformed(lines.place(width - 1), "a number");
       if (!from || !reward || !check_finite(*reward, "a reward", lines.place(width - 1), report_)) continue;
+      std::array<std::uint32_t, 3> where{*from, 0, 0};
+      for (std::size_t w = 1; w + 1 < width; ++w) where.at(w) = index_from(lines.words()[w]).value_or(0);
+      if (!seen.insert(where).second) {
+        report_.error("E0252", lines.place(),
+                      "the reward of this " + std::string{of_states ? "state" : "transition"} + " is given twice",
+                      "keep one of the lines");
+        continue;
+      }
       if (of_states) {
         state_rewards_[{*from, feature}] += *reward;
       } else {
@@ -378,11 +389,15 @@ class PrismReader {
       if (!number || word.size() < equals + 3 || word.back() != '"') {
         return void(malformed(lines.place(w), "the names of labels, as in '0=\"init\" 1=\"goal\"'"));
       }
-      names[*number] = std::string{word.substr(equals + 2, word.size() - equals - 3)};
+      if (!names.try_emplace(*number, word.substr(equals + 2, word.size() - equals - 3)).second) {
+        report_.error("E0251", lines.place(w), "label " + std::to_string(*number) + " is named twice",
+                      "give every label a number of its own");
+      }
     }
     check_label(files_.terminal, names, lines.place());
     check_label(files_.start, names, lines.place());
-    while (lines.next() && !report_.is_full()) add_labels(lines, names);
+    std::vector<bool> seen(num_states_, false);
+    while (lines.next() && !report_.is_full()) add_labels(lines, names, seen);
   }
 
   void check_label(const std::string& wanted, const std::map<std::uint32_t, std::string>& names,
@@ -395,7 +410,7 @@ class PrismReader {
                   name_hint(wanted, known));
   }
 
-  void add_labels(const Lines& lines, const std::map<std::uint32_t, std::string>& names) {
+  void add_labels(const Lines& lines, const std::map<std::uint32_t, std::string>& names, std::vector<bool>& seen) {
     const auto& words = lines.words();
     const bool has_colon = words[0].back() == ':';
     const auto number = index_from(words[0].substr(0, words[0].size() - (has_colon ? 1 : 0)));
@@ -405,6 +420,12 @@ class PrismReader {
                     "states are numbered 0 to " + std::to_string(num_states_ - 1));
       return;
     }
+    if (seen[*number]) {
+      report_.error("E0241", lines.place(0), "state " + std::to_string(*number) + " is given twice",
+                    "write all labels of a state on one line");
+      return;
+    }
+    seen[*number] = true;
     RawState& state = mdp_.states[*number];
     for (std::size_t w = 1; w < words.size(); ++w) {
       const auto label = index_from(words[w]);
