@@ -97,11 +97,19 @@ class RewardReader {
       }
       const double* real = entry.value.real();
       const double number = real != nullptr ? *real : static_cast<double>(*entry.value.integer());
-      if (std::isfinite(number)) {
+      // Beyond them, squares of returns and regrets would leave the range of numbers.
+      constexpr double kSmallest = 1e-100, kLargest = 1e100;
+      const double size = std::abs(number);
+      if (number == 0.0 || (size >= kSmallest && size <= kLargest)) {
         numbers[*feature] = number;
-      } else {
-        report_.error("E0314", entry.value.place(), "a " + what + " must be finite, not " + to_toml(entry.value));
+        continue;
       }
+      report_.error("E0314", entry.value.place(),
+                    std::isfinite(number)
+                        ? "a " + what + " must be 0, or lie between 1e-100 and 1e100 in size, which " +
+                              to_toml(entry.value) + " does not"
+                        : "a " + what + " must be finite, not " + to_toml(entry.value),
+                    "only ratios count: multiply or divide all " + plural + " by the same number");
     }
     return numbers;
   }

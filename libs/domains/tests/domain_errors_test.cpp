@@ -213,6 +213,8 @@ std::vector<Case> cases() {
        "did you mean 'step'? (declared at line 17)"},
       {"zero_weights", {{"rubble = -2, step = -1", "rubble = 0, step = -0.0"}}, "E0313 20:11"},
       {"nan_weight", {{"rubble = -2", "rubble = nan"}}, "E0314 20:22"},
+      {"huge_weight", {{"rubble = -2", "rubble = -2e200"}}, "E0314 20:22"},
+      {"tiny_weight", {{"rubble = -2", "rubble = -2e-200"}}, "E0314 20:22"},
       {"infinite_weight", {{"rubble = -2", "rubble = -inf"}}, "E0314 20:22"},
       {"huge_weight", {{"rubble = -2", "rubble = -1e308"}}, "E0315 20:11"},
       {"subnormal_weight", {{"rubble = -2", "rubble = -5e-324"}}, "E0315 20:11"},
