@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -223,6 +223,18 @@ double variance_of(const FixedEffects& model, std::span<const double> combinatio
   return weights.dot(covariance * weights);
 }
 
+// sum_j weight_j coefficient_j; what is no more than the rounding of its parts is 0.
+double combined(std::span<const double> weights, std::span<const double> coefficients) {
+  constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+  double sum = 0.0, size = 0.0;
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    const double part = weights[j] * coefficients[j];
+    sum += part;
+    size += std::abs(part);
+  }
+  return std::abs(sum) <= kRounding * size ? 0.0 : sum;
+}
+
 }  // namespace
 
 LinearEstimate estimate_combination(const FixedEffects& model, std::string name, std::vector<double> combination,
@@ -240,8 +252,7 @@ LinearEstimate estimate_combination(const FixedEffects& model, std::string name,
     result.inference = Estimable<Inference>::impossible(reason);
     return result;
   }
-  const double estimate =
-      std::inner_product(result.combination.begin(), result.combination.end(), model.coefficients.begin(), 0.0);
+  const double estimate = combined(result.combination, model.coefficients);
   result.estimate = estimate;
   if (!model.no_standard_errors.empty()) {
     result.inference = Estimable<Inference>::impossible(model.no_standard_errors);
