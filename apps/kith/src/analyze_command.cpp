@@ -31,7 +31,6 @@ AnalysisOptions analysis_options(const AnalyzeOptions& options) {
                                                      : Correction::kBonferroni;
   result.seed = options.seed;
   result.permutations = options.permutations;
-  result.resamples = options.resamples;
   for (const auto& text : options.contrasts) result.contrasts.push_back(parse_contrast(text));
   result.by = options.by;
   if (!options.smallest_effect.empty()) result.smallest_effect = parse_smallest_effect(options.smallest_effect);
@@ -168,12 +167,11 @@ std::string text_of(const Finding& finding, bool brief, const Console& console) 
 }
 
 Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
-  return {{"schema", "kith.analyze/3"},
+  return {{"schema", "kith.analyze/4"},
           {"subject", analysis.subject},
           {"alpha", options.alpha},
           {"correction", options.correction},
           {"permutations", options.permutations},
-          {"resamples", options.resamples},
           {"seed", options.seed},
           {"notes", analysis.notes},
           {"findings", Json::parse(findings_json(analysis))},

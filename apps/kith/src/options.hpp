@@ -148,7 +148,6 @@ struct AnalyzeOptions {
   std::string correction = "bonferroni";
   std::uint64_t seed = 1;
   std::size_t permutations = 999;
-  std::size_t resamples = 1000;
   bool brief = false;  ///< Findings in words, without tables.
 };
 

@@ -98,13 +98,7 @@ void add_analyze(CLI::App& app, Options& options) {
   takes_integer(*command.add_option("--permutations", analyze.permutations, "Permutations of permutation tests")
                      ->capture_default_str(),
                 99, 1'000'000);
-  takes_integer(*command
-                     .add_option("--resamples", analyze.resamples,
-                                 "No longer used: intervals come from the distributions of the tests")
-                     ->capture_default_str(),
-                100, 1'000'000);
-  takes_integer(
-      *command.add_option("--seed", analyze.seed, "Seed of permutations and resamples")->capture_default_str(), 0);
+  takes_integer(*command.add_option("--seed", analyze.seed, "Seed of permutations")->capture_default_str(), 0);
   add_common(command, options.common);
 }
 

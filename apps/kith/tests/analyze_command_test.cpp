@@ -65,7 +65,7 @@ TEST_F(AnalyzeCommand, IsBriefWhenAsked) {
 TEST_F(AnalyzeCommand, PrintsOneDocument) {
   const auto ran = run_kith({"analyze", folder(), "--json"});
   const auto document = Json::parse(ran.out);
-  EXPECT_EQ(document.at("schema"), "kith.analyze/3");
+  EXPECT_EQ(document.at("schema"), "kith.analyze/4");
   EXPECT_EQ(document.at("findings").at(0).at("id"), "periods");
   const auto& table = document.at("findings").at(0).at("tables").at(0);
   EXPECT_EQ(table.at("columns").at(0), Json::parse(R"({"field": "term", "name": "term", "kind": "text"})"));

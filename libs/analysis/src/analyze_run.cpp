@@ -55,8 +55,11 @@ std::vector<PlannedContrast> contrasts_of(const PublishedRun& run) {
     const auto* table = element.table();
     const auto* weights = table != nullptr ? table->find("weights") : nullptr;
     if (weights == nullptr || weights->table() == nullptr) continue;
-    PlannedContrast contrast{
-        .name = text(*table, "name"), .factor = text(*table, "factor"), .response = text(*table, "response")};
+    const auto* primary = table->find("primary");
+    PlannedContrast contrast{.name = text(*table, "name"),
+                             .factor = text(*table, "factor"),
+                             .response = text(*table, "response"),
+                             .primary = primary != nullptr && primary->boolean() != nullptr && *primary->boolean()};
     for (const auto& entry : weights->table()->entries()) {
       const auto* real = entry.value.real();
       const auto* integer = entry.value.integer();
@@ -68,9 +71,11 @@ std::vector<PlannedContrast> contrasts_of(const PublishedRun& run) {
   return contrasts;
 }
 
-// The same options with the contrasts of one response.
+// The same options with the exploratory contrasts of one response.
 AnalysisOptions for_response(AnalysisOptions options, const std::string& response) {
-  const auto is_other = [&](const PlannedContrast& one) { return !one.response.empty() && one.response != response; };
+  const auto is_other = [&](const PlannedContrast& one) {
+    return one.primary || (!one.response.empty() && one.response != response);
+  };
   options.contrasts.erase(std::remove_if(options.contrasts.begin(), options.contrasts.end(), is_other),
                           options.contrasts.end());
   return options;
@@ -107,6 +112,12 @@ Analysis analyze_run(const std::filesystem::path& run_folder, const AnalysisOpti
     }
     if (!any) analysis.not_analysed.push_back(otherwise);
   };
+  if (auto finding = primary(teams, planned.contrasts, options)) {
+    analysis.notes.emplace_back(
+        "the study was planned to test its primary contrasts, which come first and are corrected among themselves; "
+        "everything else is exploratory");
+    analysis.findings.push_back(std::move(*finding));
+  }
   add(effects, "effects of strategy and composition: needs two group strategies or two compositions");
   add(effects_within, "strategy within each composition: needs two group strategies and two compositions");
   add(beliefs,

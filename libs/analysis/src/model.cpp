@@ -87,6 +87,7 @@ Finding analyze_model(const ModelData& data, const AnalysisOptions& options, con
   finding.warnings = warnings_of(data, result, options.alpha);
   add_anova_results(data, result, options, finding);
   add_count_results(data, options, finding);
+  add_bound_results(data, options, finding);
   return finding;
 }
 

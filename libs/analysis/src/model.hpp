@@ -68,6 +68,11 @@ void add_anova_results(const ModelData& data, const ModelResult& result, const A
 // rows belong together, because these assume independent rows.
 void add_count_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
 
+// Values of an outcome with a range (OutcomeColumn) that are at one of its ends: a note, the shares of values that are
+// exactly there (Wilson), and, of rows that belong together, tests of the same model on ranks; those of independent rows
+// are in the finding already.
+void add_bound_results(const ModelData& data, const AnalysisOptions& options, Finding& finding);
+
 // The raw means of every combination of levels; missing if there are too many. Without limits: rows that belong
 // together allow none.
 [[nodiscard]] std::optional<ResultTable> raw_means_table(const ModelData& data, double confidence, bool with_limits);

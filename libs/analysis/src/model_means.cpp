@@ -406,6 +406,14 @@ void add_contrast_results(const FixedEffects& model, const AnalysisOptions& opti
   Writer{model, options, finding, tables}.add_planned();
 }
 
+LinearEstimate contrast_estimate(const FixedEffects& model, const PlannedContrast& contrast, double confidence) {
+  const auto factor = factor_of(model, contrast).value();
+  const std::vector<std::size_t> over{factor};
+  const auto means = marginal_means(model, over, {}, MarginalWeights::kEqual, confidence);
+  const std::vector<MeanContrast> one{{contrast.name, weights_of(model.design.factors[factor], contrast)}};
+  return estimate_contrasts(model, means.groups.front(), one, Adjustment::kNone, confidence).front();
+}
+
 std::string range_of_means(const FixedEffects& model, const std::string& factor) {
   const auto f = factor_named(model, factor);
   if (!f) return "";

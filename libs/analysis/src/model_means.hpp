@@ -20,6 +20,10 @@ void add_marginal_results(const FixedEffects& model, const AnalysisOptions& opti
 void add_contrast_results(const FixedEffects& model, const AnalysisOptions& options, Finding& finding,
                           std::vector<ResultTable>& tables);
 
+// One planned contrast of the marginal means of its factor, uncorrected. @pre is_testable().
+[[nodiscard]] LinearEstimate contrast_estimate(const FixedEffects& model, const PlannedContrast& contrast,
+                                               double confidence);
+
 // Whether a term contains both factors; if not, differences between levels of one are the same at all levels of the
 // other.
 [[nodiscard]] bool interact(const std::vector<std::vector<std::size_t>>& terms, std::size_t a, std::size_t b);

@@ -170,6 +170,7 @@ Finding analyze_mixed_model(const ModelData& data, const AnalysisOptions& option
   add_mixed_warnings(*model, data, finding);
   add_mixed_results(data, *model, options, finding);
   add_count_results(data, options, finding);
+  add_bound_results(data, options, finding);
   return finding;
 }
 

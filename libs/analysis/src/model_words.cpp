@@ -101,6 +101,7 @@ void add_cell_warnings(const ModelData& data, const ModelResult& result, double 
 // residual of the model that is fitted without it, with Bonferroni's correction for the search (R: car::outlierTest).
 void add_far_value(const ModelData& data, const ModelResult& result, std::vector<std::string>& warnings) {
   constexpr double kHardlyByChance = 0.001;
+  constexpr double kExactly = 1e-12;
   const auto& residuals = result.table.residuals;
   if (data.is_binary || !result.linear || !result.linear->effects.residual_sd || residuals.empty()) return;
   const auto& effects = result.linear->effects;
@@ -124,10 +125,19 @@ void add_far_value(const ModelData& data, const ModelResult& result, std::vector
     if (free < 1e-9) continue;  // fitted exactly, whatever its value
     const double square = std::pow(residuals[i], 2) / free;
     const double rest = (df * variance - square) / (df - 1.0);
-    const double size = rest > 0.0 ? std::sqrt(square / rest) : std::numeric_limits<double>::infinity();
+    // What is left of all that is lost in rounding is nothing: the model fits the others exactly.
+    const bool fits_others = rest * (df - 1.0) <= kExactly * df * variance;
+    const double size = fits_others ? std::numeric_limits<double>::infinity() : std::sqrt(square / rest);
     if (size <= largest) continue;
     largest = size;
     furthest = i;
+  }
+  if (std::isinf(largest)) {
+    warnings.push_back(fmt::format(
+        "the value {} is unlike all others, which the model fits exactly without it, so how far it is from them cannot "
+        "be estimated; see whether it is an error, and what is found without it",
+        formatted(data.values[furthest], ResultKind::kNumber)));
+    return;
   }
   const double p = std::min(1.0, static_cast<double>(residuals.size()) * student_t_two_sided(largest, df - 1.0));
   if (p >= kHardlyByChance) return;

@@ -45,6 +45,13 @@ RunTeams made_up_teams(const PlannedDesign& design) {
 
 }  // namespace
 
+std::vector<PlannedContrast> primary_hypotheses(const PlannedDesign& design) {
+  auto hypotheses = by_response(made_up_teams(design), design.contrasts);
+  hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), [](const auto& one) { return !one.primary; }),
+                   hypotheses.end());
+  return hypotheses;
+}
+
 std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const AnalysisOptions& options) {
   if (design.strategies.empty() || design.compositions.empty())
     throw std::invalid_argument{"planned_analyses: the design has no strategies or no compositions"};
@@ -58,12 +65,17 @@ std::vector<PlannedAnalysis> planned_analyses(const PlannedDesign& design, const
   const auto responses = outcomes_of(teams);
   if (!rows.empty()) {
     const auto factors = team_model(teams, rows, "knowledge", teams.knowledge).factors;
+    std::vector<PlannedContrast> testable;
+    for (const auto& one : design.contrasts) {
+      if (is_testable(factors, one)) testable.push_back(one);
+    }
+    if (const auto finding = primary(teams, testable, options)) add(finding, primary_hypotheses(design));
     for (const auto& [name, values] : responses) {
       auto planned = options;
       planned.permutations = std::max<std::size_t>(options.permutations, 1);
       std::vector<PlannedContrast> contrasts;
-      for (const auto& one : design.contrasts) {
-        if ((one.response.empty() || one.response == name) && is_testable(factors, one)) contrasts.push_back(one);
+      for (const auto& one : testable) {
+        if (!one.primary && (one.response.empty() || one.response == name)) contrasts.push_back(one);
       }
       planned.contrasts.insert(planned.contrasts.end(), contrasts.begin(), contrasts.end());
       add(effects(teams, name, *values, planned), contrasts);

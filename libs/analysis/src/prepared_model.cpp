@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "kith/core/error.hpp"
 #include "kith/stats/formula.hpp"
@@ -47,7 +49,7 @@ void check_factor(const Dataset& data, const Factor& factor) {
   throw Error{{std::move(diagnostic)}};
 }
 
-// Every term is tested against all others, again for every permutation and resample.
+// Every term is tested against all others, again for every permutation.
 void check_terms(const Formula& formula) {
   if (formula.terms.size() <= kMostTerms) return;
   Diagnostic diagnostic{.id = "E0908", .infeasible = true};
@@ -82,6 +84,9 @@ void check_counts(const Dataset& data, const std::string& column, const std::vec
                             .hint = "counts are whole numbers from 0; leave out --count, or mend the codebook"}}};
   }
 }
+
+// "1e+200": the power of ten next to a value.
+std::string power_of_ten(double value) { return fmt::format("{:.0e}", std::pow(10.0, std::round(std::log10(value)))); }
 
 // "minutes: 4, team: 1": how many values the columns lack.
 std::string missing_text(const Dataset& data, const std::vector<std::string>& columns) {
@@ -130,12 +135,10 @@ std::optional<std::string> note_on_whole_numbers(const std::string& response, co
                      response, may_be_ratings ? ", --ordinal if they are ratings" : "");
 }
 
-// The words of a name of ratings: "trust_likert", "rating of ease".
+// "trust_likert", "rating of ease".
 bool is_named_rating(const std::string& column) {
-  for (const auto* word : {"likert", "Likert", "rating", "Rating"}) {
-    if (column.find(word) != std::string::npos) return true;
-  }
-  return false;
+  constexpr std::array<std::string_view, 3> kRatings{"likert", "rating", "ratings"};
+  return has_word(column, kRatings);
 }
 
 bool are_ratings(const std::vector<double>& values) {
@@ -198,6 +201,28 @@ void find_groups(const Dataset& data, const Formula& formula, const ModelQuestio
 
 }  // namespace
 
+void check_sizes(const Dataset& data, const std::string& column) {
+  constexpr double kSmallest = 1e-100, kLargest = 1e100;  // of the largest value
+  const auto numbers = data.numbers(column);
+  double largest = 0.0;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double size = std::abs(numbers[i].value_or(0.0));
+    if (size <= largest) continue;
+    largest = size;
+    row = i;
+  }
+  if (largest == 0.0 || (largest >= kSmallest && largest <= kLargest)) return;
+  throw Error{
+      {Diagnostic{.id = "E0911",
+                  .message = fmt::format("{:g} in column '{}' is too {} for a variance to be computed", *numbers[row],
+                                         column, largest > kLargest ? "large" : "small"),
+                  .file = data.file(),
+                  .line = data.line(row),
+                  .column = 1,
+                  .hint = fmt::format("divide the column by {}, which changes no test", power_of_ten(largest))}}};
+}
+
 PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, const AnalysisOptions& options) {
   const auto formula = formula_of(question.formula);
   check_terms(formula);
@@ -221,6 +246,7 @@ PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question, 
   auto& model = prepared.model;
   model.response = formula.response;
   model.terms = formula.terms;
+  check_sizes(complete, formula.response);
   for (const auto& value : complete.numbers(formula.response)) model.values.push_back(*value);
   for (const auto& name : formula.factors) {
     model.factors.push_back(complete.factor(name));

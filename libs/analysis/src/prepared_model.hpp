@@ -17,6 +17,10 @@ struct PreparedModel {
   std::vector<std::string> warnings{};                 // on the finding
 };
 
+// Values whose squares leave the range of numbers are refused: nothing about their variances could be computed.
+// @throws kith::Error (kInvalidInput, E0911) with file and row.
+void check_sizes(const Dataset& data, const std::string& column);
+
 // @throws as analyze_table() does.
 [[nodiscard]] PreparedModel prepare_model(const Dataset& data, const ModelQuestion& question,
                                           const AnalysisOptions& options);

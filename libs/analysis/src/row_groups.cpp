@@ -45,14 +45,6 @@ std::vector<std::string> words_of(const std::string& name) {
   return words;
 }
 
-template <std::size_t n>
-bool has_word(const std::string& column, const std::array<std::string_view, n>& wanted) {
-  const auto words = words_of(column);
-  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-    return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
-  });
-}
-
 // Whether one of these is the last word of a column's name.
 template <std::size_t n>
 bool ends_in(const std::string& column, const std::array<std::string_view, n>& wanted) {
@@ -131,6 +123,13 @@ bool is_new(const Factor& grouping, const std::vector<Factor>& known) {
 }
 
 }  // namespace
+
+bool has_word(const std::string& column, std::span<const std::string_view> wanted) {
+  const auto words = words_of(column);
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
+  });
+}
 
 bool is_identifier_name(const std::string& column) {
   const auto words = words_of(column);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kith/analysis/dataset.hpp"
@@ -15,6 +17,10 @@ struct RowGroups {
   std::vector<std::string> notes;  // what should be said about columns that look like identifiers but are not used
   std::vector<std::string> items;  // columns of repeated tasks or questions, whose rows may be alike as well
 };
+
+// Whether one of these, in small letters, is a word of a column's name: "trust_likert" and "trustLikert" have the word
+// likert, "operating_minutes" has not the word rating.
+[[nodiscard]] bool has_word(const std::string& column, std::span<const std::string_view> wanted);
 
 // Whether a column of this name holds identifiers: "team", "participant_id", "personId".
 [[nodiscard]] bool is_identifier_name(const std::string& column);

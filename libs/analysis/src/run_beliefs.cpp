@@ -88,20 +88,6 @@ PeopleDifferences differences_of_people(const RunTeams& teams, const BeliefTeams
   return differences;
 }
 
-// The fixed effects of a model of teams, with people as a random intercept if several teams consist of them.
-Estimable<FixedEffects> effects_of(const ModelData& model, double alpha) {
-  using Result = Estimable<FixedEffects>;
-  if (model.groups.empty()) {
-    const auto fit = fit_linear_model(model.values, model.factors, model.terms);
-    return fit ? Result{fit->effects} : Result::impossible(fit.reason());
-  }
-  MixedModelOptions options;
-  options.confidence = 1.0 - alpha;
-  options.test_variances = false;
-  const auto fit = fit_mixed_model(model.values, model.factors, model.terms, model.groups, options);
-  return fit ? Result{fit->fixed} : Result::impossible(fit.reason());
-}
-
 // Does the difference depend on who is in the team?
 Estimable<TestResult> test_dependence(const BeliefTeams& beliefs, const Factor& composition,
                                       const std::vector<double>& values) {
@@ -133,6 +119,19 @@ void add_dependence(const Estimable<TestResult>& test, const AnalysisOptions& op
 }
 
 }  // namespace
+
+Estimable<FixedEffects> effects_of(const ModelData& model, double alpha) {
+  using Result = Estimable<FixedEffects>;
+  if (model.groups.empty()) {
+    const auto fit = fit_linear_model(model.values, model.factors, model.terms);
+    return fit ? Result{fit->effects} : Result::impossible(fit.reason());
+  }
+  MixedModelOptions options;
+  options.confidence = 1.0 - alpha;
+  options.test_variances = false;
+  const auto fit = fit_mixed_model(model.values, model.factors, model.terms, model.groups, options);
+  return fit ? Result{fit->fixed} : Result::impossible(fit.reason());
+}
 
 std::optional<Finding> beliefs(const RunTeams& teams, const std::string& response, const std::vector<double>& values,
                                const AnalysisOptions& options) {

@@ -10,6 +10,14 @@ namespace kith {
 // Each answers one question about a run, or says by its absence that the design
 // does not allow it.
 
+// The primary ones of these contrasts, each about one response, corrected among themselves; nothing without any.
+[[nodiscard]] std::optional<Finding> primary(const RunTeams& teams, const std::vector<PlannedContrast>& contrasts,
+                                             const AnalysisOptions& options);
+// The contrasts as they are tested: those without a response become one for each outcome of the teams.
+[[nodiscard]] std::vector<PlannedContrast> by_response(const RunTeams& teams,
+                                                       const std::vector<PlannedContrast>& contrasts);
+// The fixed effects of a model of teams, with people as a random intercept if several teams consist of them.
+[[nodiscard]] Estimable<FixedEffects> effects_of(const ModelData& model, double alpha);
 // strategy x composition, group strategies only.
 [[nodiscard]] std::optional<Finding> effects(const RunTeams& teams, const std::string& response,
                                              const std::vector<double>& values, const AnalysisOptions& options);

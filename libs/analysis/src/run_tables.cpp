@@ -6,6 +6,7 @@
 #include "kith/table/csv_reader.hpp"
 #include "kith/table/table_text.hpp"
 #include "kith/toml/document.hpp"
+#include "prepared_model.hpp"
 
 namespace kith {
 namespace {
@@ -38,6 +39,7 @@ std::vector<double> required_numbers(const Dataset& data, const std::string& col
     if (!numbers[i]) (void)data.factor(column);  // complains about the cell
     values.push_back(*numbers[i]);
   }
+  check_sizes(data, column);
   return values;
 }
 

@@ -194,6 +194,36 @@ TEST_F(RunTest, TestsTheContrastsOfTheStudy) {
   EXPECT_THAT(analysis.not_analysed, Contains(HasSubstr("contrast 'alone' of the study")));
 }
 
+// The hypotheses come first, and only they are corrected among themselves; no other finding tests them again.
+TEST_F(RunTest, TestsPrimaryContrastsFirstAndCorrectsThemAmongThemselves) {
+  fs::create_directories(folder_ / "inputs");
+  write_file_atomically(
+      folder_ / "inputs" / "study.toml",
+      "[[contrast]]\nname = \"H1\"\nfactor = \"strategy\"\nprimary = true\n"
+      "weights = { joint = 1.0, common = -1 }\n"
+      "[[contrast]]\nname = \"H2\"\nfactor = \"composition\"\nprimary = true\nresponse = \"periods\"\n"
+      "weights = { NNN = 1.0, PPP = -1 }\n"
+      "[[contrast]]\nname = \"other\"\nfactor = \"composition\"\nweights = { NNN = 1.0, PPP = -1 }\n");
+  write("teams.csv", other_people(teams()));
+  const auto analysis = analyse();
+  EXPECT_THAT(analysis.notes, Contains(HasSubstr("everything else is exploratory")));
+  ASSERT_EQ(analysis.findings.front().id, "primary");
+  const auto& table = analysis.findings.front().tables.front();
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_THAT(table.caption, HasSubstr("(Holm correction for 3 hypotheses)"));
+  std::vector<double> p;
+  for (const auto* name : {"periods: H1", "knowledge: H1", "periods: H2"}) p.push_back(cell_at(table, name, "p-value"));
+  const auto corrected = adjust(p, Correction::kHolm);
+  std::size_t i = 0;
+  for (const auto* name : {"periods: H1", "knowledge: H1", "periods: H2"})
+    EXPECT_DOUBLE_EQ(cell_at(table, name, "corrected p-value"), corrected.at(i++)) << name;
+  EXPECT_NEAR(cell_at(table, "periods: H1", "difference"), -1.0, 1e-12);
+  EXPECT_THAT(analysis.findings.front().results, HasSubstr("periods: H2: mean difference = 3.000"));
+  const auto periods = finding(analysis, "periods");
+  EXPECT_THROW((void)table_named(periods, "Planned contrasts of strategy"), std::out_of_range);
+  EXPECT_EQ(table_named(periods, "Planned contrasts of composition").rows.size(), 1u);
+}
+
 // "common" becomes "individual-low": 1 period more than "joint", and as much spread.
 TEST_F(RunTest, ComparesTeamBeliefsWithIndividualOnes) {
   auto text = other_people(teams());

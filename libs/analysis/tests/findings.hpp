@@ -19,7 +19,6 @@ inline constexpr const char* kGroups = "g,y\na,1\na,2\na,3\nb,4\nb,5\nb,6\nc,7\n
 [[nodiscard]] inline AnalysisOptions quick() {
   AnalysisOptions options;
   options.permutations = 199;
-  options.resamples = 200;
   return options;
 }
 

@@ -1,4 +1,5 @@
 // What an analysis says beside its numbers where these could mislead.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@ namespace kith {
 namespace {
 
 using ::testing::AllOf;
+using testing::cell_at;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -124,6 +126,69 @@ TEST(Notes, OfRatingsNameTheirReasonAndSmallCells) {
   EXPECT_THAT(named.findings.front().warnings, Contains(HasSubstr("the smallest cell has 1 row, so p-values")));
   const auto said = analysis_of(ratings("y"), {.formula = "y ~ g", .response_kind = ColumnKind::kOrdinal});
   EXPECT_THAT(said.notes, Not(Contains(HasSubstr("because of its name"))));
+}
+
+// The law: only a word makes a name that of ratings, whatever stands around it.
+TEST(Notes, TakeNoNameForRatingsThatHoldsTheWordInsideAnother) {
+  for (const auto* name :
+       {"operating_minutes", "generating", "Frustrating", "ratingless", "separating_ratio", "likertish"})
+    EXPECT_THAT(analysis_of(ratings(name), {std::string{name} + " ~ g"}).notes,
+                Not(Contains(HasSubstr("because of its name"))))
+        << name;
+  for (const auto* name : {"rating", "ease_rating", "trustLikert", "rating2", "Ratings_of_ease", "RATING"})
+    EXPECT_THAT(analysis_of(ratings(name), {std::string{name} + " ~ g"}).notes,
+                Contains(HasSubstr("because of its name")))
+        << name;
+}
+
+// Without the one that differs there is no spread, and so nothing to measure its distance in.
+TEST(Notes, OfAValueUnlikeAllOthersNameNoInfiniteDistance) {
+  for (const auto* different : {"1", "0.1", "1e12"}) {
+    std::string text = "g,y\n";
+    for (int i = 0; i < 12; ++i) text += (i % 2 == 0 ? "a," : "b,") + std::string{i == 5 ? different : "0"} + "\n";
+    text += "b,0.0\n";
+    const auto warnings = analysis_of(text, {.formula = "y ~ g"}).findings.front().warnings;
+    for (const auto& warning : warnings) EXPECT_THAT(warning, Not(HasSubstr("standard deviations from"))) << different;
+    if (std::string{different} == "1") continue;  // true or false: nothing is far
+    EXPECT_THAT(warnings, Contains(HasSubstr("is unlike all others, which the model fits exactly")));
+  }
+}
+
+// PP is exactly 0; the mean of the model is a difference of rounded numbers.
+TEST(Notes, MeansThatAreRoundingAreZero) {
+  std::string text = "c,y\n";
+  for (int i = 0; i < 9; ++i) text += fmt::format("NN,{}\nNP,{}\nPP,0\n", 0.991 + 0.001 * (i % 3), 0.7 + 0.1 * (i % 3));
+  const auto found = analysis_of(text, {"y ~ c"}).findings.front();
+  EXPECT_THAT(found.sentence, HasSubstr("from 0 (PP) to 0.992"));
+  EXPECT_EQ(cell_at(table_named(found, "Estimated marginal means"), "PP", "mean"), 0.0);
+}
+
+// A third of the teams has no regret at all.
+std::string teams_at_the_floor() {
+  std::string text = "strategy,people,exam_regret,exam_share_right,periods\n";
+  for (int i = 0; i < 48; ++i) {
+    text += fmt::format("{},p{},{},{},{}\n", i % 2 == 0 ? "joint" : "common", i / 2,
+                        i % 3 == 0 ? 0.0 : 0.001 * (1 + i * 7 % 23), 0.92 + 0.001 * (i * 11 % 80), 3 + i % 4);
+  }
+  return text;
+}
+
+TEST(Notes, NameOutcomesAtTheEndOfTheirRange) {
+  for (const bool are_same_people : {false, true}) {
+    const std::string more = are_same_people ? " + (1|people)" : "";
+    const auto regret = analysis_of(teams_at_the_floor(), {"exam_regret ~ strategy" + more}).findings.front();
+    EXPECT_THAT(regret.warnings,
+                Contains(HasSubstr("at the floor: 16 of 48 rows have exactly 0, the least that is possible")));
+    EXPECT_EQ(cell_at(table_named(regret, "Rows with exactly 0"), "strategy joint", "share"), 8.0 / 24.0);
+    EXPECT_EQ(std::any_of(regret.tables.begin(), regret.tables.end(),
+                          [](const auto& table) { return table.caption.find("on ranks") != std::string::npos; }),
+              are_same_people);
+    const auto right = analysis_of(teams_at_the_floor(), {"exam_share_right ~ strategy" + more}).findings.front();
+    EXPECT_THAT(right.warnings, Contains(AllOf(HasSubstr("at the ceiling: 0 of 48 rows have exactly 1"),
+                                               HasSubstr("all lie between 0.920 and 0.999"))));
+    const auto periods = analysis_of(teams_at_the_floor(), {"periods ~ strategy" + more}).findings.front();
+    EXPECT_THAT(periods.warnings, Not(Contains(HasSubstr("at the floor"))));
+  }
 }
 
 TEST(Notes, ResultsOfRatingsAreReportedForPapers) {

@@ -46,6 +46,23 @@ TEST(PlannedAnalyses, AreThoseOfTheDesign) {
   EXPECT_TRUE(uses(plan.back(), "a paired t test of the same people"));
 }
 
+TEST(PlannedAnalyses, BeginWithThePrimaryContrasts) {
+  PlannedDesign design{.strategies = {"individual-low", "joint"}, .compositions = {"NNN", "PPP"}};
+  design.contrasts = {parse_contrast("mine: joint - individual-low"), parse_contrast("other: NNN - PPP")};
+  EXPECT_TRUE(primary_hypotheses(design).empty());
+  design.contrasts.front().primary = true;
+  const auto hypotheses = primary_hypotheses(design);
+  ASSERT_EQ(hypotheses.size(), 2u);
+  EXPECT_EQ(hypotheses[0].response, "periods");
+  EXPECT_EQ(hypotheses[1].response, "knowledge");
+  const auto plan = planned_analyses(design, plan_options());
+  EXPECT_EQ(plan.front().id, "primary");
+  EXPECT_EQ(plan.front().contrasts, hypotheses);
+  EXPECT_TRUE(uses(plan.front(), "planned contrasts of estimated marginal means (Holm correction for 2 hypotheses)"));
+  ASSERT_EQ(plan.at(1).contrasts.size(), 1u);
+  EXPECT_EQ(plan.at(1).contrasts.front().name, "other");
+}
+
 TEST(PlannedAnalyses, IncludeTheExam) {
   const PlannedDesign design{.strategies = {"plan", "joint"}, .compositions = {"NNN"}, .has_exam = true};
   const auto plan = planned_analyses(design, plan_options());

@@ -102,6 +102,23 @@ std::string effect_of(const Analysis& analysis, const std::string& term, bool le
   return "made no detectable difference";
 }
 
+// What became of the hypotheses; nothing if the study file marks no contrast as primary.
+std::string hypotheses(const Analysis& analysis) {
+  std::string found, missed;
+  for (const auto& finding : analysis.findings) {
+    if (finding.id != "primary") continue;
+    for (const auto& row : finding.tables.front().rows) {
+      const auto* const p = std::get_if<double>(&row.back());
+      auto& list = p != nullptr && *p < AnalysisOptions{}.alpha ? found : missed;
+      list += (list.empty() ? "" : "; ") + std::get<std::string>(row.front());
+    }
+  }
+  if (found.empty() && missed.empty()) return "";
+  return "Comparisons that the study was planned to make, which alone are its hypotheses: " +
+         (found.empty() ? "none showed a difference" : "there is a difference in " + found) +
+         (missed.empty() || found.empty() ? "" : ", and none was found in " + missed) + ".";
+}
+
 std::string differences(const RunFiles& run, const ReportDesign& design, const RunData& data,
                         const Analysis& analysis) {
   std::set<std::string> strategies;
@@ -126,6 +143,7 @@ std::string differences(const RunFiles& run, const ReportDesign& design, const R
 
 Json plain_summary(const RunFiles& run, const ReportDesign& design, const RunData& data, const Analysis& analysis) {
   Json sentences = Json::array({simulated(run, data), together_or_alone(design, data)});
+  if (auto text = hypotheses(analysis); !text.empty()) sentences.push_back(std::move(text));
   if (auto text = differences(run, design, data, analysis); !text.empty()) sentences.push_back(std::move(text));
   return sentences;
 }

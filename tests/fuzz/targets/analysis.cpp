@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto observed = bytes.line(); !observed.empty()) question.observed = observed;
   const auto outcome = fuzzing::reads(bytes.rest(), "table.csv", [&] {
     const auto table = Dataset::parse(bytes.rest(), "table.csv");
-    const auto analysis = analyze_table(table, question, {.permutations = 3, .resamples = 3});
+    const auto analysis = analyze_table(table, question, {.permutations = 3});
     fuzzing::require(!analysis.findings.empty(), "an analysis finds something");
     for (const auto& finding : analysis.findings) {
       fuzzing::require(!finding.sentence.empty(), "a finding is a sentence");

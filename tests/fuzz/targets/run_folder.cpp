@@ -51,7 +51,7 @@ std::string frozen_study(const fs::path& folder) {
 
 std::string analysis(const fs::path& folder) {
   AnalysisOptions options;
-  options.permutations = options.resamples = 5;
+  options.permutations = 5;
   const auto analysis = analyze_run(folder, options);
   std::string text;
   for (const auto& finding : analysis.findings) text += finding.sentence + "\n";

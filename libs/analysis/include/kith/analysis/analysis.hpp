@@ -18,8 +18,7 @@ struct AnalysisOptions {
   double alpha = 0.05;  ///< In (0, 1): below it a p-value counts as evidence; intervals have level 1 - alpha.
   Correction correction = Correction::kBonferroni;  ///< Of families of tests.
   std::size_t permutations = 999;
-  std::size_t resamples = 1'000;             ///< Of bootstrap intervals, which no analysis has at present.
-  std::uint64_t seed = 1;                    ///< Of permutations and resamples.
+  std::uint64_t seed = 1;                    ///< Of permutations.
   std::vector<PlannedContrast> contrasts{};  ///< Compared in every model that has their factor.
   std::vector<std::string> by{};  ///< Factors at each level of which the levels of the others are compared as well.
   std::optional<SmallestEffect> smallest_effect{};  ///< Differences are tested for being smaller than this.
@@ -27,6 +26,8 @@ struct AnalysisOptions {
 
 /// The analyses of a study of teaching strategies, by the tables in a run folder:
 ///
+///   primary                        the contrasts that the study file marks as primary, corrected among themselves
+///                                  [holm1979]; then everything else is exploratory, and a note says so
 ///   periods, knowledge             strategy x composition without the baseline [jayaraman2024, section V]
 ///   ...-within-composition         strategy within each composition, corrected for their number
 ///   ...-beliefs, ...-variation     team beliefs against individual ones: means, and how much teams vary
@@ -50,7 +51,7 @@ struct ModelQuestion {
   bool independent = false;                ///< Analyse rows as independent although identifiers repeat.
 };
 /// @throws kith::Error kUsage for a formula that cannot be read, kInvalidInput for columns that are missing or not what
-/// the model needs, kInfeasible (E0905) if no row is complete.
+/// the model needs and for values beyond 1e100 in size (E0911), kInfeasible (E0905) if no row is complete.
 [[nodiscard]] Analysis analyze_table(const Dataset& data, const ModelQuestion& question,
                                      const AnalysisOptions& options);
 

@@ -16,7 +16,8 @@ struct PlannedContrast {
   std::string name;               ///< "team beliefs - individual beliefs"
   std::string factor{};           ///< Empty: the factor of the model that has all these levels.
   std::vector<Weight> weights{};  ///< No level twice; their sum is 0.
-  std::string response{};         ///< Of the analyses of a run: "periods" or "knowledge"; empty: both.
+  std::string response{};         ///< Of the analyses of a run: an outcome, such as "periods"; empty: all.
+  bool primary = false;           ///< Of the analyses of a run: a hypothesis, see analyze_run().
   friend bool operator==(const PlannedContrast&, const PlannedContrast&) = default;
 };
 

@@ -26,6 +26,9 @@ struct PlannedAnalysis {
   std::vector<PlannedContrast> contrasts;  ///< Of the study file that it tests.
 };
 
+/// Hypotheses of a study: every primary contrast, about one outcome each; in the order in which they are tested.
+[[nodiscard]] std::vector<PlannedContrast> primary_hypotheses(const PlannedDesign& design);
+
 /// The analyses that analyze_run() will make of a study of this design, in its order, as long as all teams finish. They
 /// come from the same code: it analyses teams made up of random numbers, and only questions, models and methods are
 /// kept. Settings that vary, and the manipulation check, are left out.
