@@ -83,8 +83,16 @@ std::vector<StudyContrast> read_contrasts(const TomlArray& list, const StudySpec
                    "contrast '" + contrast.name + "' is about an exam, but nobody is examined",
                    "write exam = \"end\" under [record]");
     }
+    contrast.primary = table.boolean("primary", Presence::kOptional).value_or(false);
     contrast.weights = read_weights(table);
     table.finish();
+    const auto is_alone = [](const auto& weight) { return weight.first == kBaseline; };
+    if (contrast.primary && std::any_of(contrast.weights.begin(), contrast.weights.end(), is_alone)) {
+      report.error("E0420", element.place(),
+                   "contrast '" + contrast.name + "' is primary, but compares with the baseline",
+                   "primary contrasts compare teams that are taught together; kith analyze always compares these with "
+                   "the baseline, as a finding of its own");
+    }
     const auto same = [&](const auto& other) { return other.name == contrast.name; };
     if (std::any_of(contrasts.begin(), contrasts.end(), same))
       report.error("E0403", element.place(), "contrast '" + contrast.name + "' is listed twice");

@@ -108,6 +108,7 @@ TomlArray contrasts(const StudySpec& spec) {
     table.add("name", contrast.name);
     table.add("factor", contrast.factor);
     if (!contrast.response.empty()) table.add("response", contrast.response);
+    if (contrast.primary) table.add("primary", true);
     for (const auto& [level, weight] : contrast.weights) weights.add(level, TomlValue{weight});
     table.add("weights", std::move(weights));
     array.emplace_back(std::move(table).take());

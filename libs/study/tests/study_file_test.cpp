@@ -42,6 +42,21 @@ TEST(StudyFile, NamesPlannedContrasts) {
   EXPECT_EQ(again.study->variants.front().contrasts, contrasts);
 }
 
+TEST(StudyFile, MarksHypotheses) {
+  const std::string contrast =
+      "[[contrast]]\nname = \"size\"\nfactor = \"composition\"\nweights = { NN = 1, N = -1 }\n";
+  for (const bool primary : {true, false}) {
+    const auto reading = parse(std::string{kStudy} + contrast + (primary ? "primary = true\n" : ""));
+    ASSERT_TRUE(reading.study) << reading.diagnostics.front().message;
+    EXPECT_EQ(reading.study->variants.front().contrasts.front().primary, primary);
+    const auto frozen = to_toml(*reading.study, *reading.domain);
+    EXPECT_EQ(frozen.find("primary") != std::string::npos, primary);
+    const auto again = parse(frozen);
+    ASSERT_TRUE(again.study);
+    EXPECT_EQ(again.study->variants.front().contrasts, reading.study->variants.front().contrasts);
+  }
+}
+
 TEST(StudyFile, RefusesContrastsThatCompareNothing) {
   const auto ids_of = [](const std::string& contrast) {
     return ids(parse(std::string{kStudy} + "[[contrast]]\nname = \"x\"\n" + contrast));
@@ -52,6 +67,8 @@ TEST(StudyFile, RefusesContrastsThatCompareNothing) {
   EXPECT_THAT(ids_of("response = \"exam_regret\"\nof = [\"common\"]\nagainst = [\"baseline\"]\n"),
               ElementsAre("E0420"));
   EXPECT_THAT(ids_of("weights = { common = 0, baseline = 0 }\n"), ElementsAre("E0420"));
+  // What kith analyze would leave out is no hypothesis.
+  EXPECT_THAT(ids_of("primary = true\nof = [\"common\"]\nagainst = [\"baseline\"]\n"), ElementsAre("E0420"));
 }
 
 TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {

@@ -73,6 +73,7 @@ struct StudyContrast {
   std::string factor = "strategy";                        ///< Or "composition".
   std::vector<std::pair<std::string, double>> weights{};  ///< Levels, none twice, with weights that sum to 0.
   std::string response{};                                 ///< An outcome, such as "knowledge"; empty: all outcomes.
+  bool primary = false;                                   ///< A hypothesis of the study; all others are exploratory.
   friend bool operator==(const StudyContrast&, const StudyContrast&) = default;
 };
 
