@@ -6,7 +6,9 @@
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "build_facts.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
@@ -15,6 +17,7 @@
 #include "kith/files/atomic_file.hpp"
 #include "kith/planning/power.hpp"
 #include "kith/present/json.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "planning_input.hpp"
 #include "preregistration.hpp"
 #include "progress.hpp"
@@ -170,6 +173,77 @@ std::string needed_text(const PowerCurve& curve, const PowerOptions& options) {
   return text;
 }
 
+// "0 to 1"
+std::string range_text(const EffectCells& cells) {
+  return std::isinf(cells.high) ? fmt::format("{:g} or more", cells.low)
+                                : fmt::format("{:g} to {:g}", cells.low, cells.high);
+}
+
+// What the effects of one quantity are effects on: means and standard deviations of the cells, and what imposed effects
+// make of the means.
+std::string cells_text(Quantity quantity, std::span<const PowerCurve> curves, std::span<const EffectCells> cells,
+                       const Console& console) {
+  std::vector<std::string> head{"strategy", "composition", "mean", "sd"};
+  std::vector<std::vector<std::string>> rows;
+  std::string notes, range;
+  std::size_t imposed = 0;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const auto& effect = curves[i].effect;
+    if (effect.quantity != quantity) continue;
+    range = range_text(cells[i]);
+    if (effect.imposed) {
+      ++imposed;
+      head.push_back(fmt::format("imposed {}", imposed));
+      notes += fmt::format("imposed {}: {}\n", imposed, to_string(effect));
+    }
+    for (const auto& cell : cells[i].cells) {
+      const auto known = std::find_if(rows.begin(), rows.end(), [&](const auto& row) {
+        return row[0] == cell.strategy && row[1] == cell.composition;
+      });
+      auto& row =
+          known == rows.end()
+              ? rows.emplace_back(std::vector<std::string>{
+                    cell.strategy, cell.composition, fmt::format("{:.4g}", cell.mean), fmt::format("{:.3g}", cell.sd)})
+              : *known;
+      if (!cell.imposed) continue;
+      row.resize(head.size() - 1);
+      row.push_back(fmt::format("{:.4g}", *cell.imposed));
+    }
+  }
+  TextTable table{"ll" + std::string(head.size() - 2, 'r')};
+  table.add(head);
+  for (auto& row : rows) {
+    row.resize(head.size());
+    table.add(row);
+  }
+  return console.bold(std::string{name_of(quantity)} + " of simulated teams") + " (can be " + range + ")\n" +
+         table.text(console) + console.dim(notes) + "\n";
+}
+
+// Refuses effects that no study can have, and warns of those that no teacher is likely to have.
+std::vector<EffectCells> checked_cells(const TeamPool& pool, const std::vector<Effect>& effects, Console& console) {
+  constexpr double kHuge = 2.0;
+  std::vector<EffectCells> all;
+  std::vector<Diagnostic> impossible;
+  for (const auto& effect : effects) {
+    auto& cells = all.emplace_back(effect_cells(pool, effect));
+    if (!cells.impossible.empty()) {
+      impossible.push_back({.id = "E0816",
+                            .message = fmt::format("'{}' is impossible: {}", to_string(effect), cells.impossible),
+                            .file = "--effect",
+                            .hint = "impose a smaller effect, or none, to plan for the one that was simulated"});
+    } else if (effect.imposed && cells.largest_difference > kHuge) {
+      console.warning(
+          fmt::format("'{}' makes means differ by {}: hardly any teaching does that", to_string(effect),
+                      std::isinf(cells.largest_difference)
+                          ? std::string{"something where simulated teams of a cell do not differ at all"}
+                          : fmt::format("{:.1f} standard deviations within cells", cells.largest_difference)));
+    }
+  }
+  if (!impossible.empty()) throw Error{impossible};
+  return all;
+}
+
 // One line per size; the bar is the power, ':' the power wanted.
 std::string curve_text(const PowerCurve& curve, const PowerOptions& options, const Console& console) {
   constexpr std::size_t kBarWidth = 40;
@@ -251,14 +325,23 @@ Json power_json(const PowerPoint& point) {
           {"high", point.high},   {"pool_error", point.pool_error}, {"analytic_power", known(point.analytic_power)}};
 }
 
-Json curve_json(const PowerCurve& curve) {
-  Json points = Json::array();
+Json curve_json(const PowerCurve& curve, const EffectCells& cells) {
+  Json points = Json::array(), means = Json::array();
+  for (const auto& cell : cells.cells) {
+    means.push_back({{"strategy", cell.strategy},
+                     {"composition", cell.composition},
+                     {"mean", cell.mean},
+                     {"sd", cell.sd},
+                     {"imposed", known(cell.imposed)}});
+  }
   for (const auto& point : curve.points) points.push_back(power_json(point));
   return {{"effect", to_string(curve.effect)},
           {"imposed", curve.effect.imposed.has_value()},
           {"size", curve.size},
           {"measure", curve.effect.kind == Effect::Kind::kContrast ? "difference" : "partial eta squared"},
           {"points", points},
+          {"range", {{"low", cells.low}, {"high", std::isinf(cells.high) ? Json{} : Json(cells.high)}}},
+          {"cells", means},
           {"needed",
            {{"estimate", known(curve.needed.estimate)},
             {"low", known(curve.needed.low)},
@@ -292,9 +375,9 @@ int computed_nothing(Console& console) {
   return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
 }
 
-int run_curves(const PowerCommandOptions& options, const Study& study, const Atlas& atlas, Progress& progress,
+int run_curves(const PowerCommandOptions& options, const StudyReading& reading, const Atlas& atlas, Progress& progress,
                Console& console) {
-  const auto& spec = study.variants.front();
+  const auto& spec = reading.study->variants.front();
   std::vector<Effect> effects;
   for (const auto& text : options.effects) effects.push_back(effect_of(text, spec));
   if (effects.empty()) effects = default_effects(spec, atlas.domain().num_features());
@@ -325,12 +408,15 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   progress.finish();
   if (!pools) return computed_nothing(console);
   const auto& pool = pools->front();
+  const auto cells = checked_cells(pool, effects, console);
   const auto curves = power_curves(pool, effects, power);
-  if (!options.preregister.empty())
-    write_file_atomically(options.preregister, preregistration_text(spec, options.study, curves, power));
+  if (!options.preregister.empty()) {
+    const PlannedStudy planned{spec, atlas.domain(), freeze(reading), options.study, utc_now()};
+    write_file_atomically(options.preregister, preregistration_text(planned, curves, cells, power));
+  }
   if (console.json()) {
     Json list = Json::array();
-    for (const auto& curve : curves) list.push_back(curve_json(curve));
+    for (std::size_t i = 0; i < curves.size(); ++i) list.push_back(curve_json(curves[i], cells[i]));
     console.print_json(Json{{"schema", "kith.power/1"},
                             {"study", options.study},
                             {"seed", power.seed},
@@ -345,6 +431,11 @@ int run_curves(const PowerCommandOptions& options, const Study& study, const Atl
   }
   std::string text;
   for (const auto& curve : curves) text += curve_text(curve, power, console);
+  for (std::size_t q = 0; q < kNumQuantities; ++q) {
+    const auto quantity = static_cast<Quantity>(q);
+    if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end())
+      text += cells_text(quantity, curves, cells, console);
+  }
   console.print(text +
                 console.dim(fmt::format("significance level {:g}; {} studies of each size, drawn from {} teams per "
                                         "cell;\nintervals include the error from both",
@@ -415,7 +506,7 @@ int run_power(const PowerCommandOptions& options, Console& console) {
   require_something_to_teach(atlas);
   Progress progress{options.progress, console};
   if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);
-  return run_curves(options, *reading.study, atlas, progress, console);
+  return run_curves(options, reading, atlas, progress, console);
 }
 
 }  // namespace kith::cli

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "build_facts.hpp"
 #include "kith/analysis/plan.hpp"
+#include "kith/files/sha256.hpp"
 
 namespace kith::cli {
 namespace {
@@ -32,7 +34,7 @@ std::string weights_text(const PlannedContrast& contrast) {
 std::vector<PlannedContrast> contrasts_of(const StudySpec& spec) {
   std::vector<PlannedContrast> contrasts;
   for (const auto& one : spec.contrasts) {
-    PlannedContrast contrast{.name = one.name, .factor = one.factor, .response = one.response};
+    PlannedContrast contrast{.name = one.name, .factor = one.factor, .response = one.response, .primary = one.primary};
     for (const auto& [level, weight] : one.weights) contrast.weights.push_back({level, weight});
     contrasts.push_back(std::move(contrast));
   }
@@ -76,7 +78,23 @@ std::string size_row(const PowerCurve& curve, std::size_t teams) {
                      curve.effect.imposed ? "" : " (as simulated)", power, needed);
 }
 
-std::string sample_text(const StudySpec& spec, std::span<const PowerCurve> curves, const PowerOptions& options) {
+// What the effects are effects on.
+std::string cells_text(std::span<const PowerCurve> curves, std::span<const EffectCells> cells) {
+  std::string text =
+      "\nMeans (standard deviations) of the simulated teams; where an effect is imposed, the means that it gives:\n\n"
+      "| effect | strategy | composition | mean (sd) | imposed mean |\n|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (const auto& cell : cells[i].cells) {
+      text += fmt::format("| {} | {} | {} | {:.4g} ({:.3g}) | {} |\n", to_string(curves[i].effect), cell.strategy,
+                          cell.composition, cell.mean, cell.sd,
+                          cell.imposed ? fmt::format("{:.4g}", *cell.imposed) : std::string{});
+    }
+  }
+  return text;
+}
+
+std::string sample_text(const StudySpec& spec, std::span<const PowerCurve> curves, std::span<const EffectCells> cells,
+                        const PowerOptions& options) {
   auto text = fmt::format(
       "## Sample size\n\n{} teams per cell. Power at a significance level of {:g} was estimated by drawing {} studies "
       "of each size from simulated teams (`kith power`{}):\n\n"
@@ -85,6 +103,7 @@ std::string sample_text(const StudySpec& spec, std::span<const PowerCurve> curve
       spec.replicates, options.alpha, options.draws, options.paired ? ", `--paired`" : "", spec.replicates,
       options.target);
   for (const auto& curve : curves) text += size_row(curve, spec.replicates);
+  text += cells_text(curves, cells);
   text += fmt::format(
       "\n## Stopping rule\n\nData collection ends when every cell has {} teams. No test is made before that, and no "
       "team is added after a test. A team that has not learned everything after {} periods is stopped.\n\n",
@@ -92,26 +111,73 @@ std::string sample_text(const StudySpec& spec, std::span<const PowerCurve> curve
   return text;
 }
 
+std::string analysis_text(const PlannedAnalysis& one, std::size_t number) {
+  auto text = fmt::format("\n### {}. {}\n\n{}\n\n* Model: `{}`\n", number, one.title, one.question, one.model);
+  for (const auto& contrast : one.contrasts) {
+    text += fmt::format("* Planned contrast {}{}: {}\n",
+                        contrast.primary ? fmt::format("of `{}`, ", contrast.response) : std::string{}, contrast.name,
+                        weights_text(contrast));
+  }
+  for (const auto& method : one.methods) text += "* " + method.text + "\n";
+  return text;
+}
+
 std::string analyses_text(const std::vector<PlannedAnalysis>& plan, double alpha) {
   auto text = fmt::format(
-      "## Analyses\n\nAll tests are two-sided; p < {:g} counts as evidence for an effect, after the correction that an "
-      "analysis names. Effect sizes are reported with intervals. A test that finds nothing is not taken as evidence "
-      "that there is no effect.\n",
+      "All tests are two-sided; p < {:g} counts as evidence for an effect, after the correction that an analysis "
+      "names. Effect sizes are reported with intervals. A test that finds nothing is not taken as evidence that there "
+      "is no effect.\n",
       alpha);
   std::size_t number = 0;
-  for (const auto& one : plan) {
-    text += fmt::format("\n### {}. {}\n\n{}\n\n* Model: `{}`\n", ++number, one.title, one.question, one.model);
-    for (const auto& contrast : one.contrasts)
-      text += fmt::format("* Planned contrast {}: {}\n", contrast.name, weights_text(contrast));
-    for (const auto& method : one.methods) text += "* " + method.text + "\n";
-  }
+  for (const auto& one : plan) text += analysis_text(one, ++number);
   return text;
+}
+
+// The hypotheses: the primary contrasts, or without any the questions of all analyses.
+std::string hypotheses_text(const std::vector<PlannedContrast>& primary, const std::vector<PlannedAnalysis>& plan) {
+  std::size_t number = 0;
+  std::string text = "## Hypotheses\n\n";
+  if (primary.empty()) {
+    text += "Each is tested against the hypothesis of no effect.\n\n";
+    for (const auto& one : plan) text += fmt::format("{}. {} ({})\n", ++number, one.question, one.id);
+    return text + "\n";
+  }
+  text += fmt::format(
+      "{} tested against the hypothesis of no difference{}. The finding `primary` of kith analyze tests {}.\n\n",
+      primary.size() == 1 ? "It is" : "Each is",
+      primary.size() == 1 ? "" : fmt::format(", corrected for the number of {} by Holm's method", primary.size()),
+      primary.size() == 1 ? "it" : "them");
+  for (const auto& one : primary) {
+    text += fmt::format("{}. `{}`: {}: the weighted sum of means {} is not 0.\n", ++number, one.response, one.name,
+                        weights_text(one));
+  }
+  return text + "\n";
+}
+
+// What proves that this was planned, and not something else.
+std::string identity_text(const PlannedStudy& planned) {
+  const auto& weights = planned.domain.weights().raw;
+  const auto& names = planned.domain.feature_names();
+  std::string reward;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    reward += fmt::format("{}{} {:g}", k == 0 ? "" : ", ", names[k], weights.at(k));
+  auto text = fmt::format(
+      "Study `{}`, written by kith {} on {}, before the study was run.\n\n* Domain: {} (`{}`); weights: {}\n* Seed: "
+      "{}\n\n| input | SHA-256 |\n|---|---|\n| study.toml | {} |\n| domain.toml | {} |\n",
+      planned.spec.id, program_name(), planned.written, planned.spec.domain, planned.domain.id(), reward,
+      planned.spec.seed, sha256(planned.inputs.study), sha256(planned.inputs.domain));
+  for (const auto& file : planned.inputs.files) text += fmt::format("| {} | {} |\n", file.name, file.sha256);
+  return text + fmt::format(
+                    "| all inputs | {} |\n\nkith study keeps these files in `inputs` and their digests in "
+                    "`manifest.json`; that of all inputs is called `run` there.\n\n",
+                    planned.inputs.digest());
 }
 
 }  // namespace
 
-std::string preregistration_text(const StudySpec& spec, const std::string& source, std::span<const PowerCurve> curves,
-                                 const PowerOptions& options) {
+std::string preregistration_text(const PlannedStudy& planned, std::span<const PowerCurve> curves,
+                                 std::span<const EffectCells> cells, const PowerOptions& options) {
+  const auto& spec = planned.spec;
   const PlannedDesign design{.strategies = names_of(spec.strategies),
                              .compositions = spec.compositions,
                              .same_people = spec.pairing == Pairing::kReplicate,
@@ -120,21 +186,34 @@ std::string preregistration_text(const StudySpec& spec, const std::string& sourc
   AnalysisOptions analysis;
   analysis.alpha = options.alpha;
   const auto plan = planned_analyses(design, analysis);
-  auto text = fmt::format("# Preregistration: {}\n\nStudy `{}`, written by {} before the study was run.\n\n",
-                          spec.title.empty() ? spec.id : spec.title, spec.id, program_name());
-  text += "## Hypotheses\n\nEach is tested against the hypothesis of no effect.\n\n";
-  std::size_t number = 0;
-  for (const auto& one : plan) text += fmt::format("{}. {} ({})\n", ++number, one.question, one.id);
-  text += "\n" + design_text(spec) + sample_text(spec, curves, options) +
+  const auto primary = primary_hypotheses(design);
+  const auto is_primary = [](const PlannedAnalysis& one) { return one.id == "primary"; };
+  std::vector<PlannedAnalysis> confirmatory, exploratory;
+  std::copy_if(plan.begin(), plan.end(), std::back_inserter(confirmatory),
+               [&](const auto& one) { return primary.empty() || is_primary(one); });
+  std::copy_if(plan.begin(), plan.end(), std::back_inserter(exploratory),
+               [&](const auto& one) { return !primary.empty() && !is_primary(one); });
+  auto text = fmt::format("# Preregistration: {}\n\n", spec.title.empty() ? spec.id : spec.title);
+  text += identity_text(planned) + hypotheses_text(primary, plan) + design_text(spec) +
+          sample_text(spec, curves, cells, options) +
           "## Exclusions and missing data\n\nNo team is excluded. Teams that are stopped before they have learned "
           "everything are analysed with the periods and the knowledge that they have reached, and their number is "
-          "reported.\n\n" +
-          analyses_text(plan, options.alpha);
+          "reported.\n\n## Analyses\n\n" +
+          analyses_text(confirmatory, options.alpha) + "\n## Exploratory analyses\n\n";
+  if (!exploratory.empty()) {
+    text +=
+        "These are reported as exploratory: their p-values are not corrected for the number of analyses, and none of "
+        "them is taken as evidence for or against a hypothesis.\n";
+    std::size_t number = 0;
+    for (const auto& one : exploratory) text += analysis_text(one, ++number);
+    text += "\n";
+  }
   text += fmt::format(
-      "\n## Exploratory analyses\n\nWhatever is not listed above, such as the manipulation check and comparisons that "
-      "the data suggest, is reported as exploratory.\n\n## Commands\n\n    kith study {0} -o RESULTS\n    kith analyze "
-      "RESULTS{1}\n",
-      source, options.alpha == AnalysisOptions{}.alpha ? "" : fmt::format(" --alpha {:g}", options.alpha));
+      "Whatever is not listed above, such as the manipulation check and comparisons that the data suggest, is reported "
+      "as exploratory.\n\n## Commands\n\n    kith study {0} -o RESULTS\n    kith analyze RESULTS{1}\n\n## The study "
+      "file\n\nWith every key written out, learners and teacher included:\n\n```toml\n{2}```\n",
+      planned.source, options.alpha == AnalysisOptions{}.alpha ? "" : fmt::format(" --alpha {:g}", options.alpha),
+      planned.inputs.study);
   return text;
 }
 

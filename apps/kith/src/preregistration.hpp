@@ -3,16 +3,29 @@
 #include <span>
 #include <string>
 
+#include "kith/domains/domain.hpp"
 #include "kith/planning/power.hpp"
+#include "kith/runs/run_folder.hpp"
 #include "kith/study/study_spec.hpp"
 
 namespace kith::cli {
 
-/// A preregistration of a study as Markdown: hypotheses, design, sample size, stopping, exclusions, analyses. The
-/// models are those that kith analyze fits, see planned_analyses(); the sample size is that of the study file.
-/// @param source  the study as named on the command line.
+/// What is planned.
+struct PlannedStudy {
+  const StudySpec& spec;
+  const Domain& domain;
+  RunInputs inputs;     ///< As kith study freezes them.
+  std::string source;   ///< The study as named on the command line.
+  std::string written;  ///< When: UTC, "2026-01-31T12:00:00Z".
+};
+
+/// A preregistration of a study as Markdown: hypotheses, design, sample size, stopping, exclusions, analyses, and what
+/// proves that this was planned: digests of the inputs. The hypotheses are the primary contrasts of the study file if
+/// it has any. The models are those that kith analyze fits, see planned_analyses(); the sample size is that of the
+/// file.
 /// @param curves  of the effects that decide on the sample size, with a point at spec.replicates teams per cell.
-[[nodiscard]] std::string preregistration_text(const StudySpec& spec, const std::string& source,
-                                               std::span<const PowerCurve> curves, const PowerOptions& options);
+/// @param cells  of the same effects.
+[[nodiscard]] std::string preregistration_text(const PlannedStudy& planned, std::span<const PowerCurve> curves,
+                                               std::span<const EffectCells> cells, const PowerOptions& options);
 
 }  // namespace kith::cli

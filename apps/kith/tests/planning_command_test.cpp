@@ -212,6 +212,74 @@ TEST(PowerCommand, WritesAPreregistrationWhoseModelsTheAnalysisFits) {
     EXPECT_THAT(plan, HasSubstr(finding.at("question").get<std::string>()));
   }
   EXPECT_EQ(run_kith({"power", "quick", "--findings", "f.toml", "--preregister", file}).code, 2);
+  // What was planned is proved to be what was run.
+  const auto manifest = Json::parse(text_of(folder + "/manifest.json"));
+  EXPECT_THAT(plan, AllOf(HasSubstr(", written by kith "), HasSubstr("* Seed: "), HasSubstr("; weights: rubble"),
+                          HasSubstr("[learner.N]"),
+                          HasSubstr("| all inputs | " + manifest.at("run").get<std::string>() + " |")));
+  for (const auto& [name, digest] : manifest.at("inputs").items())
+    EXPECT_THAT(plan, HasSubstr("| " + name + " | " + digest.get<std::string>() + " |"));
+}
+
+// The planned contrasts are the hypotheses, in the plan, the analysis and the report; all else is exploratory.
+TEST(PowerCommand, PreregistersThePrimaryContrastsAsTheHypotheses) {
+  const Scratch scratch;
+  const auto study = scratch / "study.toml";
+  std::ofstream{study} << R"(schema = "kith.study/1"
+id = "two"
+domain = "item-delivery"
+replicates = 4
+[design]
+strategies = ["common", "individual-low"]
+compositions = ["NP"]
+[[contrast]]
+name = "the team's belief"
+of = ["common"]
+against = ["individual-low"]
+response = "knowledge"
+primary = true
+[learner.N]
+ability = { mean = 0.703, sd = 0.034 }
+confirm_gain = { half_normal = 0.033 }
+correct_gain = { half_normal = 0.056 }
+[learner.P]
+ability = { mean = 0.809, sd = 0.025 }
+confirm_gain = { half_normal = 0.022 }
+correct_gain = { half_normal = 0.052 }
+)";
+  const auto file = scratch / "plan.md";
+  const auto ran = run_small({"power", study, "--effect", "knowledge: common - individual-low", "--teams", "3",
+                              "--pool", "16", "--draws", "20", "--preregister", file});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto plan = text_of(file);
+  const auto hypotheses = plan.substr(plan.find("## Hypotheses"), plan.find("## Design") - plan.find("## Hypotheses"));
+  EXPECT_THAT(hypotheses, HasSubstr("1. `knowledge`: the team's belief: the weighted sum of means 1 common - 1 "
+                                    "individual-low is not 0."));
+  EXPECT_THAT(hypotheses, ::testing::Not(HasSubstr("2. ")));
+  EXPECT_LT(plan.find("### 1. Primary hypothesis"), plan.find("## Exploratory analyses"));
+  EXPECT_GT(plan.find("Does the strategy", plan.find("## Exploratory analyses")), plan.find("## Exploratory analyses"));
+  const auto folder = scratch / "run";
+  ASSERT_EQ(run_small({"study", study, "-o", folder, "-q"}).code, 0);
+  const auto document = Json::parse(run_kith({"analyze", folder, "--json"}).out);
+  EXPECT_EQ(document.at("findings").at(0).at("id"), "primary");
+  const auto report = Json::parse(run_kith({"report", folder, "--json"}).out);
+  EXPECT_EQ(report.at("findings").at(0).at("id"), "primary");
+  EXPECT_THAT(report.at("overview").at("summary").dump(), HasSubstr("knowledge: the team's belief"));
+}
+
+TEST(PowerCommand, RefusesEffectsThatNoStudyCanHaveAndWarnsOfHugeOnes) {
+  const auto power = [](const std::string& effect) {
+    return run_small({"power", "quick", "--effect", effect, "--teams", "3", "--pool", "12", "--draws", "20"});
+  };
+  const auto refused = power("knowledge: group - baseline = 1.5");
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("E0816"), HasSubstr("it lies between 0 and 1")));
+  EXPECT_EQ(refused.out, "");
+  const auto warned = power("periods: group - baseline = 8");
+  EXPECT_EQ(warned.code, 0) << warned.err;
+  EXPECT_THAT(warned.err, HasSubstr("standard deviations within cells: hardly any teaching does that"));
+  EXPECT_THAT(warned.out, AllOf(HasSubstr("periods of simulated teams (can be 0 or more)"), HasSubstr("imposed 1")));
+  EXPECT_THAT(power("periods: group - baseline").err, ::testing::Not(HasSubstr("hardly any")));
 }
 
 }  // namespace

@@ -4,11 +4,18 @@
 #include <array>
 #include <stdexcept>
 
+#include "kith/table/outcome.hpp"
+
 namespace kith {
 namespace {
 
-constexpr std::array<std::string_view, kNumQuantities> kNames{
-    "periods", "knowledge", "completed", "area_sr", "exam_share_right", "exam_regret", "exam_worst_share_right"};
+// In the order of the enumerators, which is that of outcome_columns().
+const std::array<std::string_view, kNumQuantities> kNames = [] {
+  std::array<std::string_view, kNumQuantities> names;
+  std::transform(outcome_columns().begin(), outcome_columns().end(), names.begin(),
+                 [](const OutcomeColumn& one) { return one.name; });
+  return names;
+}();
 
 const TeamExam& exam_of(const TeamRecord& team) {
   if (!team.exam) throw std::invalid_argument{"value_of: the team was not examined"};

@@ -1,5 +1,7 @@
 #include "study_tests.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +11,7 @@
 #include "kith/stats/moments.hpp"
 #include "kith/stats/power.hpp"
 #include "kith/stats/tests.hpp"
+#include "kith/table/outcome.hpp"
 
 namespace kith {
 namespace {
@@ -152,6 +155,54 @@ void EffectData::impose(const TeamPool& pool, const Effect& effect) {
     for (std::size_t j = 0; j < compositions.size(); ++j)
       shift_[groups[i] * num_compositions_ + compositions[j]] += scale * effects[i][j];
   }
+}
+
+EffectCells effect_cells(const TeamPool& pool, const Effect& effect) {
+  const auto range = outcome_columns()[static_cast<std::size_t>(effect.quantity)];
+  EffectCells result{.low = range.low, .high = range.high};
+  const EffectData data{pool, effect};
+  const auto [groups, compositions] = cells_of(pool, effect);
+  const auto is_about = [&](std::size_t s, std::size_t c) {
+    if (effect.kind == Effect::Kind::kContrast)
+      return is_selected(pool, effect.first, s, c) || is_selected(pool, effect.second, s, c);
+    return std::find(groups.begin(), groups.end(), s) != groups.end() &&
+           std::find(compositions.begin(), compositions.end(), c) != compositions.end();
+  };
+  double center = 0.0, variance = 0.0;
+  std::vector<double> imposed;
+  for (std::size_t s = 0; s < pool.strategies().size(); ++s) {
+    for (std::size_t c = 0; c < pool.compositions().size(); ++c) {
+      if (!is_about(s, c)) continue;
+      const auto cell = pool.cell(effect.quantity, s, c);
+      const double sd = standard_deviation(cell).value_or(0.0);
+      result.cells.push_back({pool.strategies()[s], pool.compositions()[c], mean(cell), sd, std::nullopt});
+      center += result.cells.back().mean;
+      variance += sd * sd;
+      imposed.push_back(data.cell_mean(s, c));
+    }
+  }
+  const auto n = static_cast<double>(result.cells.size());
+  result.sd = std::sqrt(variance / n);
+  center /= n;
+  const auto [least, most] = std::minmax_element(imposed.begin(), imposed.end());
+  const double difference = *most - *least;
+  result.largest_difference = difference == 0.0 ? 0.0 : difference / result.sd;
+  if (!effect.imposed) return result;
+  // Rounding of means is no reason to refuse an effect that just fits.
+  const double slack = 1e-9 * std::max(1.0, std::abs(center));
+  const double lowest = center + *least, highest = center + *most;
+  for (std::size_t i = 0; i < imposed.size(); ++i) result.cells[i].imposed = center + imposed[i];
+  if (lowest >= range.low - slack && highest <= range.high + slack) return result;
+  const double room = std::min(
+      {1.0, *least < 0.0 ? (center - range.low) / -*least : 1.0, *most > 0.0 ? (range.high - center) / *most : 1.0});
+  result.impossible = fmt::format(
+      "{} would have means from {:.4g} to {:.4g} around the simulated {:.4g}, but it lies {}; without moving that "
+      "center, differences between means of up to {:.3g} are possible",
+      name_of(effect.quantity), lowest, highest, center,
+      std::isinf(range.high) ? fmt::format("at {:g} or above", range.low)
+                             : fmt::format("between {:g} and {:g}", range.low, range.high),
+      std::max(0.0, room) * difference);
+  return result;
 }
 
 // --- tests ------------------------------------------------------------------------

@@ -48,6 +48,65 @@ Effect strategy_effect(std::optional<double> imposed = {}) {
           .imposed = imposed};
 }
 
+// Shares right between .9 and 1.
+TeamPool shares_pool() {
+  RandomStream random{11};
+  std::vector<std::vector<std::vector<double>>> values(
+      kStrategies.size(), std::vector<std::vector<double>>(kCompositions.size(), std::vector<double>(50)));
+  for (auto& strategy : values) {
+    for (auto& cell : strategy) {
+      for (auto& value : cell) value = 0.9 + 0.1 * uniform01(random);
+    }
+  }
+  return {kStrategies, kCompositions, values};
+}
+
+TEST(EffectCells, RefuseMeansThatTheOutcomeCannotHave) {
+  const auto pool = shares_pool();
+  Effect effect{.quantity = Quantity::kExamShareRight, .kind = Effect::Kind::kContrast, .imposed = 0.5};
+  effect.first.strategy = "joint";
+  effect.second.strategy = "common";
+  const auto refused = effect_cells(pool, effect);
+  EXPECT_NE(refused.impossible.find("exam_share_right would have means from 0.7"), std::string::npos);
+  EXPECT_NE(refused.impossible.find("it lies between 0 and 1"), std::string::npos) << refused.impossible;
+  // Where there is no upper bound, only the lower one refuses.
+  effect.quantity = Quantity::kExamRegret;
+  EXPECT_TRUE(effect_cells(pool, effect).impossible.empty());
+  effect.imposed = -2.0;
+  EXPECT_NE(effect_cells(pool, effect).impossible.find("it lies at 0 or above"), std::string::npos);
+  effect.imposed.reset();
+  EXPECT_TRUE(effect_cells(pool, effect).impossible.empty());
+}
+
+// The law: an effect is refused exactly if one of the means that it gives lies outside the range.
+TEST(EffectCells, AreThoseOfTheEffectWithinTheRange) {
+  const auto pool = shares_pool();
+  for (const auto kind : {Effect::Kind::kStrategy, Effect::Kind::kComposition, Effect::Kind::kInteraction,
+                          Effect::Kind::kStrategyWithin, Effect::Kind::kContrast}) {
+    for (const double size : {0.01, 0.05, 0.09, 0.2, 0.5, 0.9, 0.99}) {
+      Effect effect{.quantity = Quantity::kKnowledge, .kind = kind, .composition = "NP", .imposed = size};
+      effect.first.strategy = "joint";
+      effect.second.composition = "NN";
+      const auto cells = effect_cells(pool, effect);
+      ASSERT_GE(cells.cells.size(), 2u);
+      bool fits = true;
+      double sum = 0.0, low = 1e9, high = -1e9;
+      for (const auto& cell : cells.cells) {
+        ASSERT_TRUE(cell.imposed);
+        fits = fits && *cell.imposed >= -1e-9 && *cell.imposed <= 1.0 + 1e-9;
+        sum += *cell.imposed - cell.mean;
+        low = std::min(low, *cell.imposed);
+        high = std::max(high, *cell.imposed);
+        EXPECT_NEAR(cell.sd, std::sqrt(0.01 / 12.0), 0.008);  // of 50 values: five standard errors
+      }
+      EXPECT_EQ(cells.impossible.empty(), fits) << cells.impossible;
+      EXPECT_NEAR(cells.largest_difference, (high - low) / cells.sd, 1e-9);
+      if (kind == Effect::Kind::kContrast) continue;
+      EXPECT_NEAR(sum, 0.0, 1e-9);
+    }
+  }
+}
+
 TEST(Power, EqualsTheLevelWithoutAnEffect) {
   const auto pool = normal_pool(2'000, 1);
   std::vector<Effect> effects{strategy_effect()};

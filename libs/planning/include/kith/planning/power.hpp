@@ -65,6 +65,27 @@ struct PowerOptions {
   std::uint64_t seed = 1;
 };
 
+/// A cell that an effect is about, as simulated and as the effect makes it.
+struct EffectCell {
+  std::string strategy;
+  std::string composition;
+  double mean = 0.0;              ///< Of the pool.
+  double sd = 0.0;                ///< Of the pool; an imposed effect keeps it.
+  std::optional<double> imposed;  ///< The mean that an imposed effect gives the cell: around the mean of all of them.
+};
+struct EffectCells {
+  std::vector<EffectCell> cells;
+  double low = 0.0, high = 0.0;  ///< What values the quantity can have, see OutcomeColumn.
+  double sd = 0.0;               ///< Within cells, pooled.
+  /// The largest difference between means as imposed, or as simulated; in units of sd, infinite if that is 0.
+  double largest_difference = 0.0;
+  /// Why no study can have the imposed effect, a sentence: a mean would lie where the quantity cannot.
+  std::string impossible{};
+};
+/// What an effect does to the cells of a pool. Tests of an effect only see differences; the imposed means are those of
+/// the same teams if the mean of all their cells stays what it is.
+[[nodiscard]] EffectCells effect_cells(const TeamPool& pool, const Effect& effect);
+
 /// Power at one size of the study.
 struct PowerPoint {
   std::size_t teams = 0;  ///< Per cell.

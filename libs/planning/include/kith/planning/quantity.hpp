@@ -22,7 +22,7 @@ enum class Quantity {
   kExamRegret,           ///< Mean over members, in the units of the domain file's weights.
   kExamWorstShareRight,  ///< The smallest share of a member.
 };
-inline constexpr std::size_t kNumQuantities = 7;
+inline constexpr std::size_t kNumQuantities = 7;  ///< As many as there are outcome_columns(), in the same order.
 /// "periods", "knowledge", "completed", "area_sr", "exam_share_right", "exam_regret", "exam_worst_share_right"
 [[nodiscard]] std::string_view name_of(Quantity quantity) noexcept;
 [[nodiscard]] std::optional<Quantity> find_quantity(std::string_view name) noexcept;
