@@ -74,7 +74,7 @@ struct EffectCell {
   std::optional<double> imposed;  ///< The mean that an imposed effect gives the cell: around the mean of all of them.
 };
 struct EffectCells {
-  std::vector<EffectCell> cells;
+  std::vector<EffectCell> cells{};
   double low = 0.0, high = 0.0;  ///< What values the quantity can have, see OutcomeColumn.
   double sd = 0.0;               ///< Within cells, pooled.
   /// The largest difference between means as imposed, or as simulated; in units of sd, infinite if that is 0.
