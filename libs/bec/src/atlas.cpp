@@ -16,20 +16,21 @@ Atlas::Atlas(Domain domain, BehaviourSource source) : domain_{std::move(domain)}
 Trajectory Atlas::trajectory(DemoIndex demo) const {
   const auto [m, start] = id(demo);
   const Mdp& mdp = domain_.mdp(m);
-  Trajectory trajectory{{start}, {}};
-  for (auto s = start; !mdp.is_terminal(s); s = trajectory.states.back()) {
-    const auto next = shown_next_[m.value()][s.value()];
-    if (next == kTerminal) break;
-    trajectory.actions.push_back(mdp.choices(s)[canonical_choices_[m.value()][s.value()]].action);
-    trajectory.states.emplace_back(next);
-  }
-  return trajectory;
+  return shown_path(mdp, canonical_choices_[m.value()], shown_next_[m.value()], start);
 }
 
 std::vector<DemoIndex> Atlas::path(DemoIndex demo) const {
   std::vector<DemoIndex> path;
-  for (auto at = static_cast<std::uint32_t>(demo.value()); at != kTerminal; at = demos_[at].next) path.emplace_back(at);
+  auto at = static_cast<std::uint32_t>(demo.value());
+  for (; at != kTerminal && demos_[at].cycle_length == 0; at = demos_[at].next) path.emplace_back(at);
+  if (at == kTerminal) return path;
+  for (auto left = demos_[at].cycle_length; left > 0; --left, at = demos_[at].next) path.emplace_back(at);
   return path;
+}
+
+ActionIndex Atlas::action(DemoIndex demo) const {
+  const auto [m, start] = id(demo);
+  return domain_.mdp(m).choices(start)[canonical_choices_[m.value()][start.value()]].action;
 }
 
 IntegerVector Atlas::deviation_counts(DemoIndex demo, std::size_t choice) const {

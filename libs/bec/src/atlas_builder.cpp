@@ -73,8 +73,9 @@ void AtlasBuilder::plan() {
       demo.counts = plan->counts[s.value()];
       atlas_.demos_.push_back(demo);
     }
-    describe_paths(m, *plan);
-    collect_one_step(m, *plan);
+    const auto order = successors_first(mdp, *plan);
+    describe_paths(m, *plan, order);
+    collect_one_step(m, *plan, order);
     if (atlas_.tabulated_) find_hulls(m);
     atlas_.canonical_choices_.push_back(std::move(plan->choice));
     atlas_.shown_next_.push_back(std::move(plan->next));
@@ -141,26 +142,47 @@ std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {
 }
 
 // Ties, uniqueness and trajectory classes, from the end of the paths backwards.
-void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot) {
+void AtlasBuilder::describe_paths(MdpIndex m, const RobotPlan& robot, const PathOrder& order) {
   const auto& mdp = atlas_.domain_.mdp(m);
-  for (const auto s : successors_first(mdp, robot)) {
+  for (const auto s : order.states) {
     auto& here = demo(m, s);
-    const auto next = robot.next[s.value()];
-    const bool breaks_off = next == RobotPlan::kEnd;
-    const bool ends = breaks_off || mdp.is_terminal(StateIndex{next});
+    const StateIndex next{robot.next[s.value()]};
     here.tie = robot.optimal_choices[s.value()] > 1;
-    here.unique = !here.tie && (ends || demo(m, StateIndex{next}).unique);
-    if (!ends) here.next = static_cast<std::uint32_t>(atlas_.first_demo_[m.value()] + next);
-    const auto action = mdp.choices(s)[robot.choice[s.value()]].action.value();
-    // What follows: a negative number names the picture of a terminal state, or that the path breaks off.
-    std::int64_t rest = -1;
-    if (!ends) rest = static_cast<std::int64_t>(demo(m, StateIndex{next}).trajectory_class);
-    if (ends && !breaks_off) rest = -2 - static_cast<std::int64_t>(picture(m, StateIndex{next}));
-    here.trajectory_class = trajectory_classes_
-                                .try_emplace({picture(m, s), static_cast<std::int64_t>(action), rest},
-                                             static_cast<std::uint32_t>(trajectory_classes_.size()))
-                                .first->second;
+    here.cycle_length = order.cycle_length[s.value()];
+    if (!mdp.is_terminal(next)) here.next = static_cast<std::uint32_t>(atlas_.first_demo_[m.value()] + next.value());
   }
+  for (const auto s : order.states) {
+    auto& here = demo(m, s);
+    const StateIndex next{robot.next[s.value()]};
+    here.unique = !here.tie;
+    std::vector<std::int64_t> key;
+    if (here.cycle_length > 0) {  // the whole round, which no path that ends is named by
+      key.push_back(-1);
+      for (const DemoIndex on : atlas_.path(atlas_.index({m, s}))) {
+        here.unique = here.unique && !atlas_.demos_[on.value()].tie;
+        append_look(m, atlas_.id(on).start, robot, key);
+      }
+    } else {
+      append_look(m, s, robot, key);
+      // What follows: a negative number names the picture of a terminal state.
+      if (mdp.is_terminal(next)) {
+        key.push_back(-2 - static_cast<std::int64_t>(picture(m, next)));
+      } else {
+        here.unique = here.unique && demo(m, next).unique;
+        key.push_back(static_cast<std::int64_t>(demo(m, next).trajectory_class));
+      }
+    }
+    here.trajectory_class =
+        trajectory_classes_.try_emplace(std::move(key), static_cast<std::uint32_t>(trajectory_classes_.size()))
+            .first->second;
+  }
+}
+
+// What there is to see of one step.
+void AtlasBuilder::append_look(MdpIndex m, StateIndex s, const RobotPlan& robot, std::vector<std::int64_t>& key) {
+  const auto action = atlas_.domain_.mdp(m).choices(s)[robot.choice[s.value()]].action;
+  key.push_back(picture(m, s));
+  key.push_back(static_cast<std::int64_t>(action.value()));
 }
 
 std::vector<bool> AtlasBuilder::on_candidates_paths(MdpIndex m, const RobotPlan& robot) const {
@@ -183,22 +205,32 @@ std::vector<ConstraintIndex> AtlasBuilder::deviations(const Mdp& mdp, const Robo
   return result;
 }
 
-void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot) {
+void AtlasBuilder::collect_one_step(MdpIndex m, const RobotPlan& robot, const PathOrder& order) {
   const auto& mdp = atlas_.domain_.mdp(m);
   const auto is_on_path = on_candidates_paths(m, robot);
   raw_sets_.resize(atlas_.demos_.size());
-  for (const auto s : successors_first(mdp, robot)) {
+  for (std::size_t i = 0; i < order.states.size(); ++i) {
+    const auto s = order.states[i];
     if (!is_on_path[s.value()]) {
       paths_meet_all_states_ = false;
       continue;
     }
-    const auto& here = demo(m, s);
-    auto set = deviations(mdp, robot, s);
-    if (here.next != Atlas::kTerminal) set.insert(set.end(), raw_sets_[here.next].begin(), raw_sets_[here.next].end());
+    // All states of a cycle show the same.
+    const auto length = std::max<std::size_t>(order.cycle_length[s.value()], 1);
+    std::vector<ConstraintIndex> set;
+    for (std::size_t j = 0; j < length; ++j) {
+      const auto more = deviations(mdp, robot, order.states[i + j]);
+      set.insert(set.end(), more.begin(), more.end());
+    }
+    const auto next = demo(m, s).next;
+    if (order.cycle_length[s.value()] == 0 && next != Atlas::kTerminal)
+      set.insert(set.end(), raw_sets_[next].begin(), raw_sets_[next].end());
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
-    memory_.take(set.size() * sizeof(ConstraintIndex));
-    raw_sets_[atlas_.first_demo_[m.value()] + s.value()] = std::move(set);
+    memory_.take(length * set.size() * sizeof(ConstraintIndex));
+    for (std::size_t j = 0; j < length; ++j)
+      raw_sets_[atlas_.first_demo_[m.value()] + order.states[i + j].value()] = set;
+    i += length - 1;
   }
 }
 

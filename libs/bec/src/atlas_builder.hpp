@@ -26,8 +26,9 @@ class AtlasBuilder {
   void choose_source(BehaviourSource source);
   void plan();
   void order_features();
-  void describe_paths(MdpIndex m, const RobotPlan& robot);
-  void collect_one_step(MdpIndex m, const RobotPlan& robot);
+  void describe_paths(MdpIndex m, const RobotPlan& robot, const PathOrder& order);
+  void append_look(MdpIndex m, StateIndex s, const RobotPlan& robot, std::vector<std::int64_t>& key);
+  void collect_one_step(MdpIndex m, const RobotPlan& robot, const PathOrder& order);
   [[nodiscard]] std::vector<bool> on_candidates_paths(MdpIndex m, const RobotPlan& robot) const;
   [[nodiscard]] std::vector<ConstraintIndex> deviations(const Mdp& mdp, const RobotPlan& robot, StateIndex s);
   void find_indifference();

@@ -268,14 +268,7 @@ std::optional<Trajectory> Behaviours::trajectory(DemoIndex demo, const Direction
   const auto behaviour = behave_in_favour(mdp, {weights.data(), static_cast<std::size_t>(weights.size())},
                                           robot_weights_, {.scale = atlas_->domain().count_scale()});
   if (!behaviour) return std::nullopt;
-  const auto next = likeliest_next(mdp, behaviour->choice);
-  Trajectory path{{start}, {}};
-  for (auto s = start; !mdp.is_terminal(s); s = path.states.back()) {
-    if (next[s.value()] == RobotPlan::kEnd) break;
-    path.actions.push_back(mdp.choices(s)[behaviour->choice[s.value()]].action);
-    path.states.emplace_back(next[s.value()]);
-  }
-  return path;
+  return shown_path(mdp, behaviour->choice, likeliest_next(mdp, behaviour->choice), start);
 }
 
 Behaviours::Conveyed Behaviours::conveyed_by_class(const KnowledgeComponent& component,
@@ -350,12 +343,16 @@ Behaviours::SetIndex Behaviours::with(SetIndex set, std::int32_t constraint) {
   return place->second = number_of_set(std::move(members));
 }
 
-// What a behaviour conveys from every state on candidates' paths: what follows, and the loss there.
+// What a behaviour conveys from every state on candidates' paths: what follows, and the loss there. All states of a
+// cycle convey the same.
 void Behaviours::find_sets(MdpIndex m, Kept& behaviour) {
   const auto states = partitions_->states(m);
   const SetIndex nothing = number_of_set({});
   behaviour.sets.assign(states.size(), kNoSet);
   behaviour_bytes_ += states.size() * sizeof(SetIndex);
+  const auto with_loss_at = [&](SetIndex set, std::size_t place) {
+    return with(set, losses_[static_cast<std::size_t>(behaviour.losses[place])].constraint);
+  };
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < states.size(); ++i) {
     SetIndex set = nothing;
@@ -366,10 +363,19 @@ void Behaviours::find_sets(MdpIndex m, Kept& behaviour) {
         set = behaviour.sets[place];
         break;
       }
+      if (const auto cycle = atlas_->cycle_length(*at); cycle > 0) {
+        std::vector<std::size_t> round;
+        for (auto on = *at; round.size() < cycle; on = *atlas_->next(on)) {
+          round.push_back(static_cast<std::size_t>(partitions_->place(on)));
+          set = with_loss_at(set, round.back());
+        }
+        for (const std::size_t on : round) behaviour.sets[on] = set;
+        break;
+      }
       open.push_back(place);
     }
     for (auto place = open.rbegin(); place != open.rend(); ++place) {
-      set = with(set, losses_[static_cast<std::size_t>(behaviour.losses[*place])].constraint);
+      set = with_loss_at(set, *place);
       behaviour.sets[*place] = set;
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include "kith/mdp/behaviour.hpp"
@@ -44,7 +45,7 @@ class LikeliestPaths {
  public:
   LikeliestPaths(const Mdp& mdp, const std::vector<std::uint32_t>& choice) : mdp_{mdp}, choice_{choice} {
     likelihood_.assign(mdp.num_states() + mdp.num_terminals(), 0.0);
-    next_.assign(mdp.num_states(), RobotPlan::kEnd);
+    next_.assign(mdp.num_states(), 0);
     for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) add_ways_into(s);
   }
 
@@ -97,22 +98,12 @@ class LikeliestPaths {
     }
   }
 
-  // States that never end: the likeliest outcome each, until the path would close.
+  // States that never end. Of what an action does, that it changes nothing is never all.
   void follow_where_there_is_no_end() {
-    constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> walked_by(mdp_.num_states(), kNobody);
-    for (std::size_t start = 0; start < mdp_.num_states(); ++start) {
-      std::size_t at = start;
-      while (likelihood_[at] == 0.0 && walked_by[at] == kNobody) {
-        walked_by[at] = start;
-        const auto all = outcomes(StateIndex{at});
-        const auto likeliest = std::max_element(
-            all.begin(), all.end(), [](const Outcome& a, const Outcome& b) { return a.probability < b.probability; });
-        const std::size_t to = likeliest->next.value();
-        if (walked_by[to] == start) break;
-        next_[at] = static_cast<std::uint32_t>(to);
-        at = to;
-      }
+    for (StateIndex s{0}; s.value() < mdp_.num_states(); ++s) {
+      if (likelihood_[s.value()] > 0.0) continue;
+      const auto chance = [&](const Outcome& outcome) { return outcome.next == s ? 0.0 : outcome.probability; };
+      next_[s.value()] = static_cast<std::uint32_t>(std::ranges::max_element(outcomes(s), {}, chance)->next.value());
     }
   }
 
@@ -153,17 +144,43 @@ std::vector<std::uint32_t> likeliest_next(const Mdp& mdp, const std::vector<std:
   return LikeliestPaths{mdp, choice}.next();
 }
 
-std::vector<StateIndex> successors_first(const Mdp& mdp, const RobotPlan& plan) {
-  std::vector<StateIndex> order;
-  order.reserve(mdp.num_states());
-  std::vector<bool> placed(mdp.num_states(), false);
+Trajectory shown_path(const Mdp& mdp, std::span<const std::uint32_t> choice, std::span<const std::uint32_t> next,
+                      StateIndex start) {
+  Trajectory path{{start}, {}};
+  std::unordered_map<std::size_t, std::size_t> step_of;
+  for (auto s = start; !mdp.is_terminal(s); s = path.states.back()) {
+    const auto [met, is_new] = step_of.try_emplace(s.value(), path.actions.size());
+    if (!is_new) {
+      path.repeats_from = met->second;
+      break;
+    }
+    path.actions.push_back(mdp.choices(s)[choice[s.value()]].action);
+    path.states.emplace_back(next[s.value()]);
+  }
+  return path;
+}
+
+PathOrder successors_first(const Mdp& mdp, const RobotPlan& plan) {
+  PathOrder order;
+  order.states.reserve(mdp.num_states());
+  order.cycle_length.assign(mdp.num_states(), 0);
+  constexpr std::uint32_t kNew = 0xFFFFFFFF;
+  std::vector<std::uint32_t> walked_by(mdp.num_states(), kNew);
   std::vector<StateIndex> path;
   for (std::uint32_t start = 0; start < mdp.num_states(); ++start) {
-    for (std::uint32_t s = start; s < mdp.num_states() && !placed[s]; s = plan.next[s]) {
-      placed[s] = true;
+    std::uint32_t s = start;
+    for (; s < mdp.num_states() && walked_by[s] == kNew; s = plan.next[s]) {
+      walked_by[s] = start;
       path.emplace_back(s);
     }
-    order.insert(order.end(), path.rbegin(), path.rend());
+    if (s < mdp.num_states() && walked_by[s] == start) {  // it has met itself
+      const auto first = std::ranges::find(path, StateIndex{s});
+      const auto length = static_cast<std::uint32_t>(path.end() - first);
+      for (auto at = first; at != path.end(); ++at) order.cycle_length[at->value()] = length;
+      order.states.insert(order.states.end(), first, path.end());
+      path.erase(first, path.end());
+    }
+    order.states.insert(order.states.end(), path.rbegin(), path.rend());
     path.clear();
   }
   return order;

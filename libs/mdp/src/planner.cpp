@@ -1,6 +1,7 @@
 #include "kith/mdp/planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -89,6 +90,49 @@ Trajectory canonical_trajectory(const Mdp& mdp, std::span<const std::uint32_t> c
     path.states.push_back(mdp.outcomes(choice).front().next);
   }
   return path;
+}
+
+Trajectory written_out(Trajectory path, std::size_t steps) {
+  while (path.repeats_from && path.actions.size() < steps) {
+    path.actions.push_back(path.actions[*path.repeats_from]);
+    path.states.push_back(path.states[++*path.repeats_from]);
+  }
+  return path;
+}
+
+std::optional<std::size_t> first_difference(const Trajectory& a, const Trajectory& b) {
+  const auto has = [](const Trajectory& path, std::size_t t) { return path.repeats_from || t < path.actions.size(); };
+  // Two cycles that agree for as many steps as both have together agree for ever.
+  for (std::size_t t = 0; t < a.actions.size() + b.actions.size(); ++t) {
+    if (!has(a, t) && !has(b, t)) return std::nullopt;
+    if (!has(a, t) || !has(b, t) || a.action(t) != b.action(t)) return t;
+  }
+  return std::nullopt;
+}
+
+std::vector<double> path_features(const Mdp& mdp, const Trajectory& path) {
+  constexpr const char* kName = "path_features";
+  require(path.states.size() == path.actions.size() + 1, kName, "there must be one state more than actions");
+  require(!path.repeats_from ||
+              (*path.repeats_from < path.actions.size() && path.states[*path.repeats_from] == path.states.back()),
+          kName, "the last action must lead back to a state before it");
+  require(!path.repeats_from || mdp.discount() < 1.0, kName, "an undiscounted path must end");
+  std::vector<double> sum(mdp.num_features(), 0.0);
+  double share = 1.0;  // discount^t, of a cycle for all rounds
+  for (std::size_t t = 0; t < path.actions.size(); ++t) {
+    if (t == path.repeats_from) share /= 1.0 - std::pow(mdp.discount(), static_cast<double>(path.actions.size() - t));
+    require(path.states[t].value() < mdp.num_states(), kName, "nothing follows a terminal state");
+    const auto choices = mdp.choices(path.states[t]);
+    const auto choice = std::ranges::find(choices, path.actions[t], &Choice::action);
+    require(choice != choices.end(), kName, "there is no such choice");
+    const auto outcomes = mdp.outcomes(*choice);
+    const auto outcome = std::ranges::find(outcomes, path.states[t + 1], &Outcome::next);
+    require(outcome != outcomes.end(), kName, "the action does not lead there");
+    const auto phi = mdp.features(*outcome);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += share * phi[k];
+    share *= mdp.discount();
+  }
+  return sum;
 }
 
 }  // namespace kith

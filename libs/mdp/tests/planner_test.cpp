@@ -195,5 +195,67 @@ TEST(CanonicalTrajectory, RefusesChoicesThatDoNotFinishOrDoNotExist) {
   EXPECT_THROW((void)canonical_trajectory(mdp, std::vector<std::uint32_t>{0, 1}, StateIndex{3}), std::invalid_argument);
 }
 
+// 0 -> 1 <-> 2: one step in, and round.
+Trajectory round_of_two() {
+  return {{StateIndex{0}, StateIndex{1}, StateIndex{2}, StateIndex{1}},
+          {ActionIndex{0}, ActionIndex{1}, ActionIndex{2}},
+          1};
+}
+
+TEST(Trajectory, GoesRoundForEverWhereItRepeats) {
+  const auto path = round_of_two();
+  std::vector<std::size_t> actions;
+  for (std::size_t t = 0; t < 7; ++t) actions.push_back(path.action(t).value());
+  EXPECT_THAT(actions, ElementsAre(0, 1, 2, 1, 2, 1, 2));
+  for (std::size_t steps = 0; steps < 9; ++steps) {
+    const auto longer = written_out(path, steps);
+    ASSERT_EQ(longer.actions.size(), std::max<std::size_t>(steps, 3));
+    EXPECT_EQ(longer.states[*longer.repeats_from], longer.states.back());
+    EXPECT_EQ(longer.actions.size() - *longer.repeats_from, 2U);
+    EXPECT_FALSE(first_difference(path, longer));
+  }
+  EXPECT_EQ(written_out({{StateIndex{0}}, {}}, 5).actions.size(), 0U);
+}
+
+TEST(Trajectory, DiffersWhereActionsDoOrOneHasEnded) {
+  const auto path = round_of_two();
+  auto other = written_out(path, 6);
+  other.actions.back() = ActionIndex{3};
+  EXPECT_EQ(first_difference(path, other), 5U);
+  const Trajectory ends{{StateIndex{0}, StateIndex{1}}, {ActionIndex{0}}};
+  EXPECT_EQ(first_difference(path, ends), 1U);
+  EXPECT_EQ(first_difference(ends, path), 1U);
+  EXPECT_FALSE(first_difference(ends, ends));
+}
+
+TEST(PathFeatures, SumUpTheCycleAsASeries) {
+  const Mdp mdp = make_mdp(3, 1, {{0, 0, 1, {1, 0}}, {1, 1, 2, {0, 1}}, {2, 2, 1, {2, 3}}, {2, 3, 3, {0, 0}}}, 0.5);
+  const auto once = path_features(mdp, round_of_two());
+  // 1 + ..., with the cycle (0, 1) + (2, 3) / 2 begun at half its worth and a quarter each time.
+  EXPECT_THAT(once, ElementsAre(::testing::DoubleNear(1.0 + 0.5 * 1.0 / 0.75, 1e-15),
+                                ::testing::DoubleNear(0.5 * 2.5 / 0.75, 1e-15)));
+  for (std::size_t steps = 4; steps < 60; ++steps) {
+    const auto again = path_features(mdp, written_out(round_of_two(), steps));
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(again[k], once[k], 1e-14);
+  }
+  const Trajectory ends{{StateIndex{2}, StateIndex{3}}, {ActionIndex{3}}};
+  EXPECT_THAT(path_features(mdp, ends), ElementsAre(0.0, 0.0));
+}
+
+TEST(PathFeatures, RefusePathsThatDoNotExistOrNeverEndWithoutADiscount) {
+  const std::vector<testing::Edge> edges{{0, 0, 1, {1}}, {1, 1, 2, {0}}, {2, 2, 1, {2}}, {2, 3, 3, {0}}};
+  EXPECT_THROW((void)path_features(make_mdp(3, 1, edges), round_of_two()), std::invalid_argument);
+  const Mdp mdp = make_mdp(3, 1, edges, 0.5);
+  auto path = round_of_two();
+  path.repeats_from = 0;
+  EXPECT_THROW((void)path_features(mdp, path), std::invalid_argument);
+  path = round_of_two();
+  path.actions[1] = ActionIndex{2};
+  EXPECT_THROW((void)path_features(mdp, path), std::invalid_argument);
+  path = round_of_two();
+  path.states.pop_back();
+  EXPECT_THROW((void)path_features(mdp, path), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace kith

@@ -67,15 +67,21 @@ class Atlas {
   [[nodiscard]] bool is_candidate(DemoIndex demo) const { return demos_[demo.value()].demo_class != kNoClass; }
   [[nodiscard]] DemoId id(DemoIndex demo) const { return demos_[demo.value()].id; }
   [[nodiscard]] DemoIndex index(DemoId id) const { return DemoIndex{first_demo_[id.mdp.value()] + id.start.value()}; }
-  /// The robot's canonical path; the likeliest where chance has a part.
+  /// The robot's canonical path, of at least one action; the likeliest where chance has a part. A robot that never ends
+  /// goes round in a cycle.
   [[nodiscard]] Trajectory trajectory(DemoIndex demo) const;
-  /// The states of that path that are not terminal, as demonstrations of their own, in order.
+  /// The states of that path that are not terminal, as demonstrations of their own, in order; those of a cycle once.
   [[nodiscard]] std::vector<DemoIndex> path(DemoIndex demo) const;
-  /// The next state on that path, as a demonstration of its own; nothing where the path ends or breaks off.
+  /// What the robot does in the start state.
+  [[nodiscard]] ActionIndex action(DemoIndex demo) const;
+  /// The next state on that path, as a demonstration of its own; nothing where the path ends. Following it never ends
+  /// where the path does not.
   [[nodiscard]] std::optional<DemoIndex> next(DemoIndex demo) const {
     const auto at = demos_[demo.value()].next;
     return at == kTerminal ? std::nullopt : std::optional{DemoIndex{at}};
   }
+  /// The number of actions of the cycle that the start state lies on, where the path never ends; 0: on none.
+  [[nodiscard]] std::size_t cycle_length(DemoIndex demo) const { return demos_[demo.value()].cycle_length; }
   /// mu of the robot's path, or its expectation, shape [d].
   [[nodiscard]] const IntegerVector& feature_counts(DemoIndex demo) const { return demos_[demo.value()].counts; }
   /// mu(s, b): what one action at the start counts when the robot goes on from there, or its expectation, shape [d].
@@ -195,6 +201,7 @@ class Atlas {
     HullIndex hull;
     DemoClassIndex demo_class = kNoClass;
     std::uint32_t next = kTerminal;  // demo index of the next state on the path
+    std::uint32_t cycle_length = 0;  // of the cycle that the start state lies on; 0: on none
   };
   struct DemoClass {
     std::vector<HullIndex> hulls;  // of all states on the path, those with anything to convey

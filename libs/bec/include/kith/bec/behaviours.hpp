@@ -139,7 +139,7 @@ class Behaviours {
   /// The weights of a cell that locate() gave, where behaviours are not tabulated.
   [[nodiscard]] const Direction& weights(PolicyCellIndex cell) const { return cells_[cell.value()].weights; }
   /// The path that people with these weights take from there, or the likeliest one; nothing if they have no optimum.
-  /// The path may break off where it never ends. Planned anew at every call.
+  /// Planned anew at every call.
   [[nodiscard]] std::optional<Trajectory> trajectory(DemoIndex demo, const Direction& weights) const;
 
   /// What demonstrations convey, by demonstration class.

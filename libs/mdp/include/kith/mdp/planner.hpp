@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,14 +10,35 @@
 
 namespace kith {
 
-/// A path through an Mdp: states[0] -actions[0]-> states[1] ... ; the last state
-/// is terminal if the path is complete. states has one entry more than actions.
+/// A path through an Mdp: states[0] -actions[0]-> states[1] ... ; states has one entry more than actions.
+///
+/// A complete path either ends, in a terminal state, or never does: then it has a way in, which may be empty, and a
+/// cycle. The last action leads back to a state that was met before, states.back() == states[*repeats_from], and the
+/// actions from that one on are taken again and again.
 struct Trajectory {
   std::vector<StateIndex> states;
   std::vector<ActionIndex> actions;
+  std::optional<std::size_t> repeats_from{};  ///< Position in states, before the last; nothing where the path ends.
+
+  /// The action at step t; on a path that never ends t may be any number. @pre t < actions.size() on others.
+  [[nodiscard]] ActionIndex action(std::size_t t) const {
+    return actions[t < actions.size() ? t : *repeats_from + (t - *repeats_from) % (actions.size() - *repeats_from)];
+  }
 
   friend bool operator==(const Trajectory&, const Trajectory&) = default;
 };
+
+/// The same path with at least `steps` actions written out; for one that ends as many as it has.
+[[nodiscard]] Trajectory written_out(Trajectory path, std::size_t steps);
+
+/// The first step at which two paths take different actions, or at which only one has ended; nothing if they never do.
+[[nodiscard]] std::optional<std::size_t> first_difference(const Trajectory& a, const Trajectory& b);
+
+/// The features that a path collects, shape [d]: sum over its steps t of discount^t phi(s_t, a_t, s_(t+1)). A cycle of
+/// L actions that begins at step k counts as many times as it is gone round, discount^k c / (1 - discount^L) with c
+/// what it collects once. Where chance has a part, what is collected if everything goes as the path says.
+/// @throws std::invalid_argument if some action cannot lead along the path, or an undiscounted path never ends.
+[[nodiscard]] std::vector<double> path_features(const Mdp& mdp, const Trajectory& path);
 
 /// The optimal values and actions of a deterministic, undiscounted, integral
 /// Mdp under integer reward weights; exact, ties included.
