@@ -25,9 +25,11 @@ std::vector<PolicyRun> runs_from(const Atlas& atlas, DemoIndex demo) {
   return several_runs(atlas, demo, kRuns, random);
 }
 
-Json path_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
+Json path_and_chance(const Domain& domain, MdpIndex world, const Trajectory& path) {
   const auto chance = chance_of_path(domain, world, path);
-  return {{"frames", frames_json(domain, world, path)}, {"chance", chance ? Json(*chance) : Json{}}};
+  auto json = path_json(domain, world, path);
+  json["chance"] = chance ? Json(*chance) : Json{};
+  return json;
 }
 
 Json reply_json(const Atlas& atlas, const Reply& reply) {
@@ -36,10 +38,10 @@ Json reply_json(const Atlas& atlas, const Reply& reply) {
   for (const auto& example : reply.examples) {
     const auto id = atlas.id(example.demo);
     auto json = board_json(domain, id);
-    json.update(path_json(domain, id.mdp, example.path));
+    json.update(path_and_chance(domain, id.mdp, example.path));
     json["text"] = example.text;
     json["alternative"] = nullptr;
-    if (example.alternative) json["alternative"] = path_json(domain, id.mdp, *example.alternative);
+    if (example.alternative) json["alternative"] = path_and_chance(domain, id.mdp, *example.alternative);
     json["runs"] = runs_json(domain, id.mdp, runs_from(atlas, example.demo));
     json["decisive"] = example.decisive ? step_json(domain, id.mdp, example.path, *example.decisive) : Json{};
     examples.push_back(std::move(json));
@@ -51,7 +53,7 @@ Json reply_json(const Atlas& atlas, const Reply& reply) {
 // The actions, and how likely the path is where chance has a part.
 std::string path_text(const Domain& domain, MdpIndex world, const Trajectory& path) {
   const auto chance = chance_in_words(domain, world, path);
-  return actions_text(domain, path.actions) + (chance.empty() ? "" : " (" + chance + ")");
+  return actions_text(domain, world, path) + (chance.empty() ? "" : " (" + chance + ")");
 }
 
 std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& console) {
@@ -63,7 +65,8 @@ std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& co
     const auto world = atlas.id(example.demo).mdp;
     const auto add = [&](const std::string& line) { text += "  " + wrapped(line, kTextWidth - 2, "  ") + "\n"; };
     const auto runs = runs_from(atlas, example.demo);
-    if (example.alternative || !runs.empty()) add("the robot: " + path_text(domain, world, example.path));
+    if (example.alternative || !runs.empty() || example.path.repeats_from)
+      add("the robot: " + path_text(domain, world, example.path));
     if (!runs.empty()) add(runs_in_words(domain, world, runs));
     if (example.alternative) add("otherwise: " + path_text(domain, world, *example.alternative));
   }

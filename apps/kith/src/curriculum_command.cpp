@@ -56,7 +56,7 @@ class CurriculumText {
     out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
     line("the robot: " + with_chance(world, contrast.robot), 5);
     runs(shown.demo, shown.runs);
-    if (contrast.robot.actions == contrast.alternative.actions) {
+    if (!first_difference(contrast.robot, contrast.alternative)) {
       line("someone missing this fact would predict the same most likely path, but with other chances", 5);
     } else {
       const auto fork = contrast.robot.states[contrast.decisive];
@@ -95,7 +95,7 @@ class CurriculumText {
 
   [[nodiscard]] std::string with_chance(MdpIndex world, const Trajectory& path) const {
     const auto chance = chance_in_words(domain_, world, path);
-    return actions_text(domain_, path.actions) + (chance.empty() ? "" : " (" + chance + ")");
+    return actions_text(domain_, world, path) + (chance.empty() ? "" : " (" + chance + ")");
   }
 
   void test(std::size_t j, const CurriculumTest& test) {

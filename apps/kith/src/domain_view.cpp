@@ -90,9 +90,8 @@ std::string DomainView::policy() const {
   const auto& mdp = domain_.mdp(mdp_);
   const auto map = domain_.drawing();
   if (!map) return text + policy_table();
-  const auto policy = policy_to_draw(domain_, *map, mdp_);
-  if (!policy && map->is_picture()) return text + policy_table();
-  if (!policy) return text + "  not shown: only policies of deterministic, undiscounted MDPs are\n";
+  const auto policy = policy_to_draw(domain_, mdp_);
+  if (!policy) return text + policy_table();
   const auto start = domain_.initial_state(mdp_);
   const auto& path = policy->path;
   for (const auto& now : configurations_on(domain_, *map, mdp_, path)) {
@@ -100,6 +99,8 @@ std::string DomainView::policy() const {
             beside({policy_picture(domain_, *map, mdp_, policy->choice, now)}, 4);
   }
   text += "  ^ v < > move the robot; a letter begins the name of another action\n";
+  if (mdp.is_deterministic() && mdp.discount() < 1.0)
+    text += "  from the start: " + actions_text(domain_, mdp_, path) + "\n";
   if (!kith::is_exact(mdp)) return text + policy_table();
   const auto counts = plan_exactly(mdp, domain_.weights().integer).solution.value().feature_counts[start.value()];
   return text + "  from the start: " + actions_text(domain_, path.actions) + "\n" +

@@ -79,7 +79,7 @@ void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace
            "\n";
   }
   text += wrapped(reason_of(found.atlas, found.demo, constraint), kTextWidth) + "\n" +
-          start_and_path(domain, id, path, 2) + "  the robot: " + actions_text(domain, path.actions) + "\n\n" +
+          start_and_path(domain, id, path, 2) + "  the robot: " + actions_text(domain, id.mdp, path) + "\n\n" +
           legend(domain, 0);
   console.print(text);
 }
@@ -88,7 +88,7 @@ void print_finding_json(const FoundDemo& found, const HalfSpace& constraint, Pur
   const auto& domain = found.atlas.domain();
   const auto id = found.atlas.id(found.demo);
   auto json = board_json(domain, id);
-  json["frames"] = frames_json(domain, id.mdp, found.atlas.trajectory(found.demo));
+  json.update(path_json(domain, id.mdp, found.atlas.trajectory(found.demo)));
   json["reason"] = reason_of(found.atlas, found.demo, constraint);
   Json made = nullptr;
   if (found.made != nullptr) {

@@ -6,7 +6,9 @@
 
 #include "commands.hpp"
 #include "domain_view.hpp"
+#include "kith/bec/comparison.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/expected_ways.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/present/inspect_json.hpp"
 #include "kith/present/inspect_svg.hpp"
@@ -117,7 +119,7 @@ class Inspection {
       const auto path = atlas_.trajectory(demo);
       const auto& counts = atlas_.feature_counts(demo);
       out_ += fmt::format("  start {}: {} ({}, return {:.4f}{})\n", starts[i].value(),
-                          actions_text(domain_, path.actions), counts_text(domain_, counts), return_of(domain_, counts),
+                          actions_text(domain_, mdp_, path), counts_text(domain_, counts), return_of(domain_, counts),
                           atlas_.is_unique(demo) ? "" : ", one of several best paths");
       out_ += start_and_path(domain_, atlas_.id(demo), path, 4);
       constraints(atlas_.constraints().half_spaces(atlas_.one_step(demo)), "    ");
@@ -134,7 +136,9 @@ class Inspection {
       if (tests.empty()) continue;
       const auto id = atlas_.id(tests.front());
       out_ += fmt::format("    for instance MDP {}, start {}\n", id.mdp.value(), id.start.value());
-      out_ += start_and_path(domain_, id, atlas_.trajectory(tests.front()), 4);
+      const auto path = atlas_.trajectory(tests.front());
+      out_ += start_and_path(domain_, id, path, 4);
+      if (path.repeats_from) out_ += "    and so on: " + never_in_words(domain_, id.mdp, path) + "\n";
     }
   }
 
@@ -146,10 +150,7 @@ class Inspection {
     } else {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
     }
-    if (!atlas_.is_tabulated()) {
-      out_ += "  computed on demand; not precomputed for this domain\n";
-      return;
-    }
+    if (!atlas_.is_tabulated()) return expected_by_a_sample(demo);
     const auto& robot = atlas_.feature_counts(demo);
     const auto paths = atlas_.coverage_set(demo);
     for (std::size_t i = 0; i < limited(paths.size()); ++i) {
@@ -162,6 +163,25 @@ class Inspection {
     }
     note_cut(paths.size());
     out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_.cells().size());
+  }
+
+  void expected_by_a_sample(DemoIndex demo) {
+    Behaviours behaviours{atlas_};
+    const auto ways = expected_ways(behaviours, demo);
+    out_ += "  by people whose weights fill the prior evenly\n";
+    for (std::size_t i = 0; i < limited(ways.size()); ++i) {
+      const auto& way = ways[i];
+      out_ += fmt::format("  {:3.0f} %  {}: ", 100.0 * way.share, counts_text(domain_, way.counts));
+      const auto told = preference_of_robot(domain_, atlas_.feature_counts(demo) - way.counts);
+      if (way.counts == atlas_.feature_counts(demo)) {
+        out_ += "the robot's own path\n";
+      } else {
+        out_ += told ? "shows them " + described(domain_, *told) + "\n" : "just as good\n";
+      }
+      const auto path = behaviours.trajectory(demo, way.weights);
+      if (path && path->repeats_from) out_ += "         " + actions_text(domain_, mdp_, *path) + "\n";
+    }
+    note_cut(ways.size());
   }
 
   [[nodiscard]] std::size_t limited(std::size_t n) const { return options_.all ? n : std::min(n, kListLength); }

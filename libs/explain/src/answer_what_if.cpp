@@ -30,16 +30,16 @@ void Answerer::what_if() {
   const auto old_path = atlas_.trajectory(before);
   const auto new_path = atlas_.trajectory(after);
   const auto description = [&](MdpIndex m, const Trajectory& path) {
-    return scene_.name_of(m) + ": " + actions_text(domain_, path.actions);
+    return scene_.name_of(m) + ": " + actions_text(domain_, m, path);
   };
-  if (old_path.actions == new_path.actions) {
+  if (!first_difference(old_path, new_path)) {
     reply_.text = first_upper(changed) + " nothing changes in " + scene_.name_of(base) + elsewhere + ".";
     show(before, description(base, old_path));
     show(after, description(world, new_path));
     return;
   }
   auto contrast =
-      scene_.any_best_way(after, [&](const Contrast& c) { return c.alternative.actions == old_path.actions; });
+      scene_.any_best_way(after, [&](const Contrast& c) { return !first_difference(c.alternative, old_path); });
   if (!contrast) contrast = scene_.best_way(after, [](const Contrast&) { return true; });
   if (!contrast) contrast = scene_.any_best_way(after, [](const Contrast&) { return true; });
   reply_.text = first_upper(changed) + " its path has " + counts_text(domain_, atlas_.feature_counts(after)) +
@@ -63,7 +63,7 @@ Answerer::Effects Answerer::worlds_it_matters_in(MdpIndex base, MdpIndex world) 
     if (other == variant || found == numbers.end()) continue;
     ++effects.tried;
     const auto path = [&](MdpIndex of) { return atlas_.trajectory(atlas_.index({of, domain_.initial_state(of)})); };
-    if (path(m).actions == path(found->second).actions) continue;
+    if (!first_difference(path(m), path(found->second))) continue;
     ++effects.matters;
     const auto distance = toggled_groups(domain_, base, m).size();
     if (nearest && *nearest <= distance) continue;

@@ -34,7 +34,7 @@ void Answerer::why_at(DemoIndex demo) {
   const auto [world, start] = atlas_.id(demo);
   if (question_.happening) scene_.check_possible(demo, *question_.happening);
   if (question_.instead) scene_.check_possible(demo, *question_.instead);
-  const auto own = atlas_.trajectory(demo).actions.front();
+  const auto own = atlas_.action(demo);
   const bool does = !question_.happening || scene_.is_at(world, start, own, *question_.happening);
   const bool does_instead = question_.instead && scene_.is_at(world, start, own, *question_.instead);
   std::string says = scene_.place_text(demo) + " it " + action_words(scene_.action(own));
@@ -70,9 +70,8 @@ void Answerer::conclude(DemoIndex demo, const std::string& says, const std::opti
 void Answerer::what() {
   const auto world = question_.world.value_or(last_world());
   const auto demo = scene_.needed_start(world);
-  const auto path = atlas_.trajectory(demo);
   reply_.question = "What does it do" + scene_.context() + "?";
-  reply_.text = first_upper(scene_.place_text(demo)) + " it " + action_words(scene_.action(path.actions.front())) + ".";
+  reply_.text = first_upper(scene_.place_text(demo)) + " it " + action_words(scene_.action(atlas_.action(demo))) + ".";
   const auto contrast = scene_.best_step(demo);
   show(demo, because(contrast, "it has no other choice"), contrast);
 }

@@ -185,11 +185,13 @@ std::optional<Contrast> contrast_with_person(const Behaviours& behaviours, DemoI
   auto rest = behaviours.trajectory(atlas.index({world, path.states[t]}), weights);
   if (!rest) return std::nullopt;
   auto result = detail::beside(atlas, demo, {from, answer, t, *std::move(rest)});
-  const auto [robot, other] = std::mismatch(result.robot.actions.begin(), result.robot.actions.end(),
-                                            result.alternative.actions.begin(), result.alternative.actions.end());
   // Where chance has a part the likeliest paths may be the same: then it is the state that tells.
-  const bool differ = robot != result.robot.actions.end();
-  result.decisive = differ ? static_cast<std::size_t>(robot - result.robot.actions.begin()) : from;
+  const auto parting = first_difference(result.robot, result.alternative);
+  const bool differ = parting && (result.robot.repeats_from || *parting < result.robot.actions.size());
+  result.decisive = differ ? *parting : from;
+  // Both may go round in a cycle for a while before they part.
+  result.robot = written_out(std::move(result.robot), result.decisive + 1);
+  result.alternative = written_out(std::move(result.alternative), result.decisive + 1);
   return result;
 }
 

@@ -8,6 +8,7 @@ namespace {
 
 // Appends the rest of a path.
 void append(Trajectory& path, const Trajectory& rest) {
+  if (rest.repeats_from) path.repeats_from = path.actions.size() + *rest.repeats_from;
   path.states.insert(path.states.end(), rest.states.begin() + 1, rest.states.end());
   path.actions.insert(path.actions.end(), rest.actions.begin(), rest.actions.end());
 }

@@ -36,9 +36,8 @@ class Runner {
   const Choice& choice_in(StateIndex s) {
     const auto known = choices_.find(s);
     if (known != choices_.end()) return *known->second;
-    const auto action = atlas_.trajectory(atlas_.index({world_, s})).actions.front();
     const auto choices = mdp_.choices(s);
-    const auto choice = std::ranges::find(choices, action, &Choice::action);
+    const auto choice = std::ranges::find(choices, atlas_.action(atlas_.index({world_, s})), &Choice::action);
     KITH_ASSERT(choice != choices.end());
     met_chance_ = met_chance_ || mdp_.outcomes(*choice).size() > 1;
     return *choices_.emplace(s, &*choice).first->second;

@@ -149,9 +149,8 @@ std::optional<double> Scene::chance_of(DemoIndex demo, const Happening& happenin
     open.pop_back();
     if (mdp.is_terminal(s) || visits.count(s) != 0) continue;
     if (visits.size() == kMostStates) return std::nullopt;
-    const auto action = atlas_.trajectory(atlas_.index({world, s})).actions.front();
     const auto choices = mdp.choices(s);
-    const auto choice = std::ranges::find(choices, action, &Choice::action);
+    const auto choice = std::ranges::find(choices, atlas_.action(atlas_.index({world, s})), &Choice::action);
     visits[s].choice = &*choice;
     if (question_.is_about_a_step()) continue;
     for (const auto& outcome : mdp.outcomes(*choice)) open.push_back(outcome.next);

@@ -391,6 +391,7 @@ std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajecto
   constexpr double kSmall = 0.01;
   const auto chance = chance_of_path(domain, world, path);
   if (!chance) return "";
+  if (path.repeats_from) return "most likely path";  // nobody goes round for ever by chance
   return "most likely path, " + (*chance < kSmall ? "less than 1" : fixed(100.0 * *chance, 0)) + " % chance";
 }
 
@@ -406,6 +407,51 @@ std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& a
   return text;
 }
 
+std::string actions_text(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  if (!path.repeats_from) return actions_text(domain, path.actions);
+  const auto first = path.actions.begin() + static_cast<std::ptrdiff_t>(*path.repeats_from);  // of the cycle
+  const auto way_in = actions_text(domain, {path.actions.begin(), first});
+  return way_in + (way_in.empty() ? "" : ", ") + actions_text(domain, {first, path.actions.end()}) +
+         ", and so on: " + never_in_words(domain, world, path);
+}
+
+namespace {
+
+// What ends an episode, as something that the robot does: "delivers the parcel".
+std::string end_in_words(const Domain& domain, MdpIndex world) {
+  const auto map = domain.map();
+  const auto& actions = domain.action_names();
+  if (!map) return "arrives";
+  std::vector<std::string> delivered, goals;
+  const auto items = map->items_in(world);
+  for (const auto& entry : map->legend()) {
+    const auto& item = entry.content.destination_of;
+    const auto is_there = [&](std::size_t i) { return map->item_names()[i] == item; };
+    if (!item.empty() && std::ranges::any_of(items, is_there) && std::ranges::find(delivered, item) == delivered.end())
+      delivered.push_back(item);
+    if (entry.content.goal) goals.push_back(entry.goal_name.empty() ? "goal" : entry.goal_name + " goal");
+  }
+  std::vector<std::string> ends;
+  if (delivered.size() == 1) ends.push_back("delivers the " + delivered.front());
+  if (delivered.size() > 1) ends.emplace_back("delivers everything");
+  if (!goals.empty()) ends.push_back("reaches " + (goals.size() == 1 ? "the " + goals.front() : std::string{"a goal"}));
+  if (std::ranges::find(actions, "exit") != actions.end()) ends.emplace_back("leaves");
+  return ends.size() == 1 ? ends.front() : "arrives";
+}
+
+}  // namespace
+
+std::string never_in_words(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  if (!path.repeats_from) return "";
+  const auto drawing = domain.drawing();
+  const auto moves = [&](std::size_t t) {
+    return !drawing || drawing->state(world, path.states[t]).robot != drawing->state(world, path.states.back()).robot;
+  };
+  bool goes_anywhere = false;
+  for (std::size_t t = *path.repeats_from; t < path.actions.size(); ++t) goes_anywhere = goes_anywhere || moves(t);
+  return (goes_anywhere ? "it never " : "it stays where it is and never ") + end_in_words(domain, world);
+}
+
 std::string cell_text(const GridMap& map, const Cell& cell) {
   return "(" + std::to_string(cell.x) + "," + std::to_string(map.height() + 1 - cell.y) + ")";
 }
@@ -417,6 +463,7 @@ std::string action_words(const std::string& action) {
   if (action == "pickup") return "picks it up";
   if (action == "dropoff") return "puts it down";
   if (action == "exit") return "leaves";
+  if (action == "stay") return "stays where it is";
   return "does '" + action + "'";
 }
 
@@ -427,6 +474,7 @@ std::string action_infinitive(const std::string& action) {
   if (action == "pickup") return "pick it up";
   if (action == "dropoff") return "put it down";
   if (action == "exit") return "leave";
+  if (action == "stay") return "stay where it is";
   return "do '" + action + "'";
 }
 

@@ -198,7 +198,7 @@ class Page {
     const auto path = atlas_.trajectory(demo);
     const auto caption =
         fmt::format("{}: world {}, start {}{}{}. The robot: {}.", purpose, id.mdp.value(), id.start.value(),
-                    text.empty() ? "" : "; ", text, actions_text(domain_, path.actions));
+                    text.empty() ? "" : "; ", text, actions_text(domain_, id.mdp, path));
     std::string picture;
     if (boards_) {
       auto svg = boards_->board(id.mdp, domain_.drawing()->state(id.mdp, id.start));

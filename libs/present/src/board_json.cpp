@@ -96,6 +96,15 @@ Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
   return frames;
 }
 
+Json path_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
+  Json json{{"frames", frames_json(domain, world, path)}};
+  if (path.repeats_from) {
+    json["repeats_from"] = *path.repeats_from;
+    json["repeats_text"] = never_in_words(domain, world, path);
+  }
+  return json;
+}
+
 Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step) {
   Json json{{"frame", step}};
   if (const auto map = domain.drawing()) json["cell"] = cell_json(*map, map->state(world, path.states[step]).robot);

@@ -283,6 +283,16 @@ Svg BoardSvg::path(MdpIndex m, const Trajectory& path, const std::string& color,
                      {"transform", fmt::format("translate({} {}) rotate({})", svg_number((from.x + to.x) / 2 + x),
                                                svg_number((from.y + to.y) / 2 + y), svg_number(angle))}});
   }
+  if (path.repeats_from) {  // an arrow that bends back to where it begins: from here on again and again
+    const auto at = centre(map_.state(m, path.states.back()).robot);
+    const auto place = fmt::format("translate({} {})", svg_number(at.x + 13.0), svg_number(at.y - 13.0));
+    svg.add("path", {{"d", "M5 0A5 5 0 1 1 2.5 -4.3"},
+                     {"transform", place},
+                     {"fill", "none"},
+                     {"stroke", color},
+                     {"stroke-width", "2"}});
+    svg.add("path", {{"d", "M2 -8L6.5 -2.5L-0.5 -1.5Z"}, {"transform", place}, {"fill", color}});
+  }
   return svg;
 }
 

@@ -12,17 +12,17 @@ Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown
   const auto& domain = atlas.domain();
   const auto world = atlas.id(shown.demo).mdp;
   auto json = board_json(domain, atlas.id(shown.demo));
-  json["frames"] = frames_json(domain, world, shown.contrast.robot);
+  json.update(path_json(domain, world, shown.contrast.robot));
   json["reason"] = shown.reason;
   json["conveys"] = sentences_json(domain, shown.conveys);
-  json["alternative"] = {{"frames", frames_json(domain, world, shown.contrast.alternative)}};
+  json["alternative"] = path_json(domain, world, shown.contrast.alternative);
   json["decisive"] = step_json(domain, world, shown.contrast.robot, shown.contrast.decisive);
   json["runs"] = runs_json(domain, world, shown.runs);
   json["flip"] = nullptr;
   if (shown.flip) {
     const auto id = atlas.id(shown.flip->demo);
     json["flip"] = board_json(domain, id);
-    json["flip"]["frames"] = frames_json(domain, id.mdp, shown.flip->robot);
+    json["flip"].update(path_json(domain, id.mdp, shown.flip->robot));
     json["flip"]["text"] = flip_in_words(atlas, shown.contrast, *shown.flip);
   }
   return json;
@@ -31,7 +31,7 @@ Json demonstration_json(const Atlas& atlas, const CurriculumDemonstration& shown
 Json test_json(const Atlas& atlas, const CurriculumTest& test) {
   const auto id = atlas.id(test.demo);
   auto json = board_json(atlas.domain(), id);
-  json["frames"] = frames_json(atlas.domain(), id.mdp, atlas.trajectory(test.demo));
+  json.update(path_json(atlas.domain(), id.mdp, atlas.trajectory(test.demo)));
   json["runs"] = runs_json(atlas.domain(), id.mdp, test.runs);
   json["difficulty"] = name_of(test.difficulty);
   json["share_right"] = test.share_right;

@@ -11,15 +11,14 @@ namespace {
 
 Json demo_to_json(const Atlas& atlas, DemoIndex demo) {
   const auto& domain = atlas.domain();
-  Json actions = Json::array();
-  for (const auto action : atlas.trajectory(demo).actions) actions.push_back(domain.action_names()[action.value()]);
   const auto& counts = atlas.feature_counts(demo);
-  return {{"start", start_to_json(domain, atlas.id(demo))},
-          {"actions", actions},
-          {"features", counts_to_json(domain, counts)},
-          {"return", return_of(domain, counts)},
-          {"one_step", to_json(atlas.constraints().half_spaces(atlas.one_step(demo)), domain.num_features())},
-          {"unique", atlas.is_unique(demo)}};
+  Json json{{"start", start_to_json(domain, atlas.id(demo))}};
+  json.update(actions_json(domain, atlas.trajectory(demo)));
+  json["features"] = counts_to_json(domain, counts);
+  json["return"] = return_of(domain, counts);
+  json["one_step"] = to_json(atlas.constraints().half_spaces(atlas.one_step(demo)), domain.num_features());
+  json["unique"] = atlas.is_unique(demo);
+  return json;
 }
 
 Json components_to_json(const Atlas& atlas) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "kith/bec/comparison.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/contrast.hpp"
+#include "kith/explain/expected_ways.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/present/board_svg.hpp"
@@ -102,7 +104,7 @@ SvgFile map_picture(const Domain& domain, const GridMap& map, const BoardSvg& bo
 
 std::optional<SvgFile> policy_picture(const Domain& domain, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& mdp = domain.mdp(m);
-  const auto policy = policy_to_draw(domain, map, m);
+  const auto policy = policy_to_draw(domain, m);
   if (!policy) return std::nullopt;
   const auto& choice_in = policy->choice;
   const auto& path = policy->path;
@@ -149,6 +151,40 @@ SvgFile coverage_picture(const Atlas& atlas, const GridMap& map, const BoardSvg&
   return {"coverage.svg", sheet.file()};
 }
 
+// What is written below a path.
+std::string path_caption(const Domain& domain, MdpIndex m, const std::string& text, const Trajectory& path) {
+  return text + (path.repeats_from ? ". And so on: " + never_in_words(domain, m, path) : "");
+}
+
+// The ways that most people expect, where not all are known.
+SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
+  constexpr std::size_t kMost = 11;
+  const auto& domain = atlas.domain();
+  const auto demo = atlas.index({m, domain.initial_state(m)});
+  const auto start = map.state(m, domain.initial_state(m));
+  const auto& robot = atlas.feature_counts(demo);
+  Sheet sheet{boards, fmt::format("What people could expect from the start of MDP {} of {}", m.value(), domain.id())};
+  const auto add = [&](const Trajectory& path, const std::string& text, bool is_own) {
+    auto board = boards.board(m, start);
+    board.add(0, 0, boards.path(m, path, is_own ? "#0b5cad" : "#b8480a", !is_own));
+    sheet.add(std::move(board), path_caption(domain, m, text, path));
+  };
+  add(atlas.trajectory(demo), "the robot's own: " + counts_text(domain, robot), true);
+  Behaviours behaviours{atlas};
+  std::size_t shown = 0;
+  for (const auto& way : expected_ways(behaviours, demo)) {
+    const auto path = behaviours.trajectory(demo, way.weights);
+    if (way.counts == robot || !path || ++shown > kMost) continue;
+    const auto told = preference_of_robot(domain, robot - way.counts);
+    const auto sentence = told ? in_words(domain, *told) : std::string{};
+    add(*path,
+        fmt::format("{:.0f} % of people: {}{}", 100.0 * way.share, counts_text(domain, way.counts),
+                    sentence.empty() ? "" : ": the robot's shows that " + sentence),
+        false);
+  }
+  return {"counterfactuals.svg", sheet.file()};
+}
+
 SvgFile expected_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& domain = atlas.domain();
   const auto demo = atlas.index({m, domain.initial_state(m)});
@@ -182,8 +218,9 @@ std::vector<SvgFile> domain_pictures(const Domain& domain, MdpIndex m) {
 
 std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
   const auto map = atlas.domain().drawing();
-  if (!map || !atlas.is_tabulated()) return {region_picture(atlas)};
+  if (!map) return {region_picture(atlas)};
   const BoardSvg boards{*map};
+  if (!atlas.is_tabulated()) return {region_picture(atlas), likely_picture(atlas, *map, boards, m)};
   return {region_picture(atlas), coverage_picture(atlas, *map, boards, m), expected_picture(atlas, *map, boards, m)};
 }
 

@@ -42,6 +42,14 @@ Json counts_to_json(const Domain& domain, const IntegerVector& counts) {
   return array;
 }
 
+Json actions_json(const Domain& domain, const Trajectory& path) {
+  Json actions = Json::array();
+  for (const auto action : path.actions) actions.push_back(domain.action_names()[action.value()]);
+  Json json{{"actions", std::move(actions)}};
+  if (path.repeats_from) json["repeats_from"] = *path.repeats_from;
+  return json;
+}
+
 Json to_json(const Direction& v) {
   Json array = Json::array();
   for (const double entry : v) array.push_back(entry);

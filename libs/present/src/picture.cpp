@@ -71,17 +71,22 @@ std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, Dem
   std::vector<Picture> legs;
   Picture leg;
   std::size_t moves = 0;
+  std::vector<Cell> left;  // in this leg
   for (std::size_t i = 0; i < path.actions.size(); ++i) {
     if (leg.empty()) leg = start_picture(map, DemoId{id.mdp, path.states[i]});
     if (robot(i) != robot(i + 1)) {
       at(leg, robot(i)) = arrow_of(domain.action_names()[path.actions[i].value()]);
+      left.push_back(robot(i));
       ++moves;
     }
     const bool ends = robot(i) == robot(i + 1) || i + 1 == path.actions.size();
     if (!ends) continue;
-    at(leg, robot(i + 1)) = 'o';
+    const bool goes_on = i + 1 == path.actions.size() && path.repeats_from &&
+                         std::find(left.begin(), left.end(), robot(i + 1)) != left.end();
+    if (!goes_on) at(leg, robot(i + 1)) = 'o';
     if (moves > 0) legs.push_back(std::move(leg));
     leg.clear();
+    left.clear();
     moves = 0;
   }
   return legs;
@@ -107,29 +112,33 @@ std::string start_and_path(const Domain& domain, DemoId id, const Trajectory& pa
 
 namespace {
 
+// By likeliest outcomes that change the state.
 Trajectory likeliest_path(const Mdp& mdp, std::span<const std::uint32_t> choice, StateIndex start) {
   Trajectory path{{start}, {}};
-  std::vector<bool> is_seen(mdp.num_states() + mdp.num_terminals(), false);
-  for (auto s = start; !mdp.is_terminal(s) && !is_seen[s.value()];) {
-    is_seen[s.value()] = true;
+  std::vector<std::size_t> step_of(mdp.num_states(), mdp.num_states());  // that many: none
+  for (auto s = start; !mdp.is_terminal(s); s = path.states.back()) {
+    if (step_of[s.value()] < path.actions.size()) {
+      path.repeats_from = step_of[s.value()];
+      break;
+    }
+    step_of[s.value()] = path.actions.size();
     const auto& taken = mdp.choices(s)[choice[s.value()]];
-    s = std::ranges::max_element(mdp.outcomes(taken), {}, &Outcome::probability)->next;
+    const auto chance = [&](const Outcome& outcome) { return outcome.next == s ? 0.0 : outcome.probability; };
     path.actions.push_back(taken.action);
-    path.states.push_back(s);
+    path.states.push_back(std::ranges::max_element(mdp.outcomes(taken), {}, chance)->next);
   }
   return path;
 }
 
 }  // namespace
 
-std::optional<DrawnPolicy> policy_to_draw(const Domain& domain, const GridMap& map, MdpIndex m) {
+std::optional<DrawnPolicy> policy_to_draw(const Domain& domain, MdpIndex m) {
   const auto& mdp = domain.mdp(m);
-  if (mdp.is_deterministic() && mdp.is_integral() && mdp.discount() == 1.0) {
+  if (is_exact(mdp)) {
     auto solution = plan_exactly(mdp, domain.weights().integer).solution.value();
     auto path = canonical_trajectory(mdp, solution.canonical_choice, domain.initial_state(m));
     return DrawnPolicy{std::move(solution.canonical_choice), std::move(path)};
   }
-  if (!map.is_picture()) return std::nullopt;
   auto behaviour = behave(mdp, domain.weights().raw, {.scale = domain.count_scale()});
   if (!behaviour) return std::nullopt;
   auto path = likeliest_path(mdp, behaviour->choice, domain.initial_state(m));

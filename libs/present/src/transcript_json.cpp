@@ -160,16 +160,11 @@ class Converter {
 
   [[nodiscard]] Json path_to_json(DemoIndex demo) const {
     const auto& counts = atlas_.feature_counts(demo);
-    return {{"start", start_to_json(domain_, atlas_.id(demo))},
-            {"actions", actions(atlas_.trajectory(demo))},
-            {"features", counts_to_json(domain_, counts)},
-            {"return", return_of(domain_, counts)}};
-  }
-
-  [[nodiscard]] Json actions(const Trajectory& path) const {
-    Json array = Json::array();
-    for (const auto action : path.actions) array.push_back(domain_.action_names()[action.value()]);
-    return array;
+    Json json{{"start", start_to_json(domain_, atlas_.id(demo))}};
+    json.update(actions_json(domain_, atlas_.trajectory(demo)));
+    json["features"] = counts_to_json(domain_, counts);
+    json["return"] = return_of(domain_, counts);
+    return json;
   }
 
   [[nodiscard]] Json answer_to_json(const TranscriptPeriod& period, std::size_t t, std::size_t i) const {
@@ -183,7 +178,7 @@ class Converter {
       const auto path = response.weights
                             ? path_of_answer(atlas_, period.lesson.tests[t].demo, counts, *response.weights)
                             : std::nullopt;
-      if (path) json["actions"] = actions(*path);
+      if (path) json.update(actions_json(domain_, *path));
     }
     json["shows"] = kith::to_json(verdict.half_spaces, d_);
     return json;

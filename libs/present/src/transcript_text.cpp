@@ -162,7 +162,7 @@ class TranscriptWriter {
     line();
     line(fmt::format("  Demonstration {}: {}", number, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
-    line("    " + actions_text(domain_, path.actions) + chance(id, path));
+    line("    " + actions_text(domain_, id.mdp, path) + chance(id, path));
     line(fmt::format("    {}; return {:.4f}", counts_text(domain_, counts), return_of(domain_, counts)));
     line("    conveys:");
     for (const auto& half_space : shown.half_spaces) line("      " + described(domain_, half_space));
@@ -187,7 +187,7 @@ class TranscriptWriter {
     line();
     line(fmt::format("  Test {}: {}; what would the robot do?", t + 1, start_text(id)));
     out_ += start_and_path(domain_, id, path, 4);
-    line("    the robot: " + actions_text(domain_, path.actions) + chance(id, path) + " (" +
+    line("    the robot: " + actions_text(domain_, id.mdp, path) + chance(id, path) + " (" +
          counts_text(domain_, atlas_.feature_counts(asked.demo)) + ")");
     for (const auto& half_space : asked.covered) {
       line("    tests " + described(domain_, half_space) + (asked.exact ? "" : " (the closest possible test)"));
@@ -206,8 +206,9 @@ class TranscriptWriter {
     const auto& counts = *response.answers[t];
     const auto demo = period.lesson.tests[t].demo;
     const auto path = response.weights ? path_of_answer(atlas_, demo, counts, *response.weights) : std::nullopt;
-    const auto described_path = path ? actions_text(domain_, path->actions) + " (" + counts_text(domain_, counts) + ")"
-                                     : counts_text(domain_, counts);
+    const auto described_path =
+        path ? actions_text(domain_, atlas_.id(demo).mdp, *path) + " (" + counts_text(domain_, counts) + ")"
+             : counts_text(domain_, counts);
     line(fmt::format("    member {}: {}: {}", members_[i],
                      verdict.correct ? "correct" : fmt::format("wrong (regret {:.4f})", verdict.regret),
                      described_path));

@@ -72,6 +72,13 @@ namespace kith {
 [[nodiscard]] std::string chance_in_words(const Domain& domain, MdpIndex world, const Trajectory& path);
 /// Actions with repetitions counted: "up, right x3".
 [[nodiscard]] std::string actions_text(const Domain& domain, const std::vector<ActionIndex>& actions);
+/// The actions of a path. Of one that never ends the way in, the cycle once, and what that means: "right, up, down, and
+/// so on: it never delivers the parcel".
+[[nodiscard]] std::string actions_text(const Domain& domain, MdpIndex world, const Trajectory& path);
+/// What a path that never ends misses, by what would end it: "it never delivers the parcel", "it never reaches the
+/// goal"; "it never arrives" where the file does not tell. If the robot does not leave its cell any more: "it stays
+/// where it is and never delivers the parcel". Empty for paths that end.
+[[nodiscard]] std::string never_in_words(const Domain& domain, MdpIndex world, const Trajectory& path);
 /// "a", "a and b", "a, b and c".
 [[nodiscard]] std::string listed(const std::vector<std::string>& things);
 /// "(2,1)": column and row from the top left, as in everything that kith prints.

@@ -23,6 +23,9 @@ namespace kith {
 /// [{"robot", "items": [{name, cell, carried}], "stations", "action"}]: entry i is the state before action i; the last
 /// has action null.
 [[nodiscard]] Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path);
+/// {"frames"}, and for a path that never ends also {"repeats_from", "repeats_text"}: the frame that the last one shows
+/// again, and never_in_words().
+[[nodiscard]] Json path_json(const Domain& domain, MdpIndex world, const Trajectory& path);
 /// {"frame", "cell"}: where a step of a path is taken.
 [[nodiscard]] Json step_json(const Domain& domain, MdpIndex world, const Trajectory& path, std::size_t step);
 /// [{"normal", "text"}]

@@ -20,7 +20,7 @@ class BoardSvg {
 
   /// The map of an MDP as it is in a state; the robot is drawn unless `bare`.
   [[nodiscard]] Svg board(MdpIndex m, const GridState& state, bool bare = false) const;
-  /// A path, to be added on top of a board.
+  /// A path, to be added on top of a board. Where it goes round for ever, an arrow that bends back marks where.
   [[nodiscard]] Svg path(MdpIndex m, const Trajectory& path, const std::string& color, bool dashed = false) const;
   /// What the robot does at a cell: an arrow, or the action's name.
   void action(Svg& svg, const Cell& cell, const std::string& name) const;

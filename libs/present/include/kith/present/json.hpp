@@ -8,6 +8,7 @@
 #include "kith/core/integer_vector.hpp"
 #include "kith/domains/domain.hpp"
 #include "kith/geometry/half_space.hpp"
+#include "kith/mdp/planner.hpp"
 
 namespace kith {
 
@@ -23,6 +24,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const Direction& v);
 /// Feature counts of a domain: integers, or real numbers where they are expectations.
 [[nodiscard]] Json counts_to_json(const Domain& domain, const IntegerVector& counts);
+/// {"actions": [name]}, and of a path that never ends "repeats_from", the first action of the cycle.
+[[nodiscard]] Json actions_json(const Domain& domain, const Trajectory& path);
 /// Normals, shape [n, d]: entries beyond the domain's features are left out.
 [[nodiscard]] Json to_json(std::span<const HalfSpace> half_spaces, std::size_t dimension);
 /// {"robot": CELL, "items": [{"name", "cell", "carried"}], "stations": [CELL, ...], "mdp": m, "start": n}; a CELL is

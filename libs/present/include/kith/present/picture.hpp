@@ -16,7 +16,8 @@ using Picture = std::vector<std::string>;
 /// The map in the state in which a demonstration starts.
 [[nodiscard]] Picture start_picture(const GridMap& map, DemoId id);
 /// A path drawn on the domain's map, one picture per leg: a leg ends with an action that does not move the robot (a
-/// pick-up). Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends.
+/// pick-up). Every cell shows the last move of the leg that leaves it (^ v < >), and 'o' is where the leg ends, unless
+/// the path goes round for ever from a cell that the leg has left.
 [[nodiscard]] std::vector<Picture> path_pictures(const Domain& domain, const GridMap& map, DemoId id,
                                                  const Trajectory& path);
 /// A path in words, a line per action: "go -> on the ice".
@@ -44,8 +45,7 @@ struct DrawnPolicy {
   Trajectory path;  ///< From the initial state; by likeliest outcomes, until it ends or repeats itself.
 };
 
-/// Nothing where pictures do not show it: on maps with chance, discounting or features that are not integers, and if no
-/// policy has a finite return.
-[[nodiscard]] std::optional<DrawnPolicy> policy_to_draw(const Domain& domain, const GridMap& map, MdpIndex m);
+/// Nothing if no policy has a finite return.
+[[nodiscard]] std::optional<DrawnPolicy> policy_to_draw(const Domain& domain, MdpIndex m);
 
 }  // namespace kith
