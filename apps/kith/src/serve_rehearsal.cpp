@@ -21,16 +21,16 @@ namespace kith::cli {
 namespace {
 
 // The robot's own path from a state as a page would show it, as numbers of actions.
-std::optional<std::vector<int>> robots_path(const LiveStudy& study, const std::string& world, int start) {
+std::optional<AnswerPath> robots_path(const LiveStudy& study, const std::string& world, int start) {
   const auto number = world_of_key(study, world);
   if (!number || start < 0) return std::nullopt;
   const auto& mdp = study.atlas->domain().mdp(*number);
   const StateIndex state{static_cast<std::size_t>(start)};
   if (state.value() >= mdp.num_states()) return std::nullopt;
   const auto path = expected_path(*study.atlas, study.atlas->index({*number, state}));
-  std::vector<int> actions;
-  for (const auto action : path.actions) actions.push_back(static_cast<int>(action.value()));
-  return actions;
+  AnswerPath answer{{}, path.repeats_from.has_value()};
+  for (const auto action : path.actions) answer.actions.push_back(static_cast<int>(action.value()));
+  return answer;
 }
 
 double peak_megabytes() {

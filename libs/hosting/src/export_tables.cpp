@@ -113,7 +113,10 @@ TableDescription tests_table() {
                       integer("member", "Place in the group, from 1."), text("type", "Letter of the learner type."),
                       text("strategy", "Strategy of the room."), integer("mdp", "Number of the world."),
                       integer("start", "State in which the test begins."),
-                      text("path", "Names of the actions of the answer, separated by blanks.", false),
+                      text("path",
+                           "Names of the actions of the answer, separated by blanks; ... behind them if they go on "
+                           "like this for ever.",
+                           false),
                       count("actions", "Their number."),
                       boolean("correct",
                               "Whether the path is as good as the robot's; missing if the period was not "

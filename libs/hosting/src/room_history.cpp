@@ -125,6 +125,8 @@ class Collector {
         if (action.is_number_unsigned()) row.actions.push_back(action.get<std::size_t>());
       }
     }
+    const auto for_ever = event.body.find("for_ever");
+    row.for_ever = for_ever != event.body.end() && *for_ever == true;
     if (const auto keys = event.body.find("keys"); keys != event.body.end()) row.keys = *keys;
     if (const auto ms = event.body.find("ms"); ms != event.body.end() && ms->is_number_integer())
       row.ms = ms->get<std::int64_t>();

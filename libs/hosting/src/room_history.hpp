@@ -19,6 +19,7 @@ struct AnswerRow {
   std::size_t seat = 0;
   std::size_t member = 0;  // from 1
   std::vector<std::size_t> actions;
+  bool for_ever = false;
   Json keys;  // [[action | "undo" | "reset", ms], ...]
   std::optional<std::int64_t> ms;
   std::int64_t at_us = 0;

@@ -302,7 +302,7 @@ class Exporter {
   [[nodiscard]] std::string path_of(const AnswerRow& answer) const {
     std::string path;
     for (const auto action : answer.actions) path += (path.empty() ? "" : " ") + name_of_action(action);
-    return path;
+    return path + (answer.for_ever ? " ..." : "");
   }
 
   void write_keys(const AnswerRow& answer) {

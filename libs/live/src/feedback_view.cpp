@@ -49,13 +49,14 @@ std::string detour_in_words(const Domain& domain, const std::vector<Excess>& cos
   return text + '.';
 }
 
-// The first step at which the paths differ; null if they do not.
-Json first_difference(const Trajectory& mine, const Trajectory& robot) {
-  const auto steps = std::min(mine.actions.size(), robot.actions.size());
-  for (std::size_t t = 0; t < steps; ++t) {
-    if (mine.actions[t] != robot.actions[t]) return t;
+// A path as members of the entry of a test: `key`, and for a path that never ends key_repeats_from and
+// key_repeats_text.
+void add_path(Json& entry, const std::string& key, const Domain& domain, MdpIndex world, const Trajectory& path) {
+  auto json = path_json(domain, world, path);
+  entry[key] = std::move(json["frames"]);
+  for (const char* more : {"repeats_from", "repeats_text"}) {
+    if (json.contains(more)) entry[key + "_" + more] = std::move(json[more]);
   }
-  return mine.actions.size() == robot.actions.size() ? Json{} : Json(steps);
 }
 
 }  // namespace
@@ -95,21 +96,27 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
     const auto& test = past.lesson.tests[t];
     const auto world = atlas.id(test.demo).mdp;
     const bool right = t < verdicts.size() && verdicts[t].correct;
-    const auto robot = expected_path(atlas, test.demo);
+    auto robot = expected_path(atlas, test.demo);
     Json entry{{"board", live_board(room.study, test.demo)},
                {"right", right},
                {"mine", nullptr},
-               {"robot", frames_json(domain, world, robot)},
+               {"robot", nullptr},
                {"differs_at", nullptr}};
     Json why = Json::array();
     for (const auto& text : all_in_words(domain, test.covered)) why.push_back(sentence(text));
     entry["why"] = std::move(why);
     const auto& path = t < seat.paths.size() ? seat.paths[t] : std::optional<GivenPath>{};
     if (path) {
-      const auto mine = judged_path(atlas, test.demo, path->actions).path;
-      entry["mine"] = frames_json(domain, world, mine);
-      entry["differs_at"] = first_difference(mine, robot);
+      auto mine = judged_path(atlas, test.demo, path->actions, path->for_ever).path;
+      if (const auto differs_at = first_difference(mine, robot)) {
+        entry["differs_at"] = *differs_at;
+        // Both may go round in a cycle for a while before they part.
+        mine = written_out(std::move(mine), *differs_at + 1);
+        robot = written_out(std::move(robot), *differs_at + 1);
+      }
+      add_path(entry, "mine", domain, world, mine);
     }
+    add_path(entry, "robot", domain, world, robot);
     entry["unfinished"] = path && !path->is_finished;
     if (!right && path && path->counts) {
       entry["cost"] = cost_in_words(domain, world, atlas.feature_counts(test.demo), *path->counts);

@@ -179,10 +179,8 @@ class ParticipantPage {
   [[nodiscard]] Json watch() const {
     const auto& demonstrations = state_.session->lesson().demonstrations;
     const auto demo = demonstrations[seat_.watched].demo;
-    Json watch{{"index", seat_.watched},
-               {"of", demonstrations.size()},
-               {"board", live_board(room_.study, demo)},
-               {"frames", robot_frames(room_.study, demo)}};
+    Json watch{{"index", seat_.watched}, {"of", demonstrations.size()}, {"board", live_board(room_.study, demo)}};
+    watch.update(robot_path(room_.study, demo));
     if (auto runs = robot_runs(room_.study, demo); !runs.is_null()) watch["runs"] = std::move(runs);
     return watch;
   }
@@ -309,8 +307,8 @@ Json live_board(const LiveStudy& study, DemoIndex demo) {
   return board;
 }
 
-Json robot_frames(const LiveStudy& study, DemoIndex demo) {
-  return frames_json(study.atlas->domain(), study.atlas->id(demo).mdp, study.atlas->trajectory(demo));
+Json robot_path(const LiveStudy& study, DemoIndex demo) {
+  return path_json(study.atlas->domain(), study.atlas->id(demo).mdp, study.atlas->trajectory(demo));
 }
 
 Json robot_runs(const LiveStudy& study, DemoIndex demo) {

@@ -159,9 +159,10 @@ class RoomChange {
   void answered() {
     auto& person = who();
     const auto test = event_.body.at("test").get<std::size_t>();
-    auto judged = judged_path(*study_.atlas, state_.session->lesson().tests.at(test).demo, actions());
+    const bool for_ever = event_.body.value("for_ever", false);
+    auto judged = judged_path(*study_.atlas, state_.session->lesson().tests.at(test).demo, actions(), for_ever);
     person.paths.at(test) =
-        GivenPath{actions(), judged.is_finished, judged.counts, event_.body.at("ms").get<std::int64_t>()};
+        GivenPath{actions(), for_ever, judged.is_finished, judged.counts, event_.body.at("ms").get<std::int64_t>()};
     person.draft.clear();
     person.since_us = event_.at_us;
     if (current_test(person) == person.paths.size()) step_.give_answers(actor());

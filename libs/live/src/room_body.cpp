@@ -58,6 +58,12 @@ std::optional<std::vector<std::size_t>> actions_in(const Json& body) {
   return actions;
 }
 
+std::optional<bool> flag_in(const Json& body, std::string_view key) {
+  const auto* value = member_of(body, key);
+  if (value == nullptr) return false;
+  return value->is_boolean() ? std::optional{value->get<bool>()} : std::nullopt;
+}
+
 std::optional<Json> keys_in(const Json& body) {
   const auto* list = member_of(body, "keys");
   if (list == nullptr) return Json::array();

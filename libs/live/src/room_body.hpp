@@ -26,6 +26,8 @@ namespace kith {
 [[nodiscard]] bool is_clean_text(const std::string& text, std::size_t max);
 /// `actions`: a list of at most kMaxAnswerActions small numbers.
 [[nodiscard]] std::optional<std::vector<std::size_t>> actions_in(const Json& body);
+/// A member that is true or false; a missing one is false.
+[[nodiscard]] std::optional<bool> flag_in(const Json& body, std::string_view key);
 /// `keys`: what was pressed and when, [[action | "undo" | "reset", ms], ...]; a missing list is empty.
 [[nodiscard]] std::optional<Json> keys_in(const Json& body);
 

@@ -72,19 +72,22 @@ class SeatDecider {
   [[nodiscard]] Decision screen() const {
     const auto test = integer_in(command_.body, "test", 0, 1000);
     const auto actions = actions_in(command_.body);
+    const auto for_ever = flag_in(command_.body, "for_ever");
     const auto ms = integer_in(command_.body, "ms", 0, kMostMillis);
-    if (!test || !actions || !ms) return bad_body();
+    if (!test || !actions || !for_ever || !ms) return bad_body();
     if (seat_.readiness == Readiness::kConsent || seat_.readiness == Readiness::kCheck) return not_now();
     const auto number = static_cast<std::size_t>(*test);
     if (number < seat_.screened.size()) return nothing_to_do();
     if (seat_.readiness != Readiness::kScreening || number != seat_.screened.size()) return not_now();
     const auto& atlas = *room_.study.atlas;
-    const auto judged = judged_path(atlas, room_.study.screening[number], *actions);
+    const auto judged = judged_path(atlas, room_.study.screening[number], *actions, *for_ever);
     if (!judged.is_legal) return illegal();
-    return accepted("screened", {{"test", number},
-                                 {"actions", *actions},
-                                 {"right", is_as_good(atlas, room_.study.screening[number], judged.counts)},
-                                 {"ms", *ms}});
+    Json body{{"test", number},
+              {"actions", *actions},
+              {"right", is_as_good(atlas, room_.study.screening[number], judged.counts)},
+              {"ms", *ms}};
+    if (*for_ever) body["for_ever"] = true;
+    return accepted("screened", std::move(body));
   }
 
   [[nodiscard]] static Decision illegal() {
@@ -119,21 +122,25 @@ class SeatDecider {
   [[nodiscard]] Decision answer() const {
     const auto test = integer_in(command_.body, "test", 0, 1000);
     const auto actions = actions_in(command_.body);
+    const auto for_ever = flag_in(command_.body, "for_ever");
     const auto keys = keys_in(command_.body);
     const auto ms = integer_in(command_.body, "ms", 0, kMostMillis);
-    if (!test || !actions || !keys || !ms) return bad_body();
+    if (!test || !actions || !for_ever || !keys || !ms) return bad_body();
     const auto number = static_cast<std::size_t>(*test);
     const bool was_given = number < seat_.paths.size() && seat_.paths[number];
-    if (was_given && seat_.paths[number]->actions == *actions) return nothing_to_do();
+    if (was_given && seat_.paths[number]->actions == *actions && seat_.paths[number]->for_ever == *for_ever)
+      return nothing_to_do();
     if (state_.phase != RoomPhase::kTesting || !seat_.in_period) {
       return state_.phase == RoomPhase::kWatching ? not_now() : too_late();
     }
     if (was_given) return refused("already-answered", "You have already answered this question.");
     if (seat_.has_answered) return too_late();
     if (number != current_test(seat_)) return not_now();
-    if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
+    if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions, *for_ever).is_legal)
       return illegal();
-    return accepted("answered", {{"test", number}, {"actions", *actions}, {"keys", *keys}, {"ms", *ms}});
+    Json body{{"test", number}, {"actions", *actions}, {"keys", *keys}, {"ms", *ms}};
+    if (*for_ever) body["for_ever"] = true;
+    return accepted("answered", std::move(body));
   }
 
   [[nodiscard]] Decision go_on() const {

@@ -86,7 +86,9 @@ class RoomDetailPage {
 
   [[nodiscard]] Json lesson_json(const Lesson& lesson) const {
     const auto shown = [&](DemoIndex demo) {
-      return Json{{"board", live_board(room_.study, demo)}, {"frames", robot_frames(room_.study, demo)}};
+      Json entry{{"board", live_board(room_.study, demo)}};
+      entry.update(robot_path(room_.study, demo));
+      return entry;
     };
     Json demonstrations = Json::array(), tests = Json::array(), others = Json::array();
     for (const auto& one : lesson.demonstrations) {

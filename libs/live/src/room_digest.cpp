@@ -82,6 +82,7 @@ class RoomBytes {
       bytes_.flag(path.has_value());
       if (!path) continue;
       add(path->actions);
+      if (path->for_ever) bytes_.flag(true);  // as before where nobody can answer so
       bytes_.integer(path->ms);
     }
     add(seat.draft);

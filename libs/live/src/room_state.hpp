@@ -29,6 +29,7 @@ enum class RoomPhase { kLobby, kTeaching, kWatching, kTesting, kFeedback, kQuest
 /// A person's path in answer to one test.
 struct GivenPath {
   std::vector<std::size_t> actions;
+  bool for_ever = false;
   bool is_finished = false;
   Answer counts{};
   std::int64_t ms = 0;

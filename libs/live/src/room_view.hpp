@@ -13,8 +13,8 @@ namespace kith {
 
 /// A board as participants get it: the legend of the domain and the map, nothing about rewards.
 [[nodiscard]] Json live_board(const LiveStudy& study, DemoIndex demo);
-/// The robot's path from there, frame by frame.
-[[nodiscard]] Json robot_frames(const LiveStudy& study, DemoIndex demo);
+/// The robot's path from there: path_json().
+[[nodiscard]] Json robot_path(const LiveStudy& study, DemoIndex demo);
 /// Five runs of the robot from there, with outcomes as they fell, the same for everybody: runs_json(). Null where
 /// nothing is left to chance.
 [[nodiscard]] Json robot_runs(const LiveStudy& study, DemoIndex demo);

@@ -55,6 +55,7 @@ class WorldTable {
     table["next"] = std::move(next);
     table["end"] = std::move(end);
     table["chance"] = !mdp_.is_deterministic();
+    table["may_repeat"] = mdp_.discount() < 1.0;
     return table;
   }
 
@@ -144,37 +145,62 @@ const Choice* choice_of(const Mdp& mdp, StateIndex s, std::size_t action) {
 }
 
 // What is judged where a path's counts alone do not say it; see docs/model.md.
-IntegerVector expected_counts(const Atlas& atlas, DemoIndex test, const Trajectory& path) {
-  const auto world = atlas.id(test).mdp;
-  const auto& domain = atlas.domain();
-  const auto& mdp = domain.mdp(world);
-  const auto scale = static_cast<double>(domain.count_scale());
-  std::vector<double> ahead(domain.num_features(), 0.0);  // from the state behind the step on
-  for (std::size_t t = path.actions.size(); t-- > 0;) {
-    std::vector<double> here(domain.num_features(), 0.0);
-    for (const auto& outcome : mdp.outcomes(*choice_of(mdp, path.states[t], path.actions[t].value()))) {
-      const auto features = mdp.features(outcome);
-      const bool as_expected = outcome.next == path.states[t + 1];
-      const bool ends = mdp.is_terminal(outcome.next);
+class ExpectedCounts {
+ public:
+  ExpectedCounts(const Atlas& atlas, MdpIndex world, const Trajectory& path)
+      : atlas_{atlas},
+        world_{world},
+        mdp_{atlas.domain().mdp(world)},
+        path_{path},
+        scale_{static_cast<double>(atlas.domain().count_scale())} {}
+
+  [[nodiscard]] IntegerVector counts() const {
+    std::vector<double> ahead(mdp_.num_features(), 0.0);
+    if (path_.repeats_from) {
+      // m = c + K m, with c what one round counts and K the discounted chance of going round.
+      double weight = 1.0;
+      for (auto t = path_.actions.size(); t-- > *path_.repeats_from;) weight *= go_back(t, ahead);
+      for (double& m : ahead) m /= 1.0 - weight;
+    }
+    for (auto t = path_.actions.size(); t-- > 0;) go_back(t, ahead);
+    IntegerVector counts(ahead.size());
+    for (std::size_t k = 0; k < ahead.size(); ++k) counts[k] = std::llround(ahead[k] * scale_);
+    return counts;
+  }
+
+ private:
+  // From what is counted behind step t to what is counted from it on; returns how much the former weighs in the latter.
+  double go_back(std::size_t t, std::vector<double>& ahead) const {
+    std::vector<double> here(ahead.size(), 0.0);
+    double weight = 0.0;
+    for (const auto& outcome : mdp_.outcomes(*choice_of(mdp_, path_.states[t], path_.actions[t].value()))) {
+      const auto features = mdp_.features(outcome);
+      const bool as_expected = outcome.next == path_.states[t + 1];
+      const bool ends = mdp_.is_terminal(outcome.next);
+      if (as_expected) weight += outcome.probability * mdp_.discount();
       for (std::size_t k = 0; k < here.size(); ++k) {
         double rest = 0.0;
         if (as_expected) {
           rest = ahead[k];
         } else if (!ends) {
-          rest = static_cast<double>(atlas.feature_counts(atlas.index({world, outcome.next}))[k]) / scale;
+          rest = static_cast<double>(atlas_.feature_counts(atlas_.index({world_, outcome.next}))[k]) / scale_;
         }
-        here[k] += outcome.probability * (features[k] + mdp.discount() * rest);
+        here[k] += outcome.probability * (features[k] + mdp_.discount() * rest);
       }
     }
     ahead = std::move(here);
+    return weight;
   }
-  IntegerVector counts(domain.num_features());
-  for (std::size_t k = 0; k < ahead.size(); ++k) counts[k] = std::llround(ahead[k] * scale);
-  return counts;
-}
+
+  const Atlas& atlas_;
+  MdpIndex world_;
+  const Mdp& mdp_;
+  const Trajectory& path_;
+  double scale_;
+};
 
 ActionIndex robot_action(const Atlas& atlas, MdpIndex world, StateIndex s) {
-  return atlas.trajectory(atlas.index({world, s})).actions.front();
+  return atlas.action(atlas.index({world, s}));
 }
 
 bool does_as_the_robot(const Atlas& atlas, MdpIndex world, const Trajectory& path) {
@@ -209,7 +235,7 @@ std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, S
   return state.value();
 }
 
-JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions) {
+JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions, bool for_ever) {
   const auto [world, start] = atlas.id(test);
   const auto& domain = atlas.domain();
   const auto& mdp = domain.mdp(world);
@@ -228,6 +254,15 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
     ++judged.legal;
   }
   judged.is_finished = mdp.is_terminal(judged.path.states.back());
+  if (for_ever) {
+    // The last time that it was there: from then on it goes round.
+    const auto& states = judged.path.states;
+    const auto met = std::find(states.rbegin() + 1, states.rend(), states.back());
+    judged.is_legal = judged.is_legal && !judged.is_finished && met != states.rend();
+    if (!judged.is_legal) return judged;
+    judged.path.repeats_from = static_cast<std::size_t>(states.rend() - met) - 1;
+    judged.is_finished = mdp.discount() < 1.0;
+  }
   if (!judged.is_finished || !judged.is_legal) return judged;
   if (does_as_the_robot(atlas, world, judged.path)) {
     judged.counts = atlas.feature_counts(test);  // to the last bit, however expectations are rounded
@@ -239,7 +274,7 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
     }
     judged.counts = counts;
   } else {
-    judged.counts = expected_counts(atlas, test, judged.path);
+    judged.counts = ExpectedCounts{atlas, world, judged.path}.counts();
   }
   return judged;
 }

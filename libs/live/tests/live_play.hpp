@@ -160,7 +160,10 @@ class Play {
     ASSERT_EQ(seat(number, "consent", {{"accept", true}, {"version", study_->group().consent_version}}), "");
     ASSERT_EQ(seat(number, "checked"), "");
     for (std::size_t t = 0; room_.stage_of(number) == "screening"; ++t) {
-      ASSERT_EQ(seat(number, "screen", {{"test", t}, {"actions", right_path(study_->screening[t])}, {"ms", 5}}), "");
+      const auto demo = study_->screening[t];
+      Json body{{"test", t}, {"actions", right_path(demo)}, {"ms", 5}};
+      if (expected_path(*study_->atlas, demo).repeats_from) body["for_ever"] = true;
+      ASSERT_EQ(seat(number, "screen", std::move(body)), "");
     }
   }
   /// Everybody joins and is ready; the session starts if the study says so.
@@ -179,9 +182,9 @@ class Play {
     while (room_.stage_of(number) == "predict") {
       const auto t = room_.view({Viewer::Role::kParticipant, number}, now_us_)["predict"]["index"].get<std::size_t>();
       const auto demo = room_.session().lesson().tests[t].demo;
-      ASSERT_EQ(
-          seat(number, "answer", {{"test", t}, {"actions", right ? right_path(demo) : wrong_path(demo)}, {"ms", 1000}}),
-          "");
+      Json body{{"test", t}, {"actions", right ? right_path(demo) : wrong_path(demo)}, {"ms", 1000}};
+      if (right && expected_path(*study_->atlas, demo).repeats_from) body["for_ever"] = true;
+      ASSERT_EQ(seat(number, "answer", std::move(body)), "");
     }
   }
   /// One step on whatever page the person is on.

@@ -85,7 +85,7 @@ class Bot : public std::enable_shared_from_this<Bot> {
   void transmit();
   void tick();
   void finish();
-  [[nodiscard]] std::optional<std::vector<int>> path_for(const BotAct& act);
+  [[nodiscard]] std::optional<AnswerPath> path_for(const BotAct& act);
   [[nodiscard]] std::chrono::milliseconds time_for(double pace);
   [[nodiscard]] double uniform();
 

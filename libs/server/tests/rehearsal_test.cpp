@@ -110,8 +110,8 @@ TEST(Rehearsal, CanBeGivenRightAnswers) {
   Server server{for_many(), lesson};
   auto options = quick(server);
   options.right = 1.0;
-  options.right_path = [](const std::string& world, int start) -> std::optional<std::vector<int>> {
-    return world == "w" && start == 0 ? std::optional<std::vector<int>>{{0, 1, 0, 0}} : std::nullopt;
+  options.right_path = [](const std::string& world, int start) -> std::optional<AnswerPath> {
+    return world == "w" && start == 0 ? std::optional{AnswerPath{{0, 1, 0, 0}, false}} : std::nullopt;
   };
   (void)rehearse(options);
   EXPECT_THAT(lesson.paths, ElementsAre("[0,1,0,0]"));

@@ -17,11 +17,11 @@ namespace kith {
 ///   joined {seat, member|null}                 somebody took a free seat, or waits in reserve
 ///   consented {version, query}, declined {}    seat; whoever declines is gone, and the seat is free again
 ///   checked {}, named {name}                   seat
-///   screened {test, actions, right, ms}        seat
+///   screened {test, actions, right, ms}        seat; like an answer with for_ever (true) if the path never ends
 ///   started {by}                               server or facilitator
 ///   lesson {key, digest, period, finished}     server: the teacher chose the next lesson, or has no further one
 ///   watched {demo}, draft {test, actions}      seat
-///   answered {test, actions, keys, ms}         seat
+///   answered {test, actions, keys, ms}         seat; with for_ever (true) if the path never ends
 ///   continued {}, questions {answers}          seat
 ///   left {}                                    seat, by their own choice
 ///   away {seat}, present {seat}                server

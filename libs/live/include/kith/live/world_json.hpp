@@ -24,11 +24,12 @@ inline constexpr std::size_t kMaxAnswerActions = 500;
 
 /// The table of moves of a world:
 ///   {"key", "actions": [{"name", "label", "dx", "dy"}], "items": [name], "stations": [[column, row]],
-///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool}
+///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool, "may_repeat": bool}
 /// States are numbers of this table. Frames are [robotColumn, robotRow, [[column, row, carried 0|1], ...],
 /// [index into stations, ...]], without a map {"state": name}. -1: nothing happens. Where chance has a part, next is
 /// the likeliest outcome that changes the state. dx and dy are how the action moves the robot, row numbers growing
-/// downward; null for actions that do not move it. Nothing in it tells anything about the reward.
+/// downward; null for actions that do not move it. may_repeat: an answer may be a path that never ends. Nothing in it
+/// tells anything about the reward.
 [[nodiscard]] Json world_json(const LiveStudy& study, MdpIndex world);
 /// The number of a state in that table; states that nothing leads to have none.
 [[nodiscard]] std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, StateIndex state);
@@ -38,7 +39,7 @@ struct JudgedPath {
   bool is_legal = true;      ///< Every action did something, none came after the end, and there were not too many.
   std::size_t legal = 0;     ///< Actions before the first that was not.
   Trajectory path{};         ///< The legal actions; where chance has a part each leads to its likeliest outcome.
-  bool is_finished = false;  ///< The end was reached.
+  bool is_finished = false;  ///< The end was reached, or it is said to go on for ever where later steps count less.
   /// What is judged: the path's feature counts; where chance has a part the expected counts if the robot takes these
   /// actions for as long as it is where the person expected it, and its own from then on. Nothing unless the path is
   /// finished.
@@ -47,11 +48,15 @@ struct JudgedPath {
 
 /// Judges nothing but whether the path is possible, and counts its features. See docs/model.md.
 /// @param actions  numbers of actions, as in the table of moves.
-[[nodiscard]] JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions);
+/// @param for_ever  the path goes round for ever, from when it was last in the state in which it stops; it is not legal
+/// unless it was there before. In undiscounted worlds it counts as one that stops short of the end.
+[[nodiscard]] JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::size_t> actions,
+                                     bool for_ever = false);
 
 /// The robot's own way from a start if every action leads to its likeliest outcome: what a right answer looks like on a
 /// page. Nothing if people could not enter it: it does not come to an end within the actions that an answer may have.
-/// With chance the likeliest outcomes may lead round in a circle, where the robot itself leaves by a less likely one.
+/// With chance the likeliest outcomes may lead round in a circle, where the robot itself leaves by a less likely one;
+/// without, a robot that goes round for ever can be answered so.
 [[nodiscard]] std::optional<Trajectory> answerable_path(const Atlas& atlas, DemoIndex test);
 
 /// The same, or Atlas::trajectory() where there is none.

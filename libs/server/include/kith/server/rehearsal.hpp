@@ -11,6 +11,12 @@
 
 namespace kith {
 
+/// A path as numbers of actions, which may go on like this for ever.
+struct AnswerPath {
+  std::vector<int> actions;
+  bool for_ever = false;
+};
+
 /// A rehearsal: groups of simulated people who use a server through its real protocol, as browsers do.
 struct RehearsalOptions {
   std::string address = "127.0.0.1";
@@ -27,9 +33,9 @@ struct RehearsalOptions {
   double right = 0.8;                             ///< Share of answers for which a right path is used, where known.
   std::uint64_t seed = 1;
   std::size_t threads = 1;
-  /// A right answer, as numbers of actions; nothing if it is not known. Others are answered with a shortest path to an
+  /// A right answer; nothing if it is not known. Others are answered with a shortest path to an
   /// end. @param world  its key; @param start  number of the state. Called from several threads.
-  std::function<std::optional<std::vector<int>>(const std::string& world, int start)> right_path{};
+  std::function<std::optional<AnswerPath>(const std::string& world, int start)> right_path{};
   /// Called about every 100 ms with the time since the start; false ends the rehearsal.
   std::function<bool(std::chrono::milliseconds elapsed)> on_tick{};
 };
