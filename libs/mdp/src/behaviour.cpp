@@ -69,6 +69,33 @@ std::optional<std::vector<double>> optimal_values(const Mdp& mdp, std::span<cons
   return solver.optimal_values();
 }
 
+// Whether no single choice of the mask is better for the robot than what the policy with these features does: then the
+// policy is best for it among the choices of the mask.
+bool suits_the_robot(const Mdp& mdp, std::span<const double> robot, double tolerance, const ChoiceMask& mask,
+                     const detail::Policy& policy, std::span<const double> features) {
+  const auto rewards = detail::row_rewards(mdp, robot);
+  const double slack = std::max(1e-13, 0.01 * tolerance);  // as in policy iteration
+  const auto value = [&](StateIndex s) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < robot.size(); ++k) sum += robot[k] * features[s.value() * robot.size() + k];
+    return sum;
+  };
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    const auto choices = mdp.choices(s);
+    const std::size_t first = mdp.first_choice(s);
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+      if (mask[first + c] == 0 || c == policy.choice[s.value()]) continue;
+      double worth = 0.0;
+      for (const Outcome& outcome : mdp.outcomes(choices[c])) {
+        worth += outcome.probability * (rewards[outcome.feature_row] + mdp.discount() * value(outcome.next));
+      }
+      const double own = value(s);
+      if (worth > own + slack * std::max(1.0, std::abs(own))) return false;
+    }
+  }
+  return true;
+}
+
 std::optional<Behaviour> behave_generally(const Mdp& mdp, std::span<const double> rewards, const RobotWeights& robot,
                                           const BehaveOptions& options) {
   const ChoiceMask all;
@@ -76,6 +103,15 @@ std::optional<Behaviour> behave_generally(const Mdp& mdp, std::span<const double
   auto values = optimal_values(mdp, rewards, options.tolerance, solver);
   if (!values) return std::nullopt;
   ChoiceMask choices = solver.tight_choices(*values);
+  if (robot && mdp.discount() < 1.0) {
+    // Mostly what is best is so for the robot, too, or differs in nothing that counts.
+    detail::Policy policy = detail::first_finishing(mdp, choices);
+    const auto features = detail::policy_features(mdp, policy);
+    if (detail::takes_first(mdp, choices, policy) &&
+        suits_the_robot(mdp, *robot, options.tolerance, choices, policy, features)) {
+      return Behaviour{std::move(policy.choice), std::move(*values), rounded(mdp, features, options.scale)};
+    }
+  }
   if (robot) {
     const auto robot_rewards = detail::row_rewards(mdp, *robot);
     const PolicySolver robot_solver{mdp, robot_rewards, options.tolerance, choices};

@@ -132,8 +132,61 @@ void PolicyChain::factorise(std::span<double> values) const {
   }
 }
 
+void sum_up_paths(const Mdp& mdp, std::span<const std::uint32_t> choice, std::span<const double> row_counts,
+                  std::size_t kinds, std::span<double> values) {
+  enum class Mark : unsigned char { kNew, kOnWalk, kKnown };
+  const std::size_t n = mdp.num_states();
+  const double discount = mdp.discount();
+  std::vector<Mark> marks(n, Mark::kNew);
+  struct Step {
+    std::size_t from;
+    const Outcome* outcome;
+  };
+  std::vector<Step> walk;
+  for (std::size_t start = 0; start < n; ++start) {
+    std::size_t s = start;
+    while (s < n && marks[s] == Mark::kNew) {
+      marks[s] = Mark::kOnWalk;
+      walk.push_back({s, &mdp.outcomes(mdp.choices(StateIndex{s})[choice[s]]).front()});
+      s = walk.back().outcome->next.value();
+    }
+    if (s < n && marks[s] == Mark::kOnWalk) {  // the walk has met itself
+      auto first = walk.size() - 1;
+      while (walk[first].from != s) --first;
+      double* const round = &values[s * kinds];
+      std::fill_n(round, kinds, 0.0);
+      double share = 1.0;
+      for (auto at = first; at < walk.size(); ++at, share *= discount) {
+        for (std::size_t k = 0; k < kinds; ++k)
+          round[k] += share * row_counts[walk[at].outcome->feature_row * kinds + k];
+      }
+      for (std::size_t k = 0; k < kinds; ++k) round[k] /= 1.0 - share;
+      marks[s] = Mark::kKnown;
+    }
+    for (; !walk.empty(); walk.pop_back()) {
+      const auto [from, outcome] = walk.back();
+      if (marks[from] == Mark::kKnown) continue;
+      marks[from] = Mark::kKnown;
+      const double* const ahead = &values[outcome->next.value() * kinds];
+      const double* const row = &row_counts[outcome->feature_row * kinds];
+      for (std::size_t k = 0; k < kinds; ++k) values[from * kinds + k] = row[k] + discount * ahead[k];
+    }
+  }
+}
+
 std::vector<double> policy_features(const Mdp& mdp, const Policy& policy) {
   const std::size_t d = mdp.num_features();
+  if (mdp.is_deterministic() && mdp.discount() < 1.0) {
+    std::vector<double> rows;
+    rows.reserve(mdp.num_feature_rows() * d);
+    for (std::size_t row = 0; row < mdp.num_feature_rows(); ++row) {
+      const auto phi = mdp.feature_row(row);
+      rows.insert(rows.end(), phi.begin(), phi.end());
+    }
+    std::vector<double> features((mdp.num_states() + mdp.num_terminals()) * d, 0.0);
+    sum_up_paths(mdp, policy.choice, rows, d, features);
+    return features;
+  }
   std::vector<double> immediate(mdp.num_states() * d, 0.0);
   for (std::size_t s = 0; s < mdp.num_states(); ++s) {
     for (const Outcome& outcome : mdp.outcomes(mdp.choices(StateIndex{s})[policy.choice[s]])) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "component_paths.hpp"
@@ -52,6 +53,14 @@ Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask) {
   return make_policy(mdp, std::move(policy.choice));
 }
 
+bool takes_first(const Mdp& mdp, const ChoiceMask& mask, const Policy& policy) {
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    const auto first = mask.begin() + static_cast<std::ptrdiff_t>(mdp.first_choice(s));
+    if (std::find(first, first + policy.choice[s.value()], 1) != first + policy.choice[s.value()]) return false;
+  }
+  return true;
+}
+
 double PolicySolver::worth(const Choice& choice, std::span<const double> values) const {
   double sum = 0.0;
   for (const Outcome& outcome : mdp_.outcomes(choice)) {
@@ -92,8 +101,67 @@ bool PolicySolver::improve(Policy& policy, std::span<const double> values) const
   return improved;
 }
 
+// Policy iteration where outcomes are certain and discounted. It begins with the best steps to states that are no
+// farther from an end, and improves in that order, each state after those that it may lead to: what is better at the
+// end of a path reaches its beginning in one pass.
+std::vector<double> PolicySolver::values_of_paths() const {
+  const std::size_t n = mdp_.num_states();
+  std::vector<std::uint32_t> order;
+  std::vector<unsigned char> is_valued(n + mdp_.num_terminals(), 0);
+  std::fill(is_valued.begin() + static_cast<std::ptrdiff_t>(n), is_valued.end(), static_cast<unsigned char>(1));
+  std::vector<double> values(n + mdp_.num_terminals(), 0.0);
+  std::vector<std::uint32_t> choice(n, 0);
+  order.reserve(n);
+  for (const StateIndex s : mdp_.by_distance()) order.push_back(static_cast<std::uint32_t>(s.value()));
+  if (order.size() < n) {
+    std::vector<bool> is_listed(n, false);
+    for (const std::uint32_t s : order) is_listed[s] = true;
+    for (std::uint32_t s = 0; s < n; ++s) {
+      if (!is_listed[s]) order.push_back(s);
+    }
+  }
+  // The best choice of a state among those that `admits`; whether there is one that is worth more than `least`.
+  const auto choose = [&](std::uint32_t s, double least, const auto& admits) {
+    const std::size_t first = mdp_.first_choice(StateIndex{s});
+    bool found = false;
+    std::uint32_t c = 0;
+    for (const Choice& candidate : mdp_.choices(StateIndex{s})) {
+      const Outcome& outcome = mdp_.outcomes(candidate).front();
+      if (is_allowed(first + c) && admits(outcome)) {
+        const double worth = rewards_[outcome.feature_row] + mdp_.discount() * values[outcome.next.value()];
+        if (worth > least) {
+          found = true;
+          least = worth;
+          choice[s] = c;
+        }
+      }
+      ++c;
+    }
+    if (found) values[s] = least;
+    return found;
+  };
+  for (const std::uint32_t s : order) {
+    const bool found = choose(s, -std::numeric_limits<double>::infinity(),
+                              [&](const Outcome& outcome) { return is_valued[outcome.next.value()] != 0; });
+    is_valued[s] = found ? 1 : 0;
+    while (!found && !is_allowed(mdp_.first_choice(StateIndex{s}) + choice[s])) ++choice[s];
+  }
+  const double slack = std::max(1e-13, 0.01 * tolerance_);  // far within a tie, far above rounding
+  for (int i = 0; i < kMostPolicies; ++i) {
+    sum_up_paths(mdp_, choice, rewards_, 1, values);
+    bool improved = false;
+    for (const std::uint32_t s : order) {
+      const double clearly = values[s] + slack * std::max(1.0, std::abs(values[s]));
+      improved = choose(s, clearly, [](const Outcome&) { return true; }) || improved;
+    }
+    if (!improved) return values;
+  }
+  throw Error{ErrorKind::kInfeasible, "policy iteration does not converge"};
+}
+
 std::optional<std::vector<double>> PolicySolver::optimal_values() const {
   const bool must_finish = mdp_.discount() == 1.0;
+  if (mdp_.is_deterministic() && !must_finish) return values_of_paths();
   Policy policy = first_finishing(mdp_, mask_);
   if (must_finish && !policy.finishes()) return std::nullopt;
   std::vector<double> values(mdp_.num_states() + mdp_.num_terminals(), 0.0);

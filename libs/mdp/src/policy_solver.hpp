@@ -20,7 +20,8 @@ using ChoiceMask = std::vector<unsigned char>;
 // before, unless some policy that never finishes gains per step: the first one
 // met that does not finish proves it [bertsekas1991]. That stays so if a policy
 // is only evaluated by a few sweeps, from values that it improves: they rise
-// towards what it earns. The last one is evaluated fully.
+// towards what it earns. The last one is evaluated fully. Policies of deterministic,
+// discounted processes are always evaluated fully, in one pass.
 // The arguments are kept by reference.
 class PolicySolver {
  public:
@@ -37,6 +38,7 @@ class PolicySolver {
   [[nodiscard]] double worth(const Choice& choice, std::span<const double> values) const;
   [[nodiscard]] PolicyChain chain_of(const Policy& policy) const;
   [[nodiscard]] bool improve(Policy& policy, std::span<const double> values) const;
+  [[nodiscard]] std::vector<double> values_of_paths() const;
 
   const Mdp& mdp_;
   std::span<const double> rewards_;
@@ -47,5 +49,7 @@ class PolicySolver {
 // The first choice of the mask in every state; states from which this does not lead to an end take the first choice
 // that leads to a state which does, as far as there is one. @pre the mask has a choice in every state.
 [[nodiscard]] Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask);
+// Whether the policy takes the first choice of the mask everywhere.
+[[nodiscard]] bool takes_first(const Mdp& mdp, const ChoiceMask& mask, const Policy& policy);
 
 }  // namespace kith::detail
