@@ -100,6 +100,15 @@ describe('a lesson', () => {
           }));
           assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
         });
+          const ids = await page.$$eval('[id]', (all) => all.map(({ id }) => id));
+          assert.deepEqual(ids.filter((id, i) => ids.indexOf(id) !== i), [], 'ids that more than one element has');
+          const signs = await page.$$eval('.legend li svg', (all) =>
+            all.map((svg) => {
+              const id = /url\(#([^)]+)\)/.exec(svg.innerHTML)?.[1];
+              return svg.innerHTML.replace(/url\([^)]+\)/, '') + (id ? document.getElementById(id).innerHTML : '');
+            }),
+          );
+          assert.equal(new Set(signs).size, signs.length, 'two things of the legend are drawn alike');
       });
     }
   }

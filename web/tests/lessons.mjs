@@ -45,6 +45,10 @@ export function largeLesson() {
         { symbol: 'C', kind: 'terrain', name: 'rubble', parts: [{ kind: 'terrain', name: 'rubble' }, { kind: 'station', name: 'charger' }] },
         { symbol: 'D', kind: 'destination', name: 'destination of medicine' },
       ],
+      surfaces: [
+        { name: 'rubble', tint: 'brown', pattern: 'dots' },
+        { name: 'smoke', tint: 'grey', pattern: 'lines' },
+      ],
     },
     components: [
       {
@@ -157,6 +161,7 @@ export function drawn() {
       { symbol: 'A', kind: 'item', name: 'dog' },
       { symbol: 'D', kind: 'destination', name: 'destination of dog' },
     ],
+    surfaces: [{ name: 'ice', tint: 'blue', pattern: 'dots' }],
   });
   const [component] = lesson.components;
   component.demonstrations = component.demonstrations.map((shown) => ({

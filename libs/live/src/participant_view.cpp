@@ -299,7 +299,7 @@ Json live_board(const LiveStudy& study, DemoIndex demo) {
   const auto& domain = study.atlas->domain();
   const auto all = board_domain_json(domain);
   Json legend{{"id", all["id"]}};
-  for (const char* key : {"legend", "width", "height"}) {
+  for (const char* key : {"legend", "surfaces", "width", "height"}) {
     if (all.contains(key)) legend[key] = all[key];
   }
   Json board{{"domain", legend}};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kith/explain/words.hpp"
+#include "kith/present/surfaces.hpp"
 
 namespace kith {
 namespace {
@@ -68,7 +69,12 @@ Json board_domain_json(const Domain& domain) {
                       {"name", kinds.front().name},
                       {"parts", parts}});
   }
+  Json surfaces = Json::array();
+  for (const auto& surface : surfaces_of(*map)) {
+    surfaces.push_back({{"name", surface.name}, {"tint", surface.tint}, {"pattern", surface.pattern}});
+  }
   json["legend"] = legend;
+  json["surfaces"] = surfaces;
   json["width"] = map->width();
   json["height"] = map->height();
   return json;

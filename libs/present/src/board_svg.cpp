@@ -32,12 +32,17 @@ void add_once(std::vector<std::string>& all, const std::string& name) {
   if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
 }
 
-// Terrains that are called by a colour have it; others take the next.
-const Tint& tint_of(const std::vector<std::string>& terrains, const std::string& name) {
-  const auto named = std::find_if(kTints.begin(), kTints.end(), [&](const Tint& tint) { return tint.name == name; });
-  if (named != kTints.end()) return *named;
-  const auto at = static_cast<std::size_t>(std::find(terrains.begin(), terrains.end(), name) - terrains.begin());
-  return kTints[at % kTints.size()];
+const Tint& tint_called(std::string_view name) {
+  return *std::find_if(kTints.begin(), kTints.end(), [&](const Tint& tint) { return tint.name == name; });
+}
+
+// A mark of a texture around (x, y).
+std::string mark_of(std::string_view pattern, double x, double y) {
+  const auto at = [&](double dx, double dy) { return "M" + svg_number(x + dx) + " " + svg_number(y + dy); };
+  if (pattern == "dots") return at(-0.8, -0.8) + "h1.6v1.6h-1.6z";
+  if (pattern == "lines") return at(-2, 2) + "l4 -4";
+  if (pattern == "cross") return at(-3, 0) + "h6" + at(0, -3) + "v6";
+  return at(-5, 0) + "q2.5 -3 5 0t5 0";
 }
 
 std::string capital(const std::string& name, std::size_t n) {
@@ -53,16 +58,19 @@ void centred(Svg& svg, double x, double y, const std::string& words, double size
 
 }  // namespace
 
-BoardSvg::BoardSvg(const GridMap& map) : map_{map} {
+BoardSvg::BoardSvg(const GridMap& map) : map_{map}, surfaces_{surfaces_of(map)} {
   for (const auto& entry : map.legend()) {
-    add_once(terrains_, entry.content.terrain);
     add_once(things_, entry.station);
     add_once(things_, entry.item);
     add_once(things_, entry.goal_name);
   }
   for (const auto& name : things_) {
+    const auto is_taken = [&](const std::string& sign) {
+      return std::find(letters_.begin(), letters_.end(), sign) != letters_.end();
+    };
     auto sign = capital(name, 1);
-    if (std::find(letters_.begin(), letters_.end(), sign) != letters_.end()) sign = capital(name, 2);
+    if (is_taken(sign)) sign = capital(name, 2);
+    if (is_taken(sign)) sign = capital(name, 1) + std::to_string(letters_.size());
     letters_.push_back(sign);
   }
 }
@@ -80,26 +88,25 @@ std::string BoardSvg::letters(const std::string& name) const {
 }
 
 void BoardSvg::terrain(Svg& svg, const Point& at, const std::string& name) const {
-  const auto& tint = tint_of(terrains_, name);
+  const auto surface =
+      std::find_if(surfaces_.begin(), surfaces_.end(), [&](const Surface& one) { return one.name == name; });
+  const auto& tint = tint_called(surface->tint);
   const double half = kCell / 2;
   svg.add("rect", {{"x", svg_number(at.x - half)},
                    {"y", svg_number(at.y - half)},
                    {"width", svg_number(kCell)},
                    {"height", svg_number(kCell)},
                    {"fill", std::string{tint.ground}}});
-  // Texture: other marks for every other terrain, so that colour is not all.
-  const auto number = static_cast<std::size_t>(std::find(terrains_.begin(), terrains_.end(), name) - terrains_.begin());
   std::string marks;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      const double x = at.x - half + 5.0 + 10.0 * i;
-      const double y = at.y - half + 5.0 + 10.0 * j;
-      const bool cross = number % 2 == 1;
-      marks += cross ? fmt::format("M{} {}l4 -4", svg_number(x - 2), svg_number(y + 2))
-                     : fmt::format("M{} {}h1.6v1.6h-1.6z", svg_number(x - 0.8 + (j % 2) * 3), svg_number(y - 0.8));
+      const double shift = surface->pattern == "dots" ? (j % 2) * 3.0 : 0.0;
+      marks += mark_of(surface->pattern, at.x - half + 5.0 + 10.0 * i + shift, at.y - half + 5.0 + 10.0 * j);
     }
   }
-  svg.add("path", {{"d", marks}, {"fill", std::string{tint.mark}}, {"stroke", std::string{tint.mark}}});
+  svg.add("path", {{"d", marks},
+                   {"fill", surface->pattern == "dots" ? std::string{tint.mark} : "none"},
+                   {"stroke", std::string{tint.mark}}});
 }
 
 void BoardSvg::disc(Svg& svg, const Point& at, const std::string& sign) const {
@@ -350,39 +357,38 @@ double BoardSvg::legend(Svg& svg, double x, double y, double line_width) const {
       column = 0.0;
       row += kLine;
     }
-    draw(Point{x + column + 20.0, y + row + 20.0});
+    Svg sign;
+    draw(sign);
+    svg.add(x + column + 20.0, y + row + 20.0, sign);
     svg.text(x + column + 46.0, y + row + 24.5, name);
     column += width;
   };
-  entry("robot", [&](const Point& at) { robot(svg, at); });
+  constexpr Point middle{0.0, 0.0};
+  entry("robot", [&](Svg& sign) { robot(sign, middle); });
   bool has_wall = false;
   std::vector<std::string> known;
   for (const auto& symbol : map_.legend()) has_wall = has_wall || symbol.content.wall;
   if (has_wall) {
-    entry("wall", [&](const Point& at) {
-      svg.add("rect", {{"x", svg_number(at.x - 14)},
-                       {"y", svg_number(at.y - 14)},
-                       {"width", "28"},
-                       {"height", "28"},
-                       {"fill", "#3c444d"}});
+    entry("wall", [&](Svg& sign) {
+      sign.add("rect", {{"x", "-14"}, {"y", "-14"}, {"width", "28"}, {"height", "28"}, {"fill", "#3c444d"}});
     });
   }
-  for (const auto& name : terrains_) entry(name, [&](const Point& at) { terrain(svg, at, name); });
+  for (const auto& surface : surfaces_) entry(surface.name, [&](Svg& sign) { terrain(sign, middle, surface.name); });
   const auto once = [&](const std::string& name, const auto& draw) {
     if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
     known.push_back(name);
     entry(name, draw);
   };
   for (const auto& symbol : map_.legend()) {
-    once(symbol.station, [&](const Point& at) { station(svg, at, letters(symbol.station)); });
-    once(symbol.item, [&](const Point& at) { disc(svg, at, letters(symbol.item)); });
+    once(symbol.station, [&](Svg& sign) { station(sign, middle, letters(symbol.station)); });
+    once(symbol.item, [&](Svg& sign) { disc(sign, middle, letters(symbol.item)); });
     if (!symbol.content.destination_of.empty()) {
       once("destination of " + symbol.content.destination_of,
-           [&](const Point& at) { destination(svg, at, letters(symbol.content.destination_of)); });
+           [&](Svg& sign) { destination(sign, middle, letters(symbol.content.destination_of)); });
     }
     if (symbol.content.goal) {
       once(symbol.goal_name.empty() ? "goal" : symbol.goal_name + " goal",
-           [&](const Point& at) { goal(svg, at, letters(symbol.goal_name)); });
+           [&](Svg& sign) { goal(sign, middle, letters(symbol.goal_name)); });
     }
   }
   return row + kLine + 6.0;

@@ -159,5 +159,84 @@ TEST(InspectSvg, DrawsMapAndPolicyOnlyWhereThereIsAMap) {
   for (const auto& file : pictures) expect_well_formed(file.text);
 }
 
+// --- what can be told apart -----------------------------------------------------------
+
+// The drawings in a legend by their names, each around its own origin.
+std::vector<std::string> legend_drawings(const GridMap& map) {
+  Svg svg;
+  (void)BoardSvg{map}.legend(svg, 0.0, 0.0, 1e6);
+  const auto text = markup(svg);
+  std::vector<std::string> drawings;
+  for (auto at = text.find("<g transform="); at != std::string::npos; at = text.find("<g transform=", at + 1)) {
+    const auto begin = text.find(">\n", at);
+    drawings.push_back(text.substr(begin, text.find("</g>", begin) - begin));
+  }
+  return drawings;
+}
+
+void expect_told_apart(const GridMap& map, const std::string& what) {
+  const auto drawings = legend_drawings(map);
+  for (std::size_t i = 0; i < drawings.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(drawings[i], drawings[j]) << what << ": rows " << j << " and " << i;
+  }
+  const auto surfaces = surfaces_of(map);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(surfaces[i].tint == surfaces[j].tint && surfaces[i].pattern == surfaces[j].pattern)
+          << what << ": " << surfaces[j].name << " and " << surfaces[i].name;
+    }
+  }
+}
+
+TEST(Surfaces, TellAllThingsOfEveryDomainApart) {
+  std::size_t maps = 0;
+  const auto check = [&](const Domain& domain) {
+    const auto map = domain.drawing();
+    if (!map) return;
+    ++maps;
+    EXPECT_GE(legend_drawings(*map).size(), surfaces_of(*map).size() + 1) << domain.id();
+    expect_told_apart(*map, domain.id());
+  };
+  for (const auto& domain : built_in_domains()) check(load_domain(std::string{domain.name}));
+  const auto gallery = std::string{KITH_SOURCE_DIR} + "/domains/gallery/";
+  for (const auto* file : {"frozen_lake", "cliff_walking", "taxi", "four_rooms"})
+    check(load_domain(gallery + file + ".toml"));
+  EXPECT_GE(maps, 10u);
+}
+
+constexpr const char* kRest = R"([[feature]]
+name = "water"
+when = "leave:water"
+[[feature]]
+name = "step"
+when = "action"
+[reward]
+weights = { water = -3, step = -1 }
+)";
+
+// Up to as many terrains as there are tints and patterns, and as many things whose names begin alike.
+TEST(Surfaces, TellManyTerrainsAndThingsApart) {
+  for (const std::size_t n : {2, 8, 9, 17, 32}) {
+    std::string legend, row = "S";
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string symbol(1, static_cast<char>(i < 26 ? 'a' + i : '0' + (i - 26)));
+      const std::string name = i == 0 ? "water" : i == 1 ? "blue" : i == 2 ? "ice" : "ground" + std::to_string(i);
+      legend += "\"" + symbol + "\" = { terrain = \"" + name + "\" }\n";
+      row += symbol;
+    }
+    const std::string text =
+        "schema = \"kith.domain/1\"\nid = \"patchwork\"\ntitle = \"patchwork\"\n[map]\nrows = [\"" + row +
+        "HIJG\"]\n[map.legend]\n" + legend +
+        "S = { start = true }\nG = { goal = true }\nH = { station = \"charger\" }\nI = { station = \"chair\" }\n"
+        "J = { station = \"chapel\" }\n" +
+        kRest;
+    const auto reading = parse_domain(text, "patchwork.toml");
+    ASSERT_TRUE(reading.domain) << to_text(reading.diagnostics.front());
+    const auto map = reading.domain->map();
+    EXPECT_EQ(surfaces_of(*map).size(), n);
+    expect_told_apart(*map, std::to_string(n));
+  }
+}
+
 }  // namespace
 }  // namespace kith

@@ -3,8 +3,8 @@ import { readFileSync } from 'node:fs';
 import { makeRandom } from '../../sample/random.mjs';
 
 const lesson = JSON.parse(readFileSync(new URL('../../sample/lesson.json', import.meta.url), 'utf8'));
-const { id, legend, width, height } = lesson.domain;
-const domain = { id, legend, width, height };
+const { id, legend, surfaces, width, height } = lesson.domain;
+const domain = { id, legend, surfaces, width, height };
 const kSecond = 1000;
 const kMinute = 60 * kSecond;
 

@@ -1,7 +1,7 @@
 // A room of the mock server: a group that is taught item delivery with the sample lesson, as the protocol says.
 import { bestPath, framesOf, judge, makeWorld } from './delivery.mjs';
 
-const legendOnly = ({ id, legend, width, height }) => ({ id, legend, width, height });
+const legendOnly = ({ id, legend, surfaces, width, height }) => ({ id, legend, surfaces, width, height });
 const boardOf = (domain, { world, map, start }) => ({ domain: legendOnly(domain), world, map, start });
 
 export class Room {

@@ -44,8 +44,8 @@ function largeBoard(domain, columns = 20, rows = 12) {
   );
   map[3] = `${map[3].slice(0, 15)}B${map[3].slice(16)}`;
   const start = { robot: [10, 7], items: [{ name: 'parcel', cell: [18, 2], carried: false }], stations: [[16, 4]] };
-  const legendOnly = { id: domain.id, legend: domain.legend, width: columns, height: rows };
-  return { domain: legendOnly, world: 1, map, start };
+  const { id, legend, surfaces } = domain;
+  return { domain: { id, legend, surfaces, width: columns, height: rows }, world: 1, map, start };
 }
 
 // The robot can only go right, and has fallen into a hole then.
@@ -62,6 +62,50 @@ function holeWorld({ start: { robot: [column, row], items } }) {
     chance: false,
   };
 }
+    may_repeat: false,
+    max_actions: 60,
+  };
+}
+
+// Places in a row, each covered by another terrain, of which some have the tint or the pattern of another.
+function patchwork({ id }) {
+  const tints = ['brown', 'blue', 'green', 'purple', 'grey', 'orange', 'red', 'yellow'];
+  const patterns = ['dots', 'lines', 'cross', 'waves'];
+  const surfaces = Array.from({ length: 12 }, (_, i) => ({
+    name: `terrain ${i + 1}`,
+    tint: tints[i % 8],
+    pattern: patterns[(i + Math.floor(i / 8)) % 4],
+  }));
+  const symbols = [...'abcdefghijkl'];
+  const legend = surfaces.map(({ name }, i) => ({ symbol: symbols[i], kind: 'terrain', name, parts: [{ kind: 'terrain', name }] }));
+  const start = { robot: [1, 1], items: [], stations: [] };
+  return { domain: { id, legend, surfaces, width: 12, height: 1 }, world: 1, map: [symbols.join('')], start };
+}
+
+// Two cells, of which the first holds an item that can be picked up and put down wherever the robot is.
+function handlingWorld({ start: { robot: [column, row], items } }, mayRepeat) {
+  const frame = (dx, carried) => [column + dx, row, [[column + (carried ? dx : 0), row, carried]], []];
+  return {
+    key: 'handling',
+    actions: [
+      { name: 'left', label: 'left', dx: -1, dy: 0 },
+      { name: 'right', label: 'right', dx: 1, dy: 0 },
+      { name: 'pickup', label: 'pick up', dx: null, dy: null },
+      { name: 'dropoff', label: 'put down', dx: null, dy: null },
+    ],
+    items: [items[0].name],
+    stations: [],
+    frames: [frame(0, 0), frame(1, 0), frame(0, 1), frame(1, 1)],
+    next: [
+      [-1, 1, 2, -1],
+      [0, -1, -1, -1],
+      [-1, 3, -1, 0],
+      [2, -1, -1, -1],
+    ],
+    end: [false, false, false, false],
+    chance: false,
+    may_repeat: mayRepeat,
+    max_actions: 8,
 
 // {name: view}; `now` is the server's time.
 export function makeViews(lesson, now = Date.now()) {

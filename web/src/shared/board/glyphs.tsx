@@ -1,10 +1,12 @@
 // Drawings of what is on a cell. All are drawn around (0,0), the middle of the cell.
 import type { JSX } from 'preact';
 import { kUnit, type Point } from './geometry';
-import { kPatterns, type Legend, type Surface } from './legend';
-import type { Part } from './types';
+import type { Legend } from './legend';
+import type { Part, Surface } from './types';
 
 const kHalf = kUnit / 2;
+
+const idOf = ({ tint, pattern }: Surface): string => `surface-${tint}-${pattern}`;
 
 // Textures of terrains, once per page.
 export function Patterns({ surfaces }: { surfaces: Surface[] }): JSX.Element {
@@ -24,25 +26,25 @@ export function Patterns({ surfaces }: { surfaces: Surface[] }): JSX.Element {
   return (
     <svg class="patterns" width="0" height="0" aria-hidden="true" focusable="false">
       <defs>
-        {surfaces.map(({ tint, pattern }) => (
-          <pattern id={`surface-${tint}`} width={10} height={10} patternUnits="userSpaceOnUse">
-            <rect width={10} height={10} fill={`var(--tint-${tint})`} />
-            <g
-              stroke={`var(--mark-${tint})`}
-              fill={pattern === kPatterns[0] ? `var(--mark-${tint})` : 'none'}
-              stroke-width={pattern === kPatterns[0] ? 0 : 1}
-            >
-              {mark(pattern)}
-            </g>
-          </pattern>
-        ))}
+        {surfaces.map((surface) => {
+          const { tint, pattern } = surface;
+          const isFilled = pattern === 'dots';
+          return (
+            <pattern id={idOf(surface)} width={10} height={10} patternUnits="userSpaceOnUse">
+              <rect width={10} height={10} fill={`var(--tint-${tint})`} />
+              <g stroke={`var(--mark-${tint})`} fill={isFilled ? `var(--mark-${tint})` : 'none'} stroke-width={isFilled ? 0 : 1}>
+                {mark(pattern)}
+              </g>
+            </pattern>
+          );
+        })}
       </defs>
     </svg>
   );
 }
 
 export function Surfacing({ surface }: { surface: Surface }): JSX.Element {
-  return <rect x={-kHalf} y={-kHalf} width={kUnit} height={kUnit} fill={`url(#surface-${surface.tint})`} />;
+  return <rect x={-kHalf} y={-kHalf} width={kUnit} height={kUnit} fill={`url(#${idOf(surface)})`} />;
 }
 
 export function Wall(): JSX.Element {

@@ -1,52 +1,15 @@
 // What the symbols of maps mean, and how each kind of thing is drawn.
-import type { LegendEntry, MapDomain, Part, Place } from './types';
-
-// Tints that speak for themselves; all others are given out in this order.
-const kTints = ['brown', 'blue', 'green', 'purple', 'grey', 'orange', 'red', 'yellow'] as const;
-export type Tint = (typeof kTints)[number];
-const kNamed: Record<string, Tint> = {
-  rubble: 'brown',
-  mud: 'brown',
-  fence: 'brown',
-  path: 'yellow',
-  sand: 'yellow',
-  grass: 'green',
-  bush: 'green',
-  water: 'blue',
-  ice: 'blue',
-  smoke: 'grey',
-  fire: 'red',
-  lava: 'red',
-  heat: 'orange',
-};
-export const kPatterns = ['dots', 'lines', 'cross', 'waves'] as const;
-
-export interface Surface {
-  name: string;
-  tint: Tint;
-  pattern: (typeof kPatterns)[number];
-}
+import type { LegendEntry, MapDomain, Part, Place, Surface } from './types';
 
 export class Legend {
   private readonly entries = new Map<string, LegendEntry>();
-  readonly surfaces: Surface[] = [];
+  readonly surfaces: Surface[];
   private readonly letters = new Map<string, string>();
 
   constructor(domain: MapDomain) {
     for (const entry of domain.legend ?? []) this.entries.set(entry.symbol, entry);
+    this.surfaces = domain.surfaces ?? [];
     const parts = (domain.legend ?? []).flatMap((entry) => entry.parts ?? [entry]);
-    const used = new Set<Tint>();
-    const surfaceNames = [...new Set(parts.filter(({ kind }) => kind === 'terrain').map(({ name }) => name))];
-    for (const name of surfaceNames) {
-      const own = kTints.find((tint) => tint === name) ?? kNamed[name];
-      const number = this.surfaces.length;
-      const tint = own && !used.has(own) ? own : (kTints.find((one) => !used.has(one)) ?? kTints[number % kTints.length] ?? 'grey');
-      used.add(tint);
-      // A tint that occurs again has another pattern.
-      const patterns = kPatterns.map((_, i) => kPatterns[(number + i) % kPatterns.length] ?? 'dots');
-      const isFree = (pattern: string) => !this.surfaces.some((other) => other.tint === tint && other.pattern === pattern);
-      this.surfaces.push({ name, tint, pattern: patterns.find(isFree) ?? patterns[0] ?? 'dots' });
-    }
     const things = parts.filter(({ kind }) => ['station', 'item', 'goal'].includes(kind)).map(({ name }) => name);
     for (const name of new Set(things)) this.letters.set(name, this.freeLetter(name));
   }

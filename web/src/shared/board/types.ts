@@ -37,10 +37,18 @@ export interface Board {
   frames: Frame[];
 }
 
-// What a board needs of a domain. Without a map, legend, width and height are absent.
+// How a terrain is drawn: no two are drawn alike.
+export interface Surface {
+  name: string;
+  tint: 'brown' | 'blue' | 'green' | 'purple' | 'grey' | 'orange' | 'red' | 'yellow';
+  pattern: 'dots' | 'lines' | 'cross' | 'waves';
+}
+
+// What a board needs of a domain. Without a map, legend, surfaces, width and height are absent.
 export interface MapDomain {
   id: string;
   legend?: LegendEntry[];
   width?: number;
   height?: number;
 }
+  surfaces?: Surface[];

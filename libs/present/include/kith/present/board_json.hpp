@@ -13,8 +13,9 @@ namespace kith {
 // name.
 
 /// {"id", "title", "features": [{name, words, weight}], "legend": [{symbol, kind, name, parts: [{kind, name}]}],
-/// "width", "height"}. The parts of a symbol are what it puts on a cell, in the order wall, terrain, station,
-/// destination, goal, start, item; kind and name are those of the first.
+/// "surfaces": [{name, tint, pattern}], "width", "height"}. Surfaces are surfaces_of() the map. The parts of a symbol
+/// are what it puts on a cell, in the order wall, terrain, station, destination, goal, start, item; kind and name are
+/// those of the first.
 [[nodiscard]] Json board_domain_json(const Domain& domain);
 /// {"world", "map", "start"}: the number of the MDP, its map in the symbols of the file, and the state as a frame. Of
 /// an explicit model also "world_name", if the MDP has a name, and "fences", pairs of cells, if lines are drawn between

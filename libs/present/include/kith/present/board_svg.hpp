@@ -6,6 +6,7 @@
 
 #include "kith/domains/domain.hpp"
 #include "kith/mdp/planner.hpp"
+#include "kith/present/surfaces.hpp"
 #include "kith/present/svg.hpp"
 
 namespace kith {
@@ -47,7 +48,7 @@ class BoardSvg {
   [[nodiscard]] std::string letters(const std::string& name) const;
 
   GridMap map_;
-  std::vector<std::string> terrains_;
+  std::vector<Surface> surfaces_;
   std::vector<std::string> things_;   // stations, items and named goals
   std::vector<std::string> letters_;  // of things_
 };
