@@ -185,6 +185,8 @@ bool HostedRoom::begin_next() {
   }
   auto decision = room_->decide(asked.command, now());
   if (decision.refusal || decision.events.empty()) {
+    // What changed nothing must not do so later, when it is sent again behind something that was sent after it.
+    if (!decision.refusal && !id.empty()) keep_mark(mark_of(asked.command.actor, id));
     asked.done({.events = {}, .refusal = std::move(decision.refusal)});
     return true;
   }

@@ -221,14 +221,16 @@ void LiveService::State::tell_room(const std::shared_ptr<Connection>& connection
 
 void LiveService::State::facilitate(const std::shared_ptr<Connection>& connection, const std::string& type,
                                     const std::string& id, const Json& body) {
-  const auto reply = [connection, id](const std::optional<Refusal>& refusal) {
+  const Reply reply = [connection, id](const std::optional<Refusal>& refusal) {
     connection->send(refusal ? nak_frame(id, *refusal) : ack_frame(id));
   };
-  if (type == "room-select") return select_room(connection, id, body);
-  if (type == "link-revoke") return revoke_link(connection, id, body);
-  if (type == "room-make") {
-    return post(0, [this, body, id, reply](TeachingCache&) {
-      make_rooms(body, "facilitator", id, [reply](const RoomsMade& made) { reply(made.refusal); });
+  if (type == "room-select") return select_room(connection, body, reply);
+  if (type == "link-revoke" || type == "room-make") {
+    return post(0, [this, type, body, id, reply](TeachingCache&) {
+      carry_out(id, reply, [&](const Reply& done) {
+        if (type == "link-revoke") return revoke_link(id, body, done);
+        make_rooms(body, "facilitator", id, [done](const RoomsMade& made) { done(made.refusal); });
+      });
     });
   }
   const auto room = room_named(text_at(body, "room"));
@@ -250,11 +252,23 @@ void LiveService::State::facilitate(const std::shared_ptr<Connection>& connectio
   });
 }
 
-void LiveService::State::select_room(const std::shared_ptr<Connection>& connection, const std::string& id,
-                                     const Json& body) {
+void LiveService::State::carry_out(const std::string& id, Reply reply, const std::function<void(Reply)>& act) {
+  if (seen_messages.count(id) > 0) return reply({});
+  auto& waiting = open_messages[id];
+  waiting.push_back(std::move(reply));
+  if (waiting.size() > 1) return;
+  act([this, id](const std::optional<Refusal>& refusal) {
+    if (!refusal) seen_messages.insert(id);
+    const auto senders = open_messages.extract(id);
+    for (const auto& one : senders.mapped()) one(refusal);
+  });
+}
+
+void LiveService::State::select_room(const std::shared_ptr<Connection>& connection, const Json& body,
+                                     const Reply& reply) {
   const auto name = text_at(body, "room");
   const auto room = room_named(name);
-  if (!room && !name.empty()) return connection->send(nak_frame(id, {"no-room", "There is no such room."}));
+  if (!room && !name.empty()) return reply(Refusal{"no-room", "There is no such room."});
   {
     const std::lock_guard lock{mutex};
     if (connection->is_closed) return;
@@ -265,11 +279,10 @@ void LiveService::State::select_room(const std::shared_ptr<Connection>& connecti
     changed_rooms.insert(number);
     has_news = true;
   }
-  connection->send(ack_frame(id));
+  reply({});
 }
 
-void LiveService::State::revoke_link(const std::shared_ptr<Connection>& connection, const std::string& id,
-                                     const Json& body) {
+void LiveService::State::revoke_link(const std::string& id, const Json& body, const Reply& reply) {
   auto link = text_at(body, "token");
   const auto mark = link.rfind("#t=");
   if (mark != std::string::npos) link.erase(0, mark + 3);
@@ -280,15 +293,15 @@ void LiveService::State::revoke_link(const std::shared_ptr<Connection>& connecti
     whose = tokens->identify(link, now_us());
     place = place_of(whose);
   }
-  if (whose.role == Role::kNobody) return connection->send(nak_frame(id, {"no-link", "There is no such link."}));
+  if (whose.role == Role::kNobody) return reply(Refusal{"no-link", "There is no such link."});
   StoreBatch batch;
   batch.revoked.push_back(whose.hash);
   const Json what{{"role", name_of(whose.role)},
                   {"room", room_id(place.first)},
                   {"seat", place.second},
                   {"reason", text_at(body, "reason")}};
-  record(std::move(batch), "facilitator", "link-revoke", what, id, [this, connection, id, whose](bool saved) {
-    if (!saved) return connection->send(nak_frame(id, {"not-saved", "This could not be saved; try again."}));
+  record(std::move(batch), "facilitator", "link-revoke", what, id, [this, reply, whose](bool saved) {
+    if (!saved) return reply(Refusal{"not-saved", "This could not be saved; try again."});
     std::vector<std::shared_ptr<Connection>> users;
     {
       const std::lock_guard lock{mutex};
@@ -299,7 +312,7 @@ void LiveService::State::revoke_link(const std::shared_ptr<Connection>& connecti
         if (other->is_known && other->identity.hash == whose.hash) users.push_back(other);
       }
     }
-    connection->send(ack_frame(id));
+    reply({});
     for (const auto& user : users) user->dismiss("removed", kPolicy);
   });
 }

@@ -153,6 +153,7 @@ void LiveService::State::load_rooms() {
   file.for_each_event([&](const StoredEvent& event) {
     if (is_logged(event.actor, event.type)) entries.push_back(entry_of(event));
     if (event.room == 0) next_service_seq = event.seq + 1;
+    if (event.room == 0 && event.message) seen_messages.insert(*event.message);
     if (event.room != 0 && (event.type == "joined" || event.type == "seated")) {
       const auto body = Json::parse(event.json);
       const Place place{event.room, body.value("seat", std::int64_t{0})};

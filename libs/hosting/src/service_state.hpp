@@ -129,6 +129,9 @@ struct LiveService::State final : HostedRoom::Host {
 
   // --- touched on the service's strand -------------------------------------------
   std::uint64_t next_service_seq = 1;
+  using Reply = std::function<void(const std::optional<Refusal>& refusal)>;
+  std::set<std::string> seen_messages;                      // ids of facilitators' messages that are carried out
+  std::map<std::string, std::vector<Reply>> open_messages;  // who waits for one that is being carried out
   struct Recording {
     StoreBatch batch;  // with one event of room 0, whose number is given when its turn comes
     std::function<void(bool saved)> done;
@@ -202,8 +205,10 @@ struct LiveService::State final : HostedRoom::Host {
                  const Json& body);
   void facilitate(const std::shared_ptr<Connection>& connection, const std::string& type, const std::string& id,
                   const Json& body);
-  void select_room(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);
-  void revoke_link(const std::shared_ptr<Connection>& connection, const std::string& id, const Json& body);
+  // Carries out a facilitator's message that is for no room: once, however often it is sent. On the service's strand.
+  void carry_out(const std::string& id, Reply reply, const std::function<void(Reply)>& act);
+  void select_room(const std::shared_ptr<Connection>& connection, const Json& body, const Reply& reply);
+  void revoke_link(const std::string& id, const Json& body, const Reply& reply);
   void attend(const std::shared_ptr<Connection>& connection);
   void push_view(Connection& connection, Json view) const;
   void push_room(HostedRoom& hosted);

@@ -17,11 +17,6 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::string random_prefix() {
-  std::random_device device;
-  return "rehearsal-" + std::to_string(device()) + "-" + std::to_string(device()) + "-";
-}
-
 }  // namespace
 
 Bot::Bot(asio::io_context& io, BotWorld& world, std::shared_ptr<BotGroup> group, std::string token, std::uint64_t seed)

@@ -35,6 +35,7 @@ struct BotFacilitator::Shared {
   Json view;
   std::string problem;
   bool is_welcome = false;
+  std::string id_prefix = random_prefix();
   std::size_t next_id = 0;
   std::size_t num_replies = 0;
   bool is_closed = false;
@@ -110,7 +111,7 @@ bool BotFacilitator::wait(std::chrono::milliseconds time, const std::function<bo
 void BotFacilitator::say(const std::string& type, Json body) {
   body["reason"] = "rehearsal";
   asio::post(shared_->strand, [shared = shared_, type, body = std::move(body)] {
-    const auto id = "rehearsal-" + std::to_string(shared->next_id++);
+    const auto id = shared->id_prefix + std::to_string(shared->next_id++);
     shared->socket->send(Json{{"t", type}, {"id", id}, {"body", body}}.dump());
   });
 }

@@ -6,6 +6,7 @@
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <exception>
+#include <random>
 #include <utility>
 
 namespace kith {
@@ -73,6 +74,11 @@ void ClientSocket::cut() {
   is_done_ = true;
   NetError ignored;
   stream_.next_layer().close(ignored);
+}
+
+std::string random_prefix() {
+  std::random_device device;
+  return "rehearsal-" + std::to_string(device()) + "-" + std::to_string(device()) + "-";
 }
 
 std::optional<std::string> http_get(const tcp::endpoint& server, const std::string& target,
