@@ -12,6 +12,7 @@
 #include "kith/analysis/r_script.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/file_set.hpp"
 #include "kith/files/published_run.hpp"
 #include "kith/present/json.hpp"
 #include "kith/present/wrapped.hpp"
@@ -38,10 +39,9 @@ AnalysisOptions analysis_options(const AnalyzeOptions& options) {
 }
 
 void write_texts(const std::filesystem::path& folder, const std::vector<NamedText>& files) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error{ErrorKind::kIo, "cannot make the folder " + folder.string() + ": " + failure.message()};
-  for (const auto& file : files) write_file_atomically(folder / file.name, file.text);
+  FileSet set{folder};
+  for (const auto& file : files) set.write(file.name, file.text);
+  set.commit();
 }
 
 // Takes over what a codebook says of a table: what it lists under the table's name, or the only table that it lists.

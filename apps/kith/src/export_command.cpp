@@ -8,6 +8,7 @@
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/file_set.hpp"
 #include "kith/present/json.hpp"
 #include "option_values.hpp"
 
@@ -51,10 +52,16 @@ int run_export(const ExportOptions& options, Console& console) {
       refuse(path.string() + " exists; choose another name, or add --yes to replace it");
     }
   }
+  if (files.size() == 1) {
+    write_file_atomically(out.parent_path() / files.front().name, files.front().text);
+  } else {
+    FileSet set{out.has_parent_path() ? out.parent_path() : "."};
+    for (const auto& file : files) set.write(file.name, file.text);
+    set.commit();
+  }
   Json written = Json::array();
   for (const auto& file : files) {
     const auto path = out.parent_path() / file.name;
-    write_file_atomically(path, file.text);
     written.push_back(path.string());
     if (!console.json() && !console.quiet()) console.print("wrote " + path.string() + "\n");
   }

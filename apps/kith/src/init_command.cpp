@@ -6,7 +6,7 @@
 #include "commands.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
-#include "kith/files/atomic_file.hpp"
+#include "kith/files/file_set.hpp"
 #include "kith/present/json.hpp"
 #include "templates.hpp"
 
@@ -41,10 +41,9 @@ int run_init(const InitOptions& options, Console& console) {
       throw Error{ErrorKind::kUsage, (folder / file.name).string() + " exists already; name another folder"};
     }
   }
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error{ErrorKind::kIo, "cannot make the folder " + folder.string() + ": " + failure.message()};
-  for (const auto& file : files) write_file_atomically(folder / file.name, file.content);
+  FileSet set{folder};
+  for (const auto& file : files) set.write(file.name, file.content);
+  set.commit();
 
   if (console.json()) {
     Json names = Json::array();

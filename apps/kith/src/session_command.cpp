@@ -4,13 +4,16 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
 
 #include "commands.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
+#include "kith/files/file_set.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/hosting/event_file.hpp"
 #include "kith/hosting/session_export.hpp"
@@ -108,43 +111,32 @@ int show(const SessionOptions& options, Console& console) {
   return 0;
 }
 
-// Files of an export, written beside their folder and put in place when all of them are complete.
-class ExportFolder {
- public:
-  ExportFolder(fs::path path, bool replace) : path_{std::move(path)}, partial_{fs::path{path_}.concat(".partial")} {
-    std::error_code none;
-    if (fs::exists(path_, none) && !fs::is_empty(path_, none) && !replace)
-      throw Error{ErrorKind::kUsage, path_.string() + " exists already", Remedy::kReplaceContents};
-    fs::remove_all(partial_);
-    fs::create_directories(partial_);
+// The files of an earlier export, by its list of them; nothing if the folder holds none.
+std::optional<std::set<std::string>> files_of_export(const fs::path& folder) {
+  const auto path = folder / "SHA256SUMS";
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) return std::nullopt;
+  std::set<std::string> names{path.filename().string()};
+  std::istringstream sums{read_file(path)};
+  for (std::string hash, name; sums >> hash >> name;) {
+    if (name.find('/') == std::string::npos) names.insert(name);
   }
-  ~ExportFolder() {
-    std::error_code none;
-    fs::remove_all(partial_, none);
-  }
-  ExportFolder(const ExportFolder&) = delete;
-  ExportFolder& operator=(const ExportFolder&) = delete;
+  return names;
+}
 
-  void write(std::string_view file, std::string_view piece) {
-    const std::string name{file};
-    auto found = files_.find(name);
-    if (found == files_.end()) found = files_.try_emplace(name, partial_ / name).first;
-    found->second.write(piece);
+// What the export replaces. @throws kith::Error if there is something in the folder that it must not replace.
+std::set<std::string> replaced_by_export(const SessionOptions& options) {
+  const fs::path folder{options.out};
+  std::error_code none;
+  if (!fs::exists(folder, none) || fs::is_empty(folder, none)) return {};
+  const auto former = files_of_export(folder);
+  if (!former) {
+    throw Error{ErrorKind::kUsage, options.out + " is not empty and is no export of a session",
+                "choose another folder"};
   }
-
-  void commit() {
-    for (auto& [name, file] : files_) file.commit(FolderSync::kLater);
-    synchronise_folder(partial_);
-    fs::remove_all(path_);
-    fs::rename(partial_, path_);
-    synchronise_folder(path_.has_parent_path() ? path_.parent_path() : fs::path{"."});
-  }
-
- private:
-  fs::path path_;
-  fs::path partial_;
-  std::map<std::string, AtomicFile> files_;
-};
+  if (!options.yes) throw Error{ErrorKind::kUsage, options.out + " exists already", Remedy::kReplaceContents};
+  return *former;
+}
 
 int write_tables(const SessionOptions& options, Console& console) {
   if (options.out.empty())
@@ -154,10 +146,12 @@ int write_tables(const SessionOptions& options, Console& console) {
   if (!options.room.empty()) what.room = find_room(file, options.room).number;
   const auto study = restore_session_study(file.identity().inputs);
   TeachingCache cache{study.study->atlas};
-  ExportFolder folder{options.out, options.yes};
-  const auto report = export_session(file, study.study, cache, what,
-                                     [&](std::string_view name, std::string_view piece) { folder.write(name, piece); });
-  folder.commit();
+  const auto former = replaced_by_export(options);
+  FileSet files{options.out};
+  const auto report =
+      export_session(file, study.study, cache, what,
+                     [&](std::string_view name, std::string_view piece) { files.write(std::string{name}, piece); });
+  files.commit(former);
   if (console.json()) {
     Json rows = Json::object();
     for (const auto& [name, count] : report.rows) rows[name] = count;

@@ -9,7 +9,7 @@
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/expected_ways.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/files/atomic_file.hpp"
+#include "kith/files/file_set.hpp"
 #include "kith/present/board_svg.hpp"
 #include "kith/present/picture.hpp"
 #include "kith/present/region_svg.hpp"
@@ -225,10 +225,9 @@ std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m) {
 }
 
 void write_pictures(const std::filesystem::path& folder, const std::vector<SvgFile>& files) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error{ErrorKind::kIo, "cannot make the folder " + folder.string() + ": " + failure.message()};
-  for (const auto& file : files) write_file_atomically(folder / file.name, file.text);
+  FileSet set{folder};
+  for (const auto& file : files) set.write(file.name, file.text);
+  set.commit();
 }
 
 }  // namespace kith

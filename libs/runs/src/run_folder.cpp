@@ -129,7 +129,7 @@ std::string RunInputs::digest() const {
 RunFolder::RunFolder(fs::path path, RunInputs inputs, bool replace)
     : path_{std::move(path)}, inputs_{std::move(inputs)} {
   std::error_code error;
-  made_ = !fs::exists(path_, error);
+  made_ = !fs::exists(fs::symlink_status(path_, error));  // a link that leads nowhere is somebody's
   make_folder(path_);
   try {
     lock_ = FolderLock::try_acquire(path_);

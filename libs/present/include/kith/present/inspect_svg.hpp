@@ -20,7 +20,7 @@ struct SvgFile {
 /// every start, and these paths from the map's start.
 [[nodiscard]] std::vector<SvgFile> atlas_pictures(const Atlas& atlas, MdpIndex m);
 
-/// Writes the pictures to a folder, which is made if need be. @throws kith::Error (kIo).
+/// Writes the pictures to a folder, which is made if need be: all or none. @throws kith::Error, see FileSet.
 void write_pictures(const std::filesystem::path& folder, const std::vector<SvgFile>& files);
 
 }  // namespace kith
