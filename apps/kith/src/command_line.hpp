@@ -44,7 +44,7 @@ struct ParsedCommandLine {
 };
 
 /// Understands the arguments behind the program's name, and the environment
-/// variables KITH_... of options that were not given.
+/// variable KITH_THREADS if --threads was not given.
 [[nodiscard]] ParsedCommandLine parse_command_line(const std::vector<std::string>& given);
 
 /// All commands, in the order of the help.

@@ -1,17 +1,17 @@
 #include "declare_options.hpp"
 
-#include <cctype>
+#include <string_view>
 
 #include "option_values.hpp"
 
 namespace kith::cli {
 namespace {
 
-std::string variable_of(const std::string& long_name) {
-  std::string name = "KITH_";
-  for (const char c : long_name)
-    name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
+// "out" for "out/" and "out/.", which completion and people write: all of them name one folder.
+std::string without_slash(std::string path) {
+  const auto ends_with = [&](std::string_view end) { return path.size() > end.size() && path.ends_with(end); };
+  while (ends_with("/") || ends_with("/.")) path.pop_back();
+  return path;
 }
 
 std::string braces(const std::vector<std::string>& words) {
@@ -27,6 +27,10 @@ CLI::Option& takes_word(CLI::Option& option, const std::string& type, const std:
               ->type_name(type + ":" + braces(words));
 }
 
+CLI::Option& takes_number(CLI::Option& option, const NumberRange& range, const std::string& type) {
+  return *option.check([range](const std::string& text) { return wrong_number(text, range); })->type_name(type);
+}
+
 CLI::Option& takes_integer(CLI::Option& option, std::int64_t min, std::int64_t max) {
   return *option.check([min, max](const std::string& text) { return wrong_integer(text, min, max); })->type_name("N");
 }
@@ -39,7 +43,7 @@ void add_common(CLI::App& command, CommonOptions& common) {
   command.add_flag("-q,--quiet", common.quiet, "Only results and errors");
   command.add_flag("-v,--verbose", common.verbosity, "Print more detail; repeat for more");
   for (auto* option : command.get_options()) {
-    if (!option->get_lnames().empty()) option->envname(variable_of(option->get_lnames().front()));
+    if (option->get_type_name() == "DIR") option->transform(without_slash, "");
   }
 }
 
@@ -57,10 +61,12 @@ CLI::Option& add_set(CLI::App& command, std::vector<std::string>& set) {
               ->type_name("KEY=VALUE");
 }
 
+void add_thread_count(CLI::App& command, std::size_t& threads, const std::string& description) {
+  takes_integer(*command.add_option("-j,--threads", threads, description)->envname("KITH_THREADS"), 1, 1024);
+}
+
 void add_threads(CLI::App& command, std::size_t& threads) {
-  takes_integer(
-      *command.add_option("-j,--threads", threads, "Worker threads (default: one per core); never changes a result"), 1,
-      1024);
+  add_thread_count(command, threads, "Worker threads (default: one per core); never changes a result");
 }
 
 void add_progress(CLI::App& command, ProgressMode& mode) {

@@ -122,9 +122,9 @@ std::string help_text(const std::vector<CommandDescription>& commands, bool full
       "  kith teach item-delivery --group NNP --strategy joint\n";
   if (full) {
     text +=
-        "\nOptions can be set in the environment too: KITH_THREADS=2 is `--threads 2`.\n"
-        "The command line takes precedence over the environment, and the environment\n"
-        "over the study file. NO_COLOR turns colours off.\n\n";
+        "\nenvironment: KITH_THREADS=2 is `--threads 2` where that is not given, KITH_MEMORY=8G\n"
+        "is the most memory that kith uses, NO_COLOR turns colours off. Nothing else in the\n"
+        "environment changes what a command does.\n\n";
     text += kExitCodes;
   }
   return text + "\n`kith COMMAND -h` for a command's options, `kith COMMAND --help` for details.\n";

@@ -156,28 +156,30 @@ void add_serve(CLI::App& app, Options& options) {
   auto* rehearse = &takes_integer(
       *command.add_option("--rehearse", serve.rehearse, "Teach N groups of simulated people instead, and time it"), 1,
       5000);
-  const auto positive = [](const std::string& text) { return wrong_positive(text); };
-  command.add_option("--for", serve.for_seconds, "With --rehearse: seconds (default: until everybody has finished)")
-      ->needs(rehearse)
-      ->check(positive)
-      ->type_name("SECONDS");
-  command
-      .add_option("--answer-every", serve.answer_every, "With --rehearse: seconds that a person takes for an answer")
-      ->capture_default_str()
-      ->needs(rehearse)
-      ->check(positive)
-      ->type_name("SECONDS");
-  command.add_option("--reconnects", serve.reconnects, "With --rehearse: share of people who reconnect every second")
-      ->capture_default_str()
-      ->needs(rehearse)
-      ->check([](const std::string& text) { return wrong_fraction(text); })
-      ->type_name("P");
-  command
-      .add_option("--restart-after", serve.restart_after,
-                  "With --rehearse: stop the server after so many seconds and start it again")
-      ->needs(rehearse)
-      ->check(positive)
-      ->type_name("SECONDS");
+  const NumberRange any_time{0.0, kLargestNumber};
+  takes_number(*command
+                    .add_option("--for", serve.for_seconds,
+                                "With --rehearse: seconds (default: 0, until everybody has finished)")
+                    ->needs(rehearse),
+               any_time, "SECONDS");
+  takes_number(*command
+                    .add_option("--answer-every", serve.answer_every,
+                                "With --rehearse: seconds that a person takes for an answer")
+                    ->capture_default_str()
+                    ->needs(rehearse),
+               {0.0, kLargestNumber, NumberRange::kAbove}, "SECONDS");
+  takes_number(
+      *command
+           .add_option("--reconnects", serve.reconnects, "With --rehearse: share of people who reconnect every second")
+           ->capture_default_str()
+           ->needs(rehearse),
+      {0.0, 1.0}, "P");
+  takes_number(
+      *command
+           .add_option("--restart-after", serve.restart_after,
+                       "With --rehearse: stop the server after so many seconds and start it again (default: 0, never)")
+           ->needs(rehearse),
+      any_time, "SECONDS");
   add_common(command, options.common);
 }
 
@@ -205,16 +207,14 @@ void add_bench(CLI::App& app, Options& options) {
   auto* baseline =
       command.add_option("--baseline", bench.baseline, "Compare with this file; exit 7 if something is slower")
           ->type_name("FILE");
-  command.add_option("--tolerance", bench.tolerance, "How much slower a median may be, as a share")
-      ->capture_default_str()
-      ->needs(baseline)
-      ->check([](const std::string& text) { return wrong_fraction(text); })
-      ->type_name("P");
+  takes_number(*command.add_option("--tolerance", bench.tolerance, "How much slower a median may be, as a share")
+                    ->capture_default_str()
+                    ->needs(baseline),
+               {0.0, kLargestNumber}, "P");
   auto* growth = command.add_flag("--growth", bench.growth, "How cost grows with the size of studies and domains");
   growth->excludes(save)->excludes(baseline);
   command.add_flag("--list", bench.list, "List the cases and their rivals; time nothing");
-  takes_integer(*command.add_option("-j,--threads", bench.threads, "Threads of whole studies (default: one per core)"),
-                1, 1024);
+  add_thread_count(command, bench.threads, "Threads of whole studies (default: one per core)");
   command.add_flag("--yes", bench.yes, "Replace the file of --save if there is one");
   add_progress(command, bench.progress);
   add_common(command, options.common);

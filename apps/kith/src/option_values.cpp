@@ -1,8 +1,11 @@
 #include "option_values.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 
 #include "kith/core/diagnostic.hpp"
@@ -94,23 +97,15 @@ std::optional<double> number_of(const std::string& text) {
 
 }  // namespace
 
-std::string wrong_fraction(const std::string& text) {
+std::string wrong_number(const std::string& text, const NumberRange& range) {
   const auto value = number_of(text);
-  if (value && *value > 0.0 && *value < 1.0) return "";
-  return "must be a number between 0 and 1, not '" + text + "'";
-}
-
-std::string wrong_positive(const std::string& text) {
-  constexpr double kLargest = 1e6;
-  const auto value = number_of(text);
-  if (value && *value > 0.0 && *value <= kLargest) return "";
-  return "must be a number above 0 and at most 1000000, not '" + text + "'";
-}
-
-std::string wrong_level(const std::string& text) {
-  const auto value = number_of(text);
-  if (value && *value >= 1e-6 && *value <= 1.0 - 1e-6) return "";
-  return "must be a number from 0.000001 to 0.999999, not '" + text + "'";
+  const bool is_above = range.end == NumberRange::kAbove;
+  if (value && (is_above ? *value > range.low : *value >= range.low) && *value <= range.high) return "";
+  const auto shown = [](double bound) { return fmt::format("{:.{}f}", bound, bound == std::floor(bound) ? 0 : 6); };
+  return "must be a number " +
+         (is_above ? "above " + shown(range.low) + " and at most " + shown(range.high)
+                   : "from " + shown(range.low) + " to " + shown(range.high)) +
+         ", not '" + text + "'";
 }
 
 std::string wrong_word(const std::string& text, const std::vector<std::string>& words) {

@@ -18,14 +18,18 @@ namespace kith::cli {
 /// "2/7" as {2, 7}, or nothing if it is no part of a whole.
 [[nodiscard]] std::optional<ShardOption> shard_of(const std::string& text);
 
-/// Why the text is no number between 0 and 1, both excluded, or nothing.
-[[nodiscard]] std::string wrong_fraction(const std::string& text);
+/// The numbers that an option takes: from `low` to `high`, or only those above `low`.
+struct NumberRange {
+  enum End { kFrom, kAbove };
+  double low = 0.0;
+  double high = 1.0;
+  End end = kFrom;
+};
+inline constexpr double kLargestNumber = 1e6;
 
-/// Why the text is no number above 0 and up to a million, or nothing.
-[[nodiscard]] std::string wrong_positive(const std::string& text);
-
-/// Why the text is no level of a test, or nothing: far below 10^-6 and as near to 1 there are no quantiles any more.
-[[nodiscard]] std::string wrong_level(const std::string& text);
+/// Why the text is no number of this range ("must be a number from 0 to 1, not '2'"), or nothing. What counts is the
+/// value: "1", "1.0" and "1e0" are the same.
+[[nodiscard]] std::string wrong_number(const std::string& text, const NumberRange& range);
 
 /// Why the text is none of the words; behind a line break the nearest of them. Or nothing.
 [[nodiscard]] std::string wrong_word(const std::string& text, const std::vector<std::string>& words);

@@ -86,10 +86,10 @@ void add_analyze(CLI::App& app, Options& options) {
       ->type_name("DIR")
       ->needs(model);
   command.add_flag("--brief", analyze.brief, "Findings in words only, without tables");
-  command.add_option("--alpha", analyze.alpha, "Significance level; intervals use 1 - alpha")
-      ->capture_default_str()
-      ->check([](const std::string& text) { return wrong_level(text); })
-      ->type_name("P");
+  // Far below 10^-6 and as near to 1 there are no quantiles any more.
+  takes_number(*command.add_option("--alpha", analyze.alpha, "Significance level; intervals use 1 - alpha")
+                    ->capture_default_str(),
+               {1e-6, 1.0 - 1e-6}, "P");
   takes_word(*command
                   .add_option("--correct", analyze.correction,
                               "Correction for families of tests: compositions, planned contrasts")
@@ -226,13 +226,12 @@ void add_audit(CLI::App& app, Options& options) {
   command.add_option("--room", audit.room, "Only this room of live sessions, by id or code")->type_name("ID");
   command.add_option("-o,--out", audit.out, "Write one HTML page for a browser; '-' is standard output")
       ->type_name("FILE");
-  command
-      .add_option("--forgetting", audit.forgetting,
-                  "Radians by which beliefs blur in a period without lessons; 0: people forget nothing")
-      ->capture_default_str()
-      ->check([](const std::string& text) { return text == "0" ? "" : wrong_positive(text); })
-      ->type_name("ANGLE");
-  takes_integer(*command.add_option("-j,--threads", audit.threads, "Worker threads (default: one per core)"), 1, 1024);
+  takes_number(*command
+                    .add_option("--forgetting", audit.forgetting,
+                                "Radians by which beliefs blur in a period without lessons; 0: people forget nothing")
+                    ->capture_default_str(),
+               {0.0, kLargestNumber}, "ANGLE");
+  add_thread_count(command, audit.threads, "Worker threads (default: one per core)");
   add_progress(command, audit.progress);
   add_common(command, options.common);
 }
@@ -241,11 +240,10 @@ void add_verify(CLI::App& app, Options& options) {
   auto& verify = options.verify;
   auto& command = *app.add_subcommand("verify", "Repeat a run from its frozen inputs and compare all bytes");
   command.add_option("folder", verify.folder, "Run folder")->required()->type_name("DIR");
-  command.add_option("--sample", verify.sample, "Share of the teams to rerun, above 0, at most 1")
-      ->capture_default_str()
-      ->check([](const std::string& text) { return text == "1" ? "" : wrong_fraction(text); })
-      ->type_name("P");
-  takes_integer(*command.add_option("-j,--threads", verify.threads, "Worker threads (default: one per core)"), 1, 1024);
+  takes_number(*command.add_option("--sample", verify.sample, "Share of the teams to rerun, above 0, at most 1")
+                    ->capture_default_str(),
+               {0.0, 1.0, NumberRange::kAbove}, "P");
+  add_thread_count(command, verify.threads, "Worker threads (default: one per core)");
   add_progress(command, verify.progress);
   add_common(command, options.common);
 }
