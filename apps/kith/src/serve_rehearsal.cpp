@@ -122,7 +122,7 @@ std::string memory_text(const RehearsalRecord& record) {
 }
 
 std::string restart_text(const RehearsalRecord& record) {
-  if (!record.restarted_after) return "not restarted: the rehearsal was over before";
+  if (!record.restarted_after) return "not restarted";
   return fmt::format("restarted after {:.0f} s; accepted connections again {:.1f} s later", *record.restarted_after,
                      record.restart_seconds);
 }
@@ -177,7 +177,7 @@ StoredAnswers look_up(const std::vector<std::string>& answers, const std::filesy
 }
 
 int report_rehearsal(const ServeOptions& options, const RehearsalResult& result, const RehearsalRecord& record,
-                     const StoredAnswers& stored, const Console& console) {
+                     const StoredAnswers& stored, Console& console) {
   const bool restarts = options.restart_after > 0.0;
   if (console.json()) {
     console.print_json(document_of(result, record, stored));
@@ -203,8 +203,21 @@ int report_rehearsal(const ServeOptions& options, const RehearsalResult& result,
   }
   if (stored.lost + stored.twice > 0) return exit_code(ErrorKind::kMismatch);
   if (stop_signal() != 0) return 128 + stop_signal();
-  const bool is_whole = result.num_finished() == result.people && (!restarts || record.restarted_after);
-  return is_whole ? 0 : exit_code(ErrorKind::kPartial);
+  const auto unfinished = result.people - result.num_finished();
+  const bool is_restarted = !restarts || record.restarted_after;
+  if (unfinished > 0) {
+    console.warning(
+        fmt::format("{} of {} simulated people did not get to an end; where they are, the line 'ended at' "
+                    "says",
+                    unfinished, result.people));
+  }
+  if (!is_restarted) {
+    console.warning(
+        fmt::format("the rehearsal was over after {:.1f} s, before --restart-after {:g}: no restart was "
+                    "rehearsed; restart earlier, or let people take longer with --answer-every",
+                    result.seconds, options.restart_after));
+  }
+  return unfinished == 0 && is_restarted ? 0 : exit_code(ErrorKind::kPartial);
 }
 
 }  // namespace kith::cli

@@ -40,6 +40,6 @@ struct StoredAnswers {
 /// Prints the result as a table or as JSON. @return the exit code: 7 if an answer was lost or stored twice, 6 if
 /// somebody did not come to an end or the server was not restarted as asked for, else 0.
 [[nodiscard]] int report_rehearsal(const ServeOptions& options, const RehearsalResult& result,
-                                   const RehearsalRecord& record, const StoredAnswers& stored, const Console& console);
+                                   const RehearsalRecord& record, const StoredAnswers& stored, Console& console);
 
 }  // namespace kith::cli
