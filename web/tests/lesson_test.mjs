@@ -10,7 +10,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { fillPage } from '../sample/fill_page.mjs';
 import { launch, openPage, reads, requireFrom } from './browser.mjs';
-import { drawn, hugeLesson, largeLesson, mapless, uncertain } from './lessons.mjs';
+import { drawn, endless, hugeLesson, largeLesson, mapless, uncertain } from './lessons.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
@@ -45,6 +45,7 @@ const pages = {
   mapless: addressOf('mapless', mapless()),
   uncertain: addressOf('uncertain', uncertain()),
   drawn: addressOf('drawn', drawn()),
+  endless: addressOf('endless', endless(sample)),
 };
 
 let browser;
@@ -99,7 +100,6 @@ describe('a lesson', () => {
             view: document.documentElement.clientWidth,
           }));
           assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
-        });
           const ids = await page.$$eval('[id]', (all) => all.map(({ id }) => id));
           assert.deepEqual(ids.filter((id, i) => ids.indexOf(id) !== i), [], 'ids that more than one element has');
           const signs = await page.$$eval('.legend li svg', (all) =>
@@ -109,6 +109,7 @@ describe('a lesson', () => {
             }),
           );
           assert.equal(new Set(signs).size, signs.length, 'two things of the legend are drawn alike');
+        });
       });
     }
   }
@@ -134,6 +135,25 @@ describe('a lesson', () => {
         all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)),
       );
       assert.deepEqual(lost, []);
+    });
+  });
+
+  it('shows a path that never ends as its way in and its cycle, twice, and says so', async () => {
+    await withLesson('endless', { width: 1280, dark: false, reducedMotion: true }, async (page) => {
+      const scene = page.locator('.demonstration').first();
+      const said = () => scene.locator('.player .step').first().textContent();
+      const next = scene.getByRole('button', { name: 'Next step' }).first();
+      const points = async () => (await scene.locator('.way.own .line').first().getAttribute('points')).split(' ').length;
+      for (let step = 1; step <= 3; step += 1) await next.click();
+      assert.match(await said(), /^Step 3 of 5: it goes /, 'one step on the way in, two rounds of two');
+      assert.equal(await scene.locator('.way.own .round').count(), 1);
+      const once = await points();
+      for (let step = 4; step <= 5; step += 1) await next.click();
+      assert.match(await said(), / And so on: it never delivers the parcel\.$/);
+      assert.equal(await points(), once, 'the cycle is drawn once');
+      assert.match(await scene.locator('.board svg').first().getAttribute('aria-label'), /; then again and again: /);
+      await page.evaluate(() => document.querySelectorAll('details').forEach((box) => (box.open = true)));
+      assert.match(await scene.locator('.in-words').first().textContent(), /And so on: it never delivers the parcel\./);
     });
   });
 

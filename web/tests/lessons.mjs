@@ -174,3 +174,14 @@ export function drawn() {
   component.tests = component.tests.map((test) => ({ ...test, ...board, runs: component.demonstrations[0].runs }));
   return lesson;
 }
+
+// The sample with a robot that does not end in its first example: a first move, and then there and back for ever.
+export function endless(sample) {
+  const lesson = structuredClone(sample);
+  const [shown] = lesson.components[0].demonstrations;
+  const [a, b, c] = shown.frames;
+  const back = { up: 'down', down: 'up', left: 'right', right: 'left' }[b.action];
+  shown.frames = [a, b, { ...c, action: back }, { ...b, action: null }];
+  Object.assign(shown, { repeats_from: 1, repeats_text: 'it never delivers the parcel', flip: null, decisive: { ...shown.decisive, frame: 1 } });
+  return lesson;
+}

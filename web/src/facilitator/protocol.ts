@@ -1,5 +1,5 @@
 // What the server sends to facilitators and observers, and what it takes from facilitators.
-import type { Frame, MapDomain, Place } from '../shared/board/types';
+import type { Frame, MapDomain, Path, Place } from '../shared/board/types';
 
 export type { Frame };
 export type Role = 'facilitator' | 'observer';
@@ -78,9 +78,8 @@ export interface BoardView {
 
 export type Sentence = string | { text: string };
 
-export interface ShownBoard {
+export interface ShownBoard extends Path {
   board: BoardView;
-  frames: Frame[];
   sentences: Sentence[];
   gain?: number;
 }

@@ -25,7 +25,7 @@ export function DemonstrationView({ shown, number, ...context }: Context & { sho
   const [watching, setWatching] = useState(false);
   const { alternative, decisive, flip } = shown;
   // Where chance has a part, the most likely paths can be the same although the decisions differ.
-  const isSame = Boolean(shown.runs && alternative && actionsText(shown.frames) === actionsText(alternative.frames));
+  const isSame = Boolean(shown.runs && alternative && actionsText(shown) === actionsText(alternative));
   // A list, and what happened in how many runs, would tell before the reader has decided.
   const tells = !shown.map || Boolean(shown.runs);
   // The board of the other world marks the same place: there the robot decides differently.
@@ -44,7 +44,7 @@ export function DemonstrationView({ shown, number, ...context }: Context & { sho
             board={shown}
             title={shown.runs ? 'The most likely path' : 'The robot'}
             name={shown.runs ? "the robot's most likely path" : "the robot's path"}
-            {...(open && alternative && !isSame ? { other: alternative.frames } : {})}
+            {...(open && alternative && !isSame ? { other: alternative } : {})}
             decisive={open && !isSame ? decisive : null}
           >
             {open && alternative && decisive && !isSame

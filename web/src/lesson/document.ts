@@ -1,5 +1,5 @@
 // The document that kith writes (schema kith.curriculum/1), as far as the page uses it.
-import type { Board, Frame, MapDomain, Place } from '../shared/board/types';
+import type { Board, Frame, MapDomain, Path, Place } from '../shared/board/types';
 
 export interface Sentence {
   normal: number[];
@@ -20,7 +20,7 @@ export interface Demonstration extends Board {
   runs: Runs | null; // nothing where chance has no part
   reason: string;
   conveys: Sentence[];
-  alternative: { frames: Frame[] } | null;
+  alternative: Path | null;
   decisive: { frame: number; cell?: Place } | null;
   flip: Flip | null;
 }

@@ -9,10 +9,10 @@ interface PlayerProps {
   frames: Frame[];
   playback: Playback;
   what: string;
-  isCutOff?: boolean | undefined; // the path is longer than what is shown
+  end: string; // what is said behind the last step
 }
 
-export function Player({ frames, playback, what, isCutOff }: PlayerProps): JSX.Element {
+export function Player({ frames, playback, what, end }: PlayerProps): JSX.Element {
   const { step, last, playing, show, toggle } = playback;
   const calm = useCalm(); // then nothing plays by itself
   const id = useId();
@@ -43,7 +43,7 @@ export function Player({ frames, playback, what, isCutOff }: PlayerProps): JSX.E
         />
       </div>
       <p class="step" id={id} aria-live={playing ? 'off' : 'polite'}>
-        {stepText(frames, step, isCutOff)}
+        {stepText(frames, step, end)}
       </p>
     </div>
   );

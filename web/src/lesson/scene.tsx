@@ -2,11 +2,12 @@
 import type { ComponentChildren, JSX } from 'preact';
 import { BoardView } from '../shared/board/board';
 import type { Legend } from '../shared/board/legend';
-import type { Board, Frame, Place } from '../shared/board/types';
+import { closedAt, played } from '../shared/board/repeats';
+import type { Board, Frame, Path, Place } from '../shared/board/types';
 import { usePlayback } from '../shared/playback';
 import type { Domain } from './document';
 import { Player } from './player';
-import { actionsText, cellText, listed, mapText, placedStepText, placeOf, upperFirst } from './words';
+import { actionsText, cellText, endText, listed, mapText, placedStepText, placeOf, upperFirst } from './words';
 
 // What is said about a map of which only a part is shown.
 const kWindow = {
@@ -25,7 +26,7 @@ interface SceneProps extends Context {
   board: Board;
   name: string; // "the robot's path"
   title: string;
-  other?: Frame[];
+  other?: Path;
   decisive?: { frame: number; cell?: Place } | null;
   isCutOff?: boolean; // the run is longer than what is shown
   children?: ComponentChildren;
@@ -46,20 +47,37 @@ function labelOf({ board, name, other, decisive }: SceneProps): string {
   const from = board.start.robot ? ` from ${cellText(board.start.robot)}` : '';
   const parting = decisive?.cell ? `, separating at ${cellText(decisive.cell)}` : '';
   return (
-    `Map with ${name}${from}: ${actionsText(board.frames)}.` +
+    `Map with ${name}${from}: ${actionsText(board)}.` +
     (other ? ` Dashed, the path you might have expected${parting}: ${actionsText(other)}.` : '')
   );
 }
 
-function PlayedBoard(props: SceneProps): JSX.Element {
-  const { board, other } = props;
-  const playback = usePlayback(Math.max(board.frames.length, other?.length ?? 0) - 1);
-  const longer = other && other.length > board.frames.length ? other : board.frames;
-  const step = Math.min(playback.step, board.frames.length - 1);
+function PlayedBoard({ other, ...props }: SceneProps): JSX.Element {
+  const { board } = props;
+  const frames = played(board);
+  const others = other && played(other);
+  const playback = usePlayback(Math.max(frames.length, others?.length ?? 0) - 1);
+  const longer = others && others.length > frames.length ? others : frames;
+  const step = Math.min(playback.step, frames.length - 1);
   return (
     <>
-      <BoardView {...props} step={step} walked={playback.step} label={labelOf(props)} path texts={kWindow} />
-      <Player frames={step < playback.step ? holding(board.frames, longer) : board.frames} playback={playback} what={props.name} isCutOff={props.isCutOff} />
+      <BoardView
+        {...props}
+        board={{ ...board, frames }}
+        closedAt={closedAt(board)}
+        {...(other && others ? { other: others, otherClosedAt: closedAt(other) } : {})}
+        step={step}
+        walked={playback.step}
+        label={labelOf({ ...props, ...(other ? { other } : {}) })}
+        path
+        texts={kWindow}
+      />
+      <Player
+        frames={step < playback.step ? holding(frames, longer) : frames}
+        playback={playback}
+        what={props.name}
+        end={endText(board, props.isCutOff)}
+      />
     </>
   );
 }
@@ -71,14 +89,18 @@ function holding(frames: Frame[], longer: Frame[]): Frame[] {
 }
 
 function Steps({ board, other, decisive, name, isCutOff }: SceneProps): JSX.Element {
-  const list = (frames: Frame[], title: string, first: number): JSX.Element => (
+  const last = ({ repeats_from, repeats_text }: Path): string => {
+    if (repeats_from === undefined) return isCutOff ? 'and so on' : 'the end';
+    return `from step ${repeats_from + 1} on all over again${repeats_text ? `: ${repeats_text}` : ''}`;
+  };
+  const list = (path: Path, title: string, first: number): JSX.Element => (
     <div>
       <p class="list-title">{title}</p>
       <ol class="steps" start={first + 1}>
-        {frames.slice(first).map((frame, i) => (
+        {path.frames.slice(first).map((frame, i) => (
           <li class={decisive?.frame === first + i ? 'parting' : undefined}>
             {frame.robot ? upperFirst(placeOf(frame)) : (frame.state ?? 'a state')}
-            {frame.action ? `: ${frame.action}` : isCutOff ? ': and so on' : ': the end'}
+            {`: ${frame.action ?? last(path)}`}
             {decisive?.frame === first + i && <span class="mark">here they separate</span>}
           </li>
         ))}
@@ -87,7 +109,7 @@ function Steps({ board, other, decisive, name, isCutOff }: SceneProps): JSX.Elem
   );
   return (
     <div class={other ? 'step-lists two' : 'step-lists'}>
-      {list(board.frames, upperFirst(name), 0)}
+      {list(board, upperFirst(name), 0)}
       {other && list(other, 'What you might have expected', decisive?.frame ?? 0)}
     </div>
   );
@@ -111,8 +133,10 @@ function InWords(props: SceneProps): JSX.Element | null {
       ))}
       <p>The robot:</p>
       {things(board.frames, 0)}
+      {board.repeats_from !== undefined && <p>{endText(board)}</p>}
       {other && <p>What you might have expected instead, from step {(decisive?.frame ?? 0) + 1} on:</p>}
-      {other && things(other, decisive?.frame ?? 0)}
+      {other && things(other.frames, decisive?.frame ?? 0)}
+      {other && other.repeats_from !== undefined && <p>{endText(other)}</p>}
     </details>
   );
 }

@@ -1,7 +1,7 @@
 // What boards show, in words: for captions and for those who do not see them.
 import { hasSlipped, kMoves } from '../shared/board/geometry';
 import type { Legend } from '../shared/board/legend';
-import type { Board, Frame, Place } from '../shared/board/types';
+import type { Board, Frame, Path, Place } from '../shared/board/types';
 import type { Domain } from './document';
 
 export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
@@ -48,28 +48,44 @@ function mishap(frame: Frame, next: Frame | undefined): string {
   return side ? ` but slips ${side}` : ' but ends up elsewhere';
 }
 
+// Whether nothing is different after a step.
+const isStaying = (frame: Frame, next: Frame | undefined): boolean =>
+  next !== undefined && JSON.stringify({ ...frame, action: null }) === JSON.stringify({ ...next, action: null });
+
 // What a frame's action does, with what the robot carries: "it goes left, carrying the parcel".
 function moveText(frame: Frame, next: Frame | undefined): string {
   const trouble = mishap(frame, next);
   if (trouble) return `it tries to go ${frame.action ?? ''}${trouble}`;
   const carried = (frame.items ?? []).filter((item) => item.carried).map((item) => item.name);
   const load = carried.length > 0 && frame.action !== 'dropoff' ? `, carrying ${withArticle(carried)}` : '';
-  return `it ${actionWords(frame.action ?? '')}${load}`;
+  return `it ${actionWords(frame.action ?? '')}${isStaying(frame, next) ? ' and stays where it is' : load}`;
+}
+
+// What is behind the last step that is shown: "The end." A path that never ends is told so.
+export function endText({ repeats_from, repeats_text }: Pick<Path, 'repeats_from' | 'repeats_text'>, isCutOff = false): string {
+  if (repeats_from !== undefined) return repeats_text ? `And so on: ${repeats_text}.` : 'And so on, for ever.';
+  return isCutOff ? 'It goes on.' : 'The end.';
 }
 
 // The step that has just been made: "Step 2 of 7: it goes left." Nothing is told before the robot moves.
-export function stepText(frames: Frame[], step: number, isCutOff = false): string {
+export function stepText(frames: Frame[], step: number, end: string): string {
   const steps = frames.length - 1;
   const before = frames[step - 1];
-  if (!before?.action) return step === 0 ? 'The robot has not moved yet.' : `After ${counted(steps, 'step')}: the end.`;
-  return `Step ${step} of ${steps}: ${moveText(before, frames[step])}.${step === steps ? (isCutOff ? ' It goes on.' : ' The end.') : ''}`;
+  if (!before?.action) return step === 0 ? 'The robot has not moved yet.' : `After ${counted(steps, 'step')}. ${end}`;
+  return `Step ${step} of ${steps}: ${moveText(before, frames[step])}.${step === steps ? ` ${end}` : ''}`;
 }
 
 // The step that begins with a frame, for those who do not see the board: "At column 3, row 1 it goes left."
 export const placedStepText = (frame: Frame, next?: Frame): string => `${upperFirst(placeOf(frame))} ${moveText(frame, next)}.`;
 
-// "up, left 3 times": actions with repetitions counted.
-export function actionsText(frames: Frame[]): string {
+// "up, left 3 times": actions with repetitions counted; "up; then again and again: left, right" where they never end.
+export function actionsText({ frames, repeats_from }: Path): string {
+  if (repeats_from === undefined) return namesText(frames);
+  const round = `again and again: ${namesText(frames.slice(repeats_from))}`;
+  return repeats_from === 0 ? round : `${namesText(frames.slice(0, repeats_from))}; then ${round}`;
+}
+
+function namesText(frames: Frame[]): string {
   const actions = frames.flatMap((frame) => (frame.action ? [frame.action] : []));
   const runs: { action: string; n: number }[] = [];
   for (const action of actions) {

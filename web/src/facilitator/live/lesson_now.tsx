@@ -2,9 +2,10 @@
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useState } from 'preact/hooks';
 import { Player } from '../../lesson/player';
-import { actionsText, placedStepText } from '../../lesson/words';
+import { actionsText, endText, placedStepText } from '../../lesson/words';
 import { BoardView as BoardDrawing } from '../../shared/board/board';
 import { Patterns } from '../../shared/board/glyphs';
+import { closedAt, played } from '../../shared/board/repeats';
 import { Legend } from '../../shared/board/legend';
 import type { Board, MapDomain } from '../../shared/board/types';
 import { useCalm, usePlayback } from '../../shared/playback';
@@ -78,8 +79,9 @@ export function LessonPanel({ lesson, period }: { lesson: LessonNow | undefined;
 function Shown({ choice }: { choice: Choice }): JSX.Element {
   const { shown, isTest } = choice;
   const { domain, legend } = useDrawing(shown.board);
-  const playback = usePlayback(shown.frames.length - 1);
-  const board = asBoard(shown.board, shown.frames);
+  const frames = played(shown);
+  const playback = usePlayback(frames.length - 1);
+  const board = asBoard(shown.board, frames);
   const isTall = (domain.height ?? 0) > 1.2 * (domain.width ?? 1);
   const calm = useCalm();
   useLayoutEffect(() => {
@@ -95,8 +97,9 @@ function Shown({ choice }: { choice: Choice }): JSX.Element {
             legend={legend}
             board={board}
             step={playback.step}
-            label={`${choice.label}: the robot's path: ${actionsText(shown.frames)}.`}
+            label={`${choice.label}: the robot's path: ${actionsText(shown)}.`}
             path
+            closedAt={closedAt(shown)}
           />
         ) : (
           <ol class="steps">
@@ -105,7 +108,7 @@ function Shown({ choice }: { choice: Choice }): JSX.Element {
             ))}
           </ol>
         )}
-        {board.map && <Player frames={shown.frames} playback={playback} what={choice.label} />}
+        {board.map && <Player frames={frames} playback={playback} what={choice.label} end={endText(shown)} />}
       </div>
       <div class="shown-facts">
         {shown.gain !== undefined && !isTest && (

@@ -1,7 +1,7 @@
 // A map with what is on it, the paths, and the robot at one step.
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
-import { centre, kMargin, kUnit, lineOf, type Attempt } from './geometry';
+import { centre, kMargin, kUnit, lineOf, type Attempt, type Point } from './geometry';
 import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
 import type { Legend } from './legend';
 import { OverviewMap } from './overview';
@@ -22,7 +22,9 @@ export interface BoardProps {
   kind?: 'own' | 'other'; // how it is drawn, 'own' unless said otherwise
   fill?: boolean; // as large as its place allows
   walked?: number; // steps of the longer path that have been walked; the robot's step if absent
+  closedAt?: number | undefined; // the step with which the path closes a cycle; it is drawn as far as that
   other?: Frame[]; // the path that somebody might expect
+  otherClosedAt?: number | undefined;
   decisive?: { frame: number; cell?: Place } | null;
   texts?: WindowTexts; // if present, small cells are enlarged, and a window shows a part of the map
   hasArrows?: boolean; // the arrow keys do something else, and move the window only together with Shift
@@ -38,16 +40,16 @@ export function BoardView(props: BoardProps): JSX.Element {
   const frame = board.frames[step] ?? board.start;
   const size = props.fill ? {} : { style: { maxWidth: `${isLarge ? width : width * 1.45}px` } };
   const kind = props.kind ?? 'own';
-  const own = path && step > 0 ? board.frames.slice(0, step + 1) : [];
+  const own = path && step > 0 ? board.frames.slice(0, Math.min(step, props.closedAt ?? step) + 1) : [];
   const first = decisive?.frame ?? 0;
   const ground = useMemo(() => <Ground domain={domain} legend={props.legend} board={board} />, [domain, props.legend, board.map, board.fences]);
-  const others = other && walked > first ? other.slice(0, walked + 1) : [];
+  const others = other && walked > first ? other.slice(0, Math.min(walked, props.otherClosedAt ?? walked) + 1) : [];
   const drawing = (
     <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} role="img" aria-label={label}>
       {ground}
       {decisive?.cell && walked > decisive.frame && <Decisive cell={decisive.cell} />}
-      {others.length > 0 && <Way frames={others} first={first} lane={kOtherLane} kind="other" />}
-      {own.length > 0 && <Way frames={own} first={0} lane={kRobotLane} kind={kind} />}
+      {others.length > 0 && <Way frames={others} first={first} lane={kOtherLane} kind="other" closedAt={props.otherClosedAt} />}
+      {own.length > 0 && <Way frames={own} first={0} lane={kRobotLane} kind={kind} closedAt={props.closedAt} />}
       <Things {...props} frame={frame} />
       {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} />}
       <Mover frame={frame} legend={props.legend} />
@@ -155,7 +157,16 @@ function Decisive({ cell }: { cell: Place }): JSX.Element {
   return <rect class="decisive" x={x - half} y={y - half} width={2 * half} height={2 * half} rx={4} />;
 }
 
-function Way({ frames, first, lane, kind }: { frames: Frame[]; first: number; lane: number; kind: string }) {
+interface WayProps {
+  frames: Frame[];
+  first: number;
+  lane: number;
+  kind: string;
+  closedAt: number | undefined;
+}
+
+function Way({ frames, first, lane, kind, closedAt }: WayProps): JSX.Element {
+  const closed = closedAt === frames.length - 1 ? frames[closedAt]?.robot : undefined;
   const { points, arrows, attempts, stops } = lineOf(frames, first, lane);
   const line = points.map(({ x, y }) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
   return (
@@ -171,6 +182,18 @@ function Way({ frames, first, lane, kind }: { frames: Frame[]; first: number; la
       {stops.map(({ x, y }) => (
         <circle class="stop" cx={x} cy={y} r={17} />
       ))}
+      {closed && <Round at={centre(closed)} />}
+    </g>
+  );
+}
+
+// An arrow that bends back to where it begins: from here on again and again.
+function Round({ at: { x, y } }: { at: Point }): JSX.Element {
+  return (
+    <g class="round" transform={`translate(${x + 12} ${y - 12})`}>
+      <circle class="ground" r={8} />
+      <path class="line" d="M5 0A5 5 0 1 1 2.5 -4.3" />
+      <path class="head" d="M2 -8L7 -2.5L-0.5 -1.5Z" />
     </g>
   );
 }

@@ -28,13 +28,20 @@ export interface Frame {
   action?: string | null; // that follows; null in the last frame
 }
 
-export interface Board {
+// Where a robot goes. A path that never ends is a way in and a cycle, once: its last frame shows frame `repeats_from`
+// again, and `repeats_text` is what that means, in English ("it never delivers the parcel").
+export interface Path {
+  frames: Frame[];
+  repeats_from?: number;
+  repeats_text?: string;
+}
+
+export interface Board extends Path {
   world: number;
   map?: string[]; // absent where the domain has none
   fences?: [Place, Place][]; // neighbouring cells with a wall between them
   world_name?: string; // what the world is called, where a picture does not tell all of it
   start: Frame;
-  frames: Frame[];
 }
 
 // How a terrain is drawn: no two are drawn alike.
@@ -48,7 +55,7 @@ export interface Surface {
 export interface MapDomain {
   id: string;
   legend?: LegendEntry[];
+  surfaces?: Surface[];
   width?: number;
   height?: number;
 }
-  surfaces?: Surface[];
