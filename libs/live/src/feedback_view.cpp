@@ -123,9 +123,17 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
     }
     tests.push_back(std::move(entry));
   }
+  const auto& all_correct = past.feedback.all_correct;
+  bool others_unsure = false;  // somebody else answered otherwise: why the group goes on for those who were right
+  for (std::size_t m = 0; m < all_correct.size(); ++m) {
+    others_unsure = others_unsure || (m != *seat.member && !past.feedback.verdicts[m].empty() && !all_correct[m]);
+  }
+  const bool all_right = all_correct[*seat.member];
+  const bool learned = past.feedback.component_learned;
   return {{"tests", tests},
-          {"all_right", bool{past.feedback.all_correct[*seat.member]}},
-          {"learned", past.feedback.component_learned}};
+          {"all_right", all_right},
+          {"learned", learned},
+          {"others_unsure", all_right && !learned && others_unsure}};
 }
 
 }  // namespace kith

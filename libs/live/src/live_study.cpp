@@ -106,7 +106,7 @@ std::shared_ptr<const Atlas> with_answerable_tests(std::shared_ptr<const Atlas> 
   if (has_tests(*atlas) && !has_tests(*answerable)) {
     throw Error{ErrorKind::kInfeasible, "people cannot be asked about domain '" + atlas->domain().id() +
                                             "': from no start do the robot's likeliest steps lead to the end within " +
-                                            std::to_string(kMaxAnswerActions) + " steps"};
+                                            std::to_string(max_answer_actions(atlas->domain())) + " steps"};
   }
   return answerable;
 }
@@ -150,6 +150,18 @@ std::vector<DemoIndex> draw_screening(const Atlas& atlas, std::size_t n, RandomS
     if (!left.empty()) chosen.push_back(left[uniform_index(left.size(), random)]);
   }
   return chosen;
+}
+
+// At least one group that can be taught.
+void require_cells(const LiveStudy& study) {
+  if (!live_cells(study).empty()) return;
+  throw Error{ErrorKind::kInvalidInput,
+              "this study has no group that people can be taught in: its only strategy, 'baseline', teaches one person "
+              "at a time, and every composition has more. Add a composition of one learner to 'compositions' of "
+              "[design], such as \"" +
+                  study.spec.compositions.front().substr(0, 1) +
+                  "\" (and let 'size' of [group] allow it), or another "
+                  "strategy to 'strategies'"};
 }
 
 // Nobody must wait for a place that cannot exist.
@@ -204,12 +216,13 @@ std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared
                                             " different tests for a screening of " +
                                             std::to_string(group.screening.tests)};
   }
-  std::string identity = atlas->domain().id();
+  std::string identity = atlas->domain().id() + '/' + std::to_string(max_answer_actions(atlas->domain()));
   for (MdpIndex m{0}; m.value() < atlas->domain().num_mdps(); ++m) {
     identity += '/' + std::to_string(atlas->domain().mdp(m).num_states()) + atlas->domain().describe_variant(m);
   }
   live->key = sha256(identity).substr(0, 8);
   live->atlas = std::move(atlas);
+  require_cells(*live);
   require_places(*live);
   if (live->spec.forecast_sessions > 0) {
     TeachingCache cache{live->atlas};

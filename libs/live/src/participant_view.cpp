@@ -203,7 +203,6 @@ class ParticipantPage {
             {"size", size},
             {"since_ms", in_ms(seat_.ready_us)},
             {"leave_after_ms", in_ms(leave_us)},
-            {"can_leave", now_us_ >= leave_us},
             {"reserve", !seat_.member && !room_.setup.is_waiting_list}};
   }
 
@@ -256,11 +255,10 @@ class ParticipantPage {
   }
 
   [[nodiscard]] Json debrief() const {
-    Json json{{"summary", learned_sentences(room_)},
-              {"code", code()},
-              {"rounds", num_periods(state_)},
-              {"right", seat_.right},
-              {"tests", seat_.tests}};
+    const auto robot = robot_in_words(room_);
+    Json json{{"summary", robot.taught}, {"not_reached", robot.not_reached},
+              {"code", code()},          {"rounds", num_periods(state_)},
+              {"right", seat_.right},    {"tests", seat_.tests}};
     if (auto redirect = redirect_json(room_.study, code(), seat_.query); !redirect.is_null()) {
       json["redirect"] = std::move(redirect);
     }

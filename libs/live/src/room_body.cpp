@@ -48,7 +48,7 @@ std::optional<std::string> text_in(const Json& body, std::string_view key, std::
 
 std::optional<std::vector<std::size_t>> actions_in(const Json& body) {
   const auto* list = member_of(body, "actions");
-  if (list == nullptr || !list->is_array() || list->size() > kMaxAnswerActions) return std::nullopt;
+  if (list == nullptr || !list->is_array()) return std::nullopt;
   std::vector<std::size_t> actions;
   for (const auto& element : *list) {
     if (!element.is_number_integer() || element.get<std::int64_t>() < 0 || element.get<std::int64_t>() > 1000)

@@ -24,7 +24,7 @@ namespace kith {
 /// A member that is a string of at most `max` bytes of valid UTF-8 without control characters but line breaks.
 [[nodiscard]] std::optional<std::string> text_in(const Json& body, std::string_view key, std::size_t max);
 [[nodiscard]] bool is_clean_text(const std::string& text, std::size_t max);
-/// `actions`: a list of at most kMaxAnswerActions small numbers.
+/// `actions`: a list of small numbers, as long as a message may be.
 [[nodiscard]] std::optional<std::vector<std::size_t>> actions_in(const Json& body);
 /// A member that is true or false; a missing one is false.
 [[nodiscard]] std::optional<bool> flag_in(const Json& body, std::string_view key);

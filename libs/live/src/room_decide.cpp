@@ -81,7 +81,7 @@ class SeatDecider {
     if (seat_.readiness != Readiness::kScreening || number != seat_.screened.size()) return not_now();
     const auto& atlas = *room_.study.atlas;
     const auto judged = judged_path(atlas, room_.study.screening[number], *actions, *for_ever);
-    if (!judged.is_legal) return illegal();
+    if (!judged.is_legal) return illegal(judged);
     Json body{{"test", number},
               {"actions", *actions},
               {"right", is_as_good(atlas, room_.study.screening[number], judged.counts)},
@@ -90,7 +90,12 @@ class SeatDecider {
     return accepted("screened", std::move(body));
   }
 
-  [[nodiscard]] static Decision illegal() {
+  [[nodiscard]] Decision illegal(const JudgedPath& judged) const {
+    if (judged.is_too_long) {
+      return refused("too-long", "A path has at most " +
+                                     std::to_string(max_answer_actions(room_.study.atlas->domain())) +
+                                     " moves. Please undo some of yours and submit it again.");
+    }
     return refused("illegal-path", "The robot cannot move like this. Please reset the path and try again.");
   }
 
@@ -106,6 +111,10 @@ class SeatDecider {
     return accepted("watched", {{"demo", number}});
   }
 
+  [[nodiscard]] JudgedPath judged_at(std::size_t test, const std::vector<std::size_t>& actions, bool for_ever) const {
+    return judged_path(*room_.study.atlas, state_.session->lesson().tests[test].demo, actions, for_ever);
+  }
+
   [[nodiscard]] Decision draft() const {
     const auto test = integer_in(command_.body, "test", 0, 1000);
     const auto actions = actions_in(command_.body);
@@ -114,8 +123,7 @@ class SeatDecider {
     const auto number = static_cast<std::size_t>(*test);
     if (number != current_test(seat_)) return nothing_to_do();
     if (*actions == seat_.draft) return nothing_to_do();
-    if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions).is_legal)
-      return illegal();
+    if (const auto judged = judged_at(number, *actions, false); !judged.is_legal) return illegal(judged);
     return accepted("draft", {{"test", number}, {"actions", *actions}});
   }
 
@@ -136,8 +144,7 @@ class SeatDecider {
     if (was_given) return refused("already-answered", "You have already answered this question.");
     if (seat_.has_answered) return too_late();
     if (number != current_test(seat_)) return not_now();
-    if (!judged_path(*room_.study.atlas, state_.session->lesson().tests[number].demo, *actions, *for_ever).is_legal)
-      return illegal();
+    if (const auto judged = judged_at(number, *actions, *for_ever); !judged.is_legal) return illegal(judged);
     Json body{{"test", number}, {"actions", *actions}, {"keys", *keys}, {"ms", *ms}};
     if (*for_ever) body["for_ever"] = true;
     return accepted("answered", std::move(body));

@@ -12,7 +12,6 @@ namespace kith {
 namespace {
 
 constexpr std::size_t kNumPoints = 300;
-constexpr std::size_t kMostSummary = 8;  // sentences
 
 // Points drawn evenly by weight, always the same ones.
 std::string points_text(const ParticleBelief& belief) {
@@ -50,18 +49,28 @@ const Lesson* last_lesson(const Room::State& state) {
   return history.empty() ? nullptr : &history.back().lesson;
 }
 
-std::vector<std::string> learned_sentences(const RoomParts& room) {
-  if (room.state.summary) return room.state.summary->learned;
-  std::vector<std::string> sentences;
-  for (const auto& past : room.state.session->history()) {
-    if (!past.feedback.component_learned) continue;
-    for (const auto& words : all_in_words(room.study.atlas->domain(), past.lesson.taught)) {
-      auto text = sentence(words);
-      if (std::find(sentences.begin(), sentences.end(), text) == sentences.end() && sentences.size() < kMostSummary)
-        sentences.push_back(std::move(text));
+RobotInWords robot_in_words(const RoomParts& room) {
+  if (room.state.summary) return room.state.summary->robot;
+  const auto& atlas = *room.study.atlas;
+  const auto& components = atlas.knowledge_components();
+  std::vector<bool> is_taught(components.size(), false);
+  for (const auto& past : room.state.session->history()) is_taught[past.lesson.component] = true;
+  RobotInWords words;
+  std::vector<std::string> said;
+  for (const bool taught : {true, false}) {
+    std::vector<HalfSpace> constraints;
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      if (is_taught[k] != taught) continue;
+      const auto own = atlas.constraints().half_spaces(components[k].constraints.without(atlas.prior()));
+      constraints.insert(constraints.end(), own.begin(), own.end());
+    }
+    for (auto& text : all_in_words(atlas.domain(), constraints)) {
+      if (std::find(said.begin(), said.end(), text) != said.end()) continue;
+      (taught ? words.taught : words.not_reached).push_back(sentence(text));
+      said.push_back(std::move(text));
     }
   }
-  return sentences;
+  return words;
 }
 
 std::vector<std::pair<std::string, std::string>> belief_points(const RoomParts& room) {
@@ -86,7 +95,7 @@ Room::State released_state(const RoomParts& room) {
   summary.periods = num_periods(state);
   summary.components.assign(components.begin(), components.end());
   if (const auto* lesson = last_lesson(state)) summary.last_lesson = *lesson;
-  summary.learned = learned_sentences(room);
+  summary.robot = robot_in_words(room);
   summary.beliefs = belief_points(room);
   summary.digest = digest_of(*state.session);
   if (state.before) summary.digest_before = digest_of(*state.before);

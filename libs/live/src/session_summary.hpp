@@ -10,13 +10,19 @@
 
 namespace kith {
 
+/// What the robot is like, one sentence for each constraint, for the last page.
+struct RobotInWords {
+  std::vector<std::string> taught;       ///< Of the components that the group had lessons about.
+  std::vector<std::string> not_reached;  ///< Of the others.
+};
+
 /// What pages and digests need of a session when teaching is over. A few kilobytes, where a session has hundreds.
 struct SessionSummary {
   std::string strategy;
   std::size_t periods = 0;
   std::vector<ComponentStatus> components;
   std::optional<Lesson> last_lesson;                         ///< Of the last period.
-  std::vector<std::string> learned;                          ///< See learned_sentences().
+  RobotInWords robot;                                        ///< See robot_in_words().
   std::vector<std::pair<std::string, std::string>> beliefs;  ///< See belief_points().
   std::vector<bool> has_learner;                             ///< By member: whether it was simulated at the end.
   std::string digest;
@@ -36,8 +42,7 @@ struct SessionSummary {
 [[nodiscard]] std::span<const ComponentStatus> components_of(const Room::State& state);
 /// The lesson of the last completed period; null if there is none.
 [[nodiscard]] const Lesson* last_lesson(const Room::State& state);
-/// What the group has learned, one sentence each, for the last page.
-[[nodiscard]] std::vector<std::string> learned_sentences(const RoomParts& room);
+[[nodiscard]] RobotInWords robot_in_words(const RoomParts& room);
 /// Particles of the beliefs about the members and of the aggregated ones, by name: int16 little endian x, y, z in
 /// base64. Empty for a waiting list and for rewards of more or fewer than three weights.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> belief_points(const RoomParts& room);

@@ -56,6 +56,7 @@ class WorldTable {
     table["end"] = std::move(end);
     table["chance"] = !mdp_.is_deterministic();
     table["may_repeat"] = mdp_.discount() < 1.0;
+    table["max_actions"] = max_answer_actions(domain_);
     return table;
   }
 
@@ -212,6 +213,11 @@ bool does_as_the_robot(const Atlas& atlas, MdpIndex world, const Trajectory& pat
 
 }  // namespace
 
+std::size_t max_answer_actions(const Domain& domain) {
+  constexpr std::size_t kMost = 500;  // so that an answer with its key presses fits into a message
+  return std::min(kMost, domain.max_steps());
+}
+
 std::string world_key(const LiveStudy& study, MdpIndex world) {
   return study.key + "-" + std::to_string(world.value());
 }
@@ -241,11 +247,12 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
   const auto& mdp = domain.mdp(world);
   JudgedPath judged;
   judged.path.states.push_back(start);
-  const auto most = std::min(kMaxAnswerActions, domain.max_steps());
+  const auto most = max_answer_actions(domain);
   for (const auto action : actions) {
     const auto here = judged.path.states.back();
-    const auto* choice = mdp.is_terminal(here) || judged.legal == most ? nullptr : choice_of(mdp, here, action);
-    if (choice == nullptr) {
+    const auto* choice = mdp.is_terminal(here) ? nullptr : choice_of(mdp, here, action);
+    judged.is_too_long = choice != nullptr && judged.legal == most;
+    if (choice == nullptr || judged.is_too_long) {
       judged.is_legal = false;
       break;
     }
@@ -282,7 +289,7 @@ JudgedPath judged_path(const Atlas& atlas, DemoIndex test, std::span<const std::
 std::optional<Trajectory> answerable_path(const Atlas& atlas, DemoIndex test) {
   const auto [world, start] = atlas.id(test);
   const auto& mdp = atlas.domain().mdp(world);
-  const auto most = std::min(kMaxAnswerActions, atlas.domain().max_steps());
+  const auto most = max_answer_actions(atlas.domain());
   if (mdp.is_deterministic()) {
     auto path = atlas.trajectory(test);
     return path.actions.size() <= most ? std::optional{std::move(path)} : std::nullopt;

@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <set>
+
 #include "kith/core/error.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/live/screening.hpp"
 #include "live_play.hpp"
 
@@ -74,6 +78,8 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   EXPECT_EQ(good["all_right"], true);
   EXPECT_EQ(bad["all_right"], false);
   EXPECT_EQ(good["learned"], false);
+  EXPECT_EQ(good["others_unsure"], true) << "why the group goes on";
+  EXPECT_EQ(bad["others_unsure"], false) << "the own answer is reason enough";
   EXPECT_EQ(good["tests"][0]["right"], true);
   EXPECT_FALSE(good["tests"][0]["why"].empty());
   EXPECT_EQ(good["tests"][0]["differs_at"], nullptr);
@@ -96,6 +102,7 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   EXPECT_THAT(debrief["code"].get<std::string>(), ::testing::StartsWith("LAB-"));
   EXPECT_EQ(debrief["redirect"], "https://example.org/done?cc=" + debrief["code"].get<std::string>() + "&pid=p%201");
   EXPECT_FALSE(debrief["summary"].empty());
+  EXPECT_TRUE(debrief["not_reached"].empty());
   EXPECT_LT(debrief["right"], debrief["tests"]);
   for (const std::size_t i : {1u, 3u}) EXPECT_EQ(play.seat(i, "questions", {{"answers", {{"clear", 1}}}}), "");
   EXPECT_EQ(play.room().stage(), RoomStage::kEnded);
@@ -161,6 +168,107 @@ TEST(Room, AcceptsARepeatedMessageWithoutAnEvent) {
   EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", path}, {"ms", 1}}), "");
   EXPECT_EQ(play.events().size(), after);
   EXPECT_EQ(play.seat(1, "answer", {{"test", 0}, {"actions", Json::array()}, {"ms", 1}}), "already-answered");
+}
+
+// A page lets nobody drive that far; a program that does is told the true reason.
+TEST(Room, RefusesAPathThatIsTooLongForWhatItIs) {
+  Play play{live_study()};
+  play.start(3);
+  for (std::size_t i = 1; i <= 3; ++i) play.watch(i);
+  const auto& study = play.study();
+  const auto most = max_answer_actions(study.atlas->domain());
+  const auto id = study.atlas->id(play.room().session().lesson().tests.front().demo);
+  const auto next = world_json(study, id.mdp).at("next");
+  // There and back again: up and down, or left and right.
+  std::vector<std::size_t> back_and_forth;
+  const auto start = id.start.value();
+  for (std::size_t a = 0; a < next[start].size() && back_and_forth.empty(); ++a) {
+    if (next[start][a] < 0) continue;
+    const auto there = next[start][a].get<std::size_t>();
+    for (std::size_t b = 0; b < next[there].size(); ++b) {
+      if (next[there][b] == start) back_and_forth = {a, b};
+    }
+  }
+  ASSERT_FALSE(back_and_forth.empty());
+  for (const auto n : {most + 1, std::size_t{501}, std::size_t{2000}}) {
+    std::vector<std::size_t> actions;
+    for (std::size_t i = 0; i < n; ++i) actions.push_back(back_and_forth[i % 2]);
+    const Json body{{"test", 0}, {"actions", actions}, {"ms", 1}};
+    for (const auto* type : {"answer", "draft"}) {
+      const auto decision = play.room().decide({"seat:1", type, body, "id"}, play.now());
+      ASSERT_TRUE(decision.refusal) << n;
+      EXPECT_EQ(decision.refusal->reason, "too-long");
+      EXPECT_THAT(decision.refusal->text, HasSubstr("at most " + std::to_string(most) + " moves"));
+    }
+    actions.resize(most);
+    EXPECT_FALSE(
+        play.room().decide({"seat:1", "draft", {{"test", 0}, {"actions", actions}}, "id"}, play.now()).refusal);
+  }
+}
+
+// The last page says all of a component that was taught, however many periods it took, and apart from it what the
+// group did not get to.
+TEST(Room, TellsAtTheEndAllThatWasTaughtAndWhatWasNot) {
+  const auto sentences_of = [](const Atlas& atlas, std::size_t component) {
+    const auto& constraints = atlas.knowledge_components()[component].constraints;
+    std::set<std::string> texts;
+    for (auto& text :
+         all_in_words(atlas.domain(), atlas.constraints().half_spaces(constraints.without(atlas.prior())))) {
+      text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+      texts.insert(text + ".");
+    }
+    return texts;
+  };
+  const auto as_set = [](const Json& list) { return list.get<std::set<std::string>>(); };
+  for (const bool is_whole : {true, false}) {
+    Play play{live_study("[group]\ntime = { max_minutes = 60 }\n")};
+    play.start(3);
+    if (is_whole) {
+      play.play_on({1, 2, 3});
+    } else {  // time is up during the first component
+      for (std::size_t i = 1; i <= 3; ++i) play.act(i, true);
+      for (std::size_t i = 1; i <= 3; ++i) play.act(i, false);
+      for (std::size_t i = 1; i <= 3; ++i) play.act(i, true);
+      play.wait(3700);
+    }
+    const auto& atlas = *play.study().atlas;
+    const auto debrief = page(play, 1)["debrief"];
+    std::set<std::string> taught, all;
+    for (std::size_t k = 0; k < atlas.knowledge_components().size(); ++k) {
+      const auto own = sentences_of(atlas, k);
+      all.insert(own.begin(), own.end());
+      if (is_whole || k == 0) taught.insert(own.begin(), own.end());
+    }
+    EXPECT_EQ(as_set(debrief["summary"]), taught) << is_whole;
+    auto both = as_set(debrief["summary"]);
+    for (const auto& text : debrief["not_reached"]) EXPECT_TRUE(both.insert(text.get<std::string>()).second) << text;
+    EXPECT_EQ(both, all);
+    EXPECT_EQ(debrief["not_reached"].empty(), is_whole);
+  }
+}
+
+TEST(LiveStudy, RefusesADesignOfWhichNoGroupCanBeTaught) {
+  const auto with = [](const std::string& compositions, const std::string& group) {
+    auto text = testing::kLiveStudy + group;
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
+    replace("[\"common\", \"joint\", \"individual-low\", \"baseline\"]", "[\"baseline\"]");
+    replace("[\"NNP\", \"NN\", \"N\"]", compositions);
+    const auto reading = parse_study(text, "live.toml");
+    return make_live_study(*reading.study, testing::atlas_of("item-delivery"));
+  };
+  EXPECT_EQ(live_cells(*with("[\"N\", \"P\"]", "")).size(), 2u);
+  for (const auto& [compositions, group] :
+       {std::pair{"[\"NN\", \"NNP\"]", ""}, std::pair{"[\"N\"]", "[group]\nsize = 2\n"}}) {
+    try {
+      (void)with(compositions, group);
+      ADD_FAILURE() << compositions;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+      EXPECT_THAT(error.what(), HasSubstr("Add a composition of one learner"));
+    }
+  }
 }
 
 // What people can send and what they are told.

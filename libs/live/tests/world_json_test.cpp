@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kith/core/error.hpp"
+#include "kith/random/distributions.hpp"
 #include "live_play.hpp"
 
 namespace kith {
@@ -48,7 +49,7 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
     const auto robot = expected_path(atlas, demo);
     std::vector<std::size_t> actions;
     for (const auto action : robot.actions) actions.push_back(action.value());
-    if (actions.size() > kMaxAnswerActions) continue;
+    if (actions.size() > max_answer_actions(atlas.domain())) continue;
     const auto judged = judged_path(atlas, demo, actions);
     if (!judged.is_finished || !judged.is_legal) {  // with chance the likeliest steps may lead round in a circle
       ASSERT_FALSE(atlas.domain().mdp(atlas.id(demo).mdp).is_deterministic());
@@ -87,6 +88,41 @@ TEST_P(WorldTables, JudgeTheRobotsOwnPathAsRight) {
   }
   EXPECT_GT(others, 20u);
   EXPECT_LT(circles, 10u);
+}
+
+// Whatever a page lets somebody drive is legal, and what is longer is refused for being too long and for nothing else.
+TEST_P(WorldTables, TellPagesHowLongAPathMayBe) {
+  const auto study = live_study({}, GetParam());
+  const auto& atlas = *study->atlas;
+  auto random = RandomStream{5}.split("walks");
+  std::size_t longest = 0;
+  for (int walk = 0; walk < 20; ++walk) {
+    const DemoIndex demo{uniform_index(atlas.num_demos(), random)};
+    const auto world = atlas.id(demo).mdp;
+    const auto table = world_json(*study, world);
+    const auto most = table.at("max_actions").get<std::size_t>();
+    ASSERT_EQ(most, std::min<std::size_t>(500, atlas.domain().max_steps()));
+    std::vector<std::size_t> path;
+    auto state = world_state(*study, world, atlas.id(demo).start).value();
+    while (path.size() <= most) {
+      std::vector<std::size_t> possible, before_the_end;
+      const auto& next = table["next"][state];
+      for (std::size_t action = 0; action < next.size(); ++action) {
+        if (next[action] < 0) continue;
+        possible.push_back(action);
+        if (!table["end"][next[action].get<std::size_t>()].get<bool>()) before_the_end.push_back(action);
+      }
+      const auto& choice = before_the_end.empty() ? possible : before_the_end;
+      if (choice.empty()) break;
+      path.push_back(choice[uniform_index(choice.size(), random)]);
+      state = next[path.back()].get<std::size_t>();
+      const auto judged = judged_path(atlas, demo, path);
+      ASSERT_EQ(judged.is_legal, path.size() <= most);
+      ASSERT_EQ(judged.is_too_long, path.size() > most);
+    }
+    longest = std::max(longest, path.size());
+  }
+  EXPECT_GT(longest, 40u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Domains, WorldTables,

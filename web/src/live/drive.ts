@@ -6,10 +6,9 @@ import { keep, recall } from './storage';
 import type { World } from './world';
 
 const kDraftMs = 2000; // at most one draft per
-const kMostActions = 500; // the server accepts no more
 const kMostKeys = 800; // a message has at most 16 KiB
 
-export type Outcome = 'done' | 'blocked' | 'end' | 'full';
+export type Outcome = 'done' | 'undone' | 'blocked' | 'end' | 'full';
 
 interface Kept {
   key: string;
@@ -32,7 +31,8 @@ export interface Drive {
   frames: Frame[];
   state: number;
   isAtEnd: boolean;
-  isFull: boolean;
+  left: number; // how many more actions the server accepts
+  repeatsFrom: number | null; // when the path was last in the state in which it is now, where it may go on for ever
   act: (action: number) => Outcome;
   goTo: (cell: Place) => Outcome | 'none';
   undo: () => void;
@@ -67,14 +67,24 @@ export function useDrive({ world, start, draft, key, onDraft }: Options): Drive 
     const done: number[] = [];
     for (const action of taken) {
       const next = world.after(state, action);
-      if (next === null || latest.current.length + done.length >= kMostActions) break;
+      if (next === null || latest.current.length + done.length >= world.maxActions) break;
       done.push(action);
       state = next;
     }
     if (done.length > 0) change([...latest.current, ...done], done);
     if (done.length === taken.length) return 'done';
-    if (latest.current.length >= kMostActions) return 'full';
+    if (latest.current.length >= world.maxActions) return 'full';
     return world.isEnd(state) ? 'end' : 'blocked';
+  };
+  // Picking up and putting down again at once, as a double click does, leaves no trace: whoever means it, or could mean
+  // it because the robot may do so for ever, says it in more than one way.
+  const isTakenBack = (action: number): boolean => {
+    const last = latest.current.at(-1);
+    if (last === undefined || world.mayRepeat || !world.isHandling(last) || !world.isHandling(action)) return false;
+    return world.after(now(), action) === world.walk(start, latest.current).at(-2);
+  };
+  const undo = (): void => {
+    if (latest.current.length > 0) change(latest.current.slice(0, -1), ['undo']);
   };
 
   return {
@@ -82,21 +92,30 @@ export function useDrive({ world, start, draft, key, onDraft }: Options): Drive 
     frames: world.frames(states, actions),
     state: states.at(-1) ?? start,
     isAtEnd: world.isEnd(states.at(-1) ?? start),
-    isFull: actions.length >= kMostActions,
-    act: (action) => take([action]),
+    left: world.maxActions - actions.length,
+    repeatsFrom: world.mayRepeat ? earlier(states) : null,
+    act: (action) => {
+      if (!isTakenBack(action)) return take([action]);
+      undo();
+      return 'undone';
+    },
     goTo: (cell) => {
       const route = world.isEnd(now()) ? null : world.route(now(), cell);
       return route === null ? 'none' : take(route);
     },
-    undo: () => {
-      if (latest.current.length > 0) change(latest.current.slice(0, -1), ['undo']);
-    },
+    undo,
     reset: () => {
       if (latest.current.length > 0) change([], ['reset']);
     },
     keys: () => keys.current,
     ms,
   };
+}
+
+// When a path was last in its present state; null: never.
+function earlier(states: number[]): number | null {
+  const found = states.slice(0, -1).lastIndexOf(states.at(-1) ?? -1);
+  return found < 0 ? null : found;
 }
 
 // What this tab remembers of the task. The server's draft counts if it comes from another tab or computer, where

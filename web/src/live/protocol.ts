@@ -1,5 +1,5 @@
 // What the server sends to participants and what they send to it.
-import type { Frame, MapDomain, Place } from '../shared/board/types';
+import type { Frame, MapDomain, Path, Place } from '../shared/board/types';
 
 export type { Frame } from '../shared/board/types';
 
@@ -49,7 +49,11 @@ export interface Judged {
   board: LiveBoard;
   right: boolean;
   mine: Frame[] | null;
+  mine_repeats_from?: number; // as in a Path
+  mine_repeats_text?: string;
   robot: Frame[];
+  robot_repeats_from?: number;
+  robot_repeats_text?: string;
   differs_at: number | null;
   unfinished: boolean; // the prediction ends before the robot has finished
   why: string[];
@@ -90,22 +94,23 @@ export interface ParticipantView {
     present: number;
     size: number;
     since_ms: number;
-    leave_after_ms: number; // when one may leave
-    can_leave: boolean;
+    leave_after_ms: number; // from when on one may leave
     reserve?: boolean; // the seats are taken; who waits gets one that becomes free
     until_ms?: number;
   };
   progress?: { part: number; round: number; done: number };
-  watch?: { index: number; of: number; board: LiveBoard; frames: Frame[]; runs?: Runs };
+  watch?: { index: number; of: number; board: LiveBoard; runs?: Runs } & Path;
   predict?: Task;
   wait?: {
     for: 'answers' | 'others-watching' | 'teacher' | 'feedback' | 'joining' | 'rejoining';
     missing: number;
     since_ms: number;
   };
-  feedback?: { tests: Judged[]; all_right: boolean; learned: boolean };
+  // others_unsure: somebody else was not right, which is why the group goes on
+  feedback?: { tests: Judged[]; all_right: boolean; learned: boolean; others_unsure: boolean };
   questions?: { items: Question[] };
-  debrief?: { summary: string[]; code: string; redirect?: string; rounds: number; right: number; tests: number };
+  // what the robot is like: of the parts that the group had lessons about, and of the others
+  debrief?: { summary: string[]; not_reached: string[]; code: string; redirect?: string; rounds: number; right: number; tests: number };
   end?: { reason: string; text: string; code?: string; redirect?: string };
   limit_ms?: number; // when a time limit ends this stage
   server_ms: number;
@@ -118,10 +123,10 @@ export interface Commands {
   consent: { accept: boolean; version: string };
   checked: Record<string, never>;
   name: { name: string };
-  screen: { test: number; actions: number[]; ms: number };
+  screen: { test: number; actions: number[]; for_ever?: true; ms: number };
   watched: { demo: number };
   draft: { test: number; actions: number[] };
-  answer: { test: number; actions: number[]; keys: KeyPress[]; ms: number };
+  answer: { test: number; actions: number[]; for_ever?: true; keys: KeyPress[]; ms: number };
   continue: Record<string, never>;
   questions: { answers: Record<string, string | number> };
   leave: Record<string, never>;
@@ -148,6 +153,8 @@ export interface WorldDocument {
   next: number[][]; // per state and action; -1: nothing happens
   end: boolean[];
   chance: boolean;
+  may_repeat?: boolean; // an answer may be a path that never ends
+  max_actions: number; // of an answer
 }
 
 export interface TextsDocument {

@@ -1,8 +1,9 @@
 // What happens on a board, in words without coordinates.
 import type { Legend } from '../shared/board/legend';
-import type { Frame, Part, Place } from '../shared/board/types';
+import { closedAt, played } from '../shared/board/repeats';
+import type { Frame, Part, Path, Place } from '../shared/board/types';
 import type { LiveBoard } from './protocol';
-import { actionLabel, hasText, listed, named, sentence, t } from './texts';
+import { actionLabel, hasText, isEnglish, listed, named, sentence, t } from './texts';
 
 const kDirections: Record<string, [number, number]> = { up: [0, -1], down: [0, 1], left: [-1, 0], right: [1, 0] };
 
@@ -47,6 +48,10 @@ function changedItem(before: Frame, after: Frame, isCarried: boolean): string | 
   return (after.items ?? []).find((item, i) => item.carried === isCarried && had[i]?.carried === !isCarried)?.name;
 }
 
+// Whether nothing is different after a step during which the robot did not move.
+const isUnchanged = (before: Frame, after: Frame): boolean =>
+  JSON.stringify([before.items, before.stations]) === JSON.stringify([after.items, after.stations]);
+
 // The step from a frame to the next: "The robot moves left onto rubble."
 export function stepText(board: LiveBoard, legend: Legend, before: Frame, after: Frame): string {
   const action = before.action ?? '';
@@ -74,7 +79,7 @@ export function stepText(board: LiveBoard, legend: Legend, before: Frame, after:
   if (put) return t('say.put', { item: named(put) });
   if (action in kDirections) return t('say.stuck', { direction: said });
   if (action === 'exit') return t('say.leave');
-  return t('say.other', { action: said });
+  return t(isUnchanged(before, after) ? 'say.stay' : 'say.other', { action: said });
 }
 
 // What is around the robot and what it carries: for people who do not see the board.
@@ -120,4 +125,18 @@ export function boardText(board: LiveBoard, legend: Legend, frame: Frame): strin
     for (const part of partsAt(board, legend, frame, [x + 1, y + 1])) things.add(phrase(part));
   }));
   return t('board.map', { what: listed([t('thing.robot'), ...things]) });
+}
+
+// "And so on: it never delivers the parcel." The server's words are English.
+export function onAndOn({ repeats_text: what }: Path): string {
+  return what && isEnglish() ? sentence(t('say.for_ever_what', { what })) : t('say.for_ever');
+}
+
+// The step of a path, as it is played, that has just been made.
+export function playedText(board: LiveBoard, legend: Legend, path: Path, step: number): string {
+  const frames = played(path);
+  const [before, after] = [frames[step - 1], frames[step]];
+  if (!before || !after) return t('watch.start');
+  const isRound = path.repeats_from !== undefined && (step === closedAt(path) || step === frames.length - 1);
+  return stepText(board, legend, before, after) + (isRound ? ` ${onAndOn(path)}` : '');
 }

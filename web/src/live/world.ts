@@ -27,6 +27,14 @@ export class World {
     return this.table.chance;
   }
 
+  get mayRepeat(): boolean {
+    return this.table.may_repeat ?? false;
+  }
+
+  get maxActions(): number {
+    return this.table.max_actions;
+  }
+
   frame(state: number): Frame {
     const compact = this.table.frames[state];
     if (!compact) return {};
@@ -44,6 +52,12 @@ export class World {
         return place ? [place] : [];
       }),
     };
+  }
+
+  // Whether an action picks something up or puts it down.
+  isHandling(action: number): boolean {
+    const name = this.actions[action]?.name;
+    return name === 'pickup' || name === 'dropoff';
   }
 
   // The state after an action; null: nothing happens.
@@ -127,6 +141,7 @@ export function plainWorld(board: LiveBoard, legend: Legend): { world: World; st
     ),
     end: cells.map(() => false),
     chance: false,
+    max_actions: Infinity,
   };
   return { world: new World(table), start: number(x, y) };
 }

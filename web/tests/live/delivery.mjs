@@ -84,6 +84,8 @@ export function makeWorld(domain, board, key) {
     next,
     end: states.map(({ done }) => done),
     chance: false,
+    may_repeat: false,
+    max_actions: 60,
   };
   return { table, costs };
 }

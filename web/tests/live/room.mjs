@@ -236,7 +236,7 @@ export class Room {
     const present = this.seats.filter(({ stage, present: here }) => stage === 'lobby' && here).length;
     const leave_after_ms = since + 300_000;
     const { size } = this.options;
-    return { present, size, since_ms: since, leave_after_ms, can_leave: Date.now() >= leave_after_ms, reserve: false };
+    return { present, size, since_ms: since, leave_after_ms, reserve: false };
   }
 
   feedback(person, part) {
@@ -257,12 +257,12 @@ export class Room {
         ...(right || !answer?.isFinished ? {} : { cost: `Your path costs ${(answer.cost - test.best.cost).toFixed(1)} steps more at (3,1)` }),
       };
     });
-    return { tests, all_right: tests.every(({ right }) => right), learned: this.learned };
+    return { tests, all_right: tests.every(({ right }) => right), learned: this.learned, others_unsure: false };
   }
 
   debrief({ right, tests, number }) {
     const { redirect } = this.options;
-    const summary = this.parts.flatMap(({ sentences }) => sentences.map(({ text }) => text));
-    return { summary, code: `MOCK-${number}X7Q`, rounds: this.rounds, right, tests, ...(redirect ? { redirect } : {}) };
+    const summary = [...new Set(this.parts.flatMap(({ sentences }) => sentences.map(({ text }) => text)))];
+    return { summary, not_reached: ['a step costs more than nothing'], code: `MOCK-${number}X7Q`, rounds: this.rounds, right, tests, ...(redirect ? { redirect } : {}) };
   }
 }

@@ -18,6 +18,12 @@ const kLooks = [
   { name: 'german-320', width: 320, height: 640, rules: [], language: { lang: 'de', dir: 'ltr', strings: {} } },
 ];
 
+// Ids that more than one element has: whatever refers to them finds the first.
+export const repeatedIds = () => {
+  const ids = [...document.querySelectorAll('[id]')].map(({ id }) => id);
+  return ids.filter((id, i) => ids.indexOf(id) !== i);
+};
+
 // Buttons, links and fields that are smaller than a finger.
 const smallTargets = () =>
   [...document.querySelectorAll('#page button, #page a, #page select, #page summary, #page textarea, #page input')]
@@ -67,6 +73,7 @@ async function examine(setting, person, name, look) {
   }));
   assert.ok(body <= wide, `${name}: ${body} px in a window of ${wide} px`);
   assert.deepEqual(await page.evaluate(smallTargets), [], name);
+  assert.deepEqual(await page.evaluate(repeatedIds), [], name);
   assert.deepEqual(await person.violations(setting.axe, look.rules), [], name);
 }
 
@@ -308,6 +315,146 @@ export function screenTests(setting) {
         assert.ok(cells.includes('the robot and rubble') && cells.includes('a wall') && cells.includes('the parcel'));
         const all = await page.evaluate(() => document.body.textContent);
         assert.doesNotMatch(all, /column \d|row \d|\(\d+,\d+\)/);
+      });
+    });
+
+    it('draws no two things of a legend alike', async () => {
+      await withViews(setting, async ({ views, mock, page }) => {
+        for (const name of ['patchwork', 'predict', 'predict-huge']) {
+          await show({ mock, page }, views[name]);
+          await page.waitForSelector('.legend li');
+          const drawn = await page.$$eval('.legend li svg', (all) =>
+            all.map((svg) => {
+              const id = /url\(#([^)]+)\)/.exec(svg.innerHTML)?.[1];
+              const texture = id === undefined ? '' : document.getElementById(id).innerHTML;
+              return svg.innerHTML.replace(/url\([^)]+\)/, '') + texture;
+            }),
+          );
+          if (name === 'patchwork') assert.equal(drawn.length, 14, 'the robot, 12 terrains and the path');
+          assert.equal(new Set(drawn).size, drawn.length, name);
+        }
+      });
+    });
+
+    it('lets people leave the lobby when the time comes, without a word from the server', async () => {
+      await withViews(
+        setting,
+        async ({ views, mock, person, page }) => {
+          const at = Date.now();
+          await show({ mock, page }, { ...views.lobby, lobby: { ...views.lobby.lobby, leave_after_ms: at + 4000 }, server_ms: at });
+          assert.match(await page.textContent('main'), /you can leave in/);
+          assert.equal(await person.button('Leave the session').count(), 0);
+          await person.pass(5000);
+          await person.button('Leave the session').click();
+          await page.locator('.sure').getByRole('button', { name: 'Leave the session' }).click();
+          await person.until(() => mock.received.some(({ t }) => t === 'leave'));
+        },
+        { stopped: true },
+      );
+    });
+
+    it('says how many moves are left before there are none', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        await show({ mock, page }, views['predict-handling']);
+        const limit = () => page.textContent('.limit');
+        await person.drive(['right', 'left']);
+        assert.equal(await limit(), '', 'six are left');
+        await person.drive(['right']);
+        assert.equal(await limit(), '5 more moves are possible.');
+        await person.drive(['left', 'right', 'left', 'right']);
+        assert.equal(await limit(), '1 more move is possible.');
+        await person.drive(['left']);
+        assert.equal(await limit(), 'Your path cannot be longer. Submit it, or undo some steps.');
+        await person.drive(['right']);
+        await person.said('Your path cannot be longer.');
+        await person.counts('8 steps');
+        await person.button('Undo').click();
+        assert.equal(await limit(), '1 more move is possible.');
+      });
+    });
+
+    it('takes picking up and putting down at once for nothing', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        await show({ mock, page }, views['predict-handling']);
+        await page.waitForSelector('.pad-row');
+        await page.locator('.mover').dblclick();
+        await person.counts('0 steps');
+        await page.locator('.mover').click();
+        await person.counts('1 step');
+        await person.drive(['right', 'left']);
+        await page.locator('.mover').click();
+        await person.counts('4 steps'); // what lies between is a path
+        await person.button('Submit').click();
+        await person.button('Submit anyway').click();
+        await person.until(() => mock.received.some(({ t }) => t === 'answer'));
+        const { body } = mock.received.find(({ t }) => t === 'answer');
+        assert.deepEqual(body.actions, [2, 1, 0, 3]);
+        assert.deepEqual(body.keys.map(([key]) => key), [2, 'undo', 2, 1, 0, 3]);
+      });
+    });
+
+    it('offers that it goes on for ever once a state occurs again, where that can be', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        const button = person.button('It goes on like this for ever');
+        await show({ mock, page }, views['predict-handling']);
+        await person.drive(['right', 'left']);
+        assert.equal(await button.count(), 0, 'here every path ends');
+        await show({ mock, page }, { ...views['predict-endless'], predict: { ...views['predict-endless'].predict, draft: [] } });
+        await person.drive(['right']);
+        assert.equal(await button.count(), 0, 'nothing has occurred again');
+        await person.drive(['left']);
+        assert.equal(await page.locator('.live-board .round').count(), 0);
+        await button.click();
+        assert.equal(await button.getAttribute('aria-pressed'), 'true');
+        assert.equal(await page.locator('.live-board .round').count(), 1);
+        await person.drive(['right']);
+        assert.equal(await page.locator('.live-board .round').count(), 0, 'whoever goes on has said something else');
+        await button.click();
+        await button.click();
+        assert.equal(await button.getAttribute('aria-pressed'), 'false');
+        await button.click();
+        await person.button('Submit').click();
+        await person.until(() => mock.received.some(({ t }) => t === 'answer'));
+        const { body } = mock.received.find(({ t }) => t === 'answer');
+        assert.deepEqual([body.actions, body.for_ever], [[1, 0, 1], true]);
+      });
+    });
+
+    it('shows a path that never ends as its way in and its cycle, twice, and says so', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        await show({ mock, page }, views['watch-endless']);
+        assert.match(await page.textContent('.count'), /Step 0 of 5/, 'one step on the way in, two rounds of two');
+        const next = page.locator('.step-button').nth(1);
+        for (let i = 0; i < 2; i += 1) await next.click();
+        assert.equal(await page.locator('.live-board .round').count(), 0);
+        await next.click();
+        await person.said('And so on: it never delivers the parcel.');
+        assert.equal(await page.locator('.live-board .round').count(), 1);
+        const drawn = await person.drawn('own');
+        await playToTheEnd(person);
+        assert.equal(await person.drawn('own'), drawn, 'the cycle is drawn once');
+        assert.match(await page.textContent('#watch-hint'), /^And so on: it never delivers the parcel\. You can/);
+        await show({ mock, page }, views['feedback-endless']);
+        await playToTheEnd(person);
+        await person.said('And so on: it never delivers the parcel.');
+        assert.equal(await page.locator('.live-board .way.own .round').count(), 1);
+        assert.equal(await page.locator('.live-board .way.other .round').count(), 0);
+      });
+    });
+
+    it('says why the group goes on to those who were right', async () => {
+      await withViews(setting, async ({ views, mock, page }) => {
+        await show({ mock, page }, views['feedback-others']);
+        assert.match(await page.textContent('main'), /Some in your group are not sure yet; here is another example\./);
+      });
+    });
+
+    it('ends with all that was taught, and apart from it what was not', async () => {
+      await withViews(setting, async ({ views, mock, page }) => {
+        await show({ mock, page }, views.debrief);
+        const lists = await page.$$eval('.summary', (all) => all.map((one) => [one.querySelector('h2').textContent, one.querySelectorAll('li').length]));
+        const { summary, not_reached } = views.debrief.debrief;
+        assert.deepEqual(lists, [['What this robot is like', summary.length], ['What your session did not get to', not_reached.length]]);
       });
     });
 

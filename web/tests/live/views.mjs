@@ -36,6 +36,8 @@ const kMaplessWorld = {
   ],
   end: [false, false, true],
   chance: true,
+  may_repeat: false,
+  max_actions: 60,
 };
 
 function largeBoard(domain, columns = 20, rows = 12) {
@@ -60,8 +62,6 @@ function holeWorld({ start: { robot: [column, row], items } }) {
     next: [[1], [-1]],
     end: [false, true],
     chance: false,
-  };
-}
     may_repeat: false,
     max_actions: 60,
   };
@@ -106,6 +106,8 @@ function handlingWorld({ start: { robot: [column, row], items } }, mayRepeat) {
     chance: false,
     may_repeat: mayRepeat,
     max_actions: 8,
+  };
+}
 
 // {name: view}; `now` is the server's time.
 export function makeViews(lesson, now = Date.now()) {
@@ -150,8 +152,7 @@ export function makeViews(lesson, now = Date.now()) {
     'pause-organiser': { ...at('watch'), pause: { why: 'facilitator', since_ms: now - 20_000, missing: 0 } },
     unknown: { ...at('watch'), stage: 'something-new' },
   };
-  views.lobby.lobby.can_leave = false;
-  views['lobby-leave'].lobby.can_leave = true;
+  views['lobby-leave'].lobby.leave_after_ms = now - 1000;
   views['predict-limit'] = structuredClone(views.predict);
   views['predict-limit'].limit_ms = now + 25_000;
   views['lobby-reserve'] = { ...views.lobby, lobby: { ...views.lobby.lobby, reserve: true } };
@@ -167,6 +168,26 @@ export function makeViews(lesson, now = Date.now()) {
   const slip = [{ ...from, action: from.action === 'left' ? 'right' : 'left' }, { ...straight[1], action: null }];
   const runs = { text: 'stopping at the charger in 1 of 2 runs; a different path in each of 2 runs', runs: [{ frames: slip, ended: true }, { frames: straight, ended: true }] };
   views['watch-runs'] = { ...views.watch, watch: { ...views.watch.watch, runs } };
+  const { board: small } = views.predict.predict;
+  room.worlds.set('handling', { table: handlingWorld(small, false) });
+  room.worlds.set('endless', { table: handlingWorld(small, true) });
+  views['predict-handling'] = { ...views.predict, predict: { ...views.predict.predict, world: 'handling', draft: [] } };
+  views['predict-full'] = { ...views.predict, predict: { ...views.predict.predict, world: 'handling', draft: [1, 0, 1, 0, 1] } };
+  views['predict-endless'] = { ...views.predict, predict: { ...views.predict.predict, world: 'endless', draft: [1, 0] } };
+  views['watch-endless'] = { ...views.watch, watch: { index: 0, of: 1, board: views.watch.watch.board, ...endless(views.watch.watch) } };
+  const { frames: endlessFrames, ...repeats } = endless(views.watch.watch);
+  views['feedback-endless'] = structuredClone(views['feedback-short']);
+  Object.assign(views['feedback-endless'].feedback.tests[0], {
+    board: views.watch.watch.board,
+    mine: endlessFrames.slice(0, 2).map((frame, i) => ({ ...frame, action: i === 0 ? frame.action : null })),
+    robot: endlessFrames,
+    robot_repeats_from: repeats.repeats_from,
+    robot_repeats_text: repeats.repeats_text,
+    differs_at: 1,
+  });
+  views['feedback-others'] = structuredClone(views['feedback-right']);
+  Object.assign(views['feedback-others'].feedback, { all_right: true, learned: false, others_unsure: true });
+  views.patchwork = { ...views.watch, watch: { ...views.watch.watch, board: patchwork(lesson.domain), frames: [{ robot: [1, 1], items: [], stations: [] }] } };
   room.worlds.set('mapless', { table: kMaplessWorld });
   const frame = (state, action) => ({ state, action });
   const way = [frame('far from the dock', 'drive'), frame('at the dock', 'wait'), frame('at the dock', 'dock'), frame('docked', null)];
@@ -179,9 +200,16 @@ export function makeViews(lesson, now = Date.now()) {
       tests: [{ board: mapless(0), right: false, mine: plain, robot: way, differs_at: 1, unfinished: false, why: ['waiting is safer'], cost: 'One step too few' }],
       all_right: false,
       learned: true,
+      others_unsure: false,
     },
   };
   return { views, room };
+}
+
+// Of a path: its first move, and then there and back for ever.
+function endless({ frames: [a, b, c] }) {
+  const back = { up: 'down', down: 'up', left: 'right', right: 'left' }[b.action];
+  return { frames: [a, b, { ...c, action: back }, { ...b, action: null }], repeats_from: 1, repeats_text: 'it never delivers the parcel' };
 }
 
 // A finished path that is not the best: the fewest steps, whatever they cost.

@@ -15,6 +15,7 @@ import { Pad } from './pad';
 import { StateCard, StepList } from './steps';
 import { Button } from './ui';
 
+const kSoon = 5; // moves that are left when the page begins to say so
 const kRepeatMs = 140; // between steps while a key is held down
 
 interface Props {
@@ -25,6 +26,7 @@ interface Props {
   off: boolean;
   end: string; // what is said when the robot has finished
   stopped: string; // when it has come to an end elsewhere
+  isForEver?: boolean; // the path is said to go on like this for ever
   children: ComponentChildren; // below the pad
   waiting: ComponentChildren; // there until the world has loaded
 }
@@ -49,11 +51,11 @@ export function Driver(props: Props): JSX.Element {
   return <Driving {...props} world={world} drive={drive} />;
 }
 
-function Driving({ board, legend, world, drive, off, children, ...said }: Props & { world: World; drive: Drive }): JSX.Element {
+function Driving({ board, legend, world, drive, off, isForEver, children, ...said }: Props & { world: World; drive: Drive }): JSX.Element {
   const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
   const end = isJobDone(board, legend, drive.frames.at(-1)) ? said.end : said.stopped;
   const tell = useTelling({ board, legend, drive, log, end });
-  const handles = world.actions.some(({ name }) => name === 'pickup' || name === 'dropoff');
+  const handles = world.actions.some(({ index }) => world.isHandling(index));
   const area = useRef<HTMLDivElement>(null);
   useKeys({ world, drive, off, tell, area });
   const frame = drive.frames.at(-1) ?? board.start;
@@ -68,6 +70,7 @@ function Driving({ board, legend, world, drive, off, children, ...said }: Props 
               frames={drive.frames}
               step={drive.actions.length}
               trail="other"
+              closedAt={isForEver ? drive.actions.length : undefined}
               onCell={(cell) => {
                 if (!off) tell(clicked(world, drive, cell));
               }}
@@ -105,6 +108,9 @@ function Driving({ board, legend, world, drive, off, children, ...said }: Props 
             {t('predict.reset')}
           </Button>
         </div>
+        <p class="limit" role="status">
+          {drive.left > kSoon ? '' : t(drive.left > 0 ? 'predict.left' : 'predict.longest', { n: drive.left })}
+        </p>
         {children}
         {board.map ? (
           <>
@@ -148,17 +154,18 @@ function useTelling({ board, legend, drive, log, end }: TellingOptions): (outcom
     length.current = drive.actions.length;
   }, [drive.actions]);
   return (outcome) => {
-    if (outcome === 'blocked') log.say(t('predict.blocked'));
+    if (outcome === 'undone') log.say(t('predict.undone'));
+    else if (outcome === 'blocked') log.say(t('predict.blocked'));
     else if (outcome === 'none') log.say(t('predict.too_far'));
     else if (outcome === 'end') log.say(end);
-    else if (outcome === 'full') log.say(t('predict.longest'));
+    else if (outcome === 'full') log.say(t('predict.longest', { n: 0 }));
   };
 }
 
 // The one action without a direction that Space means here: to pick up or put down, or the only one there is.
 function spaceAction(world: World, drive: Drive): number | null {
   const possible = world.actions.filter(({ index, shift }) => shift === null && world.after(drive.state, index) !== null);
-  const handling = possible.filter(({ name }) => name === 'pickup' || name === 'dropoff');
+  const handling = possible.filter(({ index }) => world.isHandling(index));
   const [only, second] = handling.length > 0 ? handling : possible;
   return only && !second ? only.index : null;
 }

@@ -25,7 +25,9 @@ interface Props {
   step: number;
   trail: 'own' | 'other'; // the robot's path or a prediction
   walked?: number;
+  closedAt?: number | undefined;
   other?: Frame[];
+  otherClosedAt?: number | undefined;
   decisive?: { frame: number; cell?: Place } | null;
   onCell?: (cell: Place) => void;
 }

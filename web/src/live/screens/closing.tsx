@@ -5,8 +5,7 @@ import type { ParticipantView } from '../protocol';
 import { hasText, isEnglish, sentence, t } from '../texts';
 
 export function Debrief({ debrief, isSaved }: { debrief: NonNullable<ParticipantView['debrief']>; isSaved: boolean }): JSX.Element {
-  const { code, redirect, rounds, right, tests } = debrief;
-  const summary = [...new Set(debrief.summary.map(sentence))]; // parts may teach the same
+  const { code, redirect, rounds, right, tests, summary, not_reached } = debrief;
   return (
     <>
       <Heading>{t('debrief.title')}</Heading>
@@ -14,17 +13,24 @@ export function Debrief({ debrief, isSaved }: { debrief: NonNullable<Participant
       {tests > 0 && <p>{t('debrief.score', { right, tests, rounds })}</p>}
       {code && <CompletionCode code={code} />}
       <GoOn address={redirect} isSaved={isSaved} />
-      {summary.length > 0 && (
-        <section class="summary" aria-labelledby="summary-title">
-          <h2 id="summary-title">{t('debrief.summary')}</h2>
-          <ul>
-            {summary.map((text) => (
-              <li>{text}</li>
-            ))}
-          </ul>
-        </section>
-      )}
+      <Sentences name="summary" texts={summary} />
+      <Sentences name="not_reached" texts={not_reached} />
     </>
+  );
+}
+
+// What the robot is like, as far as the group was taught it, or as far as it was not.
+function Sentences({ name, texts }: { name: 'summary' | 'not_reached'; texts: string[] }): JSX.Element | null {
+  if (texts.length === 0) return null;
+  return (
+    <section class="summary" aria-labelledby={`${name}-title`}>
+      <h2 id={`${name}-title`}>{t(`debrief.${name}`)}</h2>
+      <ul>
+        {texts.map((text) => (
+          <li>{sentence(text)}</li>
+        ))}
+      </ul>
+    </section>
   );
 }
 

@@ -6,11 +6,13 @@ import { LogView, useLog } from '../parts/log';
 import { Player, usePacedPlayback } from '../parts/player';
 import { StateCard, StepList } from '../parts/steps';
 import { Button, Heading, TimeLeft } from '../parts/ui';
+import { closedAt, played } from '../../shared/board/repeats';
+import type { Path } from '../../shared/board/types';
 import type { Frame, Judged } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
 import { sentence, t } from '../texts';
-import { stepText } from '../words';
+import { playedText } from '../words';
 import { walked } from './watch';
 
 type Shown = NonNullable<ScreenProps['view']['feedback']>;
@@ -36,7 +38,7 @@ export function Feedback({ feedback, view, connection }: ScreenProps & { feedbac
       <Button primary={isPrimary} off={off} onClick={() => (isLast ? connection.send('continue', {}) : go(index + 1))}>
         {t(off ? 'feedback.continuing' : isLast ? 'common.continue' : 'common.next')}
       </Button>
-      {isLast && <p class="muted">{t(feedback.learned ? 'feedback.learned' : 'feedback.again')}</p>}
+      {isLast && <p class="muted">{t(`feedback.${feedback.learned ? 'learned' : feedback.others_unsure ? 'again_others' : 'again'}`)}</p>}
     </div>
   );
   if (!test) {
@@ -57,9 +59,12 @@ export function Feedback({ feedback, view, connection }: ScreenProps & { feedbac
 }
 
 function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => JSX.Element }): JSX.Element {
-  const { board, robot, right } = test;
+  const { board, right } = test;
+  const robotPath = pathOf(test.robot, test.robot_repeats_from, test.robot_repeats_text);
+  const robot = played(robotPath);
+  const mine = test.mine && pathOf(test.mine, test.mine_repeats_from);
   const legend = useLegend(board.domain);
-  const other = right ? null : test.mine;
+  const other = right || !mine ? null : played(mine);
   const last = Math.max(robot.length, other?.length ?? 0, 1) - 1;
   const playback = usePacedPlayback(last);
   const { step } = playback;
@@ -72,9 +77,7 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
   useLayoutEffect(() => {
     if (step === shown.current) return;
     shown.current = step;
-    const [before, after] = [robot[step - 1], robot[step]];
-    if (before && after) log.say(stepText(board, legend, before, after));
-    else if (step === 0) log.say(t('watch.start'));
+    if (step < robot.length) log.say(playedText(board, legend, robotPath, step));
   }, [step]);
   const at = other ? test.differs_at : null;
   const decisive = at === null ? null : { frame: at, ...cellOf(robot[at]) };
@@ -99,7 +102,8 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
               walked={step}
               trail="own"
               decisive={decisive}
-              {...(other ? { other } : {})}
+              closedAt={closedAt(robotPath)}
+              {...(other && mine ? { other, otherClosedAt: closedAt(mine) } : {})}
             />
           ) : (
             <StateCard frame={robot[robotStep] ?? board.start} />
@@ -126,6 +130,12 @@ function OneTask({ test, next }: { test: Judged; next: (isPrimary: boolean) => J
     </>
   );
 }
+
+const pathOf = (frames: Frame[], from?: number, text?: string): Path => ({
+  frames,
+  ...(from === undefined ? {} : { repeats_from: from }),
+  ...(text === undefined ? {} : { repeats_text: text }),
+});
 
 function leadKey({ right, mine, board, differs_at }: Judged): string {
   if (right) return differs_at === null ? 'feedback.right' : 'feedback.right_other';

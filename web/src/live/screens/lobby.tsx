@@ -66,9 +66,7 @@ function Leave({ lobby, connection }: { lobby: Shown; connection: ScreenProps['c
   const [asks, setAsks] = useState(false);
   const off = connection.isPending('leave');
   const left = lobby.leave_after_ms - serverNow();
-  if (!lobby.can_leave) {
-    return left > 0 ? <p>{t('lobby.leave_later', { time: duration(left) })}</p> : <></>;
-  }
+  if (left > 0) return <p>{t('lobby.leave_later', { time: duration(left) })}</p>;
   return (
     <>
       <p>{t('lobby.leave_text')}</p>

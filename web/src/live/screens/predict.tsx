@@ -64,11 +64,13 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
     if (refused?.type === type) setSubmitted(false);
   }, [refused]);
   const off = isSubmitted || connection.isPending(type);
+  const [endless, setEndless] = useState<number[] | null>(null); // the path that is said to go on for ever
+  const isForEver = endless === drive.actions && drive.repeatsFrom !== null;
   const submit = (): void => {
-    const { actions } = drive;
+    const answer = { test: task.index, actions: drive.actions, ...(isForEver ? { for_ever: true as const } : {}), ms: drive.ms() };
     setSubmitted(true);
-    if (isScreening) connection.send('screen', { test: task.index, actions, ms: drive.ms() });
-    else connection.send('answer', { test: task.index, actions, keys: drive.keys(), ms: drive.ms() });
+    if (isScreening) connection.send('screen', answer);
+    else connection.send('answer', { ...answer, keys: drive.keys() });
   };
   return (
     <Driver
@@ -80,19 +82,35 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
       waiting={null}
       end={t('predict.end')}
       stopped={t('predict.stopped')}
+      isForEver={isForEver}
     >
-      <Submit drive={drive} off={off} onSubmit={submit} />
+      {drive.repeatsFrom !== null && (
+        <div class="for-ever">
+          <Button pressed={isForEver} off={off} onClick={() => setEndless(isForEver ? null : drive.actions)}>
+            {t('predict.for_ever')}
+          </Button>
+          <p class="muted">{t(isForEver ? 'predict.is_for_ever' : 'predict.repeats')}</p>
+        </div>
+      )}
+      <Submit drive={drive} isWhole={drive.isAtEnd || isForEver} off={off} onSubmit={submit} />
     </Driver>
   );
 }
 
+interface SubmitProps {
+  drive: Drive;
+  isWhole: boolean; // the path ends, or it is said to go on for ever
+  off: boolean;
+  onSubmit: () => void;
+}
+
 // A path that is not finished is submitted only if it is meant so. The button stays where it is, and with it the focus.
-function Submit({ drive, off, onSubmit }: { drive: Drive; off: boolean; onSubmit: () => void }): JSX.Element {
+function Submit({ drive, isWhole, off, onSubmit }: SubmitProps): JSX.Element {
   const [asked, setAsked] = useState<number[] | null>(null); // the path that the question is about
-  const isAsking = asked === drive.actions && !off;
+  const isAsking = asked === drive.actions && !isWhole && !off;
   return (
     <div class="submit">
-      <Button primary={!isAsking} off={off || isAsking} onClick={() => (drive.isAtEnd ? onSubmit() : setAsked(drive.actions))}>
+      <Button primary={!isAsking} off={off || isAsking} onClick={() => (isWhole ? onSubmit() : setAsked(drive.actions))}>
         {t(off ? 'predict.submitting' : 'predict.submit')}
       </Button>
       <p role="status" class={isAsking ? 'asks' : 'muted'}>

@@ -6,18 +6,21 @@ import { LogView, useLog } from '../parts/log';
 import { Player, usePacedPlayback } from '../parts/player';
 import { StateCard, StepList } from '../parts/steps';
 import { Button, Heading, TimeLeft } from '../parts/ui';
+import { closedAt, played } from '../../shared/board/repeats';
+import type { Path } from '../../shared/board/types';
 import type { Runs } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
 import { isEnglish, t } from '../texts';
-import { isJobDone, stepText } from '../words';
+import { isJobDone, onAndOn, playedText } from '../words';
 
 type Shown = NonNullable<ScreenProps['view']['watch']>;
 
 export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown }): JSX.Element {
   const { board, runs } = watch;
   const [run, setRun] = useState(0);
-  const { frames } = runs?.runs[run] ?? watch;
+  const path = runs?.runs[run] ?? watch;
+  const frames = played(path);
   const { part = 0, round = 0 } = view.progress ?? {};
   const key = `${part}.${round}.${watch.index}`;
   const legend = useLegend(board.domain);
@@ -29,8 +32,7 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
   useLayoutEffect(() => {
     if (step === shown.current) return;
     shown.current = step;
-    const [before, after] = [frames[step - 1], frames[step]];
-    log.say(before && after ? stepText(board, legend, before, after) : t('watch.start'));
+    log.say(playedText(board, legend, path, step));
   }, [step]);
   useLayoutEffect(() => {
     if (step < last || wasSeen) return;
@@ -50,7 +52,7 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
       <div class="board-screen">
         <div class="board-column">
           {board.map ? (
-            <LiveBoardView board={board} legend={legend} frames={frames} step={step} trail="own" />
+            <LiveBoardView board={board} legend={legend} frames={frames} step={step} trail="own" closedAt={closedAt(path)} />
           ) : (
             <StateCard frame={frames[step] ?? board.start} />
           )}
@@ -79,7 +81,7 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
               {t('common.next')}
             </Button>
             <p id="watch-hint" class="muted">
-              {t(!wasSeen ? 'watch.finish' : isJobDone(board, legend, frames.at(-1)) ? 'watch.done' : 'watch.over')}
+              {hint(wasSeen, path, isJobDone(board, legend, frames.at(-1)))}
             </p>
           </div>
           {board.map ? (
@@ -94,6 +96,12 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
       </div>
     </>
   );
+}
+
+function hint(wasSeen: boolean, path: Path, isDone: boolean): string {
+  if (!wasSeen) return t('watch.finish');
+  if (path.repeats_from !== undefined) return `${onAndOn(path)} ${t('watch.for_ever')}`;
+  return t(isDone ? 'watch.done' : 'watch.over');
 }
 
 const leadKey = ({ board, runs }: Shown, wasSeen: boolean): string =>

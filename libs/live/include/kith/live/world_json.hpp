@@ -14,17 +14,20 @@ namespace kith {
 
 /// The most states of a world that people can be asked about: its table of moves is sent to browsers.
 inline constexpr std::size_t kMaxLiveStates = 20'000;
-/// The most actions of an answer, whatever the domain allows.
-inline constexpr std::size_t kMaxAnswerActions = 500;
+/// The most actions of an answer: what the domain allows for a path, Domain::max_steps(), and at most 500, whatever it
+/// allows. The table of moves tells pages, which say so before somebody gets there.
+[[nodiscard]] std::size_t max_answer_actions(const Domain& domain);
 
-/// Names a world in GET /api/world/KEY: "<domain>-<number>". Equal keys mean equal tables, so answers can be cached.
+/// Names a world in GET /api/world/KEY: "<study's key>-<number>". Equal keys mean equal tables, so answers can be
+/// cached.
 [[nodiscard]] std::string world_key(const LiveStudy& study, MdpIndex world);
 /// The world of a key; nothing if there is none.
 [[nodiscard]] std::optional<MdpIndex> world_of_key(const LiveStudy& study, std::string_view key);
 
 /// The table of moves of a world:
 ///   {"key", "actions": [{"name", "label", "dx", "dy"}], "items": [name], "stations": [[column, row]],
-///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool, "may_repeat": bool}
+///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool, "may_repeat": bool,
+///    "max_actions": max_answer_actions()}
 /// States are numbers of this table. Frames are [robotColumn, robotRow, [[column, row, carried 0|1], ...],
 /// [index into stations, ...]], without a map {"state": name}. -1: nothing happens. Where chance has a part, next is
 /// the likeliest outcome that changes the state. dx and dy are how the action moves the robot, row numbers growing
@@ -37,6 +40,7 @@ inline constexpr std::size_t kMaxAnswerActions = 500;
 /// What a person's list of actions is.
 struct JudgedPath {
   bool is_legal = true;      ///< Every action did something, none came after the end, and there were not too many.
+  bool is_too_long = false;  ///< It is not legal because there were more than max_answer_actions().
   std::size_t legal = 0;     ///< Actions before the first that was not.
   Trajectory path{};         ///< The legal actions; where chance has a part each leads to its likeliest outcome.
   bool is_finished = false;  ///< The end was reached, or it is said to go on for ever where later steps count less.
