@@ -1,4 +1,4 @@
-// Breaks runs of kith in many ways and checks what becomes of them: docs/fault-harness.md.
+// Breaks runs of kith in many ways and checks what becomes of them: README.md.
 #include <algorithm>
 #include <atomic>
 #include <chrono>

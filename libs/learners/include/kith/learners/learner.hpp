@@ -25,7 +25,7 @@ struct LearningAbilities {
 /// Calls: begin_component() when a knowledge component begins, also the first one; then in every period watch(),
 /// answer() and hear_feedback(), in this order. Periods are numbered from 1 and do not begin again with a component.
 ///
-/// What every model promises, and the tests check for all registered ones (docs/adding-a-learner.md):
+/// What every model promises, and the tests check for all registered ones (docs/library.md):
 /// * What a person does depends on their parameters, their random stream and the calls so far only. What is drawn in
 ///   period t comes from a branch of the stream that is addressed by t, so that calls of answer() change nothing.
 /// * A clone does what the original would do, and neither changes the other.

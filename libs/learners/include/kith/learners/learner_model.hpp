@@ -41,7 +41,7 @@ struct LearnerStart {
   bool records_support = false;  ///< As in FilterOptions.
 };
 
-/// A kind of simulated learner: a row of the registry. To add one, see docs/adding-a-learner.md.
+/// A kind of simulated learner: a row of the registry. To add one, see docs/library.md.
 struct LearnerModel {
   std::string_view kind;                   ///< `learner.X.kind` in study files.
   std::string_view description;            ///< One sentence without a full stop.
