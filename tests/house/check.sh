@@ -76,6 +76,15 @@ check_links() {  # relative links in documents lead somewhere
   done | none
 }
 
+check_map() {  # sources that the map of the project names exist; without a folder, somewhere
+  files docs/architecture.md | while IFS= read -r page; do
+    grep -oE '[A-Za-z0-9_./-]+\.(cpp|hpp|tsx?)\b' "$page" | grep -v '^_' | sort -u | while IFS= read -r source; do
+      [[ $source == */* && -e $source ]] || { [[ $source != */* ]] && files "*/$source" | grep -q .; } ||
+        echo "$page: there is no $source"
+    done
+  done | none
+}
+
 check_citations() {  # every [key2024] cited in sources and documents is in docs/references.bib
   files '*.cpp' '*.hpp' '*.md' '*.toml' | search -noE '\[[a-z]+(18|19|20)[0-9]{2}[a-z]*' |
     while IFS=: read -r file line key; do
@@ -84,7 +93,7 @@ check_citations() {  # every [key2024] cited in sources and documents is in docs
 }
 
 check_errors() {  # every id stands for one thing
-  files 'docs/errors*.md' | search -oE '^\| [EW][0-9]{4} ' | awk -F'\\| ' '
+  files docs/errors.md | search -oE '^\| [EW][0-9]{4} ' | awk -F'\\| ' '
     $2 in first { print $2 "is explained by " first[$2] " and by " $1 }
     { first[$2] = $1 }' | none
 }

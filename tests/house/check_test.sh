@@ -38,7 +38,7 @@ breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is ap
 }
 
 tidy_tree
-for rule in ascii places pragma layers newline links quotes citations errors types; do expect 0 "$rule" 'a tidy tree'; done
+for rule in ascii places pragma layers newline links map quotes citations errors types; do expect 0 "$rule" 'a tidy tree'; done
 expect 2 nonsense 'an unknown rule'
 breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
 breaks places README.md 'see /home''/somebody/kith\n'
@@ -48,6 +48,8 @@ breaks layers libs/low/CMakeLists.txt 'kith_module(low PRIVATE_DEPENDS kith::hig
 breaks newline README.md 'no end'
 breaks newline libs/low/include/x.hpp 'int y();  \n'
 breaks links README.md '[gone](docs/gone.md)\n'
+breaks map docs/architecture.md 'see x.hpp, libs/low/include/x.hpp and libs/low/x.hpp\n'
+breaks map docs/architecture.md 'gone.cpp\n'
 breaks citations libs/low/include/x.hpp '// [unknown1999]\n'
 breaks quotes README.md '```cpp libs/low/include/x.hpp\nint y();\n```\n'
 breaks errors docs/errors.md '| E0101 | x | y |\n| E0101 | z | y |\n'
