@@ -1,6 +1,4 @@
 // The tables of docs/gallery.md.
-import { statSync } from 'node:fs';
-import { join } from 'node:path';
 import { fixed } from './format.mjs';
 import { study } from './runs.mjs';
 import { groupBy, mean } from './statistics.mjs';
@@ -14,13 +12,8 @@ const ROBOTS = {
   four_rooms: 'four rooms',
   warehouse: 'warehouse',
 };
-// Robots that are given by a map instead of tables: the files, and their folder if they are built in.
-const MAPS = {
-  four_rooms: ['four_rooms.toml'],
-  warehouse: ['warehouse.toml', 'warehouse.yaml', 'warehouse.pgm', 'warehouse_zones.pgm'],
-};
 const BUILT_IN = ['warehouse'];
-const STRATEGIES = ['plan', 'joint', 'common', 'individual-low', 'individual-high', 'baseline'];
+const STRATEGIES = ['plan', 'joint', 'common', 'baseline'];
 const SOON = 30; // periods
 
 // What a robot that can be taught has to meet.
@@ -28,7 +21,6 @@ const FINISHED = 0.9;
 const REGRET_LEFT = 0.1;
 const SHARE_RIGHT = 0.85;
 
-const short = (value) => (value === 0 ? '0' : value.toPrecision(2));
 const folderOf = (robot) => (BUILT_IN.includes(robot) ? 'domains' : 'domains/gallery');
 const fileOf = (robot) => `${folderOf(robot)}/${robot}.toml`;
 
@@ -38,7 +30,7 @@ export const COMMANDS = {
   ...Object.fromEntries(Object.keys(ROBOTS).map((robot) => [`lesson ${robot}`, ['curriculum', fileOf(robot), '--json']])),
 };
 
-export function makeContent(runs, source) {
+export function makeContent(runs) {
   // Means over the members of all teams of a strategy: before teaching, and after it.
   const exam = (robot, strategy) => {
     const rows = runs.table(robot, 'exam').filter((row) => row.strategy === strategy && row.kc === '');
@@ -58,17 +50,12 @@ export function makeContent(runs, source) {
       ...(left > REGRET_LEFT ? ['regret'] : []),
       ...(after.share < SHARE_RIGHT ? ['share right'] : []),
     ];
-    return { finished, periods: mean(teams.map((team) => team.periods)), before, after, left, missed };
+    return { periods: mean(teams.map((team) => team.periods)), before, after, left, missed };
   };
 
   const each = (visit) => Object.keys(ROBOTS).flatMap((robot) => STRATEGIES.map((strategy) => visit(robot, strategy)));
 
   const tables = {
-    commands: () => ({
-      columns: ['robot', 'command'],
-      rows: Object.entries(ROBOTS).map(([robot, title]) => [title, `\`${runs.commandLine(robot)}\``]),
-    }),
-
     robots: () => ({
       columns: ['robot', 'worlds', 'start states', 'what the lesson says'],
       rows: Object.entries(ROBOTS).map(([robot, title]) => {
@@ -78,26 +65,15 @@ export function makeContent(runs, source) {
       }),
     }),
 
-    sizes: () => ({
-      columns: ['robot', 'files', 'kB'],
-      rows: Object.entries(ROBOTS).map(([robot, title]) => {
-        const files = MAPS[robot] ?? [`${robot}.toml`, `${robot}_states.csv`, `${robot}_transitions.csv`];
-        const bytes = files.map((file) => statSync(join(source, folderOf(robot), file)).size).reduce((sum, size) => sum + size, 0);
-        return [title, files.map((file) => `\`${file}\``).join(', '), fixed(bytes / 1000, 0)];
-      }),
-    }),
-
     crews: () => ({
-      columns: ['robot', 'strategy', `finished in ${SOON} periods`, 'periods', 'share right', 'regret', 'regret left', 'missed'],
+      columns: ['robot', 'strategy', 'periods', 'share right', 'regret left', 'missed'],
       rows: each((robot, strategy) => {
-        const { finished, periods, before, after, left, missed } = measure(robot, strategy);
+        const { periods, before, after, left, missed } = measure(robot, strategy);
         return [
           ROBOTS[robot],
           `\`${strategy}\``,
-          `${fixed(100 * finished, 0)} %`,
           fixed(periods, 1),
           `${fixed(before.share, 3)} to ${fixed(after.share, 3)}`,
-          `${short(before.regret)} to ${short(after.regret)}`,
           `${fixed(100 * left, 0)} %`,
           missed.join(', ') || 'none',
         ];
