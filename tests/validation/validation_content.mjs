@@ -83,11 +83,10 @@ export function makeContent(runs, source) {
         add(name, pool(cells, strategies));
         for (const composition of COMPOSITIONS) add(`${name}/${composition}`, pool(cells, strategies, [composition]));
       }
-      // How much composition moves the mean, and how much the teams of one composition differ.
+      // How much composition moves the mean.
       for (const strategy of GROUP) {
         const means = COMPOSITIONS.map((composition) => cells[`${composition} ${strategy}`].mean());
         estimates[`range ${strategy}`] = Math.max(...means) - Math.min(...means);
-        estimates[`within ${strategy}`] = Math.sqrt(mean(COMPOSITIONS.map((c) => cells[`${c} ${strategy}`].variance())));
       }
       const strategyMeans = GROUP.map((strategy) => estimates[`mean ${strategy}`]);
       estimates['strategy range'] = Math.max(...strategyMeans) - Math.min(...strategyMeans);
@@ -101,14 +100,13 @@ export function makeContent(runs, source) {
 
   const target = (quantity, statistic, teams) =>
     targets.target.find((one) => one.quantity === quantity && (one.statistic ?? 'mean') === statistic && one.teams === teams);
-  // A published figure with its standard error, and the tolerance of the calibration as text and width.
+  // A published figure with its standard error, and the tolerance of the calibration as text.
   const publishedFigure = (quantity, statistic, teams) => {
     const { value, tolerance, within_factor: factor } = target(quantity, statistic, teams);
     const n = paper.teams[teams];
     const deviation = target(quantity, 'sd', teams).value;
     const se = statistic === 'mean' ? deviation / Math.sqrt(n) : errorOfSd(deviation, n);
-    const width = tolerance ?? value * (factor - 1);
-    return { value, se, tolerance: factor ? `factor ${factor}` : `+- ${tolerance}`, width };
+    return { value, se, tolerance: factor ? `factor ${factor}` : `+- ${tolerance}` };
   };
   const misfit = (quantity, statistic, teams, run = 'large') => {
     const here = summary(run, quantity)[`${statistic} ${teams}`];
@@ -192,15 +190,13 @@ export function makeContent(runs, source) {
   });
 
   const tables = {
-    commands: () => runs.commandTable(),
-
     facts: () => ({
       columns: ['fact', 'reference', 'kith'],
       rows: Object.entries(reference.facts).map(([name, value]) => [name, value, { text: factsHere()[name] ?? 'missing' }]),
     }),
 
     'published-figures': () => ({
-      columns: ['figure', 'published', 'its standard error', 'kith', 'off by, in published standard errors', 'tolerance', 'tolerance in published standard errors'],
+      columns: ['figure', 'published', 'its standard error', 'kith', 'off by, in published standard errors', 'tolerance'],
       rows: ['mean', 'sd'].flatMap((statistic) =>
         OUTCOMES.flatMap((outcome) =>
           Object.entries(POOLS).map(([teams, label]) => {
@@ -213,25 +209,14 @@ export function makeContent(runs, source) {
               withError(summary('large', outcome)[`${statistic} ${teams}`], digits + 1),
               figure(misfit(outcome, statistic, teams), 1, signed),
               there.tolerance,
-              fixed(there.width / there.se, 1),
             ];
           }),
         ),
       ),
     }),
 
-    compositions: () => ({
-      columns: ['composition', ...OUTCOMES.flatMap((outcome) => Object.values(POOLS).map((label) => `${outcome}, ${label}`))],
-      rows: COMPOSITIONS.map((composition) => [
-        composition,
-        ...OUTCOMES.flatMap((outcome) =>
-          Object.keys(POOLS).map((teams) => withError(summary('large', outcome)[`mean ${teams}/${composition}`], DIGITS[outcome])),
-        ),
-      ]),
-    }),
-
     effects: () => ({
-      columns: ['effect', 'published F', 'its partial eta squared', 'kith: partial eta squared', 'F', 'p', 'p, people as random intercepts', '15 teams per cell: F', 'p (15)'],
+      columns: ['effect', 'published F', 'its partial eta squared', 'kith: partial eta squared', 'p', 'p, people as random intercepts', 'p (15)'],
       rows: OUTCOMES.flatMap((outcome) =>
         ['strategy', 'composition', 'strategy:composition'].map((name) => {
           const there = publishedF(outcome, name);
@@ -243,94 +228,52 @@ export function makeContent(runs, source) {
             there?.f ? fixed(there.f, 2) : 'n.s.',
             eta ? `${fixed(eta.value, 3)} ${interval(eta.low, eta.high, 3)}` : '',
             withInterval(large.partial_eta_squared, large.lower_limit, large.upper_limit, 4),
-            { text: fixed(large.f, 2), value: large.f },
             { text: probability(large.p_value), value: large.p_value },
             { text: probability(termWithin(outcome, name).p_value), value: termWithin(outcome, name).p_value },
-            { text: fixed(small.f, 2), value: small.f },
             { text: probability(small.p_value), value: small.p_value },
           ];
         }),
       ),
     }),
 
-    strategies: () => ({
-      columns: ['strategy', ...OUTCOMES.flatMap((outcome) => [outcome, `sd of ${outcome}`])],
-      rows: GROUP.map((strategy) => [
-        strategy,
-        ...OUTCOMES.flatMap((outcome) => ['mean', 'sd'].map((statistic) => withError(summary('large', outcome)[`${statistic} ${strategy}`], DIGITS[outcome] + 1))),
-      ]),
-    }),
-
     hypotheses: () => ({
-      columns: ['outcome', 'teams', 'group beliefs - individual beliefs', '95 % interval', 'p'],
-      rows: OUTCOMES.flatMap((outcome) =>
-        ['all', ...COMPOSITIONS].map((teams) => {
-          const one = belief(outcome, teams);
-          const digits = DIGITS[outcome] + 1;
-          return [
-            outcome,
-            teams,
-            withError(one, digits, signed),
-            { text: interval(one.lower_limit, one.upper_limit, digits), value: one.lower_limit, se: one.se },
-            { text: probability(one.p_value), value: one.p_value },
-          ];
-        }),
-      ),
-    }),
-
-    variation: () => ({
-      columns: ['strategy', 'periods: range of composition means', 'sd within compositions', 'knowledge: range of composition means', 'sd within compositions (knowledge)'],
-      rows: GROUP.map((strategy) => [
-        strategy,
-        ...OUTCOMES.flatMap((outcome) => [
-          withError(summary('large', outcome)[`range ${strategy}`], DIGITS[outcome]),
-          withError(summary('large', outcome)[`within ${strategy}`], DIGITS[outcome] + 1),
-        ]),
-      ]),
-    }),
-
-    'variance-ratios': () => ({
-      columns: ['teams', ...OUTCOMES.flatMap((outcome) => [`${outcome}: variance ratio, 95 % interval`, `p (${outcome})`, `p, Brown-Forsythe (${outcome})`])],
-      rows: ['all', ...COMPOSITIONS].map((teams) => [
-        teams,
-        ...OUTCOMES.flatMap((outcome) => {
-          const one = spread(outcome, teams);
-          return [
-            withInterval(one.variance_ratio, one.lower_limit, one.upper_limit, 3),
-            { text: probability(one.p_value_jackknife), value: one.p_value_jackknife },
-            { text: probability(one.p_value_brown_forsythe), value: one.p_value_brown_forsythe },
-          ];
-        }),
-      ]),
-    }),
-
-    areas: () => ({
-      columns: ['strategy', 'mean area per period, sr', ...[1, 2, 3].flatMap((kc) => [`component ${kc}: log area`, `joint minus this (${kc})`])],
-      rows: GROUP.map((strategy) => [
-        strategy,
-        withError(summary('large', 'area_sr')[`mean ${strategy}`], 3),
-        ...[1, 2, 3].flatMap((kc) => [
-          withError(areaMean(strategy, kc), 3),
-          strategy === 'joint' ? '' : withError(areaDifference(strategy, kc), 3, signed),
-        ]),
-      ]),
-    }),
-
-    gains: () => ({
-      columns: ['learners', 'quantity', 'published distribution', 'its mean', 'mean after rejection'],
-      rows: ['N', 'P'].flatMap((type) => {
-        const { label, ability, confirm_gain: confirm, correct_gain: correct } = paper.gains[type];
-        const half = (scale) => scale * Math.sqrt(2 / Math.PI);
+      columns: ['outcome', 'group beliefs - individual beliefs', '95 % interval', 'p'],
+      rows: OUTCOMES.map((outcome) => {
+        const one = belief(outcome, 'all');
+        const digits = DIGITS[outcome] + 1;
         return [
-          [label, 'initial ability', `normal(${ability.join(', ')})`, fixed(ability[0], 4), withError(learned(type, 'ability'), 4)],
-          [label, 'confirm_gain', `half-normal(${confirm})`, fixed(half(confirm), 4), withError(learned(type, 'confirm_gain'), 4)],
-          [label, 'correct_gain', `half-normal(${correct})`, fixed(half(correct), 4), withError(learned(type, 'correct_gain'), 4)],
+          outcome,
+          withError(one, digits, signed),
+          { text: interval(one.lower_limit, one.upper_limit, digits), value: one.lower_limit, se: one.se },
+          { text: probability(one.p_value), value: one.p_value },
         ];
       }),
     }),
 
+    'variance-ratios': () => ({
+      columns: ['outcome', 'variance ratio, 95 % interval', 'p', 'p, Brown-Forsythe'],
+      rows: OUTCOMES.map((outcome) => {
+        const one = spread(outcome, 'all');
+        return [
+          outcome,
+          withInterval(one.variance_ratio, one.lower_limit, one.upper_limit, 3),
+          { text: probability(one.p_value_jackknife), value: one.p_value_jackknife },
+          { text: probability(one.p_value_brown_forsythe), value: one.p_value_brown_forsythe },
+        ];
+      }),
+    }),
+
+    areas: () => ({
+      columns: ['strategy', 'mean area per period, sr', ...[1, 2, 3].map((kc) => `joint minus this (${kc})`)],
+      rows: GROUP.map((strategy) => [
+        strategy,
+        withError(summary('large', 'area_sr')[`mean ${strategy}`], 3),
+        ...[1, 2, 3].map((kc) => (strategy === 'joint' ? '' : withError(areaDifference(strategy, kc), 3, signed))),
+      ]),
+    }),
+
     reference: () => ({
-      columns: ['', ...['0.9', '1.0'].flatMap((scale) => [`kith, ${scale}`, `reference, ${scale}`]), 'published'],
+      columns: ['', ...['0.9', '1.0'].flatMap((scale) => [`kith, ${scale}`, `reference, ${scale}`])],
       rows: OUTCOMES.flatMap((outcome) =>
         Object.entries(POOLS).flatMap(([teams, label]) => {
           const digits = DIGITS[outcome];
@@ -345,33 +288,22 @@ export function makeContent(runs, source) {
                 `${fixed(k ? deviation : there, digits)} +- ${fixed(se, digits)}`,
               ];
             }),
-            fixed(publishedFigure(outcome, statistic, teams).value, 2),
           ]);
         }),
       ),
     }),
 
-    ...Object.fromEntries(
-      OUTCOMES.map((outcome) => [
-        `domains-${outcome}`,
-        () => ({
-          columns: ['domain', 'baseline', ...GROUP, 'common - the other three', 'group beliefs - individual beliefs'],
-          rows: DOMAINS.map((domain) => [
-            domain,
-            ...['baseline', ...GROUP].map((strategy) => withError(summary(domain, outcome)[`mean ${strategy}`], DIGITS[outcome])),
-            withError(common(domain, outcome), DIGITS[outcome], signed),
-            withError(belief(outcome, 'all', domain), DIGITS[outcome], signed),
-          ]),
-        }),
-      ]),
-    ),
-
-    priors: () => ({
-      columns: ['learners start with', ...OUTCOMES.flatMap((outcome) => Object.values(POOLS).map((label) => `${outcome}, ${label}`)), 'largest difference of periods between group strategies'],
-      rows: [['no prior', 'less known'], ["the teacher's prior", 'large'], ['that, and that rubble costs something', 'more known']].map(([label, run]) => [
-        label,
-        ...OUTCOMES.flatMap((outcome) => Object.keys(POOLS).map((teams) => withError(summary(run, outcome)[`mean ${teams}`], DIGITS[outcome]))),
-        withError(summary(run, 'periods')['strategy range'], 2),
+    domains: () => ({
+      columns: [
+        'domain', 'periods: baseline', 'joint', 'common - the other three', 'knowledge: baseline', 'joint (knowledge)',
+        'common - the other three (knowledge)',
+      ],
+      rows: DOMAINS.map((domain) => [
+        domain,
+        ...OUTCOMES.flatMap((outcome) => [
+          ...['baseline', 'joint'].map((strategy) => withError(summary(domain, outcome)[`mean ${strategy}`], DIGITS[outcome])),
+          withError(common(domain, outcome), DIGITS[outcome], signed),
+        ]),
       ]),
     }),
 
@@ -497,6 +429,12 @@ export function makeContent(runs, source) {
       ),
     'ranges-agree': () => Math.abs(large('periods', 'range difference').value) < 1.96 * large('periods', 'range difference').se,
     'all-complete': () => runs.table('large', 'teams').every((row) => row.status === 'complete'),
+    'eta-and-scale-matter': () =>
+      runs.json('calibration').targets.slice(0, 4).every(({ sensitivity }) => {
+        const share = (name) => sensitivity[name].total_share;
+        const others = Object.keys(sensitivity).filter((name) => !['eta', 'ability scale'].includes(name));
+        return share('eta') + share('ability scale') > 0.9 && others.every((name) => share(name) < 0.1);
+      }),
     'never-all-findings': () => runs.json('findings, paired').replication.all_agree === 0 && runs.json('findings, unpaired').replication.all_agree === 0,
     exceptions: () =>
       ['paired', 'unpaired'].every((pairing) => {
