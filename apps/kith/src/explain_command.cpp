@@ -1,4 +1,4 @@
-// What an error id means: the tables of docs/errors*.md, which are the registry of ids. And what kinds there are.
+// What an error id means: the tables of docs/errors.md, which are the registry of ids. And what kinds there are.
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 #include "build_facts.hpp"
 #include "commands.hpp"
-#include "error_pages.hpp"
+#include "error_page.hpp"
 #include "kind_lists.hpp"
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
@@ -22,7 +22,7 @@ struct ErrorEntry {
   bool infeasible = false;
 };
 
-// "[tables](errors-tables.md)" -> "tables", "`seed`" -> "'seed'".
+// "[limits](limits.md)" -> "limits", "`seed`" -> "'seed'".
 std::string plain_text(std::string_view markdown) {
   std::string text;
   for (std::size_t i = 0; i < markdown.size(); ++i) {
@@ -70,10 +70,10 @@ std::vector<ErrorEntry> error_entries() {
   constexpr std::string_view kInfeasible = "*infeasible:* ";
   std::vector<ErrorEntry> entries;
   std::string section;
-  for (auto pages = detail::kErrorPages; !pages.empty();) {
-    const auto end = pages.find('\n');
-    const auto line = pages.substr(0, end);
-    pages.remove_prefix(end == std::string_view::npos ? pages.size() : end + 1);
+  for (auto page = detail::kErrorPage; !page.empty();) {
+    const auto end = page.find('\n');
+    const auto line = page.substr(0, end);
+    page.remove_prefix(end == std::string_view::npos ? page.size() : end + 1);
     if (line.rfind("## ", 0) == 0)
       section = plain_text(line.substr(line.find(": ") == std::string_view::npos ? 3 : line.find(": ") + 2));
     if (line.rfind("| ", 0) != 0) continue;

@@ -199,10 +199,5 @@ TEST(Bench, CannotReadABaselineThatIsNotThere) {
   EXPECT_EQ(run_kith(quick_with({"--baseline", scratch / "absent.json"})).code, 5);
 }
 
-TEST(Bench, HasItsErrorsDocumented) {
-  const auto page = text_of(std::string{KITH_SOURCE_DIR} + "/docs/errors-bench.md");
-  for (const std::string id : {"E1001", "E1002", "E1003", "E1004"}) EXPECT_THAT(page, HasSubstr("| " + id + " |"));
-}
-
 }  // namespace
 }  // namespace kith::testing

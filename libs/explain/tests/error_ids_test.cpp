@@ -13,14 +13,6 @@
 namespace kith {
 namespace {
 
-TEST(ExplainErrorIds, AreAllExplainedOnTheirPage) {
-  const auto page = testing::text_of(std::filesystem::path{KITH_SOURCE_DIR} / "docs" / "errors-explain.md");
-  EXPECT_GE(testing::error_ids_in("explain").size(), 10u) << "an empty scan checks nothing";
-  for (const auto& id : testing::error_ids_in("explain")) {
-    EXPECT_NE(page.find("| " + id + " |"), std::string::npos) << id;
-  }
-}
-
 // The id of what is thrown.
 template <typename Call>
 std::string id_of(const Call& call) {
@@ -46,6 +38,7 @@ TEST(ExplainErrorIds, AreAllTriggered) {
   const Atlas one_road{*std::move(road.domain)};
   triggered.insert(id_of([&] { require_something_to_teach(one_road); }));
   auto known = testing::error_ids_in("explain");
+  EXPECT_GE(known.size(), 10u) << "an empty scan checks nothing";
   for (const auto* elsewhere : {"E1111", "E1112"})
     known.erase(elsewhere);  // by the tests of make_world() and kith find
   EXPECT_EQ(triggered, known);

@@ -7,11 +7,6 @@
 namespace kith {
 namespace {
 
-TEST(RunErrorIds, AreAllExplainedOnAPage) {
-  const auto pages = testing::error_pages();
-  for (const auto& id : testing::error_ids_in("runs")) EXPECT_NE(pages.find("| " + id + " |"), std::string::npos) << id;
-}
-
 // Tests name the ids that they trigger; those of damaged run folders are triggered where runs are read.
 TEST(RunErrorIds, AreAllTriggeredByATest) {
   std::string tests;

@@ -7,12 +7,6 @@
 namespace kith {
 namespace {
 
-TEST(StudyErrorIds, AreAllExplainedOnAPage) {
-  const auto pages = testing::error_pages();
-  for (const auto& id : testing::error_ids_in("study"))
-    EXPECT_NE(pages.find("| " + id + " |"), std::string::npos) << id;
-}
-
 // Tests name the ids that they trigger; those of the tables of a run are triggered where runs are read.
 TEST(StudyErrorIds, AreAllTriggeredByATest) {
   std::string tests;

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <regex>
-#include <set>
 
 #include "kith/core/error.hpp"
 #include "study_file_support.hpp"
@@ -413,32 +410,6 @@ TEST(StudyFile, FindsADomainFileBesideTheStudy) {
   EXPECT_EQ(reading.domain->num_mdps(), 64u);
   EXPECT_EQ(reading.domain_text, built_in.domain_text);
   std::filesystem::remove_all(folder);
-}
-
-// Every id of this layer in a text.
-std::set<std::string> own_ids(const std::string& text) {
-  std::set<std::string> result;
-  const std::regex id{"[EW]04[0-9][0-9]"};
-  for (std::sregex_iterator match{text.begin(), text.end(), id}; match != std::sregex_iterator{}; ++match) {
-    result.insert(match->str());
-  }
-  return result;
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file{path};
-  return {std::istreambuf_iterator<char>{file}, {}};
-}
-
-TEST(StudyFile, DocumentsEveryIdAndUsesEveryDocumentedOne) {
-  const std::filesystem::path root{KITH_SOURCE_DIR};
-  const auto documented = own_ids(text_of(root / "docs" / "errors-study.md"));
-  std::set<std::string> used;
-  for (const auto& file : std::filesystem::directory_iterator{root / "libs/study/src"}) {
-    used.merge(own_ids(text_of(file.path())));
-  }
-  EXPECT_GE(used.size(), 17u);
-  EXPECT_EQ(documented, used);
 }
 
 TEST(StudyFile, NamesTheBuiltInStudiesWhereThereIsNoSuchFile) {
