@@ -3,16 +3,9 @@
 #include <algorithm>
 
 #include "kith/core/error.hpp"
+#include "kith/domains/judgement.hpp"
 
 namespace kith {
-namespace {
-
-// raw weights . loss, in the units of the domain file.
-double raw_loss(const Domain& domain, const IntegerVector& loss) {
-  return dot(loss, domain.weights().raw) / static_cast<double>(domain.count_scale());
-}
-
-}  // namespace
 
 GradeTable::GradeTable(const Atlas& atlas)
     : num_components_{atlas.knowledge_components().size()}, num_hulls_{atlas.num_hulls()} {
@@ -36,17 +29,20 @@ void GradeTable::grade_starts(const Atlas& atlas) {
     }
   }
   const std::size_t num_cells = atlas.cells().size();
+  const IntegerVector nothing(domain.num_features());
   right_.assign(num_cells * num_hulls_, 0);
   grades_.assign(num_cells * columns, {});
   for (std::size_t h = 0; h < num_hulls_; ++h) {
-    const auto& losses = atlas.hull(HullIndex{h}).losses;
-    std::vector<double> regrets;
-    for (const auto& loss : losses) regrets.push_back(raw_loss(domain, loss));
-    const double worst = regrets.empty() ? 0.0 : *std::max_element(regrets.begin(), regrets.end());
+    std::vector<PathJudgement> judged;  // one per vertex of the coverage set
+    double worst = 0.0;
+    for (const auto& loss : atlas.hull(HullIndex{h}).losses) {
+      judged.push_back(judge_path(domain, loss, nothing));
+      worst = std::max(worst, judged.back().raw_regret);
+    }
     for (std::size_t cell = 0; cell < num_cells; ++cell) {
       const auto choice = atlas.cells().choice(PolicyCellIndex{cell}, HullIndex{h});
-      const bool is_right = choice != PolicyCells::kNone && sign_of_dot(domain.weights().integer, losses[choice]) == 0;
-      const double regret = is_right ? 0.0 : choice == PolicyCells::kNone ? worst : regrets[choice];
+      const bool is_right = choice != PolicyCells::kNone && judged[choice].is_right;
+      const double regret = choice == PolicyCells::kNone ? worst : judged[choice].raw_regret;
       right_[cell * num_hulls_ + h] = is_right ? 1 : 0;
       for (std::size_t k = 0; k < columns; ++k) {
         auto& grade = grades_[cell * columns + k];

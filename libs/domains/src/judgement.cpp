@@ -1,12 +1,48 @@
 #include "kith/domains/judgement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "kith/core/error.hpp"
 
 namespace kith {
+namespace {
+
+constexpr double kRelativeError = 1e-6;
+
+// Two returns of expected counts that differ by less are equal, in counts times weights of length 1.
+double tolerance(const Domain& domain, const IntegerVector& robot) {
+  const auto& unit = domain.weights().unit;
+  const auto scale = static_cast<double>(domain.count_scale());
+  const double value = std::abs(dot(robot, std::span{unit.data(), robot.size()})) / scale;
+  const double rounding = 2.0 * std::sqrt(static_cast<double>(robot.size())) / scale;
+  return std::max(kRelativeError * std::max(1.0, value), rounding);
+}
+
+}  // namespace
+
+PathJudgement judge_path(const Domain& domain, const IntegerVector& robot, const IntegerVector& path) {
+  const auto& weights = domain.weights();
+  if (robot.size() != domain.num_features() || path.size() != robot.size()) {
+    throw std::invalid_argument{"judge_path: there must be one count per feature"};
+  }
+  PathJudgement result;
+  result.loss = robot - path;
+  const auto scale = static_cast<double>(domain.count_scale());
+  const int sign = sign_of_dot(weights.integer, result.loss);
+  const bool is_equal =
+      sign == 0 ||
+      (!domain.is_exact() &&
+       std::abs(dot(result.loss, std::span{weights.unit.data(), robot.size()})) / scale <= tolerance(domain, robot));
+  result.is_right = is_equal || sign < 0;
+  result.is_better = !is_equal && sign < 0;
+  if (is_equal) return result;
+  result.regret = weights.return_of(result.loss) / scale;
+  result.raw_regret = dot(result.loss, weights.raw) / scale;
+  return result;
+}
 
 const char* name_of(ActionsOutcome outcome) noexcept {
   switch (outcome) {
@@ -65,13 +101,11 @@ ActionsJudgement ActionsJudge::judge(StateIndex start, std::span<const std::stri
   if (mdp_->is_terminal(result.last)) result.outcome = ActionsOutcome::kFinished;
   result.ignored = actions.size() - result.counted;
 
-  const auto& weights = domain_->weights();
-  const auto loss =
-      solution_.feature_counts[start.value()] - result.feature_counts - solution_.feature_counts[result.last.value()];
-  const bool nothing_lost = sign_of_dot(weights.integer, loss) == 0;
-  result.earned = weights.return_of(result.feature_counts);
-  result.regret = nothing_lost ? 0.0 : weights.return_of(loss);
-  result.optimal = nothing_lost && result.outcome == ActionsOutcome::kFinished;
+  const auto judged = judge_path(*domain_, solution_.feature_counts[start.value()],
+                                 result.feature_counts + solution_.feature_counts[result.last.value()]);
+  result.earned = domain_->weights().return_of(result.feature_counts);
+  result.regret = judged.regret;
+  result.optimal = judged.is_right && result.outcome == ActionsOutcome::kFinished;
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
+#include "kith/domains/judgement.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/geometry/cover.hpp"
 
@@ -160,21 +161,12 @@ class CurriculumMaker {
     return cells;
   }
 
-  // As good as the robot's, up to what expectations are known to.
-  [[nodiscard]] bool is_right(DemoIndex test, const IntegerVector& answer) const {
-    const auto& domain = atlas_.domain();
-    const auto loss = atlas_.feature_counts(test) - answer;
-    if (domain.is_exact()) return sign_of_dot(domain.weights().integer, loss) == 0;
-    constexpr double kTolerance = 1e-6;
-    return domain.weights().return_of(loss) / static_cast<double>(domain.count_scale()) < kTolerance;
-  }
-
   [[nodiscard]] CurriculumTest graded(const Test& test, const std::vector<PolicyCellIndex>& points) {
     constexpr double kEasy = 2.0 / 3.0;
     constexpr double kHard = 1.0 / 3.0;
     const auto right = std::count_if(points.begin(), points.end(), [&](PolicyCellIndex cell) {
       const auto answer = cache_.behaviours().answer(test.demo, cell);
-      return answer && is_right(test.demo, *answer);
+      return answer && judge_path(atlas_.domain(), atlas_.feature_counts(test.demo), *answer).is_right;
     });
     const auto share = static_cast<double>(right) / static_cast<double>(points.size());
     const auto difficulty = share >= kEasy  ? Difficulty::kEasy

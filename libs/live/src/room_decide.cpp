@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "kith/domains/judgement.hpp"
 #include "room_body.hpp"
 #include "room_state.hpp"
 
@@ -80,12 +81,12 @@ class SeatDecider {
     if (number < seat_.screened.size()) return nothing_to_do();
     if (seat_.readiness != Readiness::kScreening || number != seat_.screened.size()) return not_now();
     const auto& atlas = *room_.study.atlas;
-    const auto judged = judged_path(atlas, room_.study.screening[number], *actions, *for_ever);
+    const auto demo = room_.study.screening[number];
+    const auto judged = judged_path(atlas, demo, *actions, *for_ever);
     if (!judged.is_legal) return illegal(judged);
-    Json body{{"test", number},
-              {"actions", *actions},
-              {"right", is_as_good(atlas, room_.study.screening[number], judged.counts)},
-              {"ms", *ms}};
+    const bool is_right =
+        judged.counts && judge_path(atlas.domain(), atlas.feature_counts(demo), *judged.counts).is_right;
+    Json body{{"test", number}, {"actions", *actions}, {"right", is_right}, {"ms", *ms}};
     if (*for_ever) body["for_ever"] = true;
     return accepted("screened", std::move(body));
   }

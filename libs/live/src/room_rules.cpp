@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "room_state.hpp"
 
@@ -68,17 +67,6 @@ std::optional<std::size_t> first_reserve(const Room::State& state) noexcept {
     if (!first || seat.ready_us < state.seats[*first].ready_us) first = i;
   }
   return first;
-}
-
-bool is_as_good(const Atlas& atlas, DemoIndex test, const Answer& counts) {
-  constexpr double kTolerance = 1e-6;  // as in Session
-  if (!counts) return false;
-  const auto& weights = atlas.domain().weights();
-  const auto& robot = atlas.feature_counts(test);
-  const auto loss = robot - *counts;
-  if (atlas.domain().is_exact()) return sign_of_dot(weights.integer, loss) <= 0;
-  const auto scale = static_cast<double>(atlas.domain().count_scale());
-  return weights.return_of(loss) / scale <= kTolerance * std::max(1.0, std::abs(weights.return_of(robot)) / scale);
 }
 
 std::vector<bool> simulated_members(const LiveStudy& study, std::size_t members) {

@@ -165,8 +165,6 @@ inline constexpr std::int64_t kSecond = 1'000'000;  // microseconds
 [[nodiscard]] std::size_t current_test(const LiveSeat& seat) noexcept;
 /// A seat of the reserve that can take over: the one that has been ready for longest.
 [[nodiscard]] std::optional<std::size_t> first_reserve(const Room::State& state) noexcept;
-/// Whether the answer is as good as the robot's path.
-[[nodiscard]] bool is_as_good(const Atlas& atlas, DemoIndex test, const Answer& counts);
 /// The address of the room's streams.
 [[nodiscard]] TeamAddress address_of(const RoomSetup& setup);
 /// Which members of a group of that size are simulated, as `group.people` says.

@@ -1,9 +1,9 @@
 #include "kith/teaching/exam.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "kith/domains/judgement.hpp"
 #include "kith/random/distributions.hpp"
 
 namespace kith {
@@ -13,21 +13,16 @@ constexpr std::size_t kSampledMdps = 6;
 constexpr std::size_t kSampledPerMdp = 15;
 constexpr std::size_t kSampledPerThird = 10;
 constexpr std::size_t kDraws = 16;
-// Returns that differ by less than this, relative to the robot's, are equal where they are expectations.
-constexpr double kEqualReturns = 1e-6;
 
 RandomStream exam_stream() { return RandomStream{0}.split("exam"); }
-
-double raw_return(const Atlas& atlas, const IntegerVector& counts) {
-  return dot(counts, atlas.domain().weights().raw) / static_cast<double>(atlas.domain().count_scale());
-}
 
 double worst_deviation(const Atlas& atlas, DemoIndex start) {
   const auto id = atlas.id(start);
   const auto& mdp = atlas.domain().mdp(id.mdp);
   double worst = 0.0;
   for (std::size_t choice = 0; choice < mdp.choices(id.start).size(); ++choice) {
-    worst = std::max(worst, raw_return(atlas, atlas.feature_counts(start) - atlas.deviation_counts(start, choice)));
+    const auto counts = atlas.deviation_counts(start, choice);
+    worst = std::max(worst, judge_path(atlas.domain(), atlas.feature_counts(start), counts).raw_regret);
   }
   return worst;
 }
@@ -36,13 +31,8 @@ double worst_deviation(const Atlas& atlas, DemoIndex start) {
 
 Grade grade_answer(const Atlas& atlas, DemoIndex start, const std::optional<IntegerVector>& answer) {
   if (!answer) return {0.0, worst_deviation(atlas, start)};
-  const auto& domain = atlas.domain();
-  const auto& robot = atlas.feature_counts(start);
-  const auto loss = robot - *answer;
-  const double regret = raw_return(atlas, loss);
-  const bool is_right = domain.is_exact() ? sign_of_dot(domain.weights().integer, loss) == 0
-                                          : regret <= kEqualReturns * std::max(1.0, std::abs(raw_return(atlas, robot)));
-  return is_right ? Grade{1.0, 0.0} : Grade{0.0, std::max(regret, 0.0)};
+  const auto judged = judge_path(atlas.domain(), atlas.feature_counts(start), *answer);
+  return judged.is_right ? Grade{1.0, 0.0} : Grade{0.0, judged.raw_regret};
 }
 
 Exam::Exam(Behaviours& behaviours, const PriorCover& cover) {

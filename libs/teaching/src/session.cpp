@@ -10,6 +10,7 @@
 #include "kith/bec/comparison.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
+#include "kith/domains/judgement.hpp"
 #include "kith/geometry/cone.hpp"
 #include "kith/teaching/test_selection.hpp"
 #include "session_checks.hpp"
@@ -20,8 +21,6 @@ namespace {
 constexpr std::size_t kMaxMembers = 30;
 // An ability of 1 would exclude every particle when a person contradicts what was taught.
 constexpr double kSurest = 1.0 - 1e-9;
-// Returns that differ by less than this, relative to the robot's, are equal where they are expectations.
-constexpr double kReturnTolerance = 1e-6;
 
 TeamBelief::Options belief_options(const TeachingOptions& options, const StrategyChoice& choice,
                                    std::size_t dimension) {
@@ -331,16 +330,11 @@ Verdict Session::judge(const Test& test, const Answer& answer) const {
     refuse("an answer has " + std::to_string(answer->size()) + " feature counts instead of " +
            std::to_string(robot.size()));
   }
-  const auto scale = static_cast<double>(domain.count_scale());
-  const auto loss = robot - *answer;
-  const double regret = domain.weights().return_of(loss) / scale;
-  const double tolerance =
-      domain.is_exact() ? 0.0 : kReturnTolerance * std::max(1.0, std::abs(domain.weights().return_of(robot)) / scale);
-  const int sign = std::abs(regret) <= tolerance ? 0 : sign_of_dot(domain.weights().integer, loss);
-  if (sign < 0) refuse("an answer earns more than the robot's optimal behaviour, which no path can");
-  verdict.correct = sign == 0;
-  verdict.regret = verdict.correct ? 0.0 : regret;
-  auto preferred = preference(-loss, domain.count_scale());  // of the answer to the robot's path
+  const auto judged = judge_path(domain, robot, *answer);
+  if (judged.is_better) refuse("an answer earns more than the robot's optimal behaviour, which no path can");
+  verdict.correct = judged.is_right;
+  verdict.regret = judged.regret;
+  auto preferred = preference(-judged.loss, domain.count_scale());  // of the answer to the robot's path
   if (verdict.correct) {
     // Another path that is as good shows no preference between the two, and nothing about others.
     if (!preferred) verdict.half_spaces = test.covered;
