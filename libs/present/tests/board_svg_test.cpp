@@ -216,7 +216,7 @@ weights = { water = -3, step = -1 }
 
 // Up to as many terrains as there are tints and patterns, and as many things whose names begin alike.
 TEST(Surfaces, TellManyTerrainsAndThingsApart) {
-  for (const std::size_t n : {2, 8, 9, 17, 32}) {
+  for (const std::size_t n : {2u, 8u, 9u, 17u, 32u}) {
     std::string legend, row = "S";
     for (std::size_t i = 0; i < n; ++i) {
       const std::string symbol(1, static_cast<char>(i < 26 ? 'a' + i : '0' + (i - 26)));
