@@ -114,15 +114,15 @@ void expect_hull_maximum_is_the_plan(const Atlas& atlas, int num_weights, std::u
   EXPECT_EQ(used, num_weights);
 }
 
-class BuiltInDomain : public ::testing::TestWithParam<std::string> {};
-class BuiltInDomainSlow : public ::testing::TestWithParam<std::string> {};
+class EveryBuiltInDomain : public ::testing::TestWithParam<std::string> {};
+class EveryBuiltInDomainSlow : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(BuiltInDomain, HullMaximumIsTheOptimalValue) { expect_hull_maximum_is_the_plan(atlas_of(GetParam()), 1, 7); }
-TEST_P(BuiltInDomainSlow, HullMaximumIsTheOptimalValue) {
+TEST_P(EveryBuiltInDomain, HullMaximumIsTheOptimalValue) { expect_hull_maximum_is_the_plan(atlas_of(GetParam()), 1, 7); }
+TEST_P(EveryBuiltInDomainSlow, HullMaximumIsTheOptimalValue) {
   expect_hull_maximum_is_the_plan(atlas_of(GetParam()), 200, 8);
 }
 
-TEST_P(BuiltInDomain, EveryConstraintHoldsAtTheRobotsWeights) {
+TEST_P(EveryBuiltInDomain, EveryConstraintHoldsAtTheRobotsWeights) {
   const auto& atlas = atlas_of(GetParam());
   const auto& w = atlas.domain().weights().integer;
   for (std::size_t c = 0; c < atlas.constraints().size(); ++c) {
@@ -136,8 +136,8 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& domain) {
   return name;
 }
 const auto kOthers = ::testing::Values("colored-tiles", "skateboard", "two-goals", "cookie-crumb");
-INSTANTIATE_TEST_SUITE_P(All, BuiltInDomain, kOthers, test_name);
-INSTANTIATE_TEST_SUITE_P(All, BuiltInDomainSlow, kOthers, test_name);
+INSTANTIATE_TEST_SUITE_P(All, EveryBuiltInDomain, kOthers, test_name);
+INSTANTIATE_TEST_SUITE_P(All, EveryBuiltInDomainSlow, kOthers, test_name);
 
 // Each feature, each pair and all of them would be 22.
 TEST(Navigation, IsTaughtInFewPartsThatFollowFromThePolicy) {
