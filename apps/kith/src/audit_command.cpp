@@ -42,7 +42,7 @@ Error refusal(ErrorKind kind, const std::string& id, const std::string& message,
 
 // A person whose answers are to be judged.
 struct Observed {
-  AuditedPerson person;  // without components
+  AuditedPerson person;  // without an audit
   std::vector<ObservedPeriod> periods;
 };
 
@@ -59,7 +59,7 @@ void judge(TeachingCache& cache, const AuditOptions& how, std::vector<Observed>&
   for (auto& [person, periods] : people) {
     auto random = RandomStream{1}.split("audit").split(person.team).split(person.room).split(person.member);
     if (person.seat != 0) random = random.split(person.seat);
-    person.components = auditor.audit(periods, random);
+    person.audit = auditor.audit(periods, random);
   }
 }
 
@@ -272,10 +272,14 @@ class AuditText {
     if (!everybody) return out_;
     std::string group;
     for (const auto& person : report_.people) {
-      if (person.group != group) out_ += "\n" + console_.bold(person.group) + "\n";
+      if (person.group != group) {
+        out_ += "\n" + console_.bold(person.group) + "\n";
+        line(agreement_in_words(report_, person.group), 0);
+      }
       group = person.group;
       out_ += "\n" + title_of(person) + "\n";
-      for (const auto& audit : person.components) component(audit);
+      if (const auto caution = caution_in_words(person.audit); !caution.empty()) line(caution, 2);
+      for (const auto& audit : person.audit.components) component(audit);
     }
     return out_;
   }
@@ -295,7 +299,8 @@ class AuditText {
                  std::to_string(counts.understand), std::to_string(counts.cannot_tell),
                  std::to_string(counts.misconception), std::to_string(counts.not_taught)});
     }
-    out_ += table.text(console_);
+    out_ += table.text(console_) + "\n";
+    line(agreement_in_words(report_), 0);
     const auto shared = shared_misconceptions(report_);
     if (!shared.empty()) out_ += "\nMisconceptions, with the number of people\n";
     for (const auto& one : shared) {

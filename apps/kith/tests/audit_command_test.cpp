@@ -42,6 +42,7 @@ TEST_F(AuditCommand, SaysWhoUnderstandsWhat) {
   EXPECT_THAT(ran.out, HasSubstr("Member 1 (N)"));
   EXPECT_THAT(ran.out, HasSubstr("1. crossing rubble versus steps: "));
   EXPECT_THAT(ran.out, HasSubstr("next: "));
+  EXPECT_THAT(ran.out, HasSubstr("answers are right, "));
   std::istringstream lines{ran.out};
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
 }
@@ -60,7 +61,8 @@ TEST_F(AuditCommand, JudgesEverybodyAlikeOnAnyNumberOfThreads) {
   EXPECT_EQ(team.at("people")[0], document.at("people")[2]);
   for (const auto& person : document.at("people")) {
     for (const auto& component : person.at("components")) {
-      EXPECT_LE(component.at("level").at("low"), component.at("level").at("high"));
+      EXPECT_LE(component.at("level").at("low"), component.at("level").at("mean"));
+      EXPECT_LE(component.at("level").at("mean"), component.at("level").at("high"));
       EXPECT_LE(component.at("correct"), component.at("tests"));
     }
   }

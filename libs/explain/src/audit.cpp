@@ -72,6 +72,7 @@ const char* name_of(Understanding understanding) noexcept {
 Auditor::Auditor(TeachingCache& cache, const AuditOptions& options)
     : cache_{&cache}, options_{options}, unit_{reference_feature(cache.atlas())} {
   const bool is_good = is_probability(options.sure) && is_probability(options.likely) && options.negligible >= 0.0 &&
+                       is_probability(options.wrongly) && options.unexplained >= 0.0 && options.unexplained < 1.0 &&
                        options.telling >= 1.0 && options.forgetting >= 0.0 && std::isfinite(options.forgetting);
   if (!is_good) throw std::invalid_argument{"Auditor: an option is out of range"};
   const auto& atlas = cache.atlas();
@@ -81,33 +82,58 @@ Auditor::Auditor(TeachingCache& cache, const AuditOptions& options)
   }
 }
 
-std::vector<ComponentAudit> Auditor::audit(std::span<const ObservedPeriod> periods, const RandomStream& random) {
+PersonAudit Auditor::audit(std::span<const ObservedPeriod> periods, const RandomStream& random) {
   MisconceptionBank bank{*cache_, options_.bank, random.split("bank")};
   for (const auto& period : periods) bank.observe(cache_->atlas(), period);
-  std::vector<ComponentAudit> audits(constraints_.size());
-  count(periods, audits);
-  for (std::size_t k = 0; k < audits.size(); ++k) {
-    auto& audit = audits[k];
-    audit.component = k;
+  PersonAudit person;
+  person.components.resize(constraints_.size());
+  count(periods, person.components);
+  person.agreement = bank.agreement();
+  person.is_explained = person.agreement.p >= options_.unexplained;
+  person.learning = bank.probability_of_learning();
+  person.guessing = bank.probability_of_guessing();
+  if (person.is_explained) {
+    judge(bank, periods, person);
+  } else {
+    judge_by_answers(person);
+  }
+  for (auto& audit : person.components) {
+    if (audit.periods > 0) audit.test = choose_test(bank, audit, periods);
+  }
+  if (person.is_explained) plan_tests(bank, random.split("forget"), person.components);
+  return person;
+}
+
+void Auditor::judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods, PersonAudit& person) {
+  const bool shows_learning = bank.odds_of_learning() * options_.wrongly >= 1.0;
+  for (std::size_t k = 0; k < person.components.size(); ++k) {
+    auto& audit = person.components[k];
     audit.level = credible_level(bank.shares(constraints_[k]), options_.level);
     if (audit.periods == 0) continue;
     audit.understanding = Understanding::kCannotTell;
     audit.misconception = misconception(bank, k, periods);
-    if (audit.level.probability >= options_.sure) {
+    if (audit.level.probability >= options_.sure && shows_learning) {
       audit.understanding = Understanding::kUnderstands;
     } else if (audit.misconception && audit.misconception->probability >= options_.likely) {
       audit.understanding = Understanding::kMisconception;
-    }
-    if (audit.understanding == Understanding::kMisconception) {
       choose_demonstration(bank, k, periods, *audit.misconception);
     }
-    audit.test = choose_test(bank, audit, periods);
   }
-  plan_tests(bank, random.split("forget"), audits);
-  return audits;
+}
+
+// Nothing is known of how these people learn, or of whether they will remember.
+void Auditor::judge_by_answers(PersonAudit& person) const {
+  for (auto& audit : person.components) {
+    audit.level = level_by_answers(audit.correct, audit.tests, options_.level);
+    if (audit.periods == 0) continue;
+    const bool understands = audit.level.probability >= options_.sure;
+    audit.understanding = understands ? Understanding::kUnderstands : Understanding::kCannotTell;
+    audit.test_after = understands ? 1 : 0;
+  }
 }
 
 void Auditor::count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const {
+  for (std::size_t k = 0; k < audits.size(); ++k) audits[k].component = k;
   for (const auto& period : periods) {
     auto& audit = audits[period.component];
     ++audit.periods;
@@ -126,7 +152,7 @@ std::optional<LikelyMisconception> Auditor::misconception(const MisconceptionBan
   const HalfSpace* likeliest = nullptr;
   double probability = 0.0;
   for (const auto& constraint : constraints_[component]) {
-    const double violated = 1.0 - bank.probability_of({&constraint, 1});
+    const double violated = bank.probability_of_violating(constraint);
     if (violated <= probability) continue;
     probability = violated;
     likeliest = &constraint;

@@ -22,6 +22,7 @@ h2{font-size:21px;margin:40px 0 8px;padding-top:20px;border-top:1px solid var(--
 h3{font-size:17px;margin:24px 0 4px}
 p{margin:0 0 10px;max-width:74ch}
 .muted{color:var(--muted)}
+.caution{color:var(--bad)}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;margin:8px 0 20px}
 th,td{text-align:left;padding:5px 14px 5px 0;border-bottom:1px solid var(--line);vertical-align:top}
@@ -60,7 +61,10 @@ class Page {
     misconceptions();
     std::string group;
     for (const auto& person : report_.people) {
-      if (person.group != group) out_ += tag("h2", sentence(person.group));
+      if (person.group != group) {
+        out_ += tag("h2", sentence(person.group));
+        out_ += tag("p", agreement_in_words(report_, person.group));
+      }
       group = person.group;
       this->person(person);
     }
@@ -104,6 +108,7 @@ class Page {
           counts.misconception, counts.not_taught);
     }
     out_ += "</table></div>\n";
+    out_ += tag("p", agreement_in_words(report_));
   }
 
   void misconceptions() {
@@ -124,7 +129,9 @@ class Page {
 
   void person(const AuditedPerson& person) {
     out_ += tag("h3", title_of(person));
-    for (const auto& audit : person.components) component(audit);
+    const auto caution = caution_in_words(person.audit);
+    if (!caution.empty()) out_ += tag("p", caution, "class=\"caution\"");
+    for (const auto& audit : person.audit.components) component(audit);
   }
 
   void component(const ComponentAudit& audit) {
@@ -216,6 +223,12 @@ class Page {
                          "on all of it at least {} of the time. The page says so only if that is at least {} certain. "
                          "A misconception is named if the person would more likely than not go by it in the next test.",
                          percent(options.level.enough), percent(options.sure)));
+    out_ +=
+        tag("p", fmt::format("The answers of each group are compared with what the model of how people learn expects "
+                             "of it. p is the probability of a number of right answers at least as far from that: "
+                             "where it is small, trust the answers more than the model. Somebody whose answers the "
+                             "model does not explain (p below {:g}) is judged by the number of right answers alone.",
+                             options.unexplained));
     out_ += tag("p",
                 "Only the lessons and the answers were used. The times until the next test assume that people "
                 "forget at a rate of " +

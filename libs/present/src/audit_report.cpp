@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -16,7 +17,7 @@ namespace kith {
 AuditCounts counts_of(const AuditReport& report, std::size_t component) {
   AuditCounts counts;
   for (const auto& person : report.people) {
-    switch (person.components.at(component).understanding) {
+    switch (person.audit.components.at(component).understanding) {
       case Understanding::kUnderstands:
         ++counts.understand;
         break;
@@ -34,6 +35,74 @@ AuditCounts counts_of(const AuditReport& report, std::size_t component) {
   return counts;
 }
 
+Agreement agreement_of(const AuditReport& report, const std::string& group) {
+  Agreement sum;
+  for (const auto& person : report.people) {
+    if (!group.empty() && person.group != group) continue;
+    const auto& one = person.audit.agreement;
+    sum.tests += one.tests;
+    sum.right += one.right;
+    sum.expected += one.expected;
+    sum.variance += one.variance;
+  }
+  if (!(sum.variance > 0.0)) return sum;
+  constexpr double kHalf = 0.5;  // numbers are whole
+  const double off = std::max(0.0, std::abs(static_cast<double>(sum.right) - sum.expected) - kHalf);
+  sum.p = std::erfc(off / std::sqrt(2.0 * sum.variance));
+  return sum;
+}
+
+std::size_t num_unexplained(const AuditReport& report, const std::string& group) {
+  return static_cast<std::size_t>(std::count_if(report.people.begin(), report.people.end(), [&](const auto& person) {
+    return (group.empty() || person.group == group) && !person.audit.is_explained;
+  }));
+}
+
+namespace {
+
+// "16 of 20 are right, 15.2 were expected (p = 0.62)".
+std::string counts_in_words(const Agreement& agreement) {
+  constexpr double kSmallest = 0.001;
+  return fmt::format("{} of {} {} right, {:.1f} {} expected (p {})", agreement.right,
+                     counted(agreement.tests, "answer"), agreement.right == 1 ? "is" : "are", agreement.expected,
+                     agreement.expected == 1.0 ? "was" : "were",
+                     agreement.p < kSmallest ? "< 0.001" : fmt::format("= {:.2g}", agreement.p));
+}
+
+}  // namespace
+
+std::string agreement_in_words(const AuditReport& report, const std::string& group) {
+  const auto agreement = agreement_of(report, group);
+  if (agreement.tests == 0) return "Nobody has answered a test.";
+  const bool fits = agreement.p >= report.options.unexplained;
+  const bool fewer = static_cast<double>(agreement.right) < agreement.expected;
+  auto text = fits    ? std::string{"The answers fit what the model expects: "}
+              : fewer ? std::string{"There are fewer right answers than the model expects: "}
+                      : std::string{"There are more right answers than the model expects: "};
+  text += counts_in_words(agreement) + ".";
+  if (const auto n = num_unexplained(report, group); n > 0) {
+    text += fmt::format(" The model does not explain the answers of {}.",
+                        n == 1 ? "1 person" : fmt::format("{} people", n));
+  }
+  return text;
+}
+
+std::string caution_in_words(const PersonAudit& audit) {
+  constexpr double kLikely = 0.5;
+  if (!audit.is_explained) {
+    return "The model does not explain these answers: " + counts_in_words(audit.agreement) +
+           ". The verdicts go by the number of right answers alone.";
+  }
+  if (audit.guessing >= kLikely) {
+    return fmt::format("The answers look like guesses (probability {:.0f} %).", 100.0 * audit.guessing);
+  }
+  if (1.0 - audit.learning >= kLikely) {
+    return fmt::format("Lessons do not seem to reach this person any more (probability {:.0f} %).",
+                       100.0 * (1.0 - audit.learning));
+  }
+  return "";
+}
+
 std::vector<SharedMisconception> shared_misconceptions(const AuditReport& report) {
   struct Group {
     std::size_t people = 0;
@@ -41,7 +110,7 @@ std::vector<SharedMisconception> shared_misconceptions(const AuditReport& report
   };
   std::map<std::pair<std::size_t, std::string>, Group> groups;  // by component and fact
   for (const auto& person : report.people) {
-    for (const auto& audit : person.components) {
+    for (const auto& audit : person.audit.components) {
       if (audit.understanding != Understanding::kMisconception) continue;
       auto& group = groups[{audit.component, audit.misconception->fact}];
       ++group.people;
@@ -123,6 +192,13 @@ Json misconception_json(const Atlas& atlas, const LikelyMisconception& misconcep
           {"reason", misconception.reason.empty() ? Json{} : Json(misconception.reason)}};
 }
 
+Json agreement_json(const Agreement& agreement) {
+  return {{"tests", agreement.tests},
+          {"right", agreement.right},
+          {"expected", agreement.expected},
+          {"p", agreement.tests > 0 ? Json(agreement.p) : Json{}}};
+}
+
 Json component_json(const Atlas& atlas, const ComponentAudit& audit) {
   const auto advice = advice_in_words(audit);
   return {
@@ -167,7 +243,7 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
   Json people = Json::array();
   for (const auto& person : report.people) {
     Json audits = Json::array();
-    for (const auto& audit : person.components) audits.push_back(component_json(atlas, audit));
+    for (const auto& audit : person.audit.components) audits.push_back(component_json(atlas, audit));
     people.push_back({{"group", person.group},
                       {"team", person.team == 0 ? Json{} : Json(person.team)},
                       {"room", person.room.empty() ? Json{} : Json(person.room)},
@@ -175,7 +251,20 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
                       {"seat", person.seat == 0 ? Json{} : Json(person.seat)},
                       {"type", std::string(1, person.type)},
                       {"simulated", person.simulated},
+                      {"agreement", agreement_json(person.audit.agreement)},
+                      {"explained", person.audit.is_explained},
+                      {"learning", person.audit.learning},
+                      {"guessing", person.audit.guessing},
                       {"components", std::move(audits)}});
+  }
+  Json groups = Json::array();
+  std::string last;
+  for (const auto& person : report.people) {
+    if (person.group == last) continue;
+    last = person.group;
+    groups.push_back({{"group", last},
+                      {"agreement", agreement_json(agreement_of(report, last))},
+                      {"unexplained", num_unexplained(report, last)}});
   }
   const auto& options = report.options;
   return {{"schema", "kith.audit/1"},
@@ -186,6 +275,9 @@ Json audit_json(const Atlas& atlas, const AuditReport& report, const std::string
           {"sure", options.sure},
           {"coverage", options.level.coverage},
           {"forgetting", options.forgetting},
+          {"agreement", agreement_json(agreement_of(report))},
+          {"unexplained", num_unexplained(report)},
+          {"groups", std::move(groups)},
           {"components", std::move(components)},
           {"misconceptions", std::move(shared)},
           {"people", std::move(people)}};

@@ -17,37 +17,15 @@
 #include "kith/study/study_file.hpp"
 #include "kith/study/team_run.hpp"
 #include "study_texts.hpp"
+#include "true_levels.hpp"
 
 namespace kith {
 namespace {
 
 using testing::item_delivery;
+using testing::TrueLevels;
 
 constexpr double kEnough = 0.8;  // CredibleLevelOptions::enough
-
-// Keeps how often each member satisfies all constraints of each component at the end.
-class TrueLevels : public TeamObserver {
- public:
-  explicit TrueLevels(const Auditor& auditor) : auditor_{auditor} {}
-  std::vector<std::vector<double>> levels;  // per member and component
-
-  void on_session(const Session& /*session*/, std::span<const std::size_t> /*members*/) override {}
-  void on_lesson(const Session& /*session*/, const Lesson& /*lesson*/, const Learners& /*learners*/) override {}
-  void on_feedback(const Session& /*session*/, const Lesson& /*lesson*/,
-                   const std::vector<Learner::Response>& /*responses*/, const Feedback& /*feedback*/,
-                   const Learners& /*learners*/) override {}
-  void on_end(const Session& session, const Learners& learners) override {
-    for (const auto& learner : learners) {
-      auto& row = levels.emplace_back();
-      for (std::size_t k = 0; k < session.components().size(); ++k) {
-        row.push_back(learner->mass_in(auditor_.constraints_of(k)));
-      }
-    }
-  }
-
- private:
-  const Auditor& auditor_;
-};
 
 // Types A, B, ... who know the prior and the opposite of one constraint, whatever they are shown, in teams with novices
 // (N) and proficient learners (P); and teams of these alone.
@@ -134,7 +112,7 @@ void measure(const PlantedStudy& planted, Measured& measured) {
     const auto record = run_team(item_delivery(), cache, planted.study.variants.front(), address, &truth);
     const auto people = observed_people(item_delivery(), record);
     for (std::size_t m = 0; m < people.size(); ++m) {
-      const auto audits = auditor.audit(people[m], RandomStream{1}.split(team).split(m));
+      const auto audits = auditor.audit(people[m], RandomStream{1}.split(team).split(m)).components;
       const auto* constraint = planted.planted(address.composition[m]);
       const bool has_shown =
           constraint != nullptr &&
@@ -225,7 +203,7 @@ class AuditOfOneTeam : public ::testing::Test {
       person.group = describe_team(planted.study, address);
       person.member = m + 1;
       person.type = address.composition[m];
-      person.components = auditor.audit(people_[m], RandomStream{1}.split(m));
+      person.audit = auditor.audit(people_[m], RandomStream{1}.split(m));
       report_.people.push_back(std::move(person));
     }
     report_.source = "results/<planted>";
@@ -237,7 +215,7 @@ class AuditOfOneTeam : public ::testing::Test {
 };
 
 TEST_F(AuditOfOneTeam, SaysWhatThePersonThinksAndWhatToDo) {
-  const auto& audit = report_.people.front().components.front();
+  const auto& audit = report_.people.front().audit.components.front();
   ASSERT_EQ(audit.understanding, Understanding::kMisconception);
   const auto& found = audit.misconception.value();
   EXPECT_EQ(found.fact, "crossing rubble costs more than 2 steps");
@@ -263,21 +241,21 @@ TEST_F(AuditOfOneTeam, SaysWhatThePersonThinksAndWhatToDo) {
 TEST_F(AuditOfOneTeam, IsTheSameEveryTime) {
   TeachingCache other{item_delivery()};
   Auditor auditor{other, {}};
-  const auto again = auditor.audit(people_[1], RandomStream{1}.split(1));
+  const auto again = auditor.audit(people_[1], RandomStream{1}.split(1)).components;
   for (std::size_t k = 0; k < again.size(); ++k) {
-    EXPECT_EQ(again[k].level, report_.people[1].components[k].level);
-    EXPECT_EQ(again[k].test, report_.people[1].components[k].test);
+    EXPECT_EQ(again[k].level, report_.people[1].audit.components[k].level);
+    EXPECT_EQ(again[k].test, report_.people[1].audit.components[k].test);
   }
 }
 
 TEST_F(AuditOfOneTeam, JudgesWithWhatWasTaughtSoFar) {
   Auditor auditor{cache_, {}};
-  const auto before = auditor.audit({}, RandomStream{1});
+  const auto before = auditor.audit({}, RandomStream{1}).components;
   for (const auto& audit : before) {
     EXPECT_EQ(audit.understanding, Understanding::kNotTaught);
     EXPECT_FALSE(audit.misconception.has_value());
   }
-  const auto first = auditor.audit(std::span{people_[0]}.first(1), RandomStream{1});
+  const auto first = auditor.audit(std::span{people_[0]}.first(1), RandomStream{1}).components;
   EXPECT_EQ(first[1].understanding, Understanding::kNotTaught);
   EXPECT_NE(first[0].understanding, Understanding::kNotTaught);
 }
@@ -288,9 +266,9 @@ TEST_F(AuditOfOneTeam, TestsLaterIfPeopleForgetLess) {
   slow.forgetting = 0.02;
   never.forgetting = 0.0;
   for (std::size_t m = 1; m < people_.size(); ++m) {
-    const auto soon = Auditor{cache_, quick}.audit(people_[m], RandomStream{1}.split(m));
-    const auto later = Auditor{cache_, slow}.audit(people_[m], RandomStream{1}.split(m));
-    const auto not_at_all = Auditor{cache_, never}.audit(people_[m], RandomStream{1}.split(m));
+    const auto soon = Auditor{cache_, quick}.audit(people_[m], RandomStream{1}.split(m)).components;
+    const auto later = Auditor{cache_, slow}.audit(people_[m], RandomStream{1}.split(m)).components;
+    const auto not_at_all = Auditor{cache_, never}.audit(people_[m], RandomStream{1}.split(m)).components;
     for (std::size_t k = 0; k < soon.size(); ++k) {
       EXPECT_EQ(not_at_all[k].test_after, 0u);
       if (soon[k].understanding != Understanding::kUnderstands || later[k].test_after == 0) continue;
@@ -314,11 +292,59 @@ TEST_F(AuditOfOneTeam, CanBeReadByProgramsAndPeople) {
   }
   EXPECT_EQ(counted, 3u);
 
+  // How far the answers agree with the model: of everybody, of every group and of every person.
+  std::size_t tests = 0, right = 0;
+  double expected = 0.0;
+  for (const auto& person : document.at("people")) {
+    tests += person.at("agreement").at("tests").get<std::size_t>();
+    right += person.at("agreement").at("right").get<std::size_t>();
+    expected += person.at("agreement").at("expected").get<double>();
+    EXPECT_TRUE(person.at("explained").get<bool>());
+    EXPECT_GE(person.at("learning").get<double>() + person.at("guessing").get<double>(), 0.0);
+    EXPECT_LE(person.at("learning").get<double>() + person.at("guessing").get<double>(), 1.0 + 1e-9);
+  }
+  EXPECT_EQ(document.at("agreement").at("tests"), tests);
+  EXPECT_EQ(document.at("agreement").at("right"), right);
+  EXPECT_NEAR(document.at("agreement").at("expected").get<double>(), expected, 1e-9);
+  EXPECT_EQ(document.at("groups").size(), 1u);
+  EXPECT_EQ(document.at("groups")[0].at("agreement"), document.at("agreement"));
+  EXPECT_EQ(document.at("unexplained"), 0u);
+
   const auto page = audit_page(item_delivery(), report_, "kith test");
+  EXPECT_NE(page.find("The answers fit what the model expects: " + std::to_string(right) + " of"), std::string::npos);
   EXPECT_NE(page.find("crossing rubble costs more than 2 steps"), std::string::npos);
   EXPECT_NE(page.find("results/&lt;planted&gt;"), std::string::npos);
   EXPECT_EQ(page.find("results/<planted>"), std::string::npos);
   for (const char* external : {"<script", "src=", "@import", "url("}) EXPECT_EQ(page.find(external), std::string::npos);
+}
+
+TEST(Agreement, IsSaidInWords) {
+  AuditReport report;
+  EXPECT_EQ(agreement_in_words(report), "Nobody has answered a test.");
+  AuditedPerson person;
+  person.group = "team 1";
+  person.audit.agreement = {.tests = 20, .right = 16, .expected = 15.2, .variance = 4.0, .p = 0.8};
+  report.people = {person, person};
+  EXPECT_EQ(agreement_in_words(report),
+            "The answers fit what the model expects: 32 of 40 answers are right, 30.4 were expected (p = 0.7).");
+  EXPECT_EQ(caution_in_words(person.audit), "");
+  person.group = "team 2";
+  person.audit.agreement.right = 1;
+  person.audit.agreement.p = 0.0001;
+  person.audit.is_explained = false;
+  report.people.push_back(person);
+  EXPECT_EQ(agreement_in_words(report, "team 2"),
+            "There are fewer right answers than the model expects: 1 of 20 answers is right, 15.2 were expected (p < "
+            "0.001). The model does not explain the answers of 1 person.");
+  EXPECT_EQ(agreement_of(report).right, 33u);
+  EXPECT_EQ(num_unexplained(report, "team 1"), 0u);
+  EXPECT_EQ(caution_in_words(person.audit),
+            "The model does not explain these answers: 1 of 20 answers is right, 15.2 were expected (p < 0.001). The "
+            "verdicts go by the number of right answers alone.");
+  EXPECT_EQ(caution_in_words({.components = {}, .agreement = {}, .learning = 0.02, .guessing = 0.97}),
+            "The answers look like guesses (probability 97 %).");
+  EXPECT_EQ(caution_in_words({.components = {}, .agreement = {}, .learning = 0.1, .guessing = 0.2}),
+            "Lessons do not seem to reach this person any more (probability 90 %).");
 }
 
 TEST(Auditors, RefuseOptionsOutOfRange) {

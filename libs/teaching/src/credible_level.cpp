@@ -61,9 +61,18 @@ CredibleLevel credible_level(std::span<const WeightedShare> shares, const Credib
   const Mixture mixture{shares, options.precision};
   const double tail = (1.0 - options.coverage) / 2.0;
   return {.mean = mixture.mean(),
-          .low = mixture.quantile(tail),
-          .high = mixture.quantile(1.0 - tail),
+          .low = std::min(mixture.quantile(tail), mixture.mean()),
+          .high = std::max(mixture.quantile(1.0 - tail), mixture.mean()),
           .probability = 1.0 - mixture.below(options.enough)};
+}
+
+CredibleLevel level_by_answers(std::size_t right, std::size_t tests, const CredibleLevelOptions& options) {
+  if (right > tests) throw std::invalid_argument{"level_by_answers: more right answers than tests"};
+  const double precision = static_cast<double>(tests) + 2.0;
+  const WeightedShare share{.weight = 1.0, .share = (static_cast<double>(right) + 1.0) / precision};
+  auto as_answered = options;
+  as_answered.precision = precision;
+  return credible_level({&share, 1}, as_answered);
 }
 
 }  // namespace kith

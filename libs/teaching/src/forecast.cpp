@@ -83,12 +83,21 @@ RemainingTime forecast_remaining(std::span<const PastSession> sessions, const Se
     if (place.periods > 0 && periods_of_stage(session, place.stage) <= place.periods) continue;
     cases.push_back(rest_of(session, place.stage, place.periods));
   }
-  if (!cases.empty()) return RemainingTime{std::move(cases)};
+  // Where hardly any other session got so far, this one may be of another kind. Then the periods so far are all that is
+  // known: with t of them, at least k more are needed with probability t / (t + k - 1).
+  constexpr double kFew = 0.05;
+  const auto n = sessions.size();
+  const auto few = static_cast<std::size_t>(std::ceil(kFew * static_cast<double>(n)));
+  if (place.periods == 0 || cases.size() >= few) return RemainingTime{std::move(cases)};
+  const std::size_t unlike = cases.empty() ? n : few - cases.size();
   const double minutes = mean_minutes_of_periods(sessions);
-  for (const auto& session : sessions) {
-    auto& rest = cases.emplace_back(rest_of(session, place.stage + 1, 0));
-    ++rest.periods;
-    rest.minutes += minutes;
+  for (std::size_t i = 0; i < unlike; ++i) {
+    // The probability of more. Nobody is taught ten times as long.
+    const double above = std::max(0.1, (static_cast<double>(i) + 0.5) / static_cast<double>(unlike));
+    const double more = std::ceil(static_cast<double>(place.periods) * (1.0 - above) / above);
+    auto& rest = cases.emplace_back(rest_of(sessions[i * n / unlike], place.stage + 1, 0));
+    rest.periods += static_cast<std::size_t>(more);
+    rest.minutes += more * minutes;
   }
   return RemainingTime{std::move(cases)};
 }

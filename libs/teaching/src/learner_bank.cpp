@@ -13,41 +13,6 @@ namespace {
 constexpr double kHighestAbility = 0.95;  // that gains lead to
 constexpr double kCertain = 1.0 - 1e-9;
 
-// Per policy cell: 0 if some test has no answer there, 2 if all answers are these, else 1. Answers in `skipped` fit
-// everywhere.
-std::vector<char> fit_of_cells(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
-                               const std::vector<bool>& skipped) {
-  std::vector<char> fit(atlas.cells().size(), 2);
-  for (std::size_t t = 0; t < tests.size(); ++t) {
-    const auto hull = atlas.hull(tests[t].demo);
-    const auto& losses = atlas.hull(hull).losses;
-    std::optional<IntegerVector> loss;
-    if (answers[t]) loss = atlas.feature_counts(tests[t].demo) - *answers[t];
-    for (std::size_t c = 0; c < fit.size(); ++c) {
-      const auto choice = atlas.cells().choice(PolicyCellIndex{c}, hull);
-      if (choice == PolicyCells::kNone) {
-        fit[c] = 0;
-      } else if (fit[c] == 2 && !skipped[t] && !(loss && losses[choice] == *loss)) {
-        fit[c] = 1;
-      }
-    }
-  }
-  return fit;
-}
-
-bool holds(std::span<const HalfSpace> half_spaces, const ParticleBelief& belief, std::size_t i) {
-  if (half_spaces.empty()) return true;
-  const auto point = belief.point(i);
-  return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const auto& h) { return h.contains(point); });
-}
-
-// Whether the path is best for no weights, as only paths of people can be.
-bool is_nobodys(const Atlas& atlas, DemoIndex demo, const Answer& answer) {
-  if (!answer) return false;
-  const auto& losses = atlas.hull(atlas.hull(demo)).losses;
-  return std::find(losses.begin(), losses.end(), atlas.feature_counts(demo) - *answer) == losses.end();
-}
-
 }  // namespace
 
 std::vector<LearnerHypothesis> one_hypothesis() { return {LearnerHypothesis{}}; }
@@ -81,20 +46,14 @@ std::vector<LearnerHypothesis> grid_of_known_components(std::size_t num_componen
   return grid;
 }
 
-double weight_of_answers(double likelihood) noexcept {
-  constexpr double kTrust = 0.99;
-  constexpr double kSlip = 0.003;
-  return kTrust * likelihood + kSlip;
-}
-
 LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
                          std::vector<LearnerHypothesis> hypotheses, RandomStream random,
-                         std::span<const std::vector<HalfSpace>> components)
+                         std::span<const std::vector<HalfSpace>> components, bool everybody_learns)
     : likelihood_{likelihood},
       hypotheses_{std::move(hypotheses)},
       random_{random},
       beliefs_(hypotheses_.size(), ParticleBelief{cover, filter}),
-      located_(hypotheses_.size()) {
+      cells_(hypotheses_.size()) {
   if (hypotheses_.empty()) throw std::invalid_argument{"LearnerBank: there is no hypothesis"};
   double sum = 0.0;
   for (const auto& one : hypotheses_) {
@@ -106,6 +65,10 @@ LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, L
   for (const auto& one : hypotheses_) {
     weights_.push_back(one.probability / sum);
     abilities_.push_back(one.ability);
+  }
+  if (!everybody_learns && hypotheses_.size() > 1) {
+    others_ = NonLearners{beliefs_.front()};
+    learns_ = 1.0 - others_.weight();
   }
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
     if (hypotheses_[h].known == 0) continue;
@@ -126,66 +89,44 @@ void LearnerBank::observe(std::size_t h, std::span<const HalfSpace> half_spaces,
 }
 
 void LearnerBank::watch(std::span<const HalfSpace> half_spaces, std::size_t period) {
+  if (has_begun_ && !others_.empty()) {
+    const auto likeliest = std::max_element(weights_.begin(), weights_.end()) - weights_.begin();
+    const double before = others_.weight();
+    others_.begin_period(learns_, beliefs_[static_cast<std::size_t>(likeliest)], {1.0});
+    learns_ -= others_.weight() - before;
+  }
+  has_begun_ = true;
   for (std::size_t h = 0; h < beliefs_.size(); ++h) observe(h, half_spaces, random_.split("watch").split(period));
 }
 
-std::span<const std::uint32_t> LearnerBank::cells_of(const Atlas& atlas, std::size_t h) {
-  auto& known = located_[h];
-  const auto& belief = beliefs_[h];
-  if (known.cells.empty() || known.num_resamplings != belief.num_resamplings()) {
-    known.num_resamplings = belief.num_resamplings();
-    known.cells.resize(belief.size());
-    const auto x = belief.x(), y = belief.y(), z = belief.z();
-    for (std::size_t i = 0; i < belief.size(); ++i) {
-      known.cells[i] = static_cast<std::uint32_t>(atlas.cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value());
-    }
-  }
-  return known.cells;
-}
-
-std::vector<double> LearnerBank::likelihoods(const Atlas& atlas, std::span<const Test> tests,
-                                             std::span<const Answer> answers, std::span<const Verdict> verdicts) {
-  std::vector<char> fit;
-  std::vector<HalfSpace> shown;
-  std::vector<bool> by_verdict;
-  for (std::size_t t = 0; t < tests.size(); ++t) {
-    by_verdict.push_back(!atlas.is_tabulated() || is_nobodys(atlas, tests[t].demo, answers[t]));
-    if (by_verdict[t]) shown.insert(shown.end(), verdicts[t].half_spaces.begin(), verdicts[t].half_spaces.end());
-  }
-  if (atlas.is_tabulated()) fit = fit_of_cells(atlas, tests, answers, by_verdict);
-  std::vector<double> result;
-  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    if (!atlas.is_tabulated()) {
-      result.push_back(beliefs_[h].mass_in(shown));
-      continue;
-    }
-    double exact = 0.0, any = 0.0;
-    const auto cells = cells_of(atlas, h);
-    const auto masses = beliefs_[h].weights();
-    for (std::size_t i = 0; i < masses.size(); ++i) {
-      any += fit[cells[i]] > 0 ? masses[i] : 0.0;
-      exact += fit[cells[i]] == 2 && holds(shown, beliefs_[h], i) ? masses[i] : 0.0;
-    }
-    result.push_back(any > 0.0 ? exact / any : 0.0);  // who has no answer cannot have given one
-  }
+std::vector<AnswerFit::Rating> LearnerBank::ratings(const AnswerFit& fit) {
+  std::vector<AnswerFit::Rating> result;
+  for (std::size_t h = 0; h < beliefs_.size(); ++h) result.push_back(fit.of(beliefs_[h], cells_[h]));
   return result;
 }
 
-void LearnerBank::see_answers(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
-                              std::span<const Verdict> verdicts) {
-  if (hypotheses_.size() < 2 || tests.empty()) return;  // there is nothing to tell apart
-  const auto shares = likelihoods(atlas, tests, answers, verdicts);
-  double sum = 0.0;
-  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    weights_[h] *= weight_of_answers(shares[h]);
-    sum += weights_[h];
+void LearnerBank::see_answers(const AnswerFit& fit) {
+  if (hypotheses_.size() < 2 || fit.num_tests() == 0) return;  // there is nothing to tell apart
+  double learns = 0.0;
+  const auto fits = ratings(fit);
+  for (std::size_t h = 0; h < weights_.size(); ++h) {
+    weights_[h] *= fits[h].likelihood;
+    learns += weights_[h];
   }
-  for (double& weight : weights_) weight /= sum;
+  for (double& weight : weights_) weight /= learns;
+  others_.see_answers(fit);
+  learns_ *= learns;
+  const double sum = learns_ + others_.weight();
+  learns_ /= sum;
+  others_.scale(1.0 / sum);
 }
 
 void LearnerBank::forget(double angle, const RandomStream& random) {
-  for (std::size_t h = 0; h < beliefs_.size(); ++h) beliefs_[h].diffuse(angle, random.split(h));
-  located_.assign(beliefs_.size(), {});
+  for (std::size_t h = 0; h < beliefs_.size(); ++h) {
+    beliefs_[h].diffuse(angle, random.split(h));
+    cells_[h].forget();
+  }
+  others_.forget(angle, random.split("others"));
 }
 
 void LearnerBank::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) {
@@ -275,19 +216,24 @@ double LearnerBank::probability_of_ability(double at_least) const {
   return sum;
 }
 
-std::vector<double> LearnerBank::cell_masses(const Atlas& atlas) {
+std::vector<double> LearnerBank::cell_masses(const Atlas& atlas, double stopping) {
   std::vector<double> masses(atlas.cells().size(), 0.0);
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    const auto cells = cells_of(atlas, h);
+    const auto cells = cells_[h].of(atlas, beliefs_[h]);
     const auto weights = beliefs_[h].weights();
-    for (std::size_t i = 0; i < weights.size(); ++i) masses[cells[i]] += weights_[h] * weights[i];
+    for (std::size_t i = 0; i < weights.size(); ++i) masses[cells[i]] += learns_ * weights_[h] * weights[i];
   }
+  others_.add_cell_masses(atlas, masses, stopping);
+  const double sum = learns_ + others_.weight(stopping);
+  for (double& mass : masses) mass /= sum;
   return masses;
 }
 
 double LearnerBank::mass_in(std::span<const HalfSpace> half_spaces) const {
   double mass = 0.0;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) mass += weights_[h] * beliefs_[h].mass_in(half_spaces);
+  mass *= learns_;
+  for (const auto& [weight, share] : others_.shares(half_spaces)) mass += weight * share;
   return mass;
 }
 

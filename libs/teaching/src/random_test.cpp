@@ -38,8 +38,8 @@ std::vector<double> RandomTest::right(const ParticleBelief& belief) const {
   return right_in_cells(masses);
 }
 
-std::vector<double> RandomTest::right(LearnerBank& bank) const {
-  if (atlas_->is_tabulated()) return right_in_cells(bank.cell_masses(*atlas_));
+std::vector<double> RandomTest::right(LearnerBank& bank, double stopping) const {
+  if (atlas_->is_tabulated()) return right_in_cells(bank.cell_masses(*atlas_, stopping));
   std::vector<double> right;
   for (const auto& facet : facets_) right.push_back(bank.mass_in({&facet, 1}));
   return right;

@@ -396,7 +396,7 @@ const Feedback& Session::close_tests() {
   if (judged_) judge_beliefs(feedback, counts);
   auto done = done_members(feedback, counts);
   const auto num_counted = static_cast<std::size_t>(std::count(counts.begin(), counts.end(), true));
-  feedback.component_learned = is_enough(everybody) || done.size() == num_counted;
+  feedback.component_learned = is_enough(everybody, counts) || done.size() == num_counted;
   if (!feedback.component_learned) feedback.released = std::move(done);
   events_.push_back(std::move(closed));
   for (std::size_t i = 0; i < num_members(); ++i) {

@@ -15,9 +15,8 @@ namespace {
 }  // namespace
 
 void Session::make_bank(TeachingCache& cache) {
-  const bool stops = (options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior) &&
-                     atlas_->is_tabulated();
-  if (stops) exam_ = cache.shared_exam();
+  const bool stops = options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior;
+  if (stops && atlas_->is_tabulated()) exam_ = cache.shared_exam();
   if (options_.hypotheses_about == HypothesesAbout::kKnownComponents) {
     options_.hypotheses = grid_of_known_components(atlas_->knowledge_components().size());
     if (options_.placement_tests > 0) placement_ = cache.placement(options_);
@@ -88,8 +87,15 @@ std::size_t Session::periods_of_component() const {
   return n;
 }
 
+// Whether the answers of these members tell them from people whom lessons do not reach. Such people would otherwise
+// count as done after a few lucky answers, because most people learn.
+bool Session::shows_learning(const std::vector<bool>& present) const {
+  constexpr double kShare = 0.2;  // of 1 - probability
+  return !bank_ || bank_->shows_learning(present, kShare * (1.0 - options_.probability));
+}
+
 // Whether the component is left after this period.
-bool Session::is_enough(bool everybody_right) const {
+bool Session::is_enough(bool everybody_right, const std::vector<bool>& present) const {
   if (options_.mastery == MasteryRule::kAllRight) {
     return everybody_right && correct_in_a_row_ + 1 >= options_.consecutive_correct;
   }
@@ -97,7 +103,7 @@ bool Session::is_enough(bool everybody_right) const {
   if (options_.mastery == MasteryRule::kFixed) return periods >= options_.periods_per_component;
   if (periods < options_.min_periods) return false;
   if (options_.mastery == MasteryRule::kExam) return least_share_right_ >= options_.share_right;
-  return mastery_ >= options_.probability;
+  return mastery_ >= options_.probability && shows_learning(present);
 }
 
 // Whether components are left by what the teacher believes about the members: by the exam, and, where behaviours are
@@ -166,7 +172,7 @@ std::vector<std::size_t> Session::done_members(const Feedback& feedback, const s
       alone[i] = true;
       const double right =
           exam_ ? bank_->probability_of_mastery(*atlas_, *exam_, lesson_.component, alone) : right_alone_[i];
-      is_done = right >= options_.probability;
+      is_done = right >= options_.probability && shows_learning(alone);
     }
     if (is_done) done.push_back(i);
   }

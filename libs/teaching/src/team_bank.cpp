@@ -47,7 +47,7 @@ void TeamBank::see_placement(const Atlas& atlas, std::span<const Test> tests,
                              std::span<const std::vector<Verdict>> verdicts) {
   for (std::size_t i = 0; i < size(); ++i) {
     if (answers[i].empty()) continue;
-    members_[i].see_answers(atlas, tests, answers[i], verdicts[i]);
+    members_[i].see_answers(AnswerFit{atlas, tests, answers[i], verdicts[i]});
     take_answers(i, verdicts[i], 0);
   }
 }
@@ -70,7 +70,7 @@ void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<c
                            const Feedback& feedback, const std::vector<bool>& present) {
   for (std::size_t i = 0; i < size(); ++i) {
     if (!answers[i].empty()) {
-      members_[i].see_answers(atlas, lesson.tests, answers[i], feedback.verdicts[i]);
+      members_[i].see_answers(AnswerFit{atlas, lesson.tests, answers[i], feedback.verdicts[i]});
       take_answers(i, feedback.verdicts[i], lesson.period);
     }
     if (!present[i]) continue;
@@ -81,12 +81,20 @@ void TeamBank::close_tests(const Atlas& atlas, const Lesson& lesson, std::span<c
 
 double TeamBank::probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
                                         const std::vector<bool>& present) {
+  constexpr double kCare = 10.0;  // how many times as probable as assumed people are to stop learning
   const RandomTest test{atlas, exam, component};
   std::vector<std::vector<double>> right;
   for (std::size_t i = 0; i < size(); ++i) {
-    if (present[i]) right.push_back(test.right(members_[i]));
+    if (present[i]) right.push_back(test.right(members_[i], kCare));
   }
   return test.all_right(right);
+}
+
+bool TeamBank::shows_learning(const std::vector<bool>& present, double wrongly) const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (present[i] && members_[i].odds_of_learning() * wrongly < 1.0) return false;
+  }
+  return true;
 }
 
 }  // namespace kith

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
+#include <vector>
+
+#include "kith/random/distributions.hpp"
 
 namespace kith {
 namespace {
@@ -41,12 +46,42 @@ TEST(Forecast, DuringASessionDependsOnHowFarItIs) {
   EXPECT_DOUBLE_EQ(second.mean_minutes(), 2.0 * second.mean_periods());
 }
 
-TEST(Forecast, OfASessionThatTakesLongerThanAllOthersIsOneMorePeriodOfTheStage) {
+TEST(Forecast, OfASessionThatTakesLongerThanAllOthersIsByItsOwnPeriods) {
   const std::vector<PastSession> past{session(1, 2), session(2, 4)};
-  EXPECT_DOUBLE_EQ(forecast_remaining(past, {.stage = 0, .periods = 7}).mean_periods(), 1.0 + 3.0);
-  EXPECT_DOUBLE_EQ(forecast_remaining(past, {.stage = 1, .periods = 9}).mean_periods(), 1.0);
+  // More periods with probabilities 1/4 and 3/4: 7 * 3, and 7 / 3 rounded up; then the second stage of the others.
+  const auto first = forecast_remaining(past, {.stage = 0, .periods = 7});
+  ASSERT_EQ(first.cases().size(), 2u);
+  EXPECT_EQ(first.cases()[0].periods, 21u + 2u);
+  EXPECT_EQ(first.cases()[1].periods, 3u + 4u);
+  EXPECT_DOUBLE_EQ(forecast_remaining(past, {.stage = 1, .periods = 9}).mean_periods(), (27.0 + 3.0) / 2.0);
   EXPECT_DOUBLE_EQ(forecast_remaining(past, {.stage = 2, .periods = 0}).mean_periods(), 0.0);
   EXPECT_THROW((void)forecast_remaining({}, {}), std::invalid_argument);
+}
+
+// People whom no lesson reaches never get done, whatever other people needed: the longer they take, the longer they are
+// expected to take, and nobody is sure of them.
+TEST(JudgedPeople, WhoNeverGetDoneAreNotForecastToBeDoneSoon) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random{seed};
+    std::vector<PastSession> past;
+    std::size_t longest = 0;
+    const auto n = 1 + uniform_index(80, random);
+    for (std::size_t i = 0; i < n; ++i) {
+      past.push_back(session(1 + uniform_index(6, random), 1 + uniform_index(4, random)));
+      for (std::size_t periods = 0; const auto& period : past.back().periods) {
+        periods += period.stage == 0 ? 1 : 0;
+        longest = std::max(longest, periods);
+      }
+    }
+    double before = 1.0;
+    for (std::size_t t = longest; t < 60; ++t) {
+      const auto left = forecast_remaining(past, {.stage = 0, .periods = t});
+      EXPECT_LE(left.done_within(3), 3.0 / static_cast<double>(t + 3) + 0.5 / static_cast<double>(n));
+      EXPECT_LE(left.done_within(3), before + 1e-12);
+      before = left.done_within(3);
+    }
+    EXPECT_LT(before, n > 10 ? 0.1 : 0.51);
+  }
 }
 
 TEST(Forecast, WithoutOtherSessionsExtrapolatesTheirOwnPeriods) {

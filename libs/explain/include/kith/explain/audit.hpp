@@ -68,13 +68,28 @@ struct ComponentAudit {
   std::size_t test_after = 0;
 };
 
+/// A person.
+struct PersonAudit {
+  std::vector<ComponentAudit> components;
+  Agreement agreement;  ///< Of the answers with what the model expects.
+  /// Whether some hypothesis explains the answers. If none does, the levels are those of level_by_answers(), and no
+  /// misconception is named.
+  bool is_explained = true;
+  double learning = 1.0;  ///< Probability that lessons (still) reach the person.
+  double guessing = 0.0;  ///< Probability that the answers are guesses, or any paths.
+};
+
 /// Periods; nobody plans further ahead.
 inline constexpr std::size_t kLongestBreak = 24;
 
 struct AuditOptions {
   MisconceptionBank::Options bank{};
   CredibleLevelOptions level{};
-  double sure = 0.95;       ///< Probability from which a person is said to understand.
+  double sure = 0.95;  ///< Probability from which a person is said to understand.
+  /// At most this share of people who guess, or whom no lesson ever reaches, can be said to understand anything.
+  double wrongly = 0.02;
+  /// Agreement::p below which the answers of a person count as not explained.
+  double unexplained = 0.01;
   double likely = 0.5;      ///< Probability from which a misconception is said to be there.
   double negligible = 0.1;  ///< Below this no misconception is named.
   double telling = 3.0;     ///< TellingAnswer::factor of an answer that shows a misconception.
@@ -82,16 +97,19 @@ struct AuditOptions {
   double forgetting = 0.02;  ///< Radians by which beliefs blur in a period without lessons; >= 0.
 };
 
-/// Judges from their answers who understands what. Not thread-safe: it uses the cache.
+/// Judges from their answers who understands what.
+///
+/// A person is said to understand a component if the level is high enough with probability `sure`, and the answers tell
+/// the person from people who guess or never learn (MisconceptionBank::odds_of_learning() >= 1 / wrongly). Not
+/// thread-safe: it uses the cache.
 class Auditor {
  public:
   /// @param cache  stays valid as long as this object. @throws std::invalid_argument if an option is out of range.
   Auditor(TeachingCache& cache, const AuditOptions& options);
 
-  /// Per knowledge component.
   /// @param periods  all that was observed of the person, in order.
   /// @param random  moves the points of beliefs; equal streams give equal results.
-  [[nodiscard]] std::vector<ComponentAudit> audit(std::span<const ObservedPeriod> periods, const RandomStream& random);
+  [[nodiscard]] PersonAudit audit(std::span<const ObservedPeriod> periods, const RandomStream& random);
 
   /// The constraints of a component that people may violate, sorted.
   [[nodiscard]] const std::vector<HalfSpace>& constraints_of(std::size_t component) const {
@@ -100,6 +118,8 @@ class Auditor {
 
  private:
   void count(std::span<const ObservedPeriod> periods, std::vector<ComponentAudit>& audits) const;
+  void judge(const MisconceptionBank& bank, std::span<const ObservedPeriod> periods, PersonAudit& person);
+  void judge_by_answers(PersonAudit& person) const;
   [[nodiscard]] std::optional<LikelyMisconception> misconception(const MisconceptionBank& bank, std::size_t component,
                                                                  std::span<const ObservedPeriod> periods);
   [[nodiscard]] Misbelief limited(const MisconceptionBank& bank, const HalfSpace& violated) const;

@@ -18,7 +18,7 @@ struct AuditedPerson {
   std::size_t seat = 0;    ///< Who had it, 1-based; 0: of a run.
   char type = 'N';         ///< Learner type of the place.
   bool simulated = true;   ///< Whether a simulated learner answered.
-  std::vector<ComponentAudit> components;
+  PersonAudit audit;
 };
 
 /// "Member 2 (P)", "Member 2 (P, a person in seat 4)".
@@ -36,6 +36,18 @@ struct AuditCounts {
   std::size_t understand = 0, cannot_tell = 0, misconception = 0, not_taught = 0;
 };
 [[nodiscard]] AuditCounts counts_of(const AuditReport& report, std::size_t component);
+
+/// How far the answers of all of these people agree with the model: sums over the people, and p of a normal
+/// distribution of their number of right answers. Empty `group`: of everybody.
+[[nodiscard]] Agreement agreement_of(const AuditReport& report, const std::string& group = {});
+/// People whose answers no hypothesis explains.
+[[nodiscard]] std::size_t num_unexplained(const AuditReport& report, const std::string& group = {});
+/// "The answers fit what the model expects: 62 of 80 are right, 60.3 were expected (p = 0.71)." or "There are fewer
+/// right answers than the model expects: ...", with the number of people whose answers no hypothesis explains.
+[[nodiscard]] std::string agreement_in_words(const AuditReport& report, const std::string& group = {});
+/// What to know of a person before reading the verdicts: that the answers are not explained, look like guesses, or that
+/// lessons do not seem to reach the person. Empty if there is nothing.
+[[nodiscard]] std::string caution_in_words(const PersonAudit& audit);
 
 /// A misconception that several people have about a component.
 struct SharedMisconception {

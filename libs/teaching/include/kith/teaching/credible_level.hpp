@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 namespace kith {
@@ -12,14 +13,16 @@ struct WeightedShare {
 
 struct CredibleLevelOptions {
   double enough = 0.8;      ///< The share that counts as enough, in (0, 1).
-  double coverage = 0.8;    ///< Probability of the interval, in (0, 1); equal tails.
+  double coverage = 0.8;    ///< Probability of the interval, in (0, 1).
   double precision = 80.0;  ///< n > 0 of the Beta(n share, n (1 - share)) that each hypothesis stands for.
 };
 
 /// How often something holds of a person, and how well that is known.
 struct CredibleLevel {
-  double mean = 0.0;         ///< Expected share: the probability that it holds the next time.
-  double low = 0.0;          ///< The share lies in [low, high] with probability `coverage`.
+  double mean = 0.0;  ///< Expected share: the probability that it holds the next time.
+  /// The share lies in [low, high] with probability `coverage`: equal tails, but never without the mean, which few but
+  /// very different hypotheses can put into a tail; then the probability is larger.
+  double low = 0.0;
   double high = 1.0;         ///< See low.
   double probability = 0.0;  ///< That the share is at least `enough`.
   friend bool operator==(const CredibleLevel&, const CredibleLevel&) = default;
@@ -30,5 +33,10 @@ struct CredibleLevel {
 /// @throws std::invalid_argument if an option is out of range, or no weight is above 0.
 [[nodiscard]] CredibleLevel credible_level(std::span<const WeightedShare> shares,
                                            const CredibleLevelOptions& options = {});
+
+/// The level by nothing but the answers: Beta(1 + right, 1 + wrong). `precision` is not used.
+/// @throws std::invalid_argument if an option is out of range, or right > tests.
+[[nodiscard]] CredibleLevel level_by_answers(std::size_t right, std::size_t tests,
+                                             const CredibleLevelOptions& options = {});
 
 }  // namespace kith

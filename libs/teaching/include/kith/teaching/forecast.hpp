@@ -50,8 +50,10 @@ class RemainingTime {
 };
 
 /// What is left, from sessions of the same kind: what was left of those that had got as far, that is, that spent more
-/// periods on the stage than this one has. If there are none, the stage is taken to need one more period and the later
-/// stages what they needed in all sessions.
+/// periods on the stage than this one has. If fewer than a twentieth did, this session may be of another kind, such as
+/// that of people whom lessons do not reach: it makes up the twentieth, or everything if none did, with cases in which
+/// the stage needs at least k periods more with probability t / (t + k - 1) after t of them, at most 9 t, and the later
+/// stages what they needed in the other sessions.
 /// @throws std::invalid_argument without sessions.
 [[nodiscard]] RemainingTime forecast_remaining(std::span<const PastSession> sessions, const SessionPlace& place);
 

@@ -21,7 +21,8 @@ class RandomTest {
   /// The probability of answering each of the tests correctly, in [0, 1], under a belief, or under the mixture of a
   /// bank's hypotheses, which is changed in what it caches only.
   [[nodiscard]] std::vector<double> right(const ParticleBelief& belief) const;
-  [[nodiscard]] std::vector<double> right(LearnerBank& bank) const;
+  /// @param stopping  see NonLearners::shares(); only where behaviours are tabulated.
+  [[nodiscard]] std::vector<double> right(LearnerBank& bank, double stopping = 1.0) const;
 
   /// E_t prod_i P_i(right on t): the probability that all of these people answer the test correctly.
   /// @param people  what right() says of each; their order changes nothing.

@@ -194,7 +194,8 @@ class Session {
   void make_judged(TeachingCache& cache);
   void judge_beliefs(const Feedback& feedback, const std::vector<bool>& present);
   [[nodiscard]] std::size_t periods_of_component() const;
-  [[nodiscard]] bool is_enough(bool everybody_right) const;
+  [[nodiscard]] bool is_enough(bool everybody_right, const std::vector<bool>& present) const;
+  [[nodiscard]] bool shows_learning(const std::vector<bool>& present) const;
   [[nodiscard]] std::vector<std::size_t> done_members(const Feedback& feedback, const std::vector<bool>& present);
   void conclude_period(const Feedback& feedback);
 

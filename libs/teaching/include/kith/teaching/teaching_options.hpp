@@ -29,7 +29,8 @@ enum class MasteryRule {
   kAllRight,   ///< When everybody answered all tests right, `consecutive_correct` periods in a row [jayaraman2024].
   kFixed,      ///< After `periods_per_component` periods, whatever the answers.
   kPosterior,  ///< When the probability that all members answer a random test of the component right is at least
-               ///< `probability`; see TeamBank.
+               ///< `probability`, and their answers tell them from people who do not learn: of these at most a share of
+               ///< (1 - probability) / 5 ever gives such answers; see TeamBank.
   kExam,       ///< When every member is expected to predict the robot right from at least `share_right` of the
                ///< component's starts, under the teacher's belief about the member without `response_noise`; see
                ///< StartSample.
@@ -47,7 +48,8 @@ enum class HypothesesAbout {
 enum class ReleaseRule {
   kNone,       ///< Nobody: all members take part in all periods [jayaraman2024].
   kAllRight,   ///< Who answered all tests right, `consecutive_correct` periods in a row.
-  kPosterior,  ///< Who answers a random test of the component right with at least `probability`; see LearnerBank.
+  kPosterior,  ///< Who answers a random test of the component right with at least `probability`, and shows by the
+               ///< answers that lessons reach the person, as with MasteryRule::kPosterior; see LearnerBank.
 };
 
 /// How a group is taught; every field is a key of the study file.

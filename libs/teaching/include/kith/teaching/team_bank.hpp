@@ -48,6 +48,10 @@ class TeamBank {
   [[nodiscard]] double probability_of_mastery(const Atlas& atlas, const Exam& exam, std::size_t component,
                                               const std::vector<bool>& present);
 
+  /// Whether the answers of all members present tell them from people whom lessons do not reach: at most a share
+  /// `wrongly` of these ever gives such answers (LearnerBank::odds_of_learning).
+  [[nodiscard]] bool shows_learning(const std::vector<bool>& present, double wrongly) const;
+
   friend bool operator==(const TeamBank& a, const TeamBank& b) {
     return a.members_ == b.members_ && a.informed_ == b.informed_ && a.component_ == b.component_;
   }

@@ -1,0 +1,181 @@
+#include "kith/teaching/answer_fit.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "count_distribution.hpp"
+
+namespace kith {
+namespace {
+
+constexpr double kAgainstBelief = 0.1;  // for a path that is best for nobody, if it contradicts what one believes
+
+bool holds(const std::vector<std::size_t>& half_spaces, const std::vector<std::vector<char>>& inside,
+           std::size_t point) {
+  return std::all_of(half_spaces.begin(), half_spaces.end(), [&](std::size_t h) { return inside[h][point] != 0; });
+}
+
+// Whether nobody who knows the prior satisfies one of them.
+bool is_beyond_prior(const Atlas& atlas, std::span<const HalfSpace> half_spaces) {
+  return std::any_of(half_spaces.begin(), half_spaces.end(),
+                     [&](const HalfSpace& h) { return !atlas.prior_cone().clipped(h); });
+}
+
+}  // namespace
+
+std::span<const std::uint32_t> PointCells::of(const Atlas& atlas, const ParticleBelief& belief) {
+  if (cells_.empty() || num_resamplings_ != belief.num_resamplings()) {
+    num_resamplings_ = belief.num_resamplings();
+    cells_.resize(belief.size());
+    const auto x = belief.x(), y = belief.y(), z = belief.z();
+    for (std::size_t i = 0; i < belief.size(); ++i) {
+      cells_[i] = static_cast<std::uint32_t>(atlas.cells().locate(Eigen::Vector3d{x[i], y[i], z[i]}).value());
+    }
+  }
+  return cells_;
+}
+
+AnswerFit::AnswerFit(const Atlas& atlas, std::span<const Test> tests, std::span<const Answer> answers,
+                     std::span<const Verdict> verdicts)
+    : atlas_{&atlas} {
+  constexpr double kChance = 0.25;  // where behaviours are not tabulated
+  if (atlas.is_tabulated()) {
+    factor_of_cell_.assign(atlas.cells().size(), 1.0);
+    num_right_of_cell_.assign(atlas.cells().size(), 0);
+  }
+  for (auto& guess : guesses_) guess.right = {1.0};
+  for (std::size_t t = 0; t < tests.size() && t < answers.size(); ++t) {
+    if (!answers[t]) continue;
+    OneTest test{.chance = kChance, .right_by_chance = kChance};
+    auto answered_by = verdicts[t].half_spaces;
+    const bool is_impossible = is_beyond_prior(atlas, answered_by);
+    if (atlas.is_tabulated()) {
+      read_cells(tests[t], *answers[t], test);
+    } else {
+      const auto examined =
+          atlas.constraints().half_spaces(atlas.tested_constraints(tests[t].demo).without(atlas.prior()));
+      test.examined = numbers_of(examined);
+      if (verdicts[t].correct) answered_by = examined;
+      test.by_nobody = is_impossible;
+    }
+    if (!test.by_cell && !is_impossible) test.answered_by = numbers_of(answered_by);
+    num_right_ += verdicts[t].correct ? 1u : 0u;
+    constexpr std::array kNobodys{0.01, 0.5};  // probability of a path that is best for nobody
+    for (std::size_t g = 0; g < guesses_.size(); ++g) {
+      double chance = kChance, right = kChance;
+      if (test.num_paths > 0.0) {
+        chance = test.by_nobody ? kNobodys[g] : (1.0 - kNobodys[g]) / test.num_paths;
+        right = test.right_by_chance * (1.0 - kNobodys[g]) * (test.num_paths + 1.0) / test.num_paths;
+      }
+      guesses_[g].likelihood *= chance;
+      guesses_[g].right = convolved(guesses_[g].right, std::vector{1.0 - right, right});
+    }
+    tests_.push_back(std::move(test));
+  }
+}
+
+// What people of each policy cell answer to a test.
+void AnswerFit::read_cells(const Test& asked, const IntegerVector& answer, OneTest& test) {
+  const auto& domain = atlas_->domain();
+  const auto hull = atlas_->hull(asked.demo);
+  const auto& losses = atlas_->hull(hull).losses;
+  const auto given = std::find(losses.begin(), losses.end(), atlas_->feature_counts(asked.demo) - answer);
+  test.by_cell = given != losses.end();
+  test.by_nobody = !test.by_cell;
+  std::vector<bool> is_right;
+  for (const auto& loss : losses) is_right.push_back(sign_of_dot(domain.weights().integer, loss) == 0);
+  test.num_paths = static_cast<double>(losses.size());
+  test.chance = 1.0 / (test.num_paths + 1.0);
+  test.right_by_chance = static_cast<double>(std::count(is_right.begin(), is_right.end(), true)) * test.chance;
+  const auto number = static_cast<std::size_t>(given - losses.begin());
+  for (std::size_t c = 0; c < factor_of_cell_.size(); ++c) {
+    const auto choice = atlas_->cells().choice(PolicyCellIndex{c}, hull);
+    if (choice == PolicyCells::kNone) {
+      factor_of_cell_[c] = -1.0;
+      continue;
+    }
+    num_right_of_cell_[c] += is_right[choice] ? 1u : 0u;
+    if (test.by_cell) factor_of_cell_[c] *= slip() * test.chance + (choice == number ? 1.0 - slip() : 0.0);
+  }
+}
+
+std::vector<std::size_t> AnswerFit::numbers_of(std::span<const HalfSpace> half_spaces) {
+  std::vector<std::size_t> numbers;
+  for (const auto& one : half_spaces) {
+    const auto known = std::find(half_spaces_.begin(), half_spaces_.end(), one);
+    numbers.push_back(static_cast<std::size_t>(known - half_spaces_.begin()));
+    if (known == half_spaces_.end()) half_spaces_.push_back(one);
+  }
+  return numbers;
+}
+
+AnswerFit::Inside AnswerFit::locate(const ParticleBelief& belief) const {
+  Inside inside;
+  std::vector<double> margins(belief.size());
+  for (const auto& half_space : half_spaces_) {
+    std::fill(margins.begin(), margins.end(), 0.0);
+    for (std::size_t k = 0; k < belief.dimension(); ++k) {
+      const auto axis = belief.axis(k);
+      const auto entry = static_cast<double>(half_space.normal()[k]);
+      for (std::size_t i = 0; i < margins.size(); ++i) margins[i] += entry * axis[i];
+    }
+    auto& signs = inside.emplace_back(margins.size());
+    for (std::size_t i = 0; i < margins.size(); ++i) signs[i] = margins[i] >= 0.0 ? 1 : 0;
+  }
+  return inside;
+}
+
+// Of the answer to a test that is not told by policy cells.
+double AnswerFit::factor(const OneTest& test, const Inside& inside, std::size_t point) {
+  const bool fits = holds(test.answered_by, inside, point);
+  if (test.by_nobody) return slip() * test.chance * (fits ? 1.0 : kAgainstBelief);
+  return slip() * test.chance + (fits ? 1.0 - slip() : 0.0);
+}
+
+// What becomes of the number of right answers by slips, taking the tests for equally easy to guess.
+std::vector<double> AnswerFit::with_slips(const std::vector<double>& right) const {
+  double by_chance = 0.0;
+  for (const auto& test : tests_) by_chance += test.right_by_chance / static_cast<double>(tests_.size());
+  const double stays = 1.0 - slip() * (1.0 - by_chance), turns = slip() * by_chance;
+  std::vector<double> result(right.size(), 0.0);
+  for (std::size_t k = 0; k < right.size(); ++k) {
+    if (right[k] == 0.0) continue;
+    std::vector<double> spread{1.0};
+    for (std::size_t t = 0; t < tests_.size(); ++t) {
+      const double p = t < k ? stays : turns;
+      spread = convolved(spread, std::vector{1.0 - p, p});
+    }
+    for (std::size_t n = 0; n < spread.size(); ++n) result[n] += right[k] * spread[n];
+  }
+  return result;
+}
+
+AnswerFit::Rating AnswerFit::of(const ParticleBelief& belief, PointCells& cells) const {
+  const auto masses = belief.weights();
+  const bool tabulated = atlas_->is_tabulated();
+  const bool by_points = std::any_of(tests_.begin(), tests_.end(), [](const auto& test) { return !test.by_cell; });
+  const auto inside = by_points ? locate(belief) : Inside{};
+  const auto cell_of = tabulated ? cells.of(*atlas_, belief) : std::span<const std::uint32_t>{};
+  std::vector<double> right(tests_.size() + 1, 0.0);
+  double likelihood = 0.0, any = 0.0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    if (masses[i] == 0.0) continue;
+    double fit = tabulated ? factor_of_cell_[cell_of[i]] : 1.0;
+    if (fit < 0.0) continue;
+    std::size_t num_right = tabulated ? num_right_of_cell_[cell_of[i]] : 0;
+    if (by_points) {
+      for (const auto& test : tests_) {
+        if (!test.by_cell) fit *= factor(test, inside, i);
+        if (!tabulated) num_right += holds(test.examined, inside, i) ? 1u : 0u;
+      }
+    }
+    any += masses[i];
+    likelihood += masses[i] * fit;
+    right[num_right] += masses[i];
+  }
+  if (!(any > 0.0)) return of(Guess::kAny);  // who has no answer can only have guessed
+  for (double& mass : right) mass /= any;
+  return {likelihood / any, with_slips(right)};
+}
+
+}  // namespace kith
