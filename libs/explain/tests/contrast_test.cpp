@@ -82,7 +82,8 @@ TEST(ContrastFor, ConveysTheConstraint) {
 void expect_one_other_action(const Atlas& atlas, const Contrast& contrast) {
   const auto world = atlas.id(contrast.demo).mdp;
   const auto& mdp = atlas.domain().mdp(world);
-  const auto& [states, actions] = contrast.alternative;
+  const auto& states = contrast.alternative.states;
+  const auto& actions = contrast.alternative.actions;
   const auto t = contrast.decisive;
   EXPECT_EQ(contrast.robot, atlas.trajectory(contrast.demo));
   ASSERT_LT(t, contrast.robot.actions.size());

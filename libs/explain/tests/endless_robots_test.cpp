@@ -33,8 +33,9 @@ void expect_contrast(const Atlas& atlas, const Contrast& contrast) {
   ASSERT_LT(contrast.decisive, contrast.robot.actions.size());
   if (!atlas.domain().mdp(world).is_deterministic()) return;  // there both may take the same actions
   ASSERT_LT(contrast.decisive, contrast.alternative.actions.size());
-  if (const auto parting = first_difference(contrast.robot, contrast.alternative))
+  if (const auto parting = first_difference(contrast.robot, contrast.alternative)) {
     EXPECT_EQ(contrast.decisive, *parting);
+  }
 }
 
 // Whatever is refused is refused with a reason.
