@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "kith/geometry/cone.hpp"
 #include "kith/random/batch_normal.hpp"
 #include "kith/random/distributions.hpp"
 #include "script.hpp"
@@ -25,10 +25,12 @@ Cloud random_cloud(std::size_t n, RandomStream& random) {
   Cloud cloud;
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector3d p = Cone{}.sample(random);
-    cloud.x.push_back(p[0]);
-    cloud.y.push_back(p[1]);
-    cloud.z.push_back(p[2]);
+    const double height = 1.0 - 2.0 * uniform01(random);
+    const double azimuth = 2.0 * std::numbers::pi * uniform01(random);
+    const double radius = std::sqrt((1.0 - height) * (1.0 + height));
+    cloud.x.push_back(radius * std::cos(azimuth));
+    cloud.y.push_back(radius * std::sin(azimuth));
+    cloud.z.push_back(height);
     cloud.weights.push_back(uniform01(random));
     sum += cloud.weights.back();
   }

@@ -38,6 +38,7 @@ TEST(CensoredCounts, EqualTheMaximumOfTheLikelihoodInR) {
     ASSERT_EQ(kept.size(), entry.at("coefficients").size());
     for (std::size_t i = 0; i < kept.size(); ++i) {
       EXPECT_NEAR(model->fixed.coefficients[kept[i]], entry.at("coefficients")[i].get<double>(), kCensored);
+      if (model->censored == 0) continue;  // the information is the expected one, as in count_model_test
       for (std::size_t j = 0; j < kept.size(); ++j) {
         EXPECT_NEAR(model->fixed.covariance[kept[i] * columns + kept[j]],
                     entry.at("covariance")[i * kept.size() + j].get<double>(), kCensored);
@@ -104,7 +105,7 @@ TEST(CensoredCounts, WhatCannotBeFittedHasAReason) {
   EXPECT_THAT(censored_reason({1, 2}, {true, true}, {0, 1}), HasSubstr("no more observations"));
   EXPECT_THAT(censored_reason({3, 4, 9, 9}, {true, true, false, false}, {0, 0, 1, 1}),
               HasSubstr("only censored counts leave some ratios without a bound"));
-  EXPECT_THROW((void)fit_count_model(std::vector<double>{1.0}, {}, {}, {}), std::invalid_argument);
+  EXPECT_THROW((void)fit_count_model(std::vector<double>{1.0}, {true, true}, {}, {}), std::invalid_argument);
 }
 
 }  // namespace
