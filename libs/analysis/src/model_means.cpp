@@ -409,7 +409,7 @@ void add_contrast_results(const FixedEffects& model, const AnalysisOptions& opti
 LinearEstimate contrast_estimate(const FixedEffects& model, const PlannedContrast& contrast, double confidence) {
   const auto factor = factor_of(model, contrast).value();
   const std::vector<std::size_t> over{factor};
-  const auto means = marginal_means(model, over, {}, MarginalWeights::kEqual, confidence);
+  const auto means = marginal_means(model, over, {}, confidence);
   const std::vector<MeanContrast> one{{contrast.name, weights_of(model.design.factors[factor], contrast)}};
   return estimate_contrasts(model, means.groups.front(), one, Adjustment::kNone, confidence).front();
 }
