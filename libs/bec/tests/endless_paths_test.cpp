@@ -90,9 +90,9 @@ TEST_P(EndlessPaths, AreWaysInAndCyclesThatCountAsTheRobotDoes) {
     expect_laws(Atlas{discounted_domain(GetParam(), discount)}, 13, endless);
     if (HasFatalFailure()) return;
   }
-  // Crumbs, goals and boards end it early anyway; elsewhere some robot never arrives.
-  const bool always_ends = GetParam() == "icy-crossing";
-  EXPECT_EQ(endless == 0, always_ends) << endless;
+  // Some robots always arrive, for example where the end is near or pays.
+  const std::set<std::string> kAlwaysArrive{"cookie-crumb", "icy-crossing", "navigation", "two-goals"};
+  EXPECT_EQ(endless == 0, kAlwaysArrive.contains(GetParam())) << endless;
 }
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EndlessPaths, ::testing::ValuesIn(testing::built_in_names()),
@@ -112,14 +112,14 @@ TEST(RandomEndlessPaths, AreWaysInAndCyclesThatCountAsTheRobotDoes) {
   EXPECT_GE(endless, 300U);
 }
 
-// 93 starts of item delivery at 0.9, as exact arithmetic finds them.
+// 274 of 9 312 starts of item delivery at 0.9, as value iteration over its exported tables finds them.
 TEST(EndlessPath, OccurInItemDeliveryWhereTheParcelIsTooFarAway) {
   const Atlas atlas{discounted_domain("item-delivery", 0.9)};
   std::size_t endless = 0;
   for (std::size_t i = 0; i < atlas.num_demos(); ++i) {
     endless += atlas.trajectory(DemoIndex{i}).repeats_from ? 1U : 0U;
   }
-  EXPECT_EQ(endless, 93U);
+  EXPECT_EQ(endless, 274U);
 }
 
 // People who expect something else at any state of a cycle learn from every start that leads into it.

@@ -34,7 +34,7 @@ double return_of(const Atlas& atlas, const IntegerVector& counts) {
   return atlas.domain().weights().return_of(counts) / static_cast<double>(atlas.domain().count_scale());
 }
 
-Json page_of(const Play& play, std::size_t seat) {
+Json page_in_play(const Play& play, std::size_t seat) {
   return play.room().view({Viewer::Role::kParticipant, seat}, play.now());
 }
 
@@ -152,7 +152,7 @@ TEST(EndlessAnswers, AreGivenAndShownInASession) {
   std::size_t asked = 0, shown = 0;
   for (int i = 0; i < 400 && play.room().stage() == RoomStage::kRunning; ++i) {
     for (const std::size_t seat : {1U, 2U}) {
-      const auto page = page_of(play, seat);
+      const auto page = page_in_play(play, seat);
       if (page["stage"] == "watch" && page["watch"].contains("repeats_from")) {
         ++shown;
         const auto& frames = page["watch"]["frames"];

@@ -63,7 +63,10 @@ TeamPool shares_pool() {
 
 TEST(EffectCells, RefuseMeansThatTheOutcomeCannotHave) {
   const auto pool = shares_pool();
-  Effect effect{.quantity = Quantity::kExamShareRight, .kind = Effect::Kind::kContrast, .imposed = 0.5};
+  Effect effect;
+  effect.quantity = Quantity::kExamShareRight;
+  effect.kind = Effect::Kind::kContrast;
+  effect.imposed = 0.5;
   effect.first.strategy = "joint";
   effect.second.strategy = "common";
   const auto refused = effect_cells(pool, effect);
@@ -84,7 +87,11 @@ TEST(EffectCells, AreThoseOfTheEffectWithinTheRange) {
   for (const auto kind : {Effect::Kind::kStrategy, Effect::Kind::kComposition, Effect::Kind::kInteraction,
                           Effect::Kind::kStrategyWithin, Effect::Kind::kContrast}) {
     for (const double size : {0.01, 0.05, 0.09, 0.2, 0.5, 0.9, 0.99}) {
-      Effect effect{.quantity = Quantity::kKnowledge, .kind = kind, .composition = "NP", .imposed = size};
+      Effect effect;
+      effect.quantity = Quantity::kKnowledge;
+      effect.kind = kind;
+      effect.composition = "NP";
+      effect.imposed = size;
       effect.first.strategy = "joint";
       effect.second.composition = "NN";
       const auto cells = effect_cells(pool, effect);

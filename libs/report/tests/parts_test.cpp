@@ -94,7 +94,7 @@ TEST(TellingTeams, AreOfDifferentStrategiesWherePossible) {
     design.series.push_back({strategy, "", strategy, 0, {}});
     design.cells.push_back({design.series.size() - 1, "NP", 1});
     design.cell_of_team.push_back(design.cells.size() - 1);
-    data.teams.push_back({true, periods, knowledge, 1.0});
+    data.teams.push_back({.completed = true, .periods = periods, .knowledge = knowledge, .area_sr = 1.0});
   };
   add("baseline", 30.0, 0.01);  // not taught together
   add("common", 9.0, 0.1);      // the lowest knowledge, and the slowest
@@ -114,7 +114,7 @@ TEST(TellingTeams, AreOfDifferentStrategiesWherePossible) {
 TEST(TellingTeams, AreTheOnlyTeamIfThereIsOne) {
   ReportDesign design{{{"baseline", "Baseline", "baseline", 0, {}}}, {{0, "N", 1}}, {0}, 1};
   RunData data;
-  data.teams = {{true, 3.0, 0.5, 1.0}};
+  data.teams = {{.completed = true, .periods = 3.0, .knowledge = 0.5, .area_sr = 1.0}};
   EXPECT_EQ(telling_teams(design, data).size(), 1u);
 }
 

@@ -57,7 +57,7 @@ inline std::vector<TeamRecord> invented_teams() {
   for (std::size_t i = 0; i < teams.size(); ++i) {
     teams[i].address = addresses[i];
     teams[i].seed_address = "1/NP/" + std::to_string(addresses[i].replicate);
-    teams[i].completed = i != 1;
+    teams[i].status = i != 1 ? SessionStatus::kComplete : SessionStatus::kMaxPeriods;
     teams[i].periods = periods[i];
     teams[i].knowledge = knowledge[i];
     teams[i].area_sr = 1.0 + static_cast<double>(i);
