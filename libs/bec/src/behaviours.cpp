@@ -459,8 +459,8 @@ Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, st
   }
   std::sort(numbering_.begin(), numbering_.end());
   numbering_.erase(std::unique(numbering_.begin(), numbering_.end()), numbering_.end());
-  if (numbering_.empty()) numbering_.emplace_back(0);  // one bit that nobody sets
-  bit_of_.resize(constraints_.size());
+  if (numbering_.empty()) numbering_.emplace_back(0);  // one bit that nobody sets, even if there are no constraints
+  bit_of_.resize(std::max(constraints_.size(), std::size_t{1}));
   for (std::size_t i = 0; i < numbering_.size(); ++i) bit_of_[numbering_[i].value()] = static_cast<std::uint32_t>(i);
 
   const std::size_t words = (numbering_.size() + kBits - 1) / kBits;

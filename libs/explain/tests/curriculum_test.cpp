@@ -121,8 +121,8 @@ TEST(Curriculum, SharesAgreeWithAnIndependentCount) {
 }
 
 // Why nothing about a domain can be taught.
-std::string why_nothing(const std::string& text) {
-  auto reading = parse_domain(text, "test.toml");
+std::string why_nothing(const std::string& text, const DomainFiles& files = {}) {
+  auto reading = parse_domain(text, "test.toml", {}, files);
   if (!reading.domain) return "the domain is not sound";
   const Atlas atlas{*std::move(reading.domain)};
   try {
@@ -144,6 +144,28 @@ TEST(Curriculum, SaysWhenAndWhyNothingCanBeTaught) {
   EXPECT_EQ(why_nothing(without_rubble),
             "nothing about 'one-road' can be taught: anybody who knows beforehand that a step costs something "
             "predicts everything that the robot does");
+}
+
+TEST(Curriculum, SaysThatNothingCanBeTaughtOfARobotWithoutAnyChoice) {
+  const std::string model = R"(schema = "kith.domain/1"
+id = "no-choice"
+[model]
+format = "csv"
+states = "states.csv"
+transitions = "transitions.csv"
+[[feature]]
+name = "slip"
+[[feature]]
+name = "step"
+[reward]
+weights = { slip = -2, step = -1 }
+)";
+  const DomainFiles files{.known = {{"states.csv", "state,terminal\nbank,false\nshore,true\n"},
+                                    {"transitions.csv",
+                                     "state,action,next,probability,slip,step\n"
+                                     "bank,go,shore,0.5,0,1\nbank,go,bank,0.5,1,1\n"}}};
+  EXPECT_EQ(why_nothing(model, files),
+            "nothing about 'no-choice' can be taught: the robot does the same with any reward");
 }
 
 TEST(Curriculum, RefusesToMeasureWithoutBeliefs) {
