@@ -1,8 +1,10 @@
-// Domain files. A domain or errors, never both; of a domain, that states and their pictures correspond.
+// Domain files. A domain or errors, never both; of a domain, that states and their pictures correspond, and that it can
+// be asked about, taught and judged.
 
 #include <algorithm>
 
 #include "../fuzzing.hpp"
+#include "../whole_robot.hpp"
 #include "kith/domains/domain_file.hpp"
 
 using namespace kith;
@@ -61,5 +63,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzzing::require(half_space.contains(domain.weights().integer), "the prior holds at the weights");
   }
   for (std::size_t m = 0; m < std::min<std::size_t>(domain.num_mdps(), 4); ++m) check_states(domain, MdpIndex{m});
+  fuzzing::WholeRobot::use(domain);
   return 0;
 }

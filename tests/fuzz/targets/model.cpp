@@ -1,10 +1,11 @@
 // Explicit models. The first byte says which file of which layout the rest is, or that it is the domain file that names
-// the others; these are sound. A domain or
-// errors, never both; what a domain is exported to is read again as a domain with as many states.
+// the others; these are sound. A domain or errors, never both; what a domain is exported to is read again as a domain
+// with as many states, and a domain can be asked about, taught and judged.
 
 #include <array>
 
 #include "../fuzzing.hpp"
+#include "../whole_robot.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
 
@@ -125,5 +126,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!reading.domain) return 0;
   export_and_read(*reading.domain, ModelFormat::kGymJson, "e.json");
   export_and_read(*reading.domain, ModelFormat::kPrism, "e");
+  fuzzing::WholeRobot::use(*reading.domain);
   return 0;
 }
