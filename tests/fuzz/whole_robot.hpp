@@ -105,7 +105,8 @@ class WholeRobot {
     options.bank.filter.particles = 40;
     Auditor auditor{cache, options};
     for (std::size_t member = 0; member < 2; ++member) {
-      for (const auto& audit : auditor.audit(observed_periods(session.history(), member), RandomStream{4})) {
+      const auto person = auditor.audit(observed_periods(session.history(), member), RandomStream{4});
+      for (const auto& audit : person.components) {
         require(audit.level.probability >= 0.0 && audit.level.probability <= 1.0 + 1e-9, "a probability is one");
         require(audit.level.low <= audit.level.mean + 1e-9 && audit.level.mean <= audit.level.high + 1e-9,
                 "a mean lies in its interval");
