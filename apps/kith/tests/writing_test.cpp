@@ -131,7 +131,9 @@ TEST_F(Writing, KnowsAFolderByAllOfItsNames) {
       if (again.code != 0) expect_kept(made, contents_of(scratch / "out"), what);
       EXPECT_EQ(contents_of(scratch / "out").size(), made.size()) << what << again.err;
       EXPECT_EQ(contents_of(scratch / "").count("link"), name == "link" ? 1u : 0u) << what;
-      if (!writer.replacing.empty()) EXPECT_EQ(again.code, 0) << what << again.err;
+      if (!writer.replacing.empty()) {
+        EXPECT_EQ(again.code, 0) << what << again.err;
+      }
     }
   }
 }
@@ -148,7 +150,9 @@ TEST_F(Writing, LosesNothingWhereTheDiskIsFull) {
     const Scratch scratch;
     const auto fresh = run_with(writer, scratch / "out", false, full);
     EXPECT_NE(fresh.code, 0) << writer.name;
-    if (!writer.makes_folder) EXPECT_TRUE(contents_of(scratch / "").empty()) << writer.name;
+    if (!writer.makes_folder) {
+      EXPECT_TRUE(contents_of(scratch / "").empty()) << writer.name;
+    }
     fs::remove_all(scratch / "out");
     ASSERT_EQ(run_with(writer, scratch / "out").code, 0) << writer.name;
     if (writer.makes_folder) std::ofstream{scratch / "out/notes.txt"} << "mine";
