@@ -117,7 +117,9 @@ void expect_hull_maximum_is_the_plan(const Atlas& atlas, int num_weights, std::u
 class EveryBuiltInDomain : public ::testing::TestWithParam<std::string> {};
 class EveryBuiltInDomainSlow : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(EveryBuiltInDomain, HullMaximumIsTheOptimalValue) { expect_hull_maximum_is_the_plan(atlas_of(GetParam()), 1, 7); }
+TEST_P(EveryBuiltInDomain, HullMaximumIsTheOptimalValue) {
+  expect_hull_maximum_is_the_plan(atlas_of(GetParam()), 1, 7);
+}
 TEST_P(EveryBuiltInDomainSlow, HullMaximumIsTheOptimalValue) {
   expect_hull_maximum_is_the_plan(atlas_of(GetParam()), 200, 8);
 }

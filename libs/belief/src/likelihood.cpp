@@ -56,7 +56,8 @@ double concentration_for(double ability, LikelihoodForm form, std::size_t dimens
   if (ability >= 1.0) return kInfinity;
   const bool jumps = form == LikelihoodForm::kDiscontinuous;
   if (dimension == kSpace) return jumps ? log_odds(ability) : continuous_concentration(ability);
-  return jumps ? detail::concentration_of_sphere(ability, dimension) : detail::concentration_of_half(ability, dimension);
+  return jumps ? detail::concentration_of_sphere(ability, dimension)
+               : detail::concentration_of_half(ability, dimension);
 }
 
 // log of the density just beyond the boundary over that on the near side: 1 - beta over the mass of exp(kappa t) on the

@@ -9,8 +9,8 @@
 namespace kith::detail {
 namespace {
 
-// int_0^upper value(sin u) cos(u)^(d-2) du of a function that falls or rises by at most about exp(60) on the way, so that
-// it is smooth in each part: quadrature over the whole right angle would miss a narrow peak at 0.
+// int_0^upper value(sin u) cos(u)^(d-2) du of a function that falls or rises by at most about exp(60) on the way, so
+// that it is smooth in each part: quadrature over the whole right angle would miss a narrow peak at 0.
 template <typename Function>
 double integral(std::size_t dimension, double upper, Function value) {
   const auto power = static_cast<int>(dimension) - 2;

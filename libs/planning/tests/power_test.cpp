@@ -70,7 +70,8 @@ TEST(EffectCells, RefuseMeansThatTheOutcomeCannotHave) {
   effect.first.strategy = "joint";
   effect.second.strategy = "common";
   const auto refused = effect_cells(pool, effect);
-  EXPECT_NE(refused.impossible.find("exam_share_right would have means from "), std::string::npos) << refused.impossible;
+  EXPECT_NE(refused.impossible.find("exam_share_right would have means from "), std::string::npos)
+      << refused.impossible;
   EXPECT_NE(refused.impossible.find("it lies between 0 and 1"), std::string::npos) << refused.impossible;
   // Where there is no upper bound, only the lower one refuses.
   effect.quantity = Quantity::kExamRegret;

@@ -257,9 +257,10 @@ ImaginedPeople who_miss(TeachingCache& cache, const KnowledgeComponent& componen
   const auto open = open_of(cache, left, shown);
   if (open.empty()) return people;
   if (how == Missed::kAnywhere) {
-    const auto region = Cone::intersection(cache.constraints().half_spaces(shown));
-    KITH_ASSERT(region.has_value());  // the robot's weights lie inside
-    const Eigen::MatrixXd anybody = ConeSampler{*region}.cover(kAnybody);
+    Cone region{cache.atlas().domain().num_features()};  // nothing may have been shown, and nothing be known before
+    const bool has_room = region.clip(cache.constraints().half_spaces(shown));
+    KITH_ASSERT(has_room);  // the robot's weights lie inside
+    const Eigen::MatrixXd anybody = ConeSampler{region}.cover(kAnybody);
     for (Eigen::Index i = 0; i < anybody.cols(); ++i) people.add(cache.behaviours(), anybody.col(i));
   } else {
     imagine_near_misses(cache, left, open, how == Missed::kNearly ? kNearMiss : kMiss, people);

@@ -58,9 +58,10 @@ ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBeli
 
 void imagine_near_misses(TeachingCache& cache, const ConstraintSet& region, const ConstraintSet& facets, double miss,
                          ImaginedPeople& people) {
-  const auto cone = Cone::intersection(cache.constraints().half_spaces(region));
-  KITH_ASSERT(cone.has_value());  // the robot's weights lie inside
-  for (const auto& weights : near_misses(*cone, cache.constraints().half_spaces(facets), miss)) {
+  Cone cone{cache.atlas().domain().num_features()};  // the region may have no half-space at all
+  const bool has_room = cone.clip(cache.constraints().half_spaces(region));
+  KITH_ASSERT(has_room);  // the robot's weights lie inside
+  for (const auto& weights : near_misses(cone, cache.constraints().half_spaces(facets), miss)) {
     people.add(cache.behaviours(), weights);
   }
 }

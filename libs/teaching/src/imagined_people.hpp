@@ -22,9 +22,9 @@ struct ImaginedPeople {
 [[nodiscard]] ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
                                             std::size_t n, RandomStream random);
 
-// Adds, for each of these facets of the region of a set of constraints, somebody who only just misses it (near_misses())
-// and is right about everything else. What is conveyed to them is the facet itself, which people who know nothing, or
-// nearly everything, may not bring up.
+// Adds, for each of these facets of the region of a set of constraints, somebody who only just misses it
+// (near_misses()) and is right about everything else. What is conveyed to them is the facet itself, which people who
+// know nothing, or nearly everything, may not bring up.
 void imagine_near_misses(TeachingCache& cache, const ConstraintSet& region, const ConstraintSet& facets, double miss,
                          ImaginedPeople& people);
 

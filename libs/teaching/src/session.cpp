@@ -291,11 +291,12 @@ std::vector<HalfSpace> Session::to_examine(const Lesson& lesson, TeachingCache& 
   auto examined = lesson.taught;
   if (atlas_->is_tabulated()) return examined;
   const auto taught = atlas_->prior() | cache.numbers_of(lesson.taught);
-  const auto region = Cone::intersection(cache.constraints().half_spaces(taught));
-  KITH_ASSERT(region.has_value());  // the robot's weights lie inside
+  Cone region{atlas_->domain().num_features()};
+  const bool has_room = region.clip(cache.constraints().half_spaces(taught));
+  KITH_ASSERT(has_room);  // the robot's weights lie inside
   const auto& component = atlas_->knowledge_components()[lesson.component];
   for (const auto& facet : atlas_->constraints().half_spaces(component.constraints)) {
-    if (!region->implies(facet)) examined.push_back(facet);
+    if (!region.implies(facet)) examined.push_back(facet);
   }
   std::sort(examined.begin(), examined.end());
   return examined;

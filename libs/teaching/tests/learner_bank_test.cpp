@@ -104,7 +104,8 @@ TEST_F(LearnerBankTest, WeighsPathsThatAreBestForNobodyByTheirVerdicts) {
   const std::vector verdicts{Verdict{.half_spaces = {verdict}}};
   const auto by_verdict = one.ratings(AnswerFit{item_delivery(), test, answers, verdicts});
   const auto silent = one.ratings(AnswerFit{item_delivery(), test, answers, std::vector{Verdict{}}});
-  const double slip = AnswerFit::slip() / (static_cast<double>(item_delivery().coverage_set(test.front().demo).size()) + 1.0);
+  const double slip =
+      AnswerFit::slip() / (static_cast<double>(item_delivery().coverage_set(test.front().demo).size()) + 1.0);
   for (std::size_t h = 0; h < by_verdict.size(); ++h) {
     EXPECT_GT(by_verdict[h].likelihood, 0.1 * slip);
     EXPECT_LT(by_verdict[h].likelihood, slip);

@@ -120,7 +120,8 @@ class ParticleBelief {
   /// (sum p_i)^2 / sum p_i^2 over these points. size() before any update; 0 if no point satisfied them.
   /// Where it is below kFewParticles the belief is impoverished: what it holds from then on depends on which few points
   /// happened to fit. Updates of a product of likelihoods above three dimensions do not count, since there stages and
-  /// slice moves renew the points, nor do updates that all points satisfy. size() unless FilterOptions::records_support.
+  /// slice moves renew the points, nor do updates that all points satisfy. size() unless
+  /// FilterOptions::records_support.
   [[nodiscard]] double least_support() const noexcept { return least_support_; }
 
   /// How often this belief was resampled so far.
