@@ -274,6 +274,14 @@ TEST(Metamorphic, AWorldThatIsListedTwiceIsRefusedOnAMapAndChangesNothingElseInA
       EXPECT_EQ(others.num_worlds, facts.num_worlds + 1);
       EXPECT_EQ(others.region, facts.region);
       if (counted.size() > 3) return;  // what gets a lesson of its own is sampled
+      // Rows of a world that is listed twice count twice, which can change the most frequent feature and the sequence.
+      const auto& before = original.mask_counters();
+      const auto& after = other.mask_counters();
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          if ((before[i] <=> before[j]) != (after[i] <=> after[j])) return;
+        }
+      }
       ASSERT_EQ(others.components.size(), facts.components.size());
       for (std::size_t c = 0; c < facts.components.size(); ++c) {
         EXPECT_EQ(others.components[c].features, facts.components[c].features);
