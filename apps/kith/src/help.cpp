@@ -122,8 +122,9 @@ std::string help_text(const std::vector<CommandDescription>& commands, bool full
       "  kith teach item-delivery --group NNP --strategy joint\n";
   if (full) {
     text +=
-        "\nenvironment: KITH_THREADS=2 is `--threads 2` where that is not given, KITH_MEMORY=8G\n"
-        "is the most memory that kith uses, NO_COLOR turns colours off. Nothing else in the\n"
+        "\nenvironment: KITH_THREADS=2 is `--threads 2` where that is not given,\n"
+        "KITH_MEMORY=8G is the most memory that kith uses, NO_COLOR turns colours off.\n"
+        "Nothing else in the\n"
         "environment changes what a command does.\n\n";
     text += kExitCodes;
   }

