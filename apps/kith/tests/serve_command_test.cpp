@@ -281,6 +281,7 @@ TEST(ServeCommand, SaysThatARehearsalWasOverBeforeTheRestart) {
                              "0.05", "--restart-after", "3600"});
   EXPECT_EQ(ran.code, 6) << ran.err << ran.out;
   EXPECT_THAT(ran.out, HasSubstr("server     not restarted"));
+  EXPECT_THAT(ran.err, HasSubstr("no restart was rehearsed"));
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Commands that write, under all the names that a place can have: nothing that was there is lost when one fails.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -49,6 +51,8 @@ struct Writer {
   std::vector<std::string> replacing{};  // what allows to replace what it wrote before
 };
 
+constexpr rlim_t kLittle = 600;  // bytes of a file, after which the disk is full
+
 // A run with one team per cell and a session with one person, made once.
 class Writing : public ::testing::Test {
  protected:
@@ -91,8 +95,8 @@ class Writing : public ::testing::Test {
         {"analyze --latex", {"analyze", run(), "--brief", "--latex"}, {}},
         {"report", {"report", run(), "-o"}, {}},
         {"curriculum", {"curriculum", "two-goals", "-o"}, {}},
-        {"export", {"export", "two-goals", "--format", "json", "--mdp", "0", "-o"}, {}, false, yes},
-        {"export prism", {"export", "two-goals", "--format", "prism", "--mdp", "0", "-o"}, {}, false, yes},
+        {"export", {"export", "two-goals", "--to", "gym-json", "--mdp", "0", "-o"}, {}, false, yes},
+        {"export prism", {"export", "two-goals", "--to", "prism", "--mdp", "0", "-o"}, {}, false, yes},
     };
   }
   static Ran run_with(const Writer& writer, const std::string& place, bool replaces = false, const RunWith& with = {}) {
@@ -131,6 +135,30 @@ TEST_F(Writing, KnowsAFolderByAllOfItsNames) {
         EXPECT_EQ(again.code, 0) << what << again.err;
       }
     }
+  }
+}
+
+// The disk is full, at the first attempt and when something is to be replaced.
+TEST_F(Writing, LosesNothingWhereTheDiskIsFull) {
+  RunWith full;
+  full.prepare = [] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{kLittle, kLittle};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  };
+  for (const auto& writer : writers()) {
+    const Scratch scratch;
+    const auto fresh = run_with(writer, scratch / "out", false, full);
+    EXPECT_NE(fresh.code, 0) << writer.name;
+    if (!writer.makes_folder) {
+      EXPECT_TRUE(contents_of(scratch / "").empty()) << writer.name;
+    }
+    fs::remove_all(scratch / "out");
+    ASSERT_EQ(run_with(writer, scratch / "out").code, 0) << writer.name;
+    if (writer.makes_folder) std::ofstream{scratch / "out/notes.txt"} << "mine";
+    const auto before = contents_of(scratch / "");
+    const auto again = run_with(writer, scratch / "out", true, full);
+    expect_kept(before, contents_of(scratch / ""), writer.name + again.err);
   }
 }
 
