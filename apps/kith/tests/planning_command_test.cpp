@@ -270,7 +270,7 @@ correct_gain = { half_normal = 0.052 }
 
 TEST(PowerCommand, RefusesEffectsThatNoStudyCanHaveAndWarnsOfHugeOnes) {
   const auto power = [](const std::string& effect) {
-    return run_small({"power", "quick", "--effect", effect, "--teams", "3", "--pool", "12", "--draws", "20"});
+    return run_kith({"power", "quick", "--effect", effect, "--teams", "3", "--pool", "12", "--draws", "20"});
   };
   const auto refused = power("knowledge: group - baseline = 1.5");
   EXPECT_EQ(refused.code, 3);
@@ -278,6 +278,7 @@ TEST(PowerCommand, RefusesEffectsThatNoStudyCanHaveAndWarnsOfHugeOnes) {
   EXPECT_EQ(refused.out, "");
   const auto warned = power("periods: group - baseline = 8");
   EXPECT_EQ(warned.code, 0) << warned.err;
+  EXPECT_THAT(warned.err, HasSubstr("standard deviations within cells: hardly any teaching does that"));
   EXPECT_THAT(warned.out, AllOf(HasSubstr("periods of simulated teams (can be 0 or more)"), HasSubstr("imposed 1")));
   EXPECT_THAT(power("periods: group - baseline").err, ::testing::Not(HasSubstr("hardly any")));
 }
