@@ -40,12 +40,14 @@ int run_export(const ExportOptions& options, Console& console) {
   if (to_stdout && console.json()) refuse("with --json the model needs a file: -o FILE");
   const fs::path out{to_stdout ? domain.id() + ".json" : options.out};
   if (out.filename().empty()) refuse("-o names a folder; add the name of the file");
+  std::error_code ignored;
+  if (out.has_parent_path() && !fs::is_directory(out.parent_path(), ignored))
+    refuse("there is no folder " + out.parent_path().string() + "; make it first");
   const auto files = export_mdp(domain, m, format, out.filename().string());
   if (to_stdout) {
     console.print(files.front().text);
     return 0;
   }
-  std::error_code ignored;
   for (const auto& file : files) {
     const auto path = out.parent_path() / file.name;
     if (!options.yes && fs::is_regular_file(path, ignored)) {

@@ -36,7 +36,14 @@ FileSet::~FileSet() {
 
 void FileSet::write(const std::string& name, std::string_view piece) {
   auto& file = files_[name];
-  if (!file) file = std::make_unique<AtomicFile>(generation_->path() / name);
+  if (!file) {
+    std::error_code ignored;
+    const auto path = folder_ / name;
+    const auto there = std::filesystem::symlink_status(path, ignored);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+      throw Error{ErrorKind::kIo, "cannot write " + path.string() + ": something else than a file is there"};
+    file = std::make_unique<AtomicFile>(generation_->path() / name);
+  }
   file->write(piece);
 }
 

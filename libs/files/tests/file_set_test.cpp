@@ -63,6 +63,22 @@ TEST(FileSet, KnowsAFolderByAllOfItsNames) {
   }
 }
 
+TEST(FileSet, TakesTheNameOfNothingButAFile) {
+  const ScratchFolder scratch;
+  fs::create_directories(scratch / "folder");
+  write_file_atomically(scratch / "folder" / "thesis", "years of work");
+  fs::create_symlink("nowhere/at/all", scratch / "dangling");
+  fs::create_symlink("folder/thesis", scratch / "link");
+  const auto before = contents(scratch / ".");
+  for (const auto* name : {"folder", "dangling", "link"}) {
+    FileSet set{scratch / "."};
+    set.write("new", "new");
+    EXPECT_THROW(set.write(name, "new"), Error) << name;
+  }
+  EXPECT_EQ(contents(scratch / "."), before);
+  EXPECT_TRUE(fs::is_symlink(scratch / "dangling") && fs::is_symlink(scratch / "link"));
+}
+
 TEST(FileSet, ChangesNothingWithoutACommit) {
   const ScratchFolder scratch;
   write_file_atomically(scratch / "a", "old");

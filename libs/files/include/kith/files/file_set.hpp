@@ -28,7 +28,8 @@ class FileSet {
   FileSet(const FileSet&) = delete;
   FileSet& operator=(const FileSet&) = delete;
 
-  /// Appends to the file of that name, which begins empty. @pre not committed.
+  /// Appends to the file of that name, which begins empty. Where a folder or a link has that name, kIo. @pre not
+  /// committed.
   void write(const std::string& name, std::string_view piece);
   /// Puts all files in place. Once. @param removed  names that the folder no longer holds; those that it does not hold
   /// and those that were written are ignored.
