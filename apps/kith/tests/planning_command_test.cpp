@@ -265,7 +265,8 @@ correct_gain = { half_normal = 0.052 }
   EXPECT_EQ(document.at("findings").at(0).at("id"), "primary");
   const auto report = Json::parse(run_kith({"report", folder, "--json"}).out);
   EXPECT_EQ(report.at("findings").at(0).at("id"), "primary");
-  EXPECT_THAT(report.at("overview").at("summary").dump(), HasSubstr("knowledge: the team's belief"));
+  EXPECT_THAT(report.at("overview").at("summary").dump(),
+              HasSubstr("Comparisons that the study was planned to make, which alone are its hypotheses"));
 }
 
 TEST(PowerCommand, RefusesEffectsThatNoStudyCanHaveAndWarnsOfHugeOnes) {
