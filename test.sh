@@ -4,7 +4,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 . scripts/packages.sh
 
-night=(release headers asan tsan fuzz slow tidy)
+night=(release ratios headers asan tsan fuzz slow tidy)
 usage() {
   cat <<TEXT
 usage: ./test.sh             what has to pass before anything is merged:
@@ -14,6 +14,7 @@ usage: ./test.sh             what has to pass before anything is merged:
        ./test.sh --nightly [PART...] [MINUTES]
                              all parts of the night, or those that are named:
                                release  all tests, and the benchmarks built
+                               ratios   speed against plain implementations
                                headers  every public header compiled alone
                                asan     all layers under ASan and UBSan
                                tsan     those that use threads, under TSan
@@ -102,6 +103,10 @@ fuzz() {
 nightly() {  # PART
   case $1 in
     release) release -DKITH_BUILD_BENCHMARKS=ON ;;
+    ratios)
+      part "ratios: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_BUILD_BENCHMARKS=ON -- all &&
+        part "ratios" tests/rivals/ratios.py build/release/bin/kith_rivals_bench build/release/bin/kith
+      ;;
     headers) part "headers alone" configure_and_build release -- all_verify_interface_header_sets ;;
     asan) asan "${layers[@]}" ;;
     tsan)

@@ -28,7 +28,6 @@ int run_status(const StatusOptions& options, Console& console);
 int run_audit(const AuditCommandOptions& options, Console& console);
 int run_verify(const VerifyCommandOptions& options, Console& console);
 int run_merge(const MergeOptions& options, Console& console);
-int run_bench(const BenchOptions& options, Console& console);
 int run_export(const ExportOptions& options, Console& console);
 int run_serve(const ServeOptions& options, Console& console);
 int run_session(const SessionOptions& options, Console& console);

@@ -101,7 +101,6 @@ const std::vector<std::string>& examples_of(const std::string& command) {
        {"kith export item-delivery --mdp 63 --to gym-json -o delivery.json",
         "kith export my-domain.toml --to prism -o models/my-domain"}},
       {"merge", {"kith merge results/part-* -o results/paper", "kith merge part-1 part-2 part-3 -o paper --json"}},
-      {"bench", {"kith bench", "kith bench --save before.json", "kith bench --baseline before.json --filter belief"}},
       {"serve",
        {"kith serve --demo", "kith serve study.toml -o results/live", "kith serve study.toml --rehearse 20 --for 60"}},
       {"session",

@@ -61,8 +61,6 @@ int run(const Options& options, Console& console) {
       return run_verify(options.verify, console);
     case Command::kMerge:
       return run_merge(options.merge, console);
-    case Command::kBench:
-      return run_bench(options.bench, console);
     case Command::kExport:
       return run_export(options.export_model, console);
     case Command::kExplain:

@@ -196,30 +196,6 @@ void add_session(CLI::App& app, Options& options) {
   add_common(command, options.common);
 }
 
-void add_bench(CLI::App& app, Options& options) {
-  auto& bench = options.bench;
-  auto& command = *app.add_subcommand("bench", "Time kernels and studies, against rivals and a saved baseline");
-  command.add_flag("--quick", bench.quick, "A few seconds: fewer samples, every study once");
-  command.add_option("--filter", bench.filter, "Only names that contain this; '*' matches any text, '|' means or")
-      ->type_name("PATTERN");
-  auto* save =
-      command.add_option("--save", bench.save, "Write the figures to this file, as a baseline")->type_name("FILE");
-  auto* baseline =
-      command.add_option("--baseline", bench.baseline, "Compare with this file; exit 7 if something is slower")
-          ->type_name("FILE");
-  takes_number(*command.add_option("--tolerance", bench.tolerance, "How much slower a median may be, as a share")
-                    ->capture_default_str()
-                    ->needs(baseline),
-               {0.0, kLargestNumber}, "P");
-  auto* growth = command.add_flag("--growth", bench.growth, "How cost grows with the size of studies and domains");
-  growth->excludes(save)->excludes(baseline);
-  command.add_flag("--list", bench.list, "List the cases and their rivals; time nothing");
-  add_thread_count(command, bench.threads, "Threads of whole studies (default: one per core)");
-  command.add_flag("--yes", bench.yes, "Replace the file of --save if there is one");
-  add_progress(command, bench.progress);
-  add_common(command, options.common);
-}
-
 void add_explain(CLI::App& app, Options& options) {
   auto& command = *app.add_subcommand("explain", "Say what an error id means, or list kinds and their parameters");
   command
@@ -256,7 +232,6 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
   add_study_commands(*app, options);
   add_serve(*app, options);
   add_session(*app, options);
-  add_bench(*app, options);
   add_export(*app, options);
   add_explain(*app, options);
   add_others(*app, options);
@@ -264,16 +239,30 @@ std::unique_ptr<CLI::App> make_app(Options& options) {
 }
 
 Command command_of(const std::string& name) {
-  static const std::map<std::string, Command> kCommands{
-      {"report", Command::kReport},   {"validate", Command::kValidate},   {"inspect", Command::kInspect},
-      {"teach", Command::kTeach},     {"study", Command::kStudy},         {"analyze", Command::kAnalyze},
-      {"fit", Command::kFit},         {"doctor", Command::kDoctor},       {"completion", Command::kCompletion},
-      {"version", Command::kVersion}, {"calibrate", Command::kCalibrate}, {"power", Command::kPower},
-      {"status", Command::kStatus},   {"verify", Command::kVerify},       {"merge", Command::kMerge},
-      {"export", Command::kExport},   {"bench", Command::kBench},         {"curriculum", Command::kCurriculum},
-      {"ask", Command::kAsk},         {"init", Command::kInit},           {"find", Command::kFind},
-      {"explain", Command::kExplain}, {"session", Command::kSession},     {"serve", Command::kServe},
-      {"audit", Command::kAudit}};
+  static const std::map<std::string, Command> kCommands{{"report", Command::kReport},
+                                                        {"validate", Command::kValidate},
+                                                        {"inspect", Command::kInspect},
+                                                        {"teach", Command::kTeach},
+                                                        {"study", Command::kStudy},
+                                                        {"analyze", Command::kAnalyze},
+                                                        {"fit", Command::kFit},
+                                                        {"doctor", Command::kDoctor},
+                                                        {"completion", Command::kCompletion},
+                                                        {"version", Command::kVersion},
+                                                        {"calibrate", Command::kCalibrate},
+                                                        {"power", Command::kPower},
+                                                        {"status", Command::kStatus},
+                                                        {"verify", Command::kVerify},
+                                                        {"merge", Command::kMerge},
+                                                        {"export", Command::kExport},
+                                                        {"curriculum", Command::kCurriculum},
+                                                        {"ask", Command::kAsk},
+                                                        {"init", Command::kInit},
+                                                        {"find", Command::kFind},
+                                                        {"explain", Command::kExplain},
+                                                        {"session", Command::kSession},
+                                                        {"serve", Command::kServe},
+                                                        {"audit", Command::kAudit}};
   return kCommands.at(name);
 }
 

@@ -23,7 +23,6 @@ enum class Command {
   kStatus,
   kVerify,
   kMerge,
-  kBench,
   kExport,
   kCurriculum,
   kAsk,
@@ -206,19 +205,6 @@ struct PowerCommandOptions {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-struct BenchOptions {
-  bool quick = false;
-  bool growth = false;   ///< How cost grows, instead of the cases.
-  bool list = false;     ///< What there is to time; nothing is timed.
-  std::string filter;    ///< As of matches_somewhere().
-  std::string save;      ///< File for the figures; empty: none.
-  std::string baseline;  ///< Saved figures to compare with; empty: none.
-  std::string tolerance = "0.1";
-  std::size_t threads = 0;  ///< Of what runs on all threads; 0: as many as there are cores.
-  bool yes = false;         ///< Replace an existing file.
-  ProgressMode progress = ProgressMode::kAuto;
-};
-
 struct CurriculumCommandOptions {
   std::string domain;
   std::string out;  ///< Where the page goes; "-" is standard output; empty: no page.
@@ -297,7 +283,6 @@ struct Options {
   AuditCommandOptions audit;
   VerifyCommandOptions verify;
   MergeOptions merge;
-  BenchOptions bench;
   ExportOptions export_model;
   CurriculumCommandOptions curriculum;
   AskOptions ask;

@@ -16,8 +16,8 @@ class Steps {
   explicit Steps(Console& console) : console_{console} {}
 
   void show(std::string_view step) {
-    constexpr std::chrono::seconds kPatience{2};
-    if (step == shown_ || std::chrono::steady_clock::now() - begin_ < kPatience) return;
+    constexpr std::chrono::seconds kBeforeProgress{2};
+    if (step == shown_ || std::chrono::steady_clock::now() - begin_ < kBeforeProgress) return;
     shown_ = step;
     console_.info(fmt::format("{} ...", step));
   }

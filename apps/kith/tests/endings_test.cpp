@@ -74,7 +74,6 @@ TEST(Progress, ThatCannotBeWrittenEndsNoOtherCommand) {
   EXPECT_EQ(
       run_kith({"power", "quick", "--pool", "20", "--teams", "5", "--draws", "10", "--progress", "json"}, full).code,
       0);
-  EXPECT_EQ(run_kith({"bench", "--quick", "--filter", "geometry", "--progress", "json"}, full).code, 0);
 }
 
 // A terminal of which the test is the other end.

@@ -7,13 +7,10 @@
 #include "kith/geometry/cone.hpp"
 #include "kith/random/stream.hpp"
 
-namespace kith::bench {
+namespace kith::rivals {
 
 /// Steps before a belief begins anew, about those of a session.
 inline constexpr std::uint64_t kSession = 32;
-
-/// Half-spaces with small integer normals that a common direction satisfies strictly.
-[[nodiscard]] std::vector<HalfSpace> feasible_half_spaces(std::size_t n, std::int64_t largest, RandomStream random);
 
 /// n half-spaces as demonstrations of one robot convey them, and what contradicts them.
 struct Evidence {
@@ -32,4 +29,4 @@ struct Evidence {
 [[nodiscard]] std::vector<HalfSpace> prior_half_spaces();
 [[nodiscard]] Cone prior_cone();
 
-}  // namespace kith::bench
+}  // namespace kith::rivals

@@ -6,7 +6,7 @@
 
 #include "kith/bec/atlas.hpp"
 
-namespace kith::bench {
+namespace kith::rivals {
 
 /// The rival of the atlas: what demonstrations convey to people of given reward weights, by planning for each of
 /// them in every MDP with value iteration.
@@ -31,4 +31,4 @@ class NaiveCounterfactuals {
   std::vector<std::vector<DemoIndex>> paths_;  // per demonstration, all states of the robot's path
 };
 
-}  // namespace kith::bench
+}  // namespace kith::rivals

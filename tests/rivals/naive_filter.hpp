@@ -6,7 +6,7 @@
 
 #include "kith/belief/particle_belief.hpp"
 
-namespace kith::bench {
+namespace kith::rivals {
 
 /// The rival of ParticleBelief: the same filter as one would write it first, one particle after the other in double
 /// precision, with std::exp for weights, std::log, std::sin and std::cos for the noise, and no care for vectors.
@@ -38,7 +38,4 @@ class NaiveFilter {
   std::vector<double> weights_;
 };
 
-/// 2 standard normals a turn by the Box-Muller transform, with the functions of the C library.
-void naive_normals(std::span<double> out, RandomStream& random);
-
-}  // namespace kith::bench
+}  // namespace kith::rivals

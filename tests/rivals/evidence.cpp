@@ -2,7 +2,7 @@
 
 #include "kith/random/distributions.hpp"
 
-namespace kith::bench {
+namespace kith::rivals {
 namespace {
 
 IntegerVector random_vector(std::int64_t largest, RandomStream& random) {
@@ -26,11 +26,6 @@ std::vector<HalfSpace> around(const IntegerVector& inside, std::size_t n, std::i
 
 }  // namespace
 
-std::vector<HalfSpace> feasible_half_spaces(std::size_t n, std::int64_t largest, RandomStream random) {
-  const auto inside = random_vector(largest, random);
-  return around(inside, n, largest, random);
-}
-
 Evidence::Evidence(std::size_t n) {
   RandomStream random{1};
   half_spaces = around({1, 2, -4}, n, 4, random);
@@ -41,4 +36,4 @@ std::vector<HalfSpace> prior_half_spaces() { return {HalfSpace{{0, 0, -1}}}; }
 
 Cone prior_cone() { return Cone::intersection(prior_half_spaces()).value(); }
 
-}  // namespace kith::bench
+}  // namespace kith::rivals

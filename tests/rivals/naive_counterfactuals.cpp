@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-namespace kith::bench {
+namespace kith::rivals {
 namespace {
 
 // Feature counts of the greedy path from every state; nothing for states whose greedy path does not end.
@@ -82,4 +82,4 @@ std::size_t NaiveCounterfactuals::plans(std::span<const Eigen::Vector3d> persons
   return converged;
 }
 
-}  // namespace kith::bench
+}  // namespace kith::rivals

@@ -8,7 +8,7 @@
 
 #include "kith/random/distributions.hpp"
 
-namespace kith::bench {
+namespace kith::rivals {
 
 NaiveFilter::NaiveFilter(const ParticleBelief& start, std::span<const HalfSpace> prior, const RandomStream& random)
     : options_{start.options()},
@@ -93,13 +93,4 @@ double NaiveFilter::spread() const {
   return std::sqrt(sum);
 }
 
-void naive_normals(std::span<double> out, RandomStream& random) {
-  for (std::size_t i = 0; i + 1 < out.size(); i += 2) {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform01(random)));
-    const double turn = 2.0 * std::numbers::pi * uniform01(random);
-    out[i] = radius * std::cos(turn);
-    out[i + 1] = radius * std::sin(turn);
-  }
-}
-
-}  // namespace kith::bench
+}  // namespace kith::rivals
