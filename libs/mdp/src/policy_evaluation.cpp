@@ -4,9 +4,8 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
-
-#include "kith/core/assert.hpp"
 
 namespace kith::detail {
 namespace {
@@ -100,11 +99,9 @@ bool PolicyChain::sweep(int most_sweeps, std::span<double> values) const {
   return is_still;
 }
 
-void PolicyChain::solve(std::span<double> values) const {
-  if (!sweep(kMostSweeps, values)) factorise(values);
-}
+bool PolicyChain::solve(std::span<double> values) const { return sweep(kMostSweeps, values) || factorise(values); }
 
-void PolicyChain::factorise(std::span<double> values) const {
+bool PolicyChain::factorise(std::span<double> values) const {
   using Matrix = Eigen::SparseMatrix<double>;
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(order_.size() + links_.size());
@@ -122,14 +119,16 @@ void PolicyChain::factorise(std::span<double> values) const {
   system.makeCompressed();
   Eigen::SparseLU<Matrix> lu;
   lu.compute(system);
-  KITH_ASSERT(lu.info() == Eigen::Success);
+  if (lu.info() != Eigen::Success) return false;
   Eigen::MatrixXd x = lu.solve(constant);
   const Eigen::MatrixXd residual = constant - system * x;
   const Eigen::MatrixXd correction = lu.solve(residual);  // one step of iterative refinement
   x += correction;
+  if (!x.allFinite()) return false;
   for (std::size_t at = 0; at < order_.size(); ++at) {
     for (std::size_t k = 0; k < kinds_; ++k) values[order_[at] * kinds_ + k] = x(eigen_index(at), eigen_index(k));
   }
+  return true;
 }
 
 void sum_up_paths(const Mdp& mdp, std::span<const std::uint32_t> choice, std::span<const double> row_counts,
@@ -195,7 +194,8 @@ std::vector<double> policy_features(const Mdp& mdp, const Policy& policy) {
     }
   }
   std::vector<double> features((mdp.num_states() + mdp.num_terminals()) * d, 0.0);
-  PolicyChain{mdp, policy, immediate, d}.solve(features);
+  if (!PolicyChain{mdp, policy, immediate, d}.solve(features))
+    std::fill_n(features.begin(), immediate.size(), std::numeric_limits<double>::infinity());
   return features;
 }
 

@@ -33,9 +33,10 @@ class PolicyChain {
   // num_terminals, kinds]. Exact after one where the policy is deterministic and finishes. False if the values have
   // not come to rest after the last.
   [[nodiscard]] bool sweep(int most_sweeps, std::span<double> values) const;
-  // As many sweeps as bring the values to rest; if they are too many, a sparse LU factorisation.
+  // As many sweeps as bring the values to rest; if they are too many, a sparse LU factorisation. False if the policy
+  // ends so rarely that what it earns cannot be computed.
   // @pre the policy finishes, or the process is discounted.
-  void solve(std::span<double> values) const;
+  [[nodiscard]] bool solve(std::span<double> values) const;
 
  private:
   // One way on; a transition back to the state itself is solved for.
@@ -45,7 +46,7 @@ class PolicyChain {
   };
 
   void append_row(const Mdp& mdp, std::uint32_t s, const Choice& choice, std::span<const std::uint32_t> position);
-  void factorise(std::span<double> values) const;
+  [[nodiscard]] bool factorise(std::span<double> values) const;
 
   std::size_t kinds_;
   std::vector<std::uint32_t> order_;       // states as they are swept
@@ -62,7 +63,7 @@ void sum_up_paths(const Mdp& mdp, std::span<const std::uint32_t> choice, std::sp
                   std::size_t kinds, std::span<double> values);
 
 // Expected (discounted) features of a policy, a function of the arguments alone, shape [num_states + num_terminals,
-// num_features].
+// num_features]; infinite where the policy ends so rarely that they cannot be computed.
 [[nodiscard]] std::vector<double> policy_features(const Mdp& mdp, const Policy& policy);
 
 }  // namespace kith::detail

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <queue>
 #include <utility>
 
 #include "component_paths.hpp"
@@ -50,6 +51,32 @@ Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask) {
   };
   for (std::size_t t = 0; t < mdp.num_terminals(); ++t) join_arrivals(StateIndex{n + t});
   for (std::size_t i = 0; i < policy.finishing.size(); ++i) join_arrivals(StateIndex{policy.finishing[i]});
+  return make_policy(mdp, std::move(policy.choice));
+}
+
+Policy likeliest_finishing(const Mdp& mdp, const ChoiceMask& mask) {
+  const std::size_t n = mdp.num_states();
+  std::vector<double> chance(n + mdp.num_terminals(), 0.0);  // of the likeliest way to an end
+  Policy policy = first_finishing(mdp, mask);
+  using Reached = std::pair<double, std::size_t>;
+  std::priority_queue<Reached> reached;
+  for (std::size_t t = n; t < chance.size(); ++t) reached.emplace(chance[t] = 1.0, t);
+  while (!reached.empty()) {
+    const auto [of_next, next] = reached.top();
+    reached.pop();
+    if (of_next < chance[next]) continue;
+    for (const Arrival& arrival : mdp.arrivals(StateIndex{next})) {
+      const std::size_t from = arrival.from.value();
+      if (!mask.empty() && mask[mdp.first_choice(arrival.from) + arrival.choice] == 0) continue;
+      double probability = 0.0;
+      for (const Outcome& outcome : mdp.outcomes(mdp.choices(arrival.from)[arrival.choice]))
+        probability += outcome.next.value() == next ? outcome.probability : 0.0;
+      if (probability * of_next <= chance[from]) continue;
+      chance[from] = probability * of_next;
+      policy.choice[from] = arrival.choice;
+      reached.emplace(chance[from], from);
+    }
+  }
   return make_policy(mdp, std::move(policy.choice));
 }
 
@@ -165,18 +192,27 @@ std::optional<std::vector<double>> PolicySolver::optimal_values() const {
   Policy policy = first_finishing(mdp_, mask_);
   if (must_finish && !policy.finishes()) return std::nullopt;
   std::vector<double> values(mdp_.num_states() + mdp_.num_terminals(), 0.0);
-  chain_of(policy).solve(values);
+  const auto too_rare = [] {
+    return Error{ErrorKind::kInfeasible,
+                 "the robot or people would have to go on for longer than can be computed: everything that ends is too "
+                 "unlikely; make ending likelier, or give a smaller discount"};
+  };
+  if (!chain_of(policy).solve(values)) {  // what comes first in the file may lead to an end by sheer chance
+    policy = likeliest_finishing(mdp_, mask_);
+    std::fill(values.begin(), values.end(), 0.0);
+    if (!chain_of(policy).solve(values)) throw too_rare();
+  }
   bool is_evaluated = true;
   for (int i = 0; i < kMostPolicies; ++i) {
     if (improve(policy, values)) {
       if (must_finish && !policy.finishes()) return std::nullopt;
       const auto chain = chain_of(policy);
       is_evaluated = i >= kFewPolicies || chain.sweep(kFewSweeps, values);
-      if (i >= kFewPolicies) chain.solve(values);
+      if (i >= kFewPolicies && !chain.solve(values)) throw too_rare();
     } else if (is_evaluated) {
       return values;
     } else {
-      chain_of(policy).solve(values);
+      if (!chain_of(policy).solve(values)) throw too_rare();
       is_evaluated = true;
     }
   }

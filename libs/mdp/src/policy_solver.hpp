@@ -49,6 +49,8 @@ class PolicySolver {
 // The first choice of the mask in every state; states from which this does not lead to an end take the first choice
 // that leads to a state which does, as far as there is one. @pre the mask has a choice in every state.
 [[nodiscard]] Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask);
+// The policy that goes to an end by the most probable outcomes. @pre the mask has a choice in every state.
+[[nodiscard]] Policy likeliest_finishing(const Mdp& mdp, const ChoiceMask& mask);
 // Whether the policy takes the first choice of the mask everywhere.
 [[nodiscard]] bool takes_first(const Mdp& mdp, const ChoiceMask& mask, const Policy& policy);
 

@@ -346,6 +346,29 @@ TEST(Behave, SolvesAChainThatHardlyEverEnds) {
   EXPECT_THAT(behaviour->counts, ElementsAre(IntegerVector{2'000'000}, IntegerVector{1'999'000}, IntegerVector{0}));
 }
 
+// What comes first leads to the end only by a chance of 1e-40, from where nothing can be computed.
+TEST(Behave, StartsFromWhatEndsWithAFairChance) {
+  const auto ladder = [](bool with_stairs) {
+    constexpr std::size_t kRungs = 8;
+    MdpBuilder builder{kRungs, 1, 2, 1, 1.0};
+    for (std::size_t s = 0; s < kRungs; ++s) {
+      const StateIndex up{s + 1}, foot{0}, again{s == 0 ? 1u : 0u};
+      builder.add_choice(
+          StateIndex{s}, ActionIndex{0},
+          std::vector<MdpBuilder::Transition>{{up, 1e-5, {1}}, {s == 0 ? again : foot, 1.0 - 1e-5, {1}}});
+      if (with_stairs) {
+        builder.add_choice(StateIndex{s}, ActionIndex{1},
+                           std::vector<MdpBuilder::Transition>{{up, 0.5, {10}}, {StateIndex{s}, 0.5, {10}}});
+      }
+    }
+    return std::move(builder).build();
+  };
+  const auto behaviour = behave(ladder(true), std::vector{-1.0});
+  ASSERT_TRUE(behaviour);
+  EXPECT_NEAR(behaviour->values[1], -20.0 * 7, 1e-9);
+  EXPECT_THROW((void)behave(ladder(false), std::vector{-1.0}), Error);
+}
+
 TEST(Behave, RefusesNonsense) {
   const Mdp mdp = make_mdp(1, 1, {{0, 0, 1, {1, 1}}});
   EXPECT_THROW((void)behave(mdp, std::vector{1.0}), std::invalid_argument);
