@@ -198,15 +198,17 @@ export class Person {
     }
   }
 
-  // Of all rules, or of some.
+  // Of all rules, or of some. Text in the colour of its ground is no violation to axe, which takes it for hidden.
   async violations(axe, rules) {
     if (rules?.length === 0) return [];
     await this.page.evaluate(axe); // from the debugger, so that the page's policy stays as it is
-    const { violations } = await this.page.evaluate(
-      (runOnly) => window.axe.run(document, { resultTypes: ['violations'], ...(runOnly ? { runOnly } : {}) }),
+    const { violations, incomplete } = await this.page.evaluate(
+      (runOnly) => window.axe.run(document, { resultTypes: ['violations', 'incomplete'], ...(runOnly ? { runOnly } : {}) }),
       rules,
     );
-    return violations
+    const isInvisible = ({ any }) => any.some(({ data }) => data?.messageKey === 'equalRatio');
+    const unreadable = incomplete.map(({ id, nodes }) => ({ id, impact: 'serious', nodes: nodes.filter(isInvisible) }));
+    return [...violations, ...unreadable.filter(({ nodes }) => nodes.length > 0)]
       .filter(({ impact }) => impact === 'serious' || impact === 'critical')
       .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
   }

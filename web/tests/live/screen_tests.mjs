@@ -406,6 +406,7 @@ export function screenTests(setting) {
         assert.equal(await page.locator('.live-board .round').count(), 0);
         await button.click();
         assert.equal(await button.getAttribute('aria-pressed'), 'true');
+        assert.deepEqual(await person.violations(setting.axe, ['color-contrast']), []);
         assert.equal(await page.locator('.live-board .round').count(), 1);
         await person.drive(['right']);
         assert.equal(await page.locator('.live-board .round').count(), 0, 'whoever goes on has said something else');
