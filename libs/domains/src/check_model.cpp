@@ -22,6 +22,7 @@ class ModelChecker {
       if (member.mdp.discount() == 1.0) check(member);  // every discounted optimum is finite
     }
     if (num_failures_ > 0) report_failure();
+    warn_of_ties(num_ties_, weights_place_, report_);
   }
 
  private:
@@ -35,7 +36,10 @@ class ModelChecker {
       return;
     }
     const ExactPlan plan = plan_exactly(member.mdp, data_.weights.integer);
-    if (plan.solution) return;
+    if (plan.solution) {
+      num_ties_ += count_ties(member.mdp, *plan.solution, data_.weights.integer);
+      return;
+    }
     note_failure(member, plan.failure == PlanFailure::kPositiveCycle ? "E0321" : "E0322",
                  cycle_text(member, plan.cycle));
   }
@@ -89,6 +93,7 @@ class ModelChecker {
   const Dynamics& dynamics_;
   TomlPlace weights_place_;
   TomlReport& report_;
+  std::size_t num_ties_ = 0;
   std::size_t num_failures_ = 0;
   std::string failure_;
   std::string cycle_;

@@ -18,7 +18,7 @@ class OptimumChecker {
   void check(std::size_t number, const DomainMember& member) {
     const ExactPlan plan = plan_exactly(member.mdp, reward_.weights.integer);
     if (plan.solution) {
-      check_ties(member, *plan.solution);
+      num_ties_ += count_ties(member.mdp, *plan.solution, reward_.weights.integer);
       check_lengths(number, member, *plan.solution);
       return;
     }
@@ -31,14 +31,7 @@ class OptimumChecker {
 
   void report(std::size_t num_mdps) {
     if (num_failures_ > 0) report_cycle(num_mdps);
-    if (num_ties_ > 0) {
-      report_.warning(
-          "W0302", reward_.weights_place,
-          "from " + std::to_string(num_ties_) + " states there are equally good paths with different feature counts",
-          "people may answer with either; the path that the robot takes is taught as at least as good, unless its "
-          "choices "
-          "between equally good paths contradict each other");
-    }
+    warn_of_ties(num_ties_, reward_.weights_place, report_);
     if (longest_ > dynamics_.max_steps) {
       report_.warning("W0303", reward_.weights_place,
                       "the longest optimal path has " + std::to_string(longest_) + " steps, but max_steps is " +
@@ -93,21 +86,6 @@ class OptimumChecker {
     return name;
   }
 
-  // If at every state all optimal choices count the same, so do all optimal paths.
-  void check_ties(const DomainMember& member, const ExactSolution& solution) {
-    for (std::size_t s = 0; s < member.mdp.num_states(); ++s) {
-      bool differs = false;
-      for (const Choice& choice : member.mdp.choices(StateIndex{s})) {
-        const Outcome& outcome = member.mdp.outcomes(choice).front();
-        const IntegerVector counts =
-            member.mdp.integer_features(outcome) + solution.feature_counts[outcome.next.value()];
-        differs = differs ||
-                  (counts != solution.feature_counts[s] && dot(reward_.weights.integer, counts) == solution.values[s]);
-      }
-      num_ties_ += differs ? 1 : 0;
-    }
-  }
-
   void check_lengths(std::size_t number, const DomainMember& member, const ExactSolution& solution) {
     const std::size_t n = member.mdp.num_states();
     std::vector<std::size_t> length(n + member.mdp.num_terminals(), 0);
@@ -144,6 +122,29 @@ class OptimumChecker {
 };
 
 }  // namespace
+
+// If at every state all optimal choices count the same, so do all optimal paths.
+std::size_t count_ties(const Mdp& mdp, const ExactSolution& solution, const IntegerVector& weights) {
+  std::size_t ties = 0;
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+    const auto choices = mdp.choices(StateIndex{s});
+    ties += std::any_of(choices.begin(), choices.end(), [&](const Choice& choice) {
+      const Outcome& outcome = mdp.outcomes(choice).front();
+      const IntegerVector counts = mdp.integer_features(outcome) + solution.feature_counts[outcome.next.value()];
+      return counts != solution.feature_counts[s] && dot(weights, counts) == solution.values[s];
+    });
+  }
+  return ties;
+}
+
+void warn_of_ties(std::size_t num_ties, const TomlPlace& weights_place, TomlReport& report) {
+  if (num_ties == 0) return;
+  report.warning(
+      "W0302", weights_place,
+      "from " + std::to_string(num_ties) + " states there are equally good paths with different feature counts",
+      "people may answer with either; the path that the robot takes is taught as at least as good, unless "
+      "its choices between equally good paths contradict each other");
+}
 
 void check_optimum(const World& world, const Dynamics& dynamics, const Reward& reward,
                    const std::vector<DomainMember>& members, TomlReport& report) {

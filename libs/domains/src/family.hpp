@@ -5,6 +5,7 @@
 #include "domain_data.hpp"
 #include "dynamics.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/mdp/planner.hpp"
 #include "kith/toml/reader.hpp"
 #include "reward.hpp"
 
@@ -20,7 +21,11 @@ namespace kith::detail {
 void check_optimum(const World& world, const Dynamics& dynamics, const Reward& reward,
                    const std::vector<DomainMember>& members, TomlReport& report);
 
-// Reports explicit models in which the robot has no finite optimum. `data` has the weights.
+// States from which equally good paths have different feature counts. `solution` is the plan under the weights.
+[[nodiscard]] std::size_t count_ties(const Mdp& mdp, const ExactSolution& solution, const IntegerVector& weights);
+void warn_of_ties(std::size_t num_ties, const TomlPlace& weights_place, TomlReport& report);
+
+// Reports explicit models in which the robot has no finite optimum, and ties that matter. `data` has the weights.
 void check_model(const ExplicitFamily& family, const Domain::Data& data, const Dynamics& dynamics,
                  const TomlPlace& weights_place, TomlReport& report);
 

@@ -317,5 +317,24 @@ TEST(ExplicitModel, IsFoundBesideItsDomainFile) {
   }
 }
 
+// As on a map: from s two steps count as much as one that slips once.
+TEST(ExplicitModel, WarnsOfEquallyGoodPaths) {
+  for (const std::string slip : {"1", "2"}) {
+    ModelTexts texts = kIceCsv;
+    auto& domain = texts.at("domain.toml");
+    domain.replace(domain.find("slip = -2"), 9, "slip = -1");
+    texts["transitions.csv"] = "state,action,next,probability,slip,step\nbank,go,ice,1,0,1\nbank,jump,shore,1," + slip +
+                               ",1\nice,go,shore,1,0,1\n";
+    std::vector<DomainFile> files;
+    for (const auto& [name, text] : texts) files.push_back({name, text});
+    const auto reading = parse_domain(domain, "domain.toml", {}, {.known = files});
+    ASSERT_TRUE(reading.domain);
+    ASSERT_EQ(reading.diagnostics.size(), slip == "1" ? 1u : 0u);
+    if (slip == "1") {
+      EXPECT_EQ(reading.diagnostics.front().id, "W0302");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kith
