@@ -99,6 +99,13 @@ bool has_equal_counters(const Atlas& atlas) {
   return std::adjacent_find(counters.begin(), counters.end()) != counters.end();
 }
 
+std::vector<std::vector<std::size_t>> TaughtFacts::all() const {
+  auto result = taught;
+  result.insert(result.end(), skipped.begin(), skipped.end());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
 TaughtFacts taught_facts(const Atlas& atlas, const Curriculum& curriculum, const Counted& counted) {
   TaughtFacts facts;
   std::vector<bool> is_taught(atlas.knowledge_components().size(), false);

@@ -64,6 +64,7 @@ struct Facts {
 /// The features that are weighed in the components that a curriculum teaches and in those that it skips; sorted.
 struct TaughtFacts {
   std::vector<std::vector<std::size_t>> taught, skipped;
+  [[nodiscard]] std::vector<std::vector<std::size_t>> all() const;  ///< Sorted.
   friend bool operator==(const TaughtFacts&, const TaughtFacts&) = default;
   friend void PrintTo(const TaughtFacts& facts, std::ostream* out);
 };

@@ -96,13 +96,14 @@ void expect_same_facts(const Atlas& original, const Atlas& other, const Rewritin
   }
   // What is compared beside the robot's paths is sampled where not every state is a start; and constraints of
   // expectations are rounded, to other ones if the last bit differs.
-  const bool is_region_exact = domain.is_exact() && (original.is_tabulated() || all_states_are_starts(domain));
+  const bool are_tabulated = original.is_tabulated() && other.is_tabulated();
+  const bool is_region_exact = domain.is_exact() && (are_tabulated || all_states_are_starts(domain));
   if (rewriting.same_vectors || is_region_exact) {
     EXPECT_EQ(facts.region, others.region);
   }
   if (!rewriting.same_features) return;
   const auto error = original.policy_bec_area().standard_error + other.policy_bec_area().standard_error;
-  const bool is_sampled = !rewriting.same_vectors && !all_states_are_starts(domain) && !original.is_tabulated();
+  const bool is_sampled = !rewriting.same_vectors && !all_states_are_starts(domain) && !are_tabulated;
   if (!is_sampled) {
     EXPECT_NEAR(original.policy_bec_area_sr(), other.policy_bec_area_sr(), 1e-4 + 4.0 * error);
   }
@@ -111,9 +112,10 @@ void expect_same_facts(const Atlas& original, const Atlas& other, const Rewritin
     EXPECT_EQ(facts.mask_counters, others.mask_counters);
     EXPECT_EQ(isolations_of(original, rewriting.counts), isolations_of(other, identity(other.domain())));
   }
-  // Beyond three features, what gets a lesson of its own is sampled; between equal features their order decides.
+  // Beyond three features, what gets a lesson of its own is sampled; between equal features their order decides, and on
+  // a map that is turned over they can be met more or less often.
   const bool has_few = domain.num_features() <= 3 && domain.is_exact() && !has_equal_counters(original);
-  if (rewriting.same_vectors || has_few) {
+  if ((rewriting.same_vectors && rewriting.same_states) || has_few) {
     EXPECT_EQ(facts.components, others.components);
   }
   EXPECT_EQ(original.knowledge_components().back().features.size(),
@@ -132,13 +134,33 @@ std::optional<Curriculum> curriculum_of(const Atlas& atlas) {
   }
 }
 
+// What all lessons show implies every component, also one that got no lesson of its own.
+void expect_all_is_known(const Atlas& atlas, const Curriculum& curriculum) {
+  Cone known = atlas.prior_cone();
+  for (const auto& component : curriculum.components) {
+    for (const auto& shown : component.demonstrations) ASSERT_TRUE(known.clip(shown.conveys));
+  }
+  for (const auto& component : atlas.knowledge_components()) {
+    for (const auto& constraint : atlas.constraints().half_spaces(component.constraints))
+      EXPECT_TRUE(known.implies(constraint)) << to_string(constraint.normal());
+  }
+}
+
 void expect_same_lessons(const Atlas& original, const Atlas& other, const Rewriting& rewriting) {
   const auto curriculum = curriculum_of(original), others = curriculum_of(other);
   ASSERT_EQ(curriculum.has_value(), others.has_value());
   if (!curriculum) return;
-  EXPECT_EQ(taught_facts(original, *curriculum, rewriting.counts),
-            taught_facts(other, *others, identity(other.domain())));
-  if (!rewriting.same_vectors || !rewriting.same_states) return;
+  const auto facts = taught_facts(original, *curriculum, rewriting.counts);
+  const auto other_facts = taught_facts(other, *others, identity(other.domain()));
+  if (!rewriting.same_vectors || !rewriting.same_states) {
+    // People are drawn, so that an earlier lesson may happen to show what another shows later: then nothing is left.
+    EXPECT_EQ(facts.all(), other_facts.all());
+    if (facts == other_facts) return;
+    expect_all_is_known(original, *curriculum);
+    expect_all_is_known(other, *others);
+    return;
+  }
+  EXPECT_EQ(facts, other_facts);
   ASSERT_EQ(curriculum->components.size(), others->components.size());
   for (std::size_t c = 0; c < curriculum->components.size(); ++c) {
     const auto &a = curriculum->components[c], &b = others->components[c];
@@ -209,7 +231,8 @@ TEST(Metamorphic, WhatIsKnownOfARandomRobotDoesNotDependOnHowItIsSaid) {
 
 void expect_same_lessons_where_nothing_is_sampled(const Atlas& original, const Atlas& other, const Rewriting& way) {
   const bool has_few = original.domain().num_features() == 3 && original.is_tabulated();
-  if (way.same_vectors || (has_few && !has_equal_counters(original))) expect_same_lessons(original, other, way);
+  if ((way.same_vectors && way.same_states) || (has_few && !has_equal_counters(original)))
+    expect_same_lessons(original, other, way);
 }
 
 TEST(Metamorphic, WhatIsTaughtDoesNotDependOnHowTheRobotIsSaid) {

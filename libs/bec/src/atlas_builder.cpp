@@ -11,7 +11,7 @@
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
-#include "kith/geometry/cone_sampler.hpp"
+#include "kith/geometry/cover.hpp"
 
 namespace kith {
 namespace {
@@ -82,49 +82,41 @@ void AtlasBuilder::plan() {
   }
 }
 
-// By what a feature is, whatever place the file gives it: those that some world lacks first, then those that weigh
-// most, then those that the robot meets most often. The step is mostly last.
+// By what a feature is, whatever place the file gives it: those that some world lacks first, then the costliest, then
+// those that the robot meets most often. The step is mostly last.
 void AtlasBuilder::order_features() {
   const auto& domain = atlas_.domain_;
   const auto& weights = domain.weights().integer;
-  using Key = std::array<std::int64_t, 4>;
+  using Key = std::array<std::int64_t, 3>;
   std::vector<Key> keys;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
     bool is_everywhere = true;
     for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) is_everywhere &= domain.mdp(m).has_feature(k);
     std::int64_t met = 0;
     for (const std::size_t i : candidates()) met += atlas_.demos_[i].counts[k];
-    keys.push_back({is_everywhere ? 1 : 0, -std::abs(weights[k]), weights[k], -met});
+    keys.push_back({is_everywhere ? 1 : 0, weights[k], -met});
   }
-  order_.resize(keys.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
+  auto& order = atlas_.feature_order_;
+  order.resize(keys.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
   rank_.resize(keys.size());
-  for (std::size_t place = 0; place < order_.size(); ++place) rank_[order_[place]] = place;
+  for (std::size_t place = 0; place < order.size(); ++place) rank_[order[place]] = place;
 }
 
 bool AtlasBuilder::is_before(const HalfSpace& a, const HalfSpace& b) const {
+  const auto& order = atlas_.feature_order_;
   const auto differs =
-      std::find_if(order_.begin(), order_.end(), [&](std::size_t k) { return a.normal()[k] != b.normal()[k]; });
-  return differs != order_.end() && a.normal()[*differs] < b.normal()[*differs];
+      std::find_if(order.begin(), order.end(), [&](std::size_t k) { return a.normal()[k] != b.normal()[k]; });
+  return differs != order.end() && a.normal()[*differs] < b.normal()[*differs];
 }
 
 Eigen::MatrixXd AtlasBuilder::people_within(const ConstraintSet& set, std::size_t n) const {
-  std::vector<HalfSpace> reordered;
-  for (const HalfSpace& half_space : atlas_.constraints_.half_spaces(set)) {
-    IntegerVector normal(order_.size());
-    for (std::size_t place = 0; place < order_.size(); ++place) normal[place] = half_space.normal()[order_[place]];
-    reordered.emplace_back(normal);
-  }
-  std::sort(reordered.begin(), reordered.end());
-  const auto cone = Cone::intersection(reordered);
+  auto half_spaces = atlas_.constraints_.half_spaces(set);
+  std::sort(half_spaces.begin(), half_spaces.end(), [this](const auto& a, const auto& b) { return is_before(a, b); });
+  const auto cone = Cone::intersection(half_spaces);
   KITH_ASSERT(cone.has_value());
-  const Eigen::MatrixXd points = ConeSampler{*cone}.cover(n);
-  Eigen::MatrixXd people(points.rows(), points.cols());
-  for (std::size_t place = 0; place < order_.size(); ++place) {
-    people.row(static_cast<Eigen::Index>(order_[place])) = points.row(static_cast<Eigen::Index>(place));
-  }
-  return people;
+  return cover(*cone, n, atlas_.feature_order_);
 }
 
 std::uint32_t AtlasBuilder::picture(MdpIndex m, StateIndex s) {

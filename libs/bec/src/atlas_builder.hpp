@@ -80,7 +80,6 @@ class AtlasBuilder {
   using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, IntsHash>;
 
   Atlas& atlas_;
-  std::vector<std::size_t> order_;  // the features in an order that does not depend on the file's
   std::vector<std::size_t> rank_;   // where each feature stands in it
   // What paths show grows with their length.
   MemoryGuard memory_{"going on to collect what the robot's paths show", "use a smaller map or fewer features"};

@@ -153,7 +153,7 @@ class CurriculumMaker {
     KITH_ASSERT(has_interior);  // the robot's weights are inside
     // Where each of them has to be planned, fewer.
     const auto n = atlas_.is_tabulated() ? options_.beliefs : std::min(options_.beliefs, kMostPlannedBeliefs);
-    const Eigen::MatrixXd points = cover(region, n);
+    const Eigen::MatrixXd points = cover(region, n, atlas_.feature_order());
     std::vector<PolicyCellIndex> cells;
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
       cells.push_back(cache_.behaviours().locate(Direction{points.col(i)}));

@@ -1,10 +1,12 @@
 #include "kith/geometry/cover.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "kith/core/assert.hpp"
 #include "kith/geometry/cone_sampler.hpp"
 
 namespace kith {
@@ -28,6 +30,22 @@ Eigen::Matrix3Xd fibonacci_cover(const Cone& region, std::size_t n) {
 }
 
 Eigen::MatrixXd cover(const Cone& region, std::size_t n) { return ConeSampler{region}.cover(n); }
+
+Eigen::MatrixXd cover(const Cone& region, std::size_t n, std::span<const std::size_t> axes) {
+  if (std::is_sorted(axes.begin(), axes.end())) return cover(region, n);
+  Cone reordered{region.dimension()};
+  for (const HalfSpace& facet : region.facets()) {
+    IntegerVector normal(axes.size());
+    for (std::size_t place = 0; place < axes.size(); ++place) normal[place] = facet.normal()[axes[place]];
+    const bool has_interior = reordered.clip(HalfSpace{normal});
+    KITH_ASSERT(has_interior);  // as the region has
+  }
+  const Eigen::MatrixXd points = cover(reordered, n);
+  Eigen::MatrixXd result(points.rows(), points.cols());
+  for (std::size_t place = 0; place < axes.size(); ++place)
+    result.row(static_cast<Eigen::Index>(axes[place])) = points.row(static_cast<Eigen::Index>(place));
+  return result;
+}
 
 std::vector<std::size_t> k_centres(const Eigen::MatrixXd& points, std::size_t k, std::size_t first) {
   const auto n = static_cast<std::size_t>(points.cols());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -94,6 +95,35 @@ TEST(FibonacciCover, OfARegionKeepsItsPointsApart) {
 }
 
 TEST(FibonacciCover, RefusesToBeEmpty) { EXPECT_THROW((void)fibonacci_cover(Cone{}, 0), std::invalid_argument); }
+
+// A region whose axes stand in another order is covered by the same points, bit by bit, if they are taken in the same.
+TEST(Cover, DoesNotDependOnTheOrderOfAxesThatIsGiven) {
+  for (std::size_t d = 2; d <= 6; ++d) {
+    for (const std::size_t n : {std::size_t{1}, std::size_t{2}, d}) {
+      RandomStream random = RandomStream{7}.split(10 * d + n);
+      const IntegerVector inside = testing::random_vector(20, random, d);
+      std::vector<std::size_t> order(d);
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      for (std::size_t i = d; i > 1; --i) std::swap(order[i - 1], order[uniform_index(i, random)]);
+      Cone region{d}, other{d};
+      std::vector<std::size_t> axes(d);  // of the other, in the order in which the first has them
+      for (std::size_t k = 0; k < d; ++k) axes[order[k]] = k;
+      while (region.facets().size() < n) {
+        const auto normal = testing::random_vector(20, random, d);
+        if (sign_of_dot(normal, inside) <= 0) continue;
+        IntegerVector reordered(d);
+        for (std::size_t k = 0; k < d; ++k) reordered[k] = normal[order[k]];
+        if (region.implies(HalfSpace{normal})) continue;
+        ASSERT_TRUE(region.clip(HalfSpace{normal}) && other.clip(HalfSpace{reordered}));
+      }
+      std::vector<std::size_t> identity(d);
+      std::iota(identity.begin(), identity.end(), std::size_t{0});
+      const auto points = cover(region, 100, identity), others = cover(other, 100, axes);
+      for (std::size_t k = 0; k < d; ++k)
+        ASSERT_EQ(points.row(static_cast<Eigen::Index>(order[k])), others.row(static_cast<Eigen::Index>(k))) << d << n;
+    }
+  }
+}
 
 TEST(KCentres, TakesTheFarthestPointAndTheLowerIndexOfATie) {
   Eigen::Matrix3Xd points(3, 5);

@@ -28,7 +28,7 @@ const PriorCover& TeachingCache::cover(const Cone& prior, std::size_t num_points
   const auto known = std::find_if(covers_.begin(), covers_.end(), [&](const PriorCover& cover) {
     return cover.size() == num_points && cover.prior() == prior;
   });
-  return known != covers_.end() ? *known : covers_.emplace_back(prior, num_points);
+  return known != covers_.end() ? *known : covers_.emplace_back(prior, num_points, atlas_->feature_order());
 }
 
 const std::shared_ptr<const Exam>& TeachingCache::shared_exam() {

@@ -8,7 +8,6 @@
 
 #include "imagined_people.hpp"
 #include "kith/core/assert.hpp"
-#include "kith/geometry/cone_sampler.hpp"
 #include "kith/geometry/cover.hpp"
 #include "visual_order.hpp"
 
@@ -260,7 +259,7 @@ ImaginedPeople who_miss(TeachingCache& cache, const KnowledgeComponent& componen
     Cone region{cache.atlas().domain().num_features()};  // nothing may have been shown, and nothing be known before
     const bool has_room = region.clip(cache.constraints().half_spaces(shown));
     KITH_ASSERT(has_room);  // the robot's weights lie inside
-    const Eigen::MatrixXd anybody = ConeSampler{region}.cover(kAnybody);
+    const Eigen::MatrixXd anybody = cover(region, kAnybody, cache.atlas().feature_order());
     for (Eigen::Index i = 0; i < anybody.cols(); ++i) people.add(cache.behaviours(), anybody.col(i));
   } else {
     imagine_near_misses(cache, left, open, how == Missed::kNearly ? kNearMiss : kMiss, people);

@@ -59,6 +59,9 @@ class Atlas {
   /// The prior's half-spaces as constraints and as a cone.
   [[nodiscard]] const ConstraintSet& prior() const noexcept { return prior_; }
   [[nodiscard]] const Cone& prior_cone() const noexcept { return prior_cone_; }
+  /// The features in an order that follows from the robot, not from the file: those that some world lacks first, then
+  /// the costliest. For cover(), so that what is sampled does not depend on the file either.
+  [[nodiscard]] const std::vector<std::size_t>& feature_order() const noexcept { return feature_order_; }
 
   // --- demonstrations -------------------------------------------------------
   /// Of all non-terminal states; not all need be candidates.
@@ -216,6 +219,7 @@ class Atlas {
   ConstraintTable constraints_;
   ConstraintSet prior_;
   Cone prior_cone_;
+  std::vector<std::size_t> feature_order_;
   std::vector<std::size_t> first_demo_;
   std::vector<Demo> demos_;
   std::vector<std::vector<std::uint32_t>> canonical_choices_;  // per MDP, shape [num_states]

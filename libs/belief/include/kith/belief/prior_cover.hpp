@@ -11,13 +11,14 @@ namespace kith {
 
 /// Where particle beliefs over one prior begin: exactly M points of a regular
 /// cover of the prior's part of the unit sphere, with the prior's facets. It
-/// depends on (prior, M) only and takes far longer to compute than to copy, so
+/// depends on (prior, M, axes) only and takes far longer to compute than to copy, so
 /// whoever builds many beliefs makes one and passes it around.
 class PriorCover {
  public:
-  /// @param prior the hard prior; may be the whole sphere. @param particles M.
+  /// @param prior the hard prior; may be the whole sphere. @param particles M. @param axes the axes in the order that
+  /// cover() is to take them; empty: as they are.
   /// @throws std::invalid_argument if particles is 0.
-  PriorCover(Cone prior, std::size_t particles);
+  PriorCover(Cone prior, std::size_t particles, std::span<const std::size_t> axes = {});
 
   [[nodiscard]] const Cone& prior() const noexcept { return prior_; }
   /// M.

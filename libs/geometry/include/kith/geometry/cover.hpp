@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kith/geometry/cone.hpp"
@@ -18,6 +19,9 @@ namespace kith {
 /// Exactly n points that cover the cone's part of the sphere evenly, in any
 /// dimension: ConeSampler::cover. Shape [d, n]. @throws std::invalid_argument if n == 0.
 [[nodiscard]] Eigen::MatrixXd cover(const Cone& region, std::size_t n);
+/// The same with the axes in an order that follows from what they mean, axes[0] first: then the points do not depend on
+/// the order in which they stand here. Shape [d, n]. @pre axes holds 0 to d - 1, each once.
+[[nodiscard]] Eigen::MatrixXd cover(const Cone& region, std::size_t n, std::span<const std::size_t> axes);
 
 /// Greedy k-centres (Gonzalez 1985): indices of k points, the first given, each
 /// next one the farthest (geodesic) from those chosen; ties: the lower index.
