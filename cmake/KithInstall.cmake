@@ -25,7 +25,7 @@ install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithC
 if(TARGET kith)
   install(TARGETS kith COMPONENT program)
   set(manual ${PROJECT_BINARY_DIR}/manual)
-  set(pages ${manual}/kith.1 ${manual}/kith.bash ${manual}/_kith ${manual}/kith.fish)
+  set(pages ${manual}/kith.1 ${manual}/kith.bash)
   add_custom_command(OUTPUT ${pages}
     COMMAND ${CMAKE_COMMAND} -D KITH=$<TARGET_FILE:kith> -D OUTPUT_DIR=${manual}
       -P ${PROJECT_SOURCE_DIR}/cmake/WriteManual.cmake
@@ -34,8 +34,6 @@ if(TARGET kith)
   install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
   install(FILES ${manual}/kith.bash RENAME kith COMPONENT program
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-  install(FILES ${manual}/_kith DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
-  install(FILES ${manual}/kith.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/domains ${PROJECT_SOURCE_DIR}/studies
   DESTINATION ${CMAKE_INSTALL_DATADIR}/kith COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv"

@@ -1,6 +1,6 @@
 # cmake -D KITH=<program> -D OUTPUT_DIR=<folder> -P WriteManual.cmake
 #
-# The man pages (kith.1 and one per command) and the completions, from what the program says of itself, so that
+# The man pages (kith.1 and one per command) and the completion of bash, from what the program says of itself, so that
 # neither can forget a command or an option.
 function(ask out)
   execute_process(COMMAND ${KITH} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
@@ -55,10 +55,5 @@ endforeach()
 list(JOIN see_also "\n" see_also)
 file(WRITE ${OUTPUT_DIR}/kith.1 "${page}.SH SEE ALSO\n${see_also}\n")
 
-foreach(shell_and_file "bash kith.bash" "zsh _kith" "fish kith.fish")
-  separate_arguments(shell_and_file)
-  list(GET shell_and_file 0 shell)
-  list(GET shell_and_file 1 file)
-  ask(script completion ${shell})
-  file(WRITE ${OUTPUT_DIR}/${file} "${script}")
-endforeach()
+ask(script completion bash)
+file(WRITE ${OUTPUT_DIR}/kith.bash "${script}")

@@ -1,7 +1,5 @@
-#include <algorithm>
-
+#include "command_line.hpp"
 #include "commands.hpp"
-#include "completion.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/study/study_file.hpp"
 
@@ -14,7 +12,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// In single quotes, which neither shell looks into.
+// In single quotes, which the shell does not look into.
 std::string single_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
@@ -55,8 +53,6 @@ std::string bash_reply(const OptionDescription& option) {
   return reply;
 }
 
-}  // namespace
-
 std::string bash_completion(const std::vector<CommandDescription>& commands) {
   std::string names, cases;
   for (const auto& command : commands) {
@@ -96,83 +92,10 @@ std::string bash_completion(const std::vector<CommandDescription>& commands) {
          "complete -F _kith kith\n";
 }
 
-std::string zsh_completion(const std::vector<CommandDescription>& commands) {
-  const auto plain = [](std::string text) {  // brackets and colons structure a specification
-    for (char& c : text) {
-      if (c == '[' || c == ']' || c == ':' || c == '\'') c = ' ';
-    }
-    return text;
-  };
-  const auto action = [](const OptionDescription& option) -> std::string {
-    const std::string files = option.value == "DIR" ? "_files -/" : takes_files(option) ? "_files" : "";
-    const auto words = joined(words_of(option));
-    if (files.empty()) return words.empty() ? " " : "(" + words + ")";
-    return words.empty() ? files : "{compadd -- " + words + "; " + files + "}";
-  };
-  std::string list, cases;
-  for (const auto& command : commands) {
-    list += "    " + single_quoted(command.name + ":" + plain(command.summary)) + "\n";
-    cases += "    " + command.name + ")\n      _arguments";
-    for (const auto& option : command.options) {
-      if (option.positional) {
-        cases +=
-            " \\\n        " + single_quoted((option.many ? "*:" : ":") + plain(option.value) + ":" + action(option));
-        continue;
-      }
-      for (const auto& name : option.names) {
-        auto spec = name + "[" + plain(option.description) + "]";
-        if (!option.value.empty()) spec += ":" + plain(option.value) + ":" + action(option);
-        cases += " \\\n        " + single_quoted(spec);
-      }
-    }
-    cases += " ;;\n";
-  }
-  return "#compdef kith\n"
-         "_kith() {\n"
-         "  local -a commands=(\n" +
-         list +
-         "  )\n"
-         "  if ((CURRENT == 2)); then\n"
-         "    _describe command commands\n"
-         "    return\n"
-         "  fi\n"
-         "  local command=$words[2]\n"
-         "  shift words\n"
-         "  ((CURRENT--))\n"
-         "  case $command in\n" +
-         cases +
-         "  esac\n"
-         "}\n"
-         "if [[ $funcstack[1] == _kith ]]; then _kith \"$@\"; else compdef _kith kith; fi\n";
-}
+}  // namespace
 
-std::string fish_completion(const std::vector<CommandDescription>& commands) {
-  std::string text = "# fish completion for kith\ncomplete -c kith -f\n";
-  for (const auto& command : commands) {
-    text +=
-        "complete -c kith -n __fish_use_subcommand -a " + command.name + " -d " + single_quoted(command.summary) + "\n";
-    const std::string here = "complete -c kith -n '__fish_seen_subcommand_from " + command.name + "'";
-    for (const auto& option : command.options) {
-      std::string line = here;
-      for (const auto& name : option.names) {
-        if (option.positional) continue;
-        line += name.rfind("--", 0) == 0 ? " -l " + name.substr(2) : " -s " + name.substr(1);
-      }
-      const auto words = words_of(option);
-      if (!option.value.empty() && !option.positional) line += takes_files(option) ? " -rF" : " -x";
-      if (option.positional && takes_files(option)) line += " -F";
-      if (!words.empty()) line += " -a " + single_quoted(joined(words));
-      text += line + " -d " + single_quoted(option.description) + "\n";
-    }
-  }
-  return text;
-}
-
-int run_completion(const CompletionOptions& options, Console& console) {
-  const auto commands = describe_commands();
-  if (options.shell == "bash") console.print(bash_completion(commands));
-  if (options.shell == "zsh") console.print(zsh_completion(commands));
-  if (options.shell == "fish") console.print(fish_completion(commands));
+int run_completion(const CompletionOptions& /*options*/, Console& console) {
+  console.print(bash_completion(describe_commands()));
   return 0;
 }
 

@@ -85,7 +85,7 @@ const std::vector<std::string>& examples_of(const std::string& command) {
       {"explain", {"kith explain E0207", "kith explain strategies", "kith explain learners --json"}},
       {"doctor", {"kith doctor", "kith doctor --json"}},
       {"completion",
-       {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion zsh)"}},
+       {"kith completion bash > ~/.local/share/bash-completion/completions/kith", "source <(kith completion bash)"}},
       {"calibrate",
        {"kith calibrate paper-uncalibrated --targets targets.toml -o mine.toml",
         "kith calibrate paper --targets studies/paper-targets.toml --quick"}},

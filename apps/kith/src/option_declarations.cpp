@@ -210,7 +210,7 @@ void add_others(CLI::App& app, Options& options) {
   add_common(doctor, options.common);
   auto& completion = *app.add_subcommand("completion", "Print a shell's completion script");
   takes_word(*completion.add_option("shell", options.completion.shell, "The shell")->required(), "SHELL",
-             {"bash", "zsh", "fish"});
+             {"bash"});
   add_common(completion, options.common);
   auto& version = *app.add_subcommand("version", "Print version, commit and compiler (also: kith --version)");
   add_common(version, options.common);

@@ -206,19 +206,11 @@ TEST(Version, NamesTheBuildInTextAndJson) {
   }
 }
 
-TEST(Completion, WritesScriptsThatMentionEverything) {
-  const Scratch scratch;
-  for (const std::string shell : {"bash", "zsh", "fish"}) {
-    const auto ran = run_kith({"completion", shell});
-    ASSERT_EQ(ran.code, 0);
-    for (const auto& command : kCommands) EXPECT_THAT(ran.out, HasSubstr(command)) << shell;
-    EXPECT_THAT(ran.out, AllOf(HasSubstr("strategy"), HasSubstr("individual-low"), HasSubstr("item-delivery")))
-        << shell;
-    std::ofstream{scratch / shell} << ran.out;
-  }
-  EXPECT_EQ(std::system(("bash -n '" + scratch / "bash" + "'").c_str()), 0);
-  EXPECT_EQ(std::system(("! command -v zsh >/dev/null || zsh -n '" + scratch / "zsh" + "'").c_str()), 0);
-  EXPECT_EQ(std::system(("! command -v fish >/dev/null || fish -n '" + scratch / "fish" + "'").c_str()), 0);
+TEST(Completion, WritesAScriptThatMentionsEverything) {
+  const auto ran = run_kith({"completion", "bash"});
+  ASSERT_EQ(ran.code, 0);
+  for (const auto& command : kCommands) EXPECT_THAT(ran.out, HasSubstr(command));
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("strategy"), HasSubstr("individual-low"), HasSubstr("item-delivery")));
 }
 
 // As the shell would call it: `kith study --pro<TAB>`.
