@@ -5,7 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "input.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/exports.hpp"
@@ -22,6 +22,30 @@
 
 namespace kith::cli {
 namespace {
+
+struct AnalyzeOptions {
+  std::string input;                     ///< Run folder, CSV file, or "-" for standard input.
+  std::string model;                     ///< A formula; empty: the analyses of a study.
+  std::string table = "teams";           ///< Of a run folder, for the model.
+  std::string observed;                  ///< Column that tells counts that were not cut off; empty: none was.
+  std::vector<std::string> where;        ///< Rows to keep, "COLUMN=VALUE" or "COLUMN!=VALUE".
+  std::vector<std::string> identifiers;  ///< Columns that name who or what a row is about, besides the obvious ones.
+  bool independent = false;              ///< Rows are independent although identifiers repeat.
+  bool counts = false;                   ///< The response is a count.
+  bool ordinal = false;                  ///< The response is a rating, of which only the order counts.
+  std::string latex;                     ///< File for all findings as LaTeX; empty: none.
+  std::string csv;                       ///< Folder for every table as CSV; empty: none.
+  std::string r;                         ///< Folder for data and a script that repeats the analysis in R; empty: none.
+  std::vector<std::string> contrasts;    ///< "NAME [FACTOR]: TERMS", see parse_contrast().
+  std::vector<std::string> by;           ///< Factors at each level of which others are compared.
+  std::string smallest_effect;           ///< "0.5" or "d=0.3"; empty: no tests of equivalence.
+  std::string codebook;                  ///< File that describes the columns; empty: codebook.json beside the table.
+  double alpha = 0.05;
+  std::string correction = "bonferroni";
+  std::uint64_t seed = 1;
+  std::size_t permutations = 999;
+  bool brief = false;  ///< Findings in words, without tables.
+};
 
 AnalysisOptions analysis_options(const AnalyzeOptions& options) {
   AnalysisOptions result;
@@ -178,9 +202,52 @@ Json analysis_json(const Analysis& analysis, const AnalyzeOptions& options) {
           {"not_analysed", analysis.not_analysed}};
 }
 
-}  // namespace
+void declare(OptionList& list, AnalyzeOptions& options) {
+  list.text("input", options.input, "DIR|CSV", "Run folder, CSV file, or '-' for standard input").required();
+  const auto model = list.text("--model", options.model, "FORMULA",
+                               "Response and factors, such as 'knowledge ~ strategy*composition'");
+  list.word("--table", options.table, "NAME",
+            {"teams", "learners", "periods", "responses", "demonstrations", "progress"},
+            "Table of the run folder to which the model applies")
+      .needs(model);
+  list.texts("--where", options.where, "CONDITION", "Rows to keep, COLUMN=VALUE or COLUMN!=VALUE (may be repeated)");
+  list.text("--observed", options.observed, "COLUMN", "Column that is false where a count is censored").needs(model);
+  list.texts("--identifier", options.identifiers, "COLUMN",
+             "Column that names who or what a row is about; rows with the same value belong together (may be repeated)")
+      .needs(model);
+  list.flag("--independent", options.independent, "Analyse rows as independent although identifiers repeat")
+      .needs(model);
+  auto counts = list.flag("--count", options.counts, "The response is a count of events");
+  counts.needs(model);
+  list.flag("--ordinal", options.ordinal, "The response is a rating, of which only the order counts")
+      .needs(model)
+      .excludes(counts);
+  list.text("--codebook", options.codebook, "FILE",
+            "Description of the columns (default: codebook.json beside the table)")
+      .needs(model);
+  list.texts("--contrast", options.contrasts, "CONTRAST",
+             "Planned comparison of means, such as 'team beliefs: joint + common - individual-low - individual-high' "
+             "(may be repeated)");
+  list.texts("--by", options.by, "FACTOR",
+             "Compare the levels of other factors at each level of this one (may be repeated)");
+  list.text("--smallest-effect", options.smallest_effect, "X",
+            "Smallest difference that matters, in units of the response or as d=0.3: tests whether differences are "
+            "smaller");
+  list.text("--latex", options.latex, "FILE", "Write all findings and tables to this file as LaTeX");
+  list.text("--csv", options.csv, "DIR", "Write every table to this folder as CSV");
+  list.text("--r", options.r, "DIR", "Write data, codebook and an R script that repeats the analysis to this folder")
+      .needs(model);
+  list.flag("--brief", options.brief, "Findings in words only, without tables");
+  // Far below 10^-6 and as near to 1 there are no quantiles any more.
+  list.number("--alpha", options.alpha, "P", {1e-6, 1.0 - 1e-6}, "Significance level; intervals use 1 - alpha");
+  list.word("--correct", options.correction, "HOW", {"bonferroni", "holm", "fdr", "none"},
+            "Correction for families of tests: compositions, planned contrasts");
+  list.integer("--permutations", options.permutations, {99, 1'000'000}, "Permutations of permutation tests");
+  list.integer("--seed", options.seed, {}, "Seed of permutations");
+  list.json();
+}
 
-int run_analyze(const AnalyzeOptions& options, Console& console) {
+int run(const AnalyzeOptions& options, Console& console) {
   const WorkNotice notice{console, "analysing " + options.input};
   const auto analysis = analysis_of(options);
   if (!options.latex.empty()) write_file_atomically(options.latex, latex_text(analysis, options.alpha));
@@ -196,6 +263,15 @@ int run_analyze(const AnalyzeOptions& options, Console& console) {
   if (!analysis.not_analysed.empty()) text += "\n" + wrapped(not_analysed_text(analysis), kTextWidth) + "\n";
   console.print(text);
   return 0;
+}
+
+}  // namespace
+
+void add_analyze(Commands& commands) {
+  commands.add<AnalyzeOptions>(
+      "analyze", "Analyse the results of a study, or test a model on any table",
+      {"kith analyze results/paper", "kith analyze people.csv --model 'knowledge ~ strategy*composition'"}, declare,
+      run);
 }
 
 }  // namespace kith::cli

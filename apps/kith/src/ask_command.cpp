@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/question.hpp"
 #include "kith/explain/runs.hpp"
@@ -16,6 +16,11 @@
 
 namespace kith::cli {
 namespace {
+
+struct AskOptions {
+  std::string domain;
+  std::vector<std::string> question;  ///< In one argument or in several.
+};
 
 // Nothing where nothing is left to chance.
 std::vector<PolicyRun> runs_from(const Atlas& atlas, DemoIndex demo) {
@@ -73,9 +78,13 @@ std::string reply_text(const Atlas& atlas, const Reply& reply, const Console& co
   return text + "\n" + legend(domain, 0);
 }
 
-}  // namespace
+void declare(OptionList& list, AskOptions& options) {
+  list.domain(options.domain).required();
+  list.texts("question", options.question, "QUESTION", "Begins with when, where, why, what or how much").required();
+  list.json();
+}
 
-int run_ask(const AskOptions& options, Console& console) {
+int run(const AskOptions& options, Console& console) {
   const WorkNotice notice{console, "looking through " + options.domain};
   const Atlas atlas{load_domain(options.domain)};
   std::string question;
@@ -87,6 +96,15 @@ int run_ask(const AskOptions& options, Console& console) {
     console.print(reply_text(atlas, reply, console));
   }
   return 0;
+}
+
+}  // namespace
+
+void add_ask(Commands& commands) {
+  commands.add<AskOptions>("ask", "Answer a question about the robot with demonstrations",
+                           {"kith ask item-delivery 'when does it recharge?'",
+                            "kith ask item-delivery 'why up, not left, at (4,3) carrying the parcel?'"},
+                           declare, run);
 }
 
 }  // namespace kith::cli

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "interrupt.hpp"
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
@@ -26,12 +26,21 @@
 #include "kith/runs/run_folder.hpp"
 #include "kith/runs/team_codec.hpp"
 #include "kith/study/observed_team.hpp"
-#include "option_values.hpp"
 #include "page.hpp"
 #include "progress.hpp"
 
 namespace kith::cli {
 namespace {
+
+struct AuditCommandOptions {
+  std::string folder;
+  std::optional<std::size_t> team;  ///< Number of a team of a run; none: all.
+  std::string room;                 ///< Id or code of a room of a live session; empty: all.
+  std::string out;                  ///< Where the page goes; "-" is standard output; empty: no page.
+  double forgetting = 0.02;         ///< Radians per period without lessons.
+  std::size_t threads = 0;          ///< 0: as many as there are cores.
+  ProgressMode progress = ProgressMode::kAuto;
+};
 
 namespace fs = std::filesystem;
 
@@ -155,7 +164,7 @@ class RunAudit {
     }
     const auto total = num_teams(study_);
     if (options_.team) {
-      const auto wrong = wrong_integer(std::to_string(*options_.team), 1, static_cast<std::int64_t>(total));
+      const auto wrong = wrong_integer(std::to_string(*options_.team), {1, static_cast<std::int64_t>(total)});
       if (!wrong.empty()) refuse("--team " + wrong);
       const auto bytes = journal.find(*options_.team);
       if (!bytes) {
@@ -365,9 +374,19 @@ int show(const Atlas& atlas, const AuditReport& report, const AuditCommandOption
   return 0;
 }
 
-}  // namespace
+void declare(OptionList& list, AuditCommandOptions& options) {
+  list.text("folder", options.folder, "DIR", "Run folder of a study, or folder of live sessions").required();
+  list.integer("--team", options.team, {1}, "Only this team of a run, as numbered in teams.csv");
+  list.text("--room", options.room, "ID", "Only this room of live sessions, by id or code");
+  list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
+  list.number("--forgetting", options.forgetting, "ANGLE", {0.0, kLargestNumber},
+              "Radians by which beliefs blur in a period without lessons; 0: people forget nothing");
+  list.threads(options.threads);
+  list.progress(options.progress);
+  list.json();
+}
 
-int run_audit(const AuditCommandOptions& options, Console& console) {
+int run(const AuditCommandOptions& options, Console& console) {
   const fs::path folder{options.folder};
   std::error_code none;
   if (fs::exists(folder / kEventFile, none)) {
@@ -382,6 +401,15 @@ int run_audit(const AuditCommandOptions& options, Console& console) {
   }
   RunAudit audit{options, console};
   return show(audit.atlas(), audit.report(), options, console);
+}
+
+}  // namespace
+
+void add_audit(Commands& commands) {
+  commands.add<AuditCommandOptions>("audit", "Judge from people's answers who understands what",
+                                    {"kith audit results/paper", "kith audit results/paper --team 17",
+                                     "kith audit results/live --room r3 -o audit.html"},
+                                    declare, run);
 }
 
 }  // namespace kith::cli

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
@@ -21,6 +21,20 @@
 
 namespace kith::cli {
 namespace {
+
+struct CalibrateOptions {
+  std::string study;
+  std::string targets;  ///< "-" is standard input.
+  std::string out;      ///< The study file to write; empty: none.
+  std::optional<std::uint64_t> seed;
+  std::size_t threads = 0;             ///< 0: as many as there are cores. Changes the speed, never the results.
+  std::optional<std::size_t> teams;    ///< Per cell and setting tried.
+  std::optional<std::size_t> confirm;  ///< Per cell, to confirm the best settings.
+  bool quick = false;
+  bool yes = false;  ///< Replace an existing file.
+  std::vector<std::string> set;
+  ProgressMode progress = ProgressMode::kAuto;
+};
 
 // The largest |miss| that still counts as met.
 bool is_met(const TargetOutcome& outcome) { return std::abs(outcome.miss) <= 1.0; }
@@ -354,9 +368,25 @@ CalibrationOptions search_options(const CalibrateOptions& options) {
   return search;
 }
 
-}  // namespace
+void declare(OptionList& list, CalibrateOptions& options) {
+  list.study(options.study).required();
+  list.text("--targets", options.targets, "FILE",
+            "File with the published figures, their tolerances and the free parameters");
+  list.text("-o,--out", options.out, "FILE", "Write the calibrated study to this file");
+  list.threads(options.threads, "; never changes a result");
+  list.integer("--seed", options.seed, {}, "Random seed of the search (default: 1)");
+  list.integer("--teams", options.teams, {2, 100'000},
+               "Teams per cell for each setting of the last design (default: 40)");
+  list.integer("--confirm", options.confirm, {2, 1'000'000},
+               "Teams per cell to confirm the best settings (default: five times --teams)");
+  list.flag("--quick", options.quick, "Coarse search in about a tenth of the time");
+  list.set(options.set);
+  list.flag("--yes", options.yes, "Replace the file of -o if there is one");
+  list.progress(options.progress);
+  list.json();
+}
 
-int run_calibrate(const CalibrateOptions& options, Console& console) {
+int run(const CalibrateOptions& options, Console& console) {
   if (options.targets.empty()) throw Error{ErrorKind::kUsage, "kith calibrate needs --targets FILE"};
   if (options.study == "-" && options.targets == "-")
     throw Error{ErrorKind::kUsage, "only one of STUDY and --targets can be standard input"};
@@ -407,6 +437,15 @@ int run_calibrate(const CalibrateOptions& options, Console& console) {
   console.info(fmt::format("{} simulated{}", counted(result->teams_simulated, "team"),
                            options.out.empty() ? "" : "; the calibrated study is in " + options.out));
   return 0;
+}
+
+}  // namespace
+
+void add_calibrate(Commands& commands) {
+  commands.add<CalibrateOptions>("calibrate", "Fit a study's free parameters to published figures",
+                                 {"kith calibrate paper-uncalibrated --targets targets.toml -o mine.toml",
+                                  "kith calibrate paper --targets studies/paper-targets.toml --quick"},
+                                 declare, run);
 }
 
 }  // namespace kith::cli

@@ -81,7 +81,7 @@ void Console::info(std::string_view text) {
 }
 
 void Console::detail(std::string_view text) {
-  if (options_.verbosity > 0 && !options_.quiet) log("debug", text);
+  if (options_.verbose && !options_.quiet) log("debug", text);
 }
 
 void Console::warning(std::string_view text) {

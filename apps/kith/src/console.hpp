@@ -7,9 +7,19 @@
 #include <vector>
 
 #include "kith/core/diagnostic.hpp"
-#include "options.hpp"
 
 namespace kith::cli {
+
+enum class ColorMode { kAuto, kAlways, kNever };
+enum class ProgressMode { kAuto, kBar, kJson, kNone };
+
+/// What every command understands.
+struct CommonOptions {
+  bool json = false;
+  ColorMode color = ColorMode::kAuto;
+  bool quiet = false;
+  bool verbose = false;
+};
 
 /// Whoever reads our output has stopped reading: exit 141, quietly.
 class BrokenPipe : public std::exception {};
@@ -25,6 +35,15 @@ class Console {
   void print(std::string_view text) const;
   /// Writes one JSON document, indented, with a line break at the end.
   void print_json(const nlohmann::ordered_json& document) const;
+  /// Makes and prints the document if --json asks for it, else the text.
+  template <typename Document, typename Text>
+  void print(Document document, Text text) const {
+    if (json()) {
+      print_json(document());
+    } else {
+      print(text());
+    }
+  }
 
   void info(std::string_view text);     ///< Unless -q.
   void detail(std::string_view text);   ///< With -v.

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -19,6 +19,12 @@
 
 namespace kith::cli {
 namespace {
+
+struct CurriculumCommandOptions {
+  std::string domain;
+  std::string out;  ///< Where the page goes; "-" is standard output; empty: no page.
+  std::uint64_t seed = 1;
+};
 
 // The curriculum for a terminal.
 class CurriculumText {
@@ -116,9 +122,14 @@ class CurriculumText {
   std::string out_;
 };
 
-}  // namespace
+void declare(OptionList& list, CurriculumCommandOptions& options) {
+  list.domain(options.domain).required();
+  list.text("-o,--out", options.out, "FILE", "Write one HTML page for a browser; '-' is standard output");
+  list.integer("--seed", options.seed, {}, "Seed of all random streams");
+  list.json();
+}
 
-int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
+int run(const CurriculumCommandOptions& options, Console& console) {
   const WorkNotice notice{console, "choosing what to teach about " + options.domain};
   auto domain = load_domain(options.domain);
   require_teaching_memory(domain);
@@ -135,6 +146,14 @@ int run_curriculum(const CurriculumCommandOptions& options, Console& console) {
     write_page("lesson", page_with(document.dump(-1, ' ', true), detail::kLessonPage), options.out, console);
   if (console.json()) console.print_json(document);
   return 0;
+}
+
+}  // namespace
+
+void add_curriculum(Commands& commands) {
+  commands.add<CurriculumCommandOptions>(
+      "curriculum", "Show what would be taught: demonstrations with reasons, and tests",
+      {"kith curriculum item-delivery", "kith curriculum my-domain.toml -o lesson.html"}, declare, run);
 }
 
 }  // namespace kith::cli

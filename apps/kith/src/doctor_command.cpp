@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "exit_codes.hpp"
 #include "kith/core/error.hpp"
 #include "kith/present/json.hpp"
@@ -111,9 +111,7 @@ const char* word_of(Health health) {
   return health == Health::kGood ? "ok" : health == Health::kWarning ? "warning" : "failed";
 }
 
-}  // namespace
-
-int run_doctor(Console& console) {
+int run_doctor(const NoOptions& /*options*/, Console& console) {
   const std::vector<Checkup> checkups{check_build(), check_processor(), check_file_system(), check_space(),
                                       check_self()};
   bool good = true;
@@ -131,6 +129,14 @@ int run_doctor(Console& console) {
   }
   console.print(table.text(console, false));
   return good ? 0 : exit_code(ErrorKind::kMismatch);
+}
+
+}  // namespace
+
+void add_doctor(Commands& commands) {
+  commands.add<NoOptions>(
+      "doctor", "Check that this machine can run kith", {"kith doctor", "kith doctor --json"},
+      [](OptionList& list, NoOptions&) { list.json(); }, run_doctor);
 }
 
 }  // namespace kith::cli

@@ -18,8 +18,8 @@ constexpr std::size_t kListed = 20;  // without --all
 
 }  // namespace
 
-DomainView::DomainView(const Domain& domain, const InspectOptions& options, const Console& console)
-    : domain_{domain}, console_{console}, all_{options.all}, mdp_{options.mdp.value_or(domain.num_mdps() - 1)} {
+DomainView::DomainView(const Domain& domain, std::optional<std::size_t> mdp, bool all, const Console& console)
+    : domain_{domain}, console_{console}, all_{all}, mdp_{mdp.value_or(domain.num_mdps() - 1)} {
   if (mdp_.value() < domain.num_mdps()) return;
   throw Error{ErrorKind::kUsage,
               fmt::format("there is no MDP {}: they are numbered 0 to {}", mdp_.value(), domain.num_mdps() - 1)};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "console.hpp"
@@ -10,10 +12,11 @@ namespace kith::cli {
 /// What can be shown of any domain, whether or not its weights can be taught.
 class DomainView {
  public:
-  /// @throws kith::Error (kUsage) if the domain has no MDP of the number in the options.
-  DomainView(const Domain& domain, const InspectOptions& options, const Console& console);
+  /// @throws kith::Error (kUsage) if the domain has no MDP of that number.
+  /// @param mdp  none: the last, which has everything. @param all  no list is cut short.
+  DomainView(const Domain& domain, std::optional<std::size_t> mdp, bool all, const Console& console);
 
-  /// The MDP to show: the one asked for, else the last, which has everything.
+  /// The MDP to show.
   [[nodiscard]] MdpIndex mdp() const noexcept { return mdp_; }
   [[nodiscard]] std::string title() const;
   [[nodiscard]] std::string map() const;     ///< With the legend of the symbols; without a map the size of the model.

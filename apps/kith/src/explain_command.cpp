@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "error_page.hpp"
 #include "kind_lists.hpp"
 #include "kith/core/diagnostic.hpp"
@@ -16,6 +16,10 @@
 
 namespace kith::cli {
 namespace {
+
+struct ExplainOptions {
+  std::string id;  ///< "E0207", or a list of kinds ("strategies"); empty: list all ids.
+};
 
 struct ErrorEntry {
   std::string id, meaning, example, section;
@@ -118,9 +122,13 @@ void print_kinds(const KindList& list, Console& console) {
   }
 }
 
-}  // namespace
+void declare(OptionList& list, ExplainOptions& options) {
+  list.text("topic", options.id, "TOPIC",
+            "An id, such as E0207, or learners, strategies or beliefs; without one, all ids are listed");
+  list.json();
+}
 
-int run_explain(const ExplainOptions& options, Console& console) {
+int run(const ExplainOptions& options, Console& console) {
   const auto kinds = kind_lists();
   const auto topic =
       std::find_if(kinds.begin(), kinds.end(), [&](const auto& list) { return list.topic == options.id; });
@@ -166,6 +174,14 @@ int run_explain(const ExplainOptions& options, Console& console) {
     console.print(entry_text(*found, console));
   }
   return 0;
+}
+
+}  // namespace
+
+void add_explain(Commands& commands) {
+  commands.add<ExplainOptions>("explain", "Say what an error id means, or list kinds and their parameters",
+                               {"kith explain E0207", "kith explain strategies", "kith explain learners --json"},
+                               declare, run);
 }
 
 }  // namespace kith::cli

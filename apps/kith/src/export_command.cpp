@@ -4,16 +4,23 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/file_set.hpp"
 #include "kith/present/json.hpp"
-#include "option_values.hpp"
 
 namespace kith::cli {
 namespace {
+
+struct ExportOptions {
+  std::string domain;
+  std::string format;              ///< One of model_format_names().
+  std::optional<std::size_t> mdp;  ///< Needed where the domain has several.
+  std::string out;                 ///< A file, or with "prism" what the names of all files begin with; "-": stdout.
+  bool yes = false;                ///< Replace files that are there.
+};
 
 namespace fs = std::filesystem;
 
@@ -27,9 +34,17 @@ MdpIndex mdp_of(const Domain& domain, const ExportOptions& options) {
   refuse(fmt::format("there is no MDP {}: they are numbered 0 to {}", m.value(), domain.num_mdps() - 1));
 }
 
-}  // namespace
+void declare(OptionList& list, ExportOptions& options) {
+  list.domain(options.domain).required();
+  list.word("--to", options.format, "FORMAT", model_format_names(), "The format").required();
+  list.integer("--mdp", options.mdp, {}, "Number of the MDP (default: the only one)");
+  list.text("-o,--out", options.out, "FILE",
+            "File to write (default: '-', stdout), or with prism what the names of all files begin with");
+  list.flag("--yes", options.yes, "Replace existing files");
+  list.json();
+}
 
-int run_export(const ExportOptions& options, Console& console) {
+int run(const ExportOptions& options, Console& console) {
   const Domain domain = load_domain(options.domain);
   const MdpIndex m = mdp_of(domain, options);
   const auto& names = model_format_names();
@@ -76,6 +91,15 @@ int run_export(const ExportOptions& options, Console& console) {
                             {"files", written}});
   }
   return 0;
+}
+
+}  // namespace
+
+void add_export(Commands& commands) {
+  commands.add<ExportOptions>("export", "Write an MDP of a domain in the format of another program",
+                              {"kith export item-delivery --mdp 63 --to gym-json -o delivery.json",
+                               "kith export my-domain.toml --to prism -o models/my-domain"},
+                              declare, run);
 }
 
 }  // namespace kith::cli

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -21,6 +21,14 @@
 
 namespace kith::cli {
 namespace {
+
+struct FindOptions {
+  std::string domain;
+  std::vector<std::string> constraint;  ///< A normal or a sentence, in one argument or in several; empty: list all.
+  bool test = false;                    ///< Wanted for a test rather than for a demonstration.
+  bool no_make = false;                 ///< Make no world where the family has none.
+  std::string out;                      ///< Where the world goes as a domain file; empty: nowhere.
+};
 
 const char* name_of(Purpose purpose) { return purpose == Purpose::kTeach ? "teach" : "test"; }
 
@@ -150,9 +158,17 @@ Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose
       tried_making || !can_make ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made");
 }
 
-}  // namespace
+void declare(OptionList& list, FindOptions& options) {
+  list.domain(options.domain).required();
+  list.texts("constraint", options.constraint, "CONSTRAINT",
+             "A normal, such as '(-1,0,2)', or its sentence; without one, all that can be isolated are listed");
+  list.flag("--test", options.test, "For a test rather than for a demonstration");
+  list.flag("--no-make", options.no_make, "Do not make a world where the domain has none");
+  list.text("-o,--out", options.out, "FILE", "Write the world to this file, as a domain of its own");
+  list.json();
+}
 
-int run_find(const FindOptions& options, Console& console) {
+int run(const FindOptions& options, Console& console) {
   const WorkNotice notice{console, "looking through " + options.domain};
   const Atlas atlas{load_domain(options.domain)};
   std::string wanted;
@@ -176,6 +192,15 @@ int run_find(const FindOptions& options, Console& console) {
     print_finding(atlas.domain(), found, constraint, purpose, console);
   }
   return 0;
+}
+
+}  // namespace
+
+void add_find(Commands& commands) {
+  commands.add<FindOptions>("find", "Find or make a world that teaches or tests exactly one constraint",
+                            {"kith find item-delivery", "kith find item-delivery '(-1,0,2)' --test",
+                             "kith find item-delivery '(-1,0,2)' -o world.toml"},
+                            declare, run);
 }
 
 }  // namespace kith::cli

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "fit_json.hpp"
 #include "fit_text.hpp"
 #include "interrupt.hpp"
@@ -23,6 +23,20 @@
 
 namespace kith::cli {
 namespace {
+
+struct FitCommandOptions {
+  std::vector<std::string> logs;  ///< Run folders, tables of trials, or the tables of 2021.
+  std::string method = "likelihood";
+  std::string answers = "path";  ///< What of an answer counts: "path" or "verdict".
+  std::string out;               ///< File for the JSON result; empty: none.
+  std::size_t types = 0;         ///< Types without labels; 0: as labelled.
+  std::size_t folds = 5;         ///< Of the cross-validation; 0: none.
+  std::size_t replicates = 2;    ///< Runs of the filter per person.
+  std::uint64_t seed = 1;
+  std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
+  bool yes = false;         ///< Replace an existing file.
+  ProgressMode progress = ProgressMode::kAuto;
+};
 
 void check_out(const FitCommandOptions& options) {
   std::error_code ignored;
@@ -87,9 +101,24 @@ std::optional<std::vector<GridSearchGroup>> search_grid(const ResponseLogs& logs
   return grid_search(logs, table);
 }
 
-}  // namespace
+void declare(OptionList& list, FitCommandOptions& options) {
+  list.texts("logs", options.logs, "LOGS", "Run folders, tables with a row per trial, or the tables of 2021")
+      .required();
+  list.word("--method", options.method, "HOW", {"likelihood", "grid"}, "How to fit");
+  list.word("--answers", options.answers, "WHAT", {"path", "verdict"},
+            "What of an answer counts: the path, or whether it is right");
+  list.integer("--types", options.types, {1, 6}, "Types of people without labels (default: as labelled)");
+  list.integer("--folds", options.folds, {0, 1000}, "Parts of the cross-validation; 0: none");
+  list.integer("--replicates", options.replicates, {1, 1000}, "Runs of the particle filter per person");
+  list.integer("--seed", options.seed, {}, "Seed of all random streams");
+  list.threads(options.threads, "; never changes a result");
+  list.text("-o,--out", options.out, "FILE", "Write the result to this file, as JSON");
+  list.flag("--yes", options.yes, "Replace the file of -o if there is one");
+  list.progress(options.progress);
+  list.json();
+}
 
-int run_fit(const FitCommandOptions& options, Console& console) {
+int run(const FitCommandOptions& options, Console& console) {
   check_out(options);
   const auto detail = options.answers == "path" ? AnswerDetail::kPath : AnswerDetail::kVerdict;
   const auto imported = import_logs({options.logs.begin(), options.logs.end()}, detail);
@@ -130,6 +159,15 @@ int run_fit(const FitCommandOptions& options, Console& console) {
   progress.finish();
   if (!report.complete) return wrote_nothing(console);
   return finish(options, to_json(report, imported.logs.notes), text_of(report, console), console);
+}
+
+}  // namespace
+
+void add_fit(Commands& commands) {
+  commands.add<FitCommandOptions>(
+      "fit", "Estimate how people learn from what they saw and answered",
+      {"kith fit results/paper -o fit.json", "kith fit trials.csv --types 2", "kith fit results/paper --method grid"},
+      declare, run);
 }
 
 }  // namespace kith::cli

@@ -3,16 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "command_line.hpp"
+#include "command.hpp"
 
 namespace kith::cli {
 
 /// `kith -h` (short) and `kith --help`.
-[[nodiscard]] std::string help_text(const std::vector<CommandDescription>& commands, bool full);
+[[nodiscard]] std::string help_text(const std::vector<Command>& commands, bool full);
 /// `kith COMMAND -h` (short) and `kith COMMAND --help`.
-[[nodiscard]] std::string help_text(const CommandDescription& command, bool full);
-
-/// How a command is typically called: two examples. @pre there is such a command.
-[[nodiscard]] const std::vector<std::string>& examples_of(const std::string& command);
+[[nodiscard]] std::string help_text(const Command& command, const std::vector<OptionDescription>& options, bool full);
 
 }  // namespace kith::cli

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/file_set.hpp"
@@ -12,6 +12,11 @@
 
 namespace kith::cli {
 namespace {
+
+struct InitOptions {
+  std::string folder = ".";
+  std::string template_name = "item-delivery";
+};
 
 struct NewFile {
   std::string name, content;
@@ -29,9 +34,14 @@ std::vector<NewFile> files_of(const std::string& name) {
   return files;
 }
 
-}  // namespace
+void declare(OptionList& list, InitOptions& options) {
+  list.text("folder", options.folder, "DIR", "Where to write them");
+  list.word("--template", options.template_name, "NAME", {"item-delivery", "blank", "human-study"},
+            "What to start from");
+  list.json();
+}
 
-int run_init(const InitOptions& options, Console& console) {
+int run(const InitOptions& options, Console& console) {
   const std::filesystem::path folder{options.folder};
   const auto files = files_of(options.template_name);
   // Everything or nothing: what people have written is never replaced.
@@ -62,6 +72,13 @@ int run_init(const InitOptions& options, Console& console) {
                   "  kith curriculum domain.toml\n  kith study study.toml -o results\n",
                   names, folder.string(), enter));
   return 0;
+}
+
+}  // namespace
+
+void add_init(Commands& commands) {
+  commands.add<InitOptions>("init", "Write a domain, a study and a README to start from",
+                            {"kith init my-robot", "kith init my-robot --template blank"}, declare, run);
 }
 
 }  // namespace kith::cli

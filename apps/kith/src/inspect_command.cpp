@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "domain_view.hpp"
 #include "kith/bec/comparison.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -19,6 +19,14 @@
 namespace kith::cli {
 namespace {
 
+struct InspectOptions {
+  std::string domain;
+  std::vector<std::string> show;   ///< Some of inspect_parts(); empty: the overview.
+  std::optional<std::size_t> mdp;  ///< The MDP whose map, policy or demonstrations are shown.
+  bool all = false;                ///< No list is cut short.
+  std::string svg;                 ///< Folder for pictures; empty: none.
+};
+
 constexpr std::size_t kListLength = 20;  // without --all
 
 // Writes the parts of the human form one after the other.
@@ -29,7 +37,7 @@ class Inspection {
         domain_{atlas.domain()},
         options_{options},
         console_{console},
-        view_{domain_, options, console},
+        view_{domain_, options.mdp, options.all, console},
         mdp_{view_.mdp()} {}
 
   std::string text() {
@@ -207,7 +215,7 @@ void write_svg(const InspectOptions& options, const std::vector<SvgFile>& files,
 
 // With a single feature there is nothing to teach, but still something to see.
 int inspect_without_atlas(const Domain& domain, const InspectOptions& options, Console& console) {
-  const DomainView view{domain, options, console};
+  const DomainView view{domain, options.mdp, options.all, console};
   if (!options.svg.empty()) write_svg(options, domain_pictures(domain, view.mdp()), console);
   if (console.json()) {
     console.print_json(inspection_json(domain));
@@ -224,14 +232,22 @@ int inspect_without_atlas(const Domain& domain, const InspectOptions& options, C
   return 0;
 }
 
-}  // namespace
+void declare(OptionList& list, InspectOptions& options) {
+  list.domain(options.domain).required();
+  list.words("--show", options.show, "PARTS", {"map", "policy", "bec", "kc", "demos", "tests", "counterfactuals"},
+             "What to show, separated by commas");
+  list.integer("--mdp", options.mdp, {}, "Number of the MDP to show (default: the last, with everything)");
+  list.flag("--all", options.all, "Do not shorten long lists");
+  list.text("--svg", options.svg, "DIR", "Write pictures to this folder: map, policy, region, coverage");
+  list.json();
+}
 
-int run_inspect(const InspectOptions& options, Console& console) {
+int run(const InspectOptions& options, Console& console) {
   const WorkNotice notice{console, "planning " + options.domain};
   auto domain = load_domain(options.domain);
   if (domain.num_features() < 2) return inspect_without_atlas(domain, options, console);
   const Atlas atlas{std::move(domain)};
-  const auto mdp = DomainView{atlas.domain(), options, console}.mdp();
+  const auto mdp = DomainView{atlas.domain(), options.mdp, options.all, console}.mdp();
   if (!options.svg.empty()) {
     auto files = domain_pictures(atlas.domain(), mdp);
     for (auto& file : atlas_pictures(atlas, mdp)) files.push_back(std::move(file));
@@ -244,6 +260,14 @@ int run_inspect(const InspectOptions& options, Console& console) {
     console.print(Inspection{atlas, options, console}.text());
   }
   return 0;
+}
+
+}  // namespace
+
+void add_inspect(Commands& commands) {
+  commands.add<InspectOptions>(
+      "inspect", "Show a domain: map, reward, policy, and what can be taught",
+      {"kith inspect item-delivery", "kith inspect item-delivery --show policy,demos --mdp 63"}, declare, run);
 }
 
 }  // namespace kith::cli

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -9,9 +10,9 @@
 #include <system_error>
 #include <vector>
 
-#include "command_line.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "exit_codes.hpp"
+#include "help.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/present/json.hpp"
@@ -20,60 +21,6 @@
 
 namespace kith::cli {
 namespace {
-
-int run(const Options& options, Console& console) {
-  switch (options.command) {
-    case Command::kValidate:
-      return run_validate(options.validate, console);
-    case Command::kInspect:
-      return run_inspect(options.inspect, console);
-    case Command::kInit:
-      return run_init(options.init, console);
-    case Command::kCurriculum:
-      return run_curriculum(options.curriculum, console);
-    case Command::kAsk:
-      return run_ask(options.ask, console);
-    case Command::kFind:
-      return run_find(options.find, console);
-    case Command::kTeach:
-      return run_teach(options.teach, console);
-    case Command::kStudy:
-      return run_study(options.study, console);
-    case Command::kAnalyze:
-      return run_analyze(options.analyze, console);
-    case Command::kReport:
-      return run_report(options.report, console);
-    case Command::kFit:
-      return run_fit(options.fit, console);
-    case Command::kDoctor:
-      return run_doctor(console);
-    case Command::kCompletion:
-      return run_completion(options.completion, console);
-    case Command::kVersion:
-      return run_version(console);
-    case Command::kCalibrate:
-      return run_calibrate(options.calibrate, console);
-    case Command::kStatus:
-      return run_status(options.status, console);
-    case Command::kAudit:
-      return run_audit(options.audit, console);
-    case Command::kVerify:
-      return run_verify(options.verify, console);
-    case Command::kMerge:
-      return run_merge(options.merge, console);
-    case Command::kExport:
-      return run_export(options.export_model, console);
-    case Command::kExplain:
-      return run_explain(options.explain, console);
-    case Command::kServe:
-      return run_serve(options.serve, console);
-    case Command::kSession:
-      return run_session(options.session, console);
-    case Command::kPower:
-      return run_power(options.power, console);
-  }
-  return kInternalError;
-}
 
 // How errors without a place in a file are named in JSON.
 const char* name_of(ErrorKind kind) {
@@ -172,15 +119,60 @@ int report(Console& console, const Error& error) {
   return report(console, std::move(diagnostics), exit_code(error.kind()));
 }
 
-int guarded(const std::vector<std::string>& arguments, Console& console) try {
-  const auto command_line = parse_command_line(arguments);
-  if (command_line.error) return report(console, *command_line.error);
-  if (command_line.text) {
-    console.print(*command_line.text);
+// The first of -h and --help, or nothing.
+std::string asked_help(const std::vector<std::string>& arguments) {
+  for (const auto& argument : arguments) {
+    if (argument == "-h" || argument == "--help") return argument;
+    if (argument == "--") break;
+  }
+  return {};
+}
+
+int run(std::vector<std::string> arguments, Console& console) {
+  if (!arguments.empty() && arguments.front() == "help") {  // `kith help study` is `kith study --help`
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  const auto all = all_commands();
+  const auto& commands = all.all();
+  const auto help = asked_help(arguments);
+  if (arguments.empty() || arguments.front() == help) {
+    console.print(help_text(commands, help == "--help"));
     return 0;
   }
-  console = Console{command_line.options->common};
-  return run(*command_line.options, console);
+  auto name = arguments.front();
+  arguments.erase(arguments.begin());
+  if (name == "--version" || name == "-V") name = "version";
+  const auto command =
+      std::find_if(commands.begin(), commands.end(), [&](const auto& one) { return one.name == name; });
+  if (command == commands.end()) {
+    std::vector<std::string> names{"--version", "--help", "help"};
+    for (const auto& one : commands) names.push_back(one.name);
+    const auto nearest = nearest_word(name, names);
+    throw UsageError{(name.rfind('-', 0) == 0 ? "unknown option '" : "unknown command '") + name + "'",
+                     nearest.empty() ? "" : "did you mean '" + nearest + "'?"};
+  }
+  OptionList options{name};
+  const auto act = command->declare(options);
+  options.finish();
+  if (!help.empty()) {
+    console.print(help_text(*command, options.options(), help == "--help"));
+    return 0;
+  }
+  try {
+    options.parse(std::move(arguments));
+  } catch (UsageError& error) {
+    error.command = name;
+    throw;
+  }
+  console = Console{options.common()};
+  return act(console);
+}
+
+int guarded(const std::vector<std::string>& arguments, Console& console) try {
+  return run(arguments, console);
+} catch (const UsageError& error) {
+  return report(console, error);
 } catch (const Error& error) {
   return report(console, error);
 } catch (const BrokenPipe&) {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "failpoint.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
@@ -14,7 +14,26 @@
 
 namespace kith::cli {
 
-int run_merge(const MergeOptions& options, Console& console) {
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> folders;
+  std::string out;
+  bool yes = false;            ///< Replace the results of a different study.
+  bool allow_partial = false;  ///< Leave out what is missing or damaged, and say so.
+};
+
+void declare(OptionList& list, MergeOptions& options) {
+  list.texts("folders", options.folders, "DIR", "Run folders of all shards, in any order").required();
+  list.text("-o,--out", options.out, "DIR", "Run folder to create or to update");
+  list.flag("--yes", options.yes, "Replace the results of a different study in the run folder");
+  list.flag("--allow-partial", options.allow_partial,
+            "Merge what can be read where shards or teams are missing; the manifest and reports say what is left out, "
+            "and the exit code is 6");
+  list.json();
+}
+
+int run(const MergeOptions& options, Console& console) {
   if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith merge needs -o DIR, the folder for the results"};
   RunPlace place{options.out, std::chrono::steady_clock::now()};
   auto facts = facts_of_build();
@@ -49,6 +68,14 @@ int run_merge(const MergeOptions& options, Console& console) {
   facts.log.push_back(utc_now() + " " + text);
   console.detail(text);
   return publish_run(run, std::move(facts), place, console);
+}
+
+}  // namespace
+
+void add_merge(Commands& commands) {
+  commands.add<MergeOptions>(
+      "merge", "Merge the shards of a study and write its tables",
+      {"kith merge results/part-* -o results/paper", "kith merge part-1 part-2 part-3 -o paper --json"}, declare, run);
 }
 
 }  // namespace kith::cli

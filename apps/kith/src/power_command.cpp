@@ -2,14 +2,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/curriculum.hpp"
@@ -26,17 +25,27 @@
 namespace kith::cli {
 namespace {
 
+struct PowerCommandOptions {
+  std::string study;
+  std::vector<std::string> effects;
+  double target = 0.8;
+  double alpha = 0.05;
+  std::vector<std::uint32_t> teams;  ///< Per cell; empty: a range of sizes, or those of the study.
+  std::optional<std::size_t> pool;   ///< Teams per cell to draw studies from.
+  std::size_t draws = 1000;
+  bool paired = false;
+  std::string findings;     ///< A targets file: repeat the study and look for its findings.
+  std::string preregister;  ///< File for a preregistration of the study; empty: none.
+  std::size_t studies = 200;
+  std::optional<std::uint64_t> seed;
+  std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
+  std::vector<std::string> set;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
 constexpr std::size_t kDefaultPool = 1'000;
 
 // --- input ------------------------------------------------------------------------
-
-double fraction(const std::string& text, const std::string& option) {
-  double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(value >= 1e-6 && value <= 1.0 - 1e-6))
-    throw Error{ErrorKind::kUsage, option + " must be a number from 0.000001 to 0.999999, not '" + text + "'"};
-  return value;
-}
 
 Effect effect_of(const std::string& text, const StudySpec& spec) {
   auto reading = parse_effect(text, spec);
@@ -384,8 +393,8 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   PowerOptions power;
   power.teams = sizes_of(options);
   if (!options.preregister.empty()) power.teams = with_size(power.teams, spec.replicates);
-  power.alpha = fraction(options.alpha, "--alpha");
-  power.target = fraction(options.target, "--target");
+  power.alpha = options.alpha;
+  power.target = options.target;
   power.draws = options.draws;
   // A preregistration plans the tests of kith analyze, which knows which strategies teach the same people.
   const bool same_people = spec.pairing == Pairing::kReplicate && spec.strategies.size() > 1;
@@ -489,11 +498,34 @@ int run_replication(const PowerCommandOptions& options, const Study& study, cons
   return 0;
 }
 
-}  // namespace
+void declare(OptionList& list, PowerCommandOptions& options) {
+  constexpr NumberRange kShare{1e-6, 1.0 - 1e-6};
+  list.study(options.study).required();
+  auto effects = list.texts("--effect", options.effects, "EFFECT",
+                            "Effect, such as 'periods: strategy eta2 = 0.02' (may be repeated; default: all)");
+  list.number("--target", options.target, "P", kShare, "Desired power");
+  list.number("--alpha", options.alpha, "P", kShare, "Significance level");
+  list.integer("--teams", options.teams, {2, 100'000},
+               "Teams per cell, separated by commas (default: 5,10,15,20,30,50,100)");
+  list.integer("--pool", options.pool, {4, 1'000'000},
+               "Teams per cell to draw studies from, at least twice the largest of --teams (default: 1000)");
+  list.integer("--draws", options.draws, {10, 1'000'000}, "Studies drawn for each size");
+  list.flag("--paired", options.paired, "Every strategy teaches the same people; compare strategies within people");
+  auto findings = list.text("--findings", options.findings, "FILE",
+                            "Repeat the study and count how often the findings in this targets file are reproduced");
+  findings.excludes(effects);
+  list.text("--preregister", options.preregister, "FILE",
+            "Write a preregistration of the study to this file: hypotheses, design, sample size, stopping, analyses")
+      .excludes(findings);
+  list.integer("--studies", options.studies, {2, 100'000}, "Repetitions for --findings");
+  list.threads(options.threads, "; never changes a result");
+  list.integer("--seed", options.seed, {}, "Random seed (default: that of the study)");
+  list.set(options.set);
+  list.progress(options.progress);
+  list.json();
+}
 
-int run_power(const PowerCommandOptions& options, Console& console) {
-  if (!options.findings.empty() && !options.effects.empty())
-    throw Error{ErrorKind::kUsage, "the file of --findings names the effects: leave out --effect"};
+int run(const PowerCommandOptions& options, Console& console) {
   const StudyText source{options.study, options.set};
   const auto reading = source.read({});
   if (!console.quiet()) console.show(reading.diagnostics);
@@ -507,6 +539,15 @@ int run_power(const PowerCommandOptions& options, Console& console) {
   Progress progress{options.progress, console};
   if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);
   return run_curves(options, reading, atlas, progress, console);
+}
+
+}  // namespace
+
+void add_power(Commands& commands) {
+  commands.add<PowerCommandOptions>("power", "Estimate how many teams a study needs to show an effect",
+                                    {"kith power paper --effect 'knowledge: joint - common = 0.05' --target 0.9",
+                                     "kith power studies/paper.toml --findings studies/paper-targets.toml"},
+                                    declare, run);
 }
 
 }  // namespace kith::cli

@@ -2,13 +2,18 @@
 
 #include <chrono>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "kith/report/report.hpp"
 #include "page.hpp"
 #include "report_page.hpp"
 
 namespace kith::cli {
 namespace {
+
+struct ReportCommandOptions {
+  std::string folder;
+  std::string out;  ///< "-" is standard output; empty: report.html in the folder.
+};
 
 // Tells people who wait what is being done: every step once, from the third second on.
 class Steps {
@@ -28,9 +33,13 @@ class Steps {
   std::string shown_;
 };
 
-}  // namespace
+void declare(OptionList& list, ReportCommandOptions& options) {
+  list.text("folder", options.folder, "DIR", "Run folder").required();
+  list.text("-o,--out", options.out, "FILE", "Page to write (default: report.html in DIR); '-' is stdout");
+  list.json();
+}
 
-int run_report(const ReportCommandOptions& options, Console& console) {
+int run(const ReportCommandOptions& options, Console& console) {
   Steps steps{console};
   ReportOptions report;
   report.on_step = [&](std::string_view step) { steps.show(step); };
@@ -46,6 +55,14 @@ int run_report(const ReportCommandOptions& options, Console& console) {
     write_page("report", page, options.folder + "/report.html", console, OldLink::kReplace);
   }
   return 0;
+}
+
+}  // namespace
+
+void add_report(Commands& commands) {
+  commands.add<ReportCommandOptions>("report", "Write a run's figures, tests and methods as one web page",
+                                     {"kith report results/paper", "kith report results/paper -o paper.html"}, declare,
+                                     run);
 }
 
 }  // namespace kith::cli

@@ -84,12 +84,10 @@ std::optional<PublicUrl> public_url_of(std::string text) {
 }
 
 void check_combination(const ServeOptions& options) {
-  if (options.insecure_lan && !options.lan) throw Error{ErrorKind::kUsage, "--insecure-lan needs --lan"};
   if (options.lan && is_loopback(options.bind)) {
     throw Error{ErrorKind::kUsage, "--lan and --bind " + options.bind + " contradict each other"};
   }
   if (options.trusted_proxy.empty()) return;
-  if (options.public_url.empty()) throw Error{ErrorKind::kUsage, "--trusted-proxy needs --public-url"};
   if (!is_address(options.trusted_proxy)) {
     throw Error{ErrorKind::kUsage,
                 "--trusted-proxy must be an IP address such as 192.0.2.1, not '" + options.trusted_proxy + "'"};

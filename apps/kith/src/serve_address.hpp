@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "options.hpp"
+#include "serve_options.hpp"
 
 namespace kith::cli {
 

@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
@@ -298,9 +298,44 @@ void serve_until_stopped(NoticeBoard& board, Console& console) {
   }
 }
 
-}  // namespace
+void declare(OptionList& list, ServeOptions& options) {
+  list.study(options.study);
+  list.text("-o,--out", options.out, "DIR", "Folder for the answers; a session in it is resumed");
+  list.set(options.set);
+  list.integer("--port", options.port, {0, 65535},
+               "Port to listen at; 0: any that is free (default: 8642, and 0 for a rehearsal)");
+  list.text("--bind", options.bind, "ADDRESS", "Address to listen at (default: 127.0.0.1, this machine only)");
+  auto lan = list.flag("--lan", options.lan, "Listen at all addresses of this machine");
+  list.flag("--insecure-lan", options.insecure_lan, "With --lan: accept that nothing is encrypted").needs(lan);
+  auto url = list.text("--public-url", options.public_url, "URL", "Address of the reverse proxy that people use");
+  list.text("--trusted-proxy", options.trusted_proxy, "ADDRESS",
+            "With --public-url: address of a proxy on another machine")
+      .needs(url);
+  list.integer("--connections-per-address", options.connections_per_address, {8, 1'000'000},
+               "Connections per address that have not shown a valid link");
+  list.integer("--rooms", options.rooms, {0, 2000}, "Make rooms until there are N; others are made as people join");
+  list.integer("--join-limit", options.join_limit, {0, 1'000'000}, "Joins per minute from one address; 0: no limit");
+  auto demo = list.flag("--demo", options.demo, "A first look: a robot to understand, and a room for three");
+  list.flag("--no-browser", options.no_browser, "With --demo: do not open a browser").needs(demo);
+  auto rehearse = list.integer("--rehearse", options.rehearse, {1, 5000},
+                               "Teach N groups of simulated people instead, and time it");
+  const NumberRange any_time{0.0, kLargestNumber};
+  list.number("--for", options.for_seconds, "SECONDS", any_time,
+              "With --rehearse: seconds (default: 0, until everybody has finished)")
+      .needs(rehearse);
+  list.number("--answer-every", options.answer_every, "SECONDS", {0.0, kLargestNumber, NumberRange::kAbove},
+              "With --rehearse: seconds that a person takes for an answer")
+      .needs(rehearse);
+  list.number("--reconnects", options.reconnects, "P", {},
+              "With --rehearse: share of people who reconnect every second (default: 0)")
+      .needs(rehearse);
+  list.number("--restart-after", options.restart_after, "SECONDS", any_time,
+              "With --rehearse: stop the server after so many seconds and start it again (default: 0, never)")
+      .needs(rehearse);
+  list.json();
+}
 
-int run_serve(const ServeOptions& options, Console& console) {
+int run(const ServeOptions& options, Console& console) {
   check_options(options);
   const auto address = serve_address(options);
   for (const auto& warning : address.warnings) console.warning(warning);
@@ -358,6 +393,15 @@ int run_serve(const ServeOptions& options, Console& console) {
   }
   console.info(temporary ? "stopped" : "stopped; everything is saved in " + options.out);
   return 0;
+}
+
+}  // namespace
+
+void add_serve(Commands& commands) {
+  commands.add<ServeOptions>(
+      "serve", "Teach groups of real people in their browsers",
+      {"kith serve --demo", "kith serve study.toml -o results/live", "kith serve study.toml --rehearse 20 --for 60"},
+      declare, run);
 }
 
 }  // namespace kith::cli

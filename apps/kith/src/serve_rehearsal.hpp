@@ -11,7 +11,7 @@
 #include "console.hpp"
 #include "kith/live/live_study.hpp"
 #include "kith/server/rehearsal.hpp"
-#include "options.hpp"
+#include "serve_options.hpp"
 
 namespace kith::cli {
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
@@ -23,6 +23,16 @@
 
 namespace kith::cli {
 namespace {
+
+struct SessionOptions {
+  std::string action;  ///< One of session_actions().
+  std::string folder;
+  std::string room;    ///< Id or code; empty: all rooms.
+  std::string out;     ///< Folder for tables or for the recovered session.
+  bool names = false;  ///< Export what identifies people, too.
+  bool text = false;   ///< Export what people wrote in their own words, too.
+  bool yes = false;    ///< Replace an existing export; erase for good.
+};
 
 namespace fs = std::filesystem;
 
@@ -241,20 +251,34 @@ int salvage(const SessionOptions& options, Console& console) {
   return report.lost.empty() ? 0 : 6;
 }
 
-}  // namespace
-
-const std::vector<std::string>& session_actions() {
-  static const std::vector<std::string> kActions{"list", "show", "export", "replay", "redact", "salvage"};
-  return kActions;
+void declare(OptionList& list, SessionOptions& options) {
+  list.word("action", options.action, "ACTION", {"list", "show", "export", "replay", "redact", "salvage"}, "What to do")
+      .required();
+  list.text("folder", options.folder, "DIR", "Folder that kith serve was given").required();
+  list.text("--room", options.room, "ID", "Only this room, by id or code");
+  list.text("-o,--out", options.out, "DIR", "Folder to write tables or the recovered session to");
+  list.flag("--names", options.names, "Export names, query parameters and completion codes, too");
+  list.flag("--text", options.text, "Export what people wrote in their own words, too");
+  list.flag("--yes", options.yes, "Replace an existing export; with redact: erase for good");
+  list.json();
 }
 
-int run_session(const SessionOptions& options, Console& console) {
+int run(const SessionOptions& options, Console& console) {
   if (options.action == "list") return list(options, console);
   if (options.action == "show") return show(options, console);
   if (options.action == "export") return write_tables(options, console);
   if (options.action == "replay") return replay_rooms(options, console);
   if (options.action == "redact") return erase_persons(options, console);
   return salvage(options, console);
+}
+
+}  // namespace
+
+void add_session(Commands& commands) {
+  commands.add<SessionOptions>("session", "List, export, replay, redact or recover live sessions",
+                               {"kith session list results/live", "kith session export results/live -o tables",
+                                "kith session replay results/live --room r3"},
+                               declare, run);
 }
 
 }  // namespace kith::cli

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/folder_lock.hpp"
@@ -17,6 +17,10 @@
 
 namespace kith::cli {
 namespace {
+
+struct StatusOptions {
+  std::string folder;
+};
 
 // How far a run is, its ranks together.
 struct Status {
@@ -85,9 +89,12 @@ Json status_json(const Status& status, std::optional<double> seconds_left) {
           {"failures", failures}};
 }
 
-}  // namespace
+void declare(OptionList& list, StatusOptions& options) {
+  list.text("folder", options.folder, "DIR", "Run folder, also while the study is running").required();
+  list.json();
+}
 
-int run_status(const StatusOptions& options, Console& console) {
+int run(const StatusOptions& options, Console& console) {
   const auto status = status_of(options.folder);
   std::optional<double> seconds_left;
   if (status.state == "running" && status.rate > 0.0) seconds_left = static_cast<double>(status.left) / status.rate;
@@ -105,6 +112,13 @@ int run_status(const StatusOptions& options, Console& console) {
   console.print(text + "\n");
   for (const auto& [team, message] : status.failures) console.print(fmt::format("team {} failed: {}\n", team, message));
   return 0;
+}
+
+}  // namespace
+
+void add_status(Commands& commands) {
+  commands.add<StatusOptions>("status", "Show the progress of a study: teams done, failed and left",
+                              {"kith status results/paper", "watch -n 5 kith status results/paper"}, declare, run);
 }
 
 }  // namespace kith::cli

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "exit_codes.hpp"
 #include "failpoint.hpp"
 #include "input.hpp"
@@ -30,6 +30,20 @@
 
 namespace kith::cli {
 namespace {
+
+struct StudyOptions {
+  std::string study;
+  std::string out;
+  std::optional<std::uint64_t> seed;
+  std::size_t threads = 0;  ///< 0: as many as there are cores. Changes the speed, never the results.
+  std::vector<std::string> set;
+  bool dry_run = false;
+  bool yes = false;  ///< Replace the results of a different study.
+  Resume resume = Resume::kAuto;
+  Shard shard;
+  bool keep_going = false;  ///< Go on after a team that failed.
+  ProgressMode progress = ProgressMode::kAuto;
+};
 
 using Clock = std::chrono::steady_clock;
 
@@ -100,17 +114,13 @@ int interrupted(const StudyOptions& options, const StudyRun& run, std::size_t do
   return 128 + (signal != 0 ? signal : SIGINT);
 }
 
-Resume resume_of(ResumeMode mode) {
-  return mode == ResumeMode::kNever ? Resume::kNever : mode == ResumeMode::kRequire ? Resume::kRequire : Resume::kAuto;
-}
-
 StudyRunOptions run_options(const StudyOptions& options) {
   StudyRunOptions run;
   run.program = program_name();
   run.threads = options.threads;
-  run.resume = resume_of(options.resume);
+  run.resume = options.resume;
   run.replace = options.yes;
-  run.shard = {options.shard.index, options.shard.count};
+  run.shard = options.shard;
   run.keep_going = options.keep_going;
   run.on_instant = failpoint();
   if (run.on_instant) run.checkpoint_seconds = 0.0;  // every team for itself, so that instants can be counted
@@ -136,9 +146,37 @@ int finish_shard(const StudyOptions& options, StudyRun& run, RunFacts facts, dou
   return run.failures().empty() ? 0 : exit_code(ErrorKind::kPartial);
 }
 
-}  // namespace
+// "2/7": part 2 of 7.
+Shard shard_of(const std::string& text) {
+  const auto slash = std::min(text.find('/'), text.size());
+  const auto count = text.substr(std::min(slash + 1, text.size()));
+  if (!wrong_integer(count, {1, 1'000'000}).empty() ||
+      !wrong_integer(text.substr(0, slash), {1, integer_of(count, {})}).empty()) {
+    throw UsageError{"must be I/N, such as 2/7, with I from 1 to N, not '" + text + "'"};
+  }
+  return {static_cast<std::size_t>(integer_of(text.substr(0, slash), {})),
+          static_cast<std::size_t>(integer_of(count, {}))};
+}
 
-int run_study(const StudyOptions& options, Console& console) {
+void declare(OptionList& list, StudyOptions& options) {
+  list.study(options.study).required();
+  list.text("-o,--out", options.out, "DIR", "Run folder to create or to update");
+  list.threads(options.threads, "; never changes a result");
+  list.integer("--seed", options.seed, {}, "The same as --set seed=N");
+  list.set(options.set);
+  list.flag("--dry-run", options.dry_run, "Print what would be run and about how long it takes; write nothing");
+  list.flag("--yes", options.yes, "Replace the results of a different study in the run folder");
+  list.choice<Resume>("--resume", options.resume, "WHEN",
+                      {{"auto", Resume::kAuto}, {"never", Resume::kNever}, {"require", Resume::kRequire}},
+                      "Whether to resume an earlier run");
+  list.value("--shard", "I/N", "Run part I of N; kith merge combines the parts",
+             [&](const std::string& text) { options.shard = shard_of(text); });
+  list.flag("--keep-going", options.keep_going, "Continue after a team fails; exit 6 at the end");
+  list.progress(options.progress);
+  list.json();
+}
+
+int run(const StudyOptions& options, Console& console) {
   const auto begin = Clock::now();
   auto facts = facts_of_build();
   facts.started = utc_now();
@@ -208,6 +246,15 @@ int run_study(const StudyOptions& options, Console& console) {
   note(fmt::format("taught {} teams", run.num_done() - run.num_resumed()));
   if (options.shard.count > 1) return finish_shard(options, run, std::move(facts), seconds_since(begin), console);
   return publish_run(run, std::move(facts), {options.out, begin, atlas.domain().num_features()}, console);
+}
+
+}  // namespace
+
+void add_study(Commands& commands) {
+  commands.add<StudyOptions>("study", "Simulate all teams of a study and write its tables",
+                             {"kith study studies/paper.toml -o results/paper",
+                              "kith study quick -o results/quick --set teacher.process_noise=0.5"},
+                             declare, run);
 }
 
 }  // namespace kith::cli

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -11,10 +11,21 @@
 #include "kith/present/transcript.hpp"
 #include "kith/present/transcript_json.hpp"
 #include "kith/runs/run_folder.hpp"
-#include "option_values.hpp"
 
 namespace kith::cli {
 namespace {
+
+struct TeachOptions {
+  std::string domain;
+  std::string group;
+  std::string strategy = "common";
+  std::uint64_t seed = 1;
+  std::string study = "paper";  ///< Where learner types and the teacher's settings come from.
+  std::vector<std::string> set;
+  std::string from;  ///< A run folder ...
+  std::string team;  ///< ... and the number of one of its teams, as typed: only the folder tells how many there are.
+  std::optional<std::size_t> forecast;  ///< Imagined sessions; none: as the study says.
+};
 
 // One team, and everything needed to teach it.
 struct Assignment {
@@ -27,7 +38,7 @@ Assignment from_run_folder(const TeachOptions& options) {
   auto reading = read_run_folder(options.from);
   if (!reading.study) throw Error{reading.diagnostics};
   const auto addresses = team_addresses(*reading.study);
-  const auto wrong = wrong_integer(options.team, 1, static_cast<std::int64_t>(addresses.size()));
+  const auto wrong = wrong_integer(options.team, {1, static_cast<std::int64_t>(addresses.size())});
   if (!wrong.empty()) refuse("--team " + wrong);
   const auto& address = addresses[std::stoul(options.team) - 1];
   return {*std::move(reading.domain), reading.study->variants[address.variant], address};
@@ -61,9 +72,27 @@ Assignment from_options(const TeachOptions& options) {
   return {std::move(domain), spec, {0, options.strategy, options.group, 1, 1}};
 }
 
-}  // namespace
+void declare(OptionList& list, TeachOptions& options) {
+  std::vector<std::string> names;
+  for (const auto& kind : strategy_kinds()) names.emplace_back(kind.name);
+  const std::vector others{
+      list.domain(options.domain),
+      list.text("--group", options.group, "LETTERS", "The members' learner types, one letter each"),
+      list.word("--strategy", options.strategy, "NAME", names, "Whose belief the lessons are chosen for"),
+      list.integer("--seed", options.seed, {}, "Seed of all random streams"),
+      list.text("--study", options.study, "STUDY", "Built-in study or file with the learner types"),
+      list.set(options.set)};
+  auto from = list.text("--from", options.from, "DIR", "Replay a team of this run folder");
+  auto team = list.text("--team", options.team, "N", "Number of the team, as in teams.csv");
+  list.integer("--forecast", options.forecast, {0, 100'000},
+               "Forecast the session from this many imagined teams of the same kind");
+  from.needs(team);
+  team.needs(from);
+  for (const auto& other : others) from.excludes(other);
+  list.json();
+}
 
-int run_teach(const TeachOptions& options, Console& console) {
+int run(const TeachOptions& options, Console& console) {
   auto assignment = options.from.empty() ? from_options(options) : from_run_folder(options);
   if (options.forecast) assignment.spec.forecast_sessions = *options.forecast;
   const Atlas atlas{std::move(assignment.domain)};
@@ -75,6 +104,15 @@ int run_teach(const TeachOptions& options, Console& console) {
     console.print(to_text(atlas, transcript));
   }
   return 0;
+}
+
+}  // namespace
+
+void add_teach(Commands& commands) {
+  commands.add<TeachOptions>(
+      "teach", "Teach one simulated team and print a transcript",
+      {"kith teach item-delivery --group NNP --strategy joint", "kith teach --from results/paper --team 17"}, declare,
+      run);
 }
 
 }  // namespace kith::cli

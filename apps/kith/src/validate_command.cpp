@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
@@ -14,6 +14,11 @@
 
 namespace kith::cli {
 namespace {
+
+struct ValidateOptions {
+  std::vector<std::string> files;  ///< "-" is standard input.
+  bool strict = false;             ///< Warnings count as errors.
+};
 
 struct Verdict {
   std::string kind;  // "domain" or "study"
@@ -65,9 +70,13 @@ Verdict check(const std::string& file) {
   return {"", "", "", {unknown}};
 }
 
-}  // namespace
+void declare(OptionList& list, ValidateOptions& options) {
+  list.texts("files", options.files, "FILE", "Files or built-in names to check; '-' is standard input").required();
+  list.flag("--strict", options.strict, "Treat warnings as errors");
+  list.json();
+}
 
-int run_validate(const ValidateOptions& options, Console& console) {
+int run(const ValidateOptions& options, Console& console) {
   std::vector<Diagnostic> all;
   Json files = Json::array();
   std::string text;
@@ -93,6 +102,14 @@ int run_validate(const ValidateOptions& options, Console& console) {
   if (has_errors(all)) throw Error{all};
   console.show(all);
   return 0;
+}
+
+}  // namespace
+
+void add_validate(Commands& commands) {
+  commands.add<ValidateOptions>(
+      "validate", "Check domain and study files",
+      {"kith validate my-domain.toml my-study.toml", "kith validate --strict --json domains/*.toml"}, declare, run);
 }
 
 }  // namespace kith::cli

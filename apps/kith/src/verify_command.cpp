@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "build_facts.hpp"
-#include "commands.hpp"
+#include "command.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
@@ -18,7 +17,25 @@
 
 namespace kith::cli {
 
-int run_verify(const VerifyCommandOptions& options, Console& console) {
+namespace {
+
+struct VerifyCommandOptions {
+  std::string folder;
+  double sample = 1.0;      ///< Share of the teams to teach again.
+  std::size_t threads = 0;  ///< 0: as many as there are cores.
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+void declare(OptionList& list, VerifyCommandOptions& options) {
+  list.text("folder", options.folder, "DIR", "Run folder").required();
+  list.number("--sample", options.sample, "P", {0.0, 1.0, NumberRange::kAbove},
+              "Share of the teams to rerun, above 0, at most 1");
+  list.threads(options.threads);
+  list.progress(options.progress);
+  list.json();
+}
+
+int run(const VerifyCommandOptions& options, Console& console) {
   const std::filesystem::path folder{options.folder};
   auto reading = read_run_folder(folder);
   if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
@@ -29,7 +46,7 @@ int run_verify(const VerifyCommandOptions& options, Console& console) {
   watch_signals();
   Progress progress{options.progress, console};
   VerifyOptions how;
-  how.sample = std::strtod(options.sample.c_str(), nullptr);
+  how.sample = options.sample;
   how.threads = options.threads;
   how.on_progress = [&](std::size_t done, std::size_t total, std::size_t failed) {
     progress.update(done, total, failed);
@@ -57,6 +74,14 @@ int run_verify(const VerifyCommandOptions& options, Console& console) {
   console.print(fmt::format("reran {} of {}, compared {}: all identical\n", result.checked,
                             counted(result.teams, "team"), counted(result.files, "file")));
   return 0;
+}
+
+}  // namespace
+
+void add_verify(Commands& commands) {
+  commands.add<VerifyCommandOptions>("verify", "Repeat a run from its frozen inputs and compare all bytes",
+                                     {"kith verify results/paper", "kith verify results/paper --sample 0.1"}, declare,
+                                     run);
 }
 
 }  // namespace kith::cli

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "kith/present/json.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith_build_info.hpp"
@@ -22,7 +22,7 @@ std::vector<Library> library_versions() {
           {"MPI", mpi_version()}};
 }
 
-int run_version(Console& console) {
+int run_version(const NoOptions& /*options*/, Console& console) {
   using namespace build_info;  // NOLINT(google-build-using-namespace): constants only
   if (!console.json()) {
     console.print(
@@ -40,6 +40,12 @@ int run_version(Console& console) {
                           {"flags", kFlags},
                           {"libraries", libraries}});
   return 0;
+}
+
+void add_version(Commands& commands) {
+  commands.add<NoOptions>(
+      "version", "Print version, commit and compiler (also: kith --version)",
+      {"kith --version", "kith --version --json"}, [](OptionList& list, NoOptions&) { list.json(); }, run_version);
 }
 
 }  // namespace kith::cli

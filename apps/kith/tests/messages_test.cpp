@@ -36,6 +36,10 @@ TEST(Messages, SayInPlainWordsWhatIsWrongWithAValue) {
       {{"teach", "--from", "x"}, "--from needs --team"},
       {{"study", "quick", "--seed", "x"}, "--seed must be an integer, 0 or more, not 'x'"},
       {{"study", "quick", "--seed"}, "--seed needs a value"},
+      {{"study", "quick", "--seed", "1", "--seed", "2"}, "--seed can be given only once"},
+      {{"study", "quick", "--quiet", "--yes=maybe"}, "--yes takes no value"},
+      {{"study", "quick", "--shard", "4/3"}, "--shard must be I/N"},
+      {{"analyze", "x", "--model", "y", "--count", "--ordinal"}, "--count cannot be combined with --ordinal"},
       {{"study", "quick", "-j", "9999"}, "--threads must be an integer from 1 to 1024, not '9999'"},
       {{"study", "quick", "--progress", "qqqqqq"}, "one of: auto, bar, json, none"},
   };
