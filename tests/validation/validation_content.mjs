@@ -23,7 +23,7 @@ const COMMON = 'common - the others: common - individual-low - individual-high -
 const teamsOnly = 'record.level="team"';
 
 export const COMMANDS = {
-  version: ['version', '--json'],
+  version: ['version'],
   facts: ['inspect', 'item-delivery', '--show', 'demos', '--json'],
   large: study('studies/paper.toml', 'replicates=500'),
   small: study('studies/paper.toml', teamsOnly),
@@ -337,7 +337,7 @@ export function makeContent(runs, source) {
   const eta = (outcome, name) => ({ value: term('large', outcome, name).partial_eta_squared, se: (term('large', outcome, name).upper_limit - term('large', outcome, name).lower_limit) / (2 * 1.645) });
   const publishedMean = (outcome, teams) => publishedFigure(outcome, 'mean', teams).value;
   const figures = {
-    version: () => ({ text: runs.json('version').version }),
+    version: () => ({ text: runs.run('version').split(' ')[1] }),
     'misfit.knowledge.group': () => figure(misfit('knowledge', 'mean', 'group'), 1, signed),
     'misfit.knowledge.baseline': () => figure(misfit('knowledge', 'mean', 'baseline'), 1, signed),
     'misfit.periods.group': () => figure(misfit('periods', 'mean', 'group'), 1, signed),

@@ -189,9 +189,6 @@ struct Command {
   std::function<std::function<int(Console&)>(OptionList&)> declare;
 };
 
-/// Of a command without options of its own.
-struct NoOptions {};
-
 /// All commands, in the order of the help.
 class Commands {
  public:
@@ -204,6 +201,11 @@ class Commands {
                       declare(list, *options);
                       return [options, run](Console& console) { return run(*options, console); };
                     }});
+  }
+  /// Without options of its own.
+  void add(const std::string& name, const std::string& summary, const std::vector<std::string>& examples,
+           int (*run)(Console&)) {
+    all_.push_back({name, summary, examples, [run](OptionList&) { return run; }});
   }
   [[nodiscard]] const std::vector<Command>& all() const noexcept { return all_; }
 

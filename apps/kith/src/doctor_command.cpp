@@ -4,6 +4,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,11 +14,11 @@
 #include "command.hpp"
 #include "exit_codes.hpp"
 #include "kith/core/error.hpp"
-#include "kith/present/json.hpp"
+#include "kith/runs/journal.hpp"
 #include "kith/study/study_file.hpp"
 #include "kith/study/tables.hpp"
 #include "kith_build_info.hpp"
-#include "libraries.hpp"
+#include "mpi_ranks.hpp"
 
 namespace kith::cli {
 namespace {
@@ -30,10 +32,13 @@ struct Checkup {
 };
 
 Checkup check_build() {
-  std::string libraries;
-  for (const auto& library : library_versions()) libraries += ", " + library.name + " " + library.version;
-  return {"version", Health::kGood,
-          fmt::format("{} ({}), {}{}", build_info::kVersion, build_info::kGitId, build_info::kCompiler, libraries)};
+  return {
+      "version", Health::kGood,
+      fmt::format("{} ({}), {}, Eigen {}.{}.{}, nlohmann-json {}.{}.{}, fmt {}.{}.{}, CLI11 {}, SQLite {}, MPI {}",
+                  build_info::kVersion, build_info::kGitId, build_info::kCompiler, EIGEN_WORLD_VERSION,
+                  EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                  NLOHMANN_JSON_VERSION_PATCH, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100,
+                  CLI11_VERSION, journal_library_version(), mpi_version())};
 }
 
 Checkup check_processor() {
@@ -111,21 +116,14 @@ const char* word_of(Health health) {
   return health == Health::kGood ? "ok" : health == Health::kWarning ? "warning" : "failed";
 }
 
-int run_doctor(const NoOptions& /*options*/, Console& console) {
+int run_doctor(Console& console) {
   const std::vector<Checkup> checkups{check_build(), check_processor(), check_file_system(), check_space(),
                                       check_self()};
   bool good = true;
-  Json checks = Json::array();
   TextTable table{"lll"};
   for (const auto& checkup : checkups) {
     good = good && checkup.health != Health::kBad;
-    checks.push_back({{"name", checkup.name}, {"status", word_of(checkup.health)}, {"text", checkup.text}});
     table.add({word_of(checkup.health), checkup.name, checkup.text});
-  }
-  if (console.json()) {
-    if (!good) throw Error{ErrorKind::kMismatch, "this machine does not run kith as it should; see kith doctor"};
-    console.print_json(Json{{"schema", "kith.doctor/1"}, {"healthy", good}, {"checks", checks}});
-    return 0;
   }
   console.print(table.text(console, false));
   return good ? 0 : exit_code(ErrorKind::kMismatch);
@@ -134,9 +132,7 @@ int run_doctor(const NoOptions& /*options*/, Console& console) {
 }  // namespace
 
 void add_doctor(Commands& commands) {
-  commands.add<NoOptions>(
-      "doctor", "Check that this machine can run kith", {"kith doctor", "kith doctor --json"},
-      [](OptionList& list, NoOptions&) { list.json(); }, run_doctor);
+  commands.add("doctor", "Check that this machine can run kith", {"kith doctor"}, run_doctor);
 }
 
 }  // namespace kith::cli

@@ -1,17 +1,14 @@
 // What an error id means: the tables of docs/errors.md, which are the registry of ids. And what kinds there are.
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
-#include "build_facts.hpp"
 #include "command.hpp"
 #include "error_page.hpp"
 #include "kind_lists.hpp"
 #include "kith/core/diagnostic.hpp"
 #include "kith/core/error.hpp"
-#include "kith/present/json.hpp"
 #include "kith/present/wrapped.hpp"
 
 namespace kith::cli {
@@ -93,15 +90,6 @@ std::vector<ErrorEntry> error_entries() {
   return entries;
 }
 
-Json entry_json(const ErrorEntry& entry) {
-  return {{"id", entry.id},
-          {"severity", entry.id.front() == 'W' ? "warning" : "error"},
-          {"infeasible", entry.infeasible},
-          {"meaning", entry.meaning},
-          {"example", entry.example},
-          {"section", entry.section}};
-}
-
 std::string entry_text(const ErrorEntry& entry, const Console& console) {
   constexpr std::size_t kIndent = 9;
   const std::string blank(kIndent, ' ');
@@ -114,18 +102,9 @@ std::string entry_text(const ErrorEntry& entry, const Console& console) {
          field("example", entry.example) + field("about", entry.section);
 }
 
-void print_kinds(const KindList& list, Console& console) {
-  if (console.json()) {
-    console.print_json({{"schema", "kith.explain/1"}, {"program", program_name()}, {list.topic, to_json(list)}});
-  } else {
-    console.print(to_text(list, console));
-  }
-}
-
 void declare(OptionList& list, ExplainOptions& options) {
   list.text("topic", options.id, "TOPIC",
             "An id, such as E0207, or learners, strategies or beliefs; without one, all ids are listed");
-  list.json();
 }
 
 int run(const ExplainOptions& options, Console& console) {
@@ -133,22 +112,15 @@ int run(const ExplainOptions& options, Console& console) {
   const auto topic =
       std::find_if(kinds.begin(), kinds.end(), [&](const auto& list) { return list.topic == options.id; });
   if (topic != kinds.end()) {
-    print_kinds(*topic, console);
+    console.print(to_text(*topic, console));
     return 0;
   }
   const auto entries = error_entries();
   if (options.id.empty()) {
-    Json all = Json::array();
     std::string text;
-    for (const auto& entry : entries) {
-      all.push_back(entry_json(entry));
+    for (const auto& entry : entries)
       text += entry.id + "  " + wrapped(entry.meaning, kTextWidth - 7, "       ") + "\n";
-    }
-    if (console.json()) {
-      console.print_json({{"schema", "kith.explain/1"}, {"program", program_name()}, {"errors", all}});
-    } else {
-      console.print(text);
-    }
+    console.print(text);
     return 0;
   }
   auto id = options.id;
@@ -160,19 +132,11 @@ int run(const ExplainOptions& options, Console& console) {
     for (const auto& list : kinds) known.emplace_back(list.topic);
     const auto by_id = nearest_word(id, known);
     const auto nearest = by_id.empty() ? nearest_word(options.id, known) : by_id;
-    Diagnostic diagnostic;
-    diagnostic.id = "usage";
-    diagnostic.message = "kith has no error or warning '" + options.id + "'";
-    diagnostic.hint = nearest.empty() ? "`kith explain` lists all ids; learners, strategies and beliefs are topics"
-                                      : "did you mean '" + nearest + "'?";
-    throw Error{ErrorKind::kUsage, diagnostic.message, {diagnostic}};
+    refuse("kith has no error or warning '" + options.id + "'",
+           nearest.empty() ? "`kith explain` lists all ids; learners, strategies and beliefs are topics"
+                           : "did you mean '" + nearest + "'?");
   }
-  if (console.json()) {
-    console.print_json(
-        {{"schema", "kith.explain/1"}, {"program", program_name()}, {"errors", Json::array({entry_json(*found)})}});
-  } else {
-    console.print(entry_text(*found, console));
-  }
+  console.print(entry_text(*found, console));
   return 0;
 }
 
@@ -180,8 +144,7 @@ int run(const ExplainOptions& options, Console& console) {
 
 void add_explain(Commands& commands) {
   commands.add<ExplainOptions>("explain", "Say what an error id means, or list kinds and their parameters",
-                               {"kith explain E0207", "kith explain strategies", "kith explain learners --json"},
-                               declare, run);
+                               {"kith explain E0207", "kith explain strategies"}, declare, run);
 }
 
 }  // namespace kith::cli

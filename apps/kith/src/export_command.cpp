@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/file_set.hpp"
-#include "kith/present/json.hpp"
 
 namespace kith::cli {
 namespace {
@@ -41,7 +39,6 @@ void declare(OptionList& list, ExportOptions& options) {
   list.text("-o,--out", options.out, "FILE",
             "File to write (default: '-', stdout), or with prism what the names of all files begin with");
   list.flag("--yes", options.yes, "Replace existing files");
-  list.json();
 }
 
 int run(const ExportOptions& options, Console& console) {
@@ -52,7 +49,6 @@ int run(const ExportOptions& options, Console& console) {
   const bool to_stdout = options.out.empty() || options.out == "-";
   if (to_stdout && format == ModelFormat::kPrism)
     refuse("PRISM's format is several files; say what their names begin with: -o PREFIX");
-  if (to_stdout && console.json()) refuse("with --json the model needs a file: -o FILE");
   const fs::path out{to_stdout ? domain.id() + ".json" : options.out};
   if (out.filename().empty()) refuse("-o names a folder; add the name of the file");
   std::error_code ignored;
@@ -76,20 +72,8 @@ int run(const ExportOptions& options, Console& console) {
     for (const auto& file : files) set.write(file.name, file.text);
     set.commit();
   }
-  Json written = Json::array();
-  for (const auto& file : files) {
-    const auto path = out.parent_path() / file.name;
-    written.push_back(path.string());
-    if (!console.json() && !console.quiet()) console.print("wrote " + path.string() + "\n");
-  }
-  if (console.json()) {
-    console.print_json(Json{{"schema", "kith.export/1"},
-                            {"domain", domain.id()},
-                            {"mdp", m.value()},
-                            {"format", options.format},
-                            {"states", domain.mdp(m).num_states() + domain.mdp(m).num_terminals()},
-                            {"files", written}});
-  }
+  if (console.quiet()) return 0;
+  for (const auto& file : files) console.print("wrote " + (out.parent_path() / file.name).string() + "\n");
   return 0;
 }
 

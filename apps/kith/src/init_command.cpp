@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "input.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/file_set.hpp"
-#include "kith/present/json.hpp"
 #include "templates.hpp"
 
 namespace kith::cli {
@@ -38,7 +36,6 @@ void declare(OptionList& list, InitOptions& options) {
   list.text("folder", options.folder, "DIR", "Where to write them");
   list.word("--template", options.template_name, "NAME", {"item-delivery", "blank", "human-study"},
             "What to start from");
-  list.json();
 }
 
 int run(const InitOptions& options, Console& console) {
@@ -55,15 +52,6 @@ int run(const InitOptions& options, Console& console) {
   for (const auto& file : files) set.write(file.name, file.content);
   set.commit();
 
-  if (console.json()) {
-    Json names = Json::array();
-    for (const auto& file : files) names.push_back(file.name);
-    console.print_json({{"schema", "kith.init/1"},
-                        {"folder", folder.string()},
-                        {"template", options.template_name},
-                        {"files", names}});
-    return 0;
-  }
   std::string names;
   for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.name;
   const auto enter = folder == "." ? std::string{} : "  cd " + folder.string() + "\n";

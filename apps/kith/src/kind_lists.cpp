@@ -2,7 +2,6 @@
 #include "kind_lists.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "kith/belief/aggregation.hpp"
 #include "kith/learners/learner_model.hpp"
@@ -11,8 +10,6 @@
 
 namespace kith::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string type_and_range(const Parameter& parameter) {
   const auto range = range_of(parameter);
@@ -28,18 +25,6 @@ std::string parameter_text(const Parameter& parameter) {
   if (!parameter.source.empty()) meaning += " [" + std::string{parameter.source} + "]";
   const auto value = parameter.is_required ? "required" : "default: " + to_string(parameter.default_value);
   return "    " + std::string{parameter.name} + "\n" + lines(type_and_range(parameter) + "; " + value) + lines(meaning);
-}
-
-Json known(std::string_view text) { return text.empty() ? Json{} : Json(text); }
-
-Json parameter_json(const Parameter& parameter) {
-  return {{"name", parameter.name},
-          {"type", type_of(parameter)},
-          {"range", known(range_of(parameter))},
-          {"default", parameter.is_required ? Json{} : Json(to_string(parameter.default_value))},
-          {"required", parameter.is_required},
-          {"description", parameter.description},
-          {"source", known(parameter.source)}};
 }
 
 }  // namespace
@@ -66,16 +51,6 @@ std::string to_text(const KindList& list, const Console& console) {
                        [](const auto& one) { return !one.source.empty(); });
   });
   return has_source ? text + "\nNames in brackets are keys of docs/references.bib.\n" : text;
-}
-
-Json to_json(const KindList& list) {
-  Json rows = Json::array();
-  for (const auto& row : list.rows) {
-    Json parameters = Json::array();
-    for (const auto& parameter : row.parameters) parameters.push_back(parameter_json(parameter));
-    rows.push_back({{"name", row.name}, {"description", row.description}, {"parameters", std::move(parameters)}});
-  }
-  return rows;
 }
 
 std::string keys_text() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,9 +27,6 @@ struct KindList {
 
 /// Every row with its parameters: name, type, range, default, meaning, source.
 [[nodiscard]] std::string to_text(const KindList& list, const Console& console);
-/// [{"name", "description", "parameters": [{name, type, range, default, required, description, source}]}]; what a
-/// parameter does not have is null.
-[[nodiscard]] nlohmann::ordered_json to_json(const KindList& list);
 /// The names of the rows and of their parameters alone, for the help of commands that take keys of a study.
 [[nodiscard]] std::string keys_text();
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -19,13 +18,12 @@
 #include "kith/hosting/session_export.hpp"
 #include "kith/hosting/session_review.hpp"
 #include "kith/hosting/session_study.hpp"
-#include "kith/present/json.hpp"
 
 namespace kith::cli {
 namespace {
 
 struct SessionOptions {
-  std::string action;  ///< One of session_actions().
+  std::string action;  ///< "list", "show" ...
   std::string folder;
   std::string room;    ///< Id or code; empty: all rooms.
   std::string out;     ///< Folder for tables or for the recovered session.
@@ -56,32 +54,9 @@ std::string state_of(const RoomSummary& room) {
   return room.has_started ? "started" : "lobby";
 }
 
-Json room_json(const RoomSummary& room) {
-  return {{"room", room.id},
-          {"strategy", room.strategy},
-          {"composition", room.composition},
-          {"created_us", room.created_us},
-          {"last_us", room.last_us == 0 ? Json{} : Json(room.last_us)},
-          {"events", room.events},
-          {"joined", room.joined},
-          {"lessons", room.lessons},
-          {"answers", room.answers},
-          {"started", room.has_started},
-          {"ended", room.ended.empty() ? Json{} : Json(room.ended)}};
-}
-
 int list(const SessionOptions& options, Console& console) {
   auto file = EventFile::read(options.folder);
   const auto rooms = list_rooms(file);
-  if (console.json()) {
-    Json document{{"schema", "kith.session-list/1"}, {"session", file.id()},
-                  {"study", file.identity().study},  {"program", file.identity().program},
-                  {"created_us", file.created_us()}, {"served", is_busy(options.folder)},
-                  {"rooms", Json::array()}};
-    for (const auto& room : rooms) document["rooms"].push_back(room_json(room));
-    console.print_json(document);
-    return 0;
-  }
   if (rooms.empty()) {
     console.print("no rooms\n");
     return 0;
@@ -96,28 +71,27 @@ int list(const SessionOptions& options, Console& console) {
   return 0;
 }
 
+// The room that was named, or the only one.
+StoredRoom room_to_show(EventFile& file, const SessionOptions& options) {
+  if (!options.room.empty()) return find_room(file, options.room);
+  const auto rooms = file.rooms();
+  if (rooms.size() == 1) return rooms.front();
+  throw Error{ErrorKind::kUsage,
+              fmt::format("{} has {}; say which one with --room ID", options.folder, counted(rooms.size(), "room")),
+              "list the rooms with 'kith session list'"};
+}
+
 int show(const SessionOptions& options, Console& console) {
-  if (options.room.empty())
-    throw Error{ErrorKind::kUsage, "kith session show needs --room ID", "list the rooms with 'kith session list'"};
   auto file = EventFile::read(options.folder);
-  const auto stored = find_room(file, options.room);
-  Json events = Json::array();
+  const auto stored = room_to_show(file, options);
   std::string text;
   file.for_each_event(
       [&](const StoredEvent& event) {
-        if (console.json()) {
-          events.push_back(to_json(room_event_of(event)));
-        } else {
-          text += fmt::format("{:>6}  {}  {:<12} {:<12} {}\n", event.seq, time_text(event.at_us), event.actor,
-                              event.type, event.json);
-        }
+        text += fmt::format("{:>6}  {}  {:<12} {:<12} {}\n", event.seq, time_text(event.at_us), event.actor, event.type,
+                            event.json);
       },
       stored.number);
-  if (console.json()) {
-    console.print_json({{"schema", "kith.session-room/1"}, {"room", options.room}, {"events", events}});
-  } else {
-    console.print(text);
-  }
+  console.print(text);
   return 0;
 }
 
@@ -162,16 +136,6 @@ int write_tables(const SessionOptions& options, Console& console) {
       export_session(file, study.study, cache, what,
                      [&](std::string_view name, std::string_view piece) { files.write(std::string{name}, piece); });
   files.commit(former);
-  if (console.json()) {
-    Json rows = Json::object();
-    for (const auto& [name, count] : report.rows) rows[name] = count;
-    console.print_json({{"schema", "kith.session-export/1"},
-                        {"folder", options.out},
-                        {"identified", options.names || options.text},
-                        {"rows", rows},
-                        {"sha256", report.hashes}});
-    return 0;
-  }
   TextTable table{"lr"};
   table.add({"table", "rows"});
   for (const auto& [name, count] : report.rows) table.add({name, std::to_string(count)});
@@ -188,17 +152,11 @@ int replay_rooms(const SessionOptions& options, Console& console) {
   std::vector<StoredRoom> rooms = file.rooms();
   if (!options.room.empty()) rooms = {find_room(file, options.room)};
   std::vector<Diagnostic> problems;
-  Json list = Json::array();
   std::size_t events = 0, lessons = 0;
   for (const auto& stored : rooms) {
     const auto replayed = replay_room(file, stored, study.study, cache);
     events += replayed.events;
     lessons += replayed.lessons;
-    list.push_back({{"room", replayed.id},
-                    {"events", replayed.events},
-                    {"lessons", replayed.lessons},
-                    {"digest", replayed.digest.empty() ? Json{} : Json(replayed.digest)},
-                    {"problem", replayed.problem.empty() ? Json{} : Json(replayed.problem)}});
     if (replayed.problem.empty()) continue;
     Diagnostic problem;
     problem.id = "E1614";
@@ -208,12 +166,8 @@ int replay_rooms(const SessionOptions& options, Console& console) {
     problems.push_back(std::move(problem));
   }
   if (!problems.empty()) throw Error{ErrorKind::kMismatch, counted(problems.size(), "mismatch"), problems};
-  if (console.json()) {
-    console.print_json({{"schema", "kith.session-replay/1"}, {"rooms", list}});
-  } else {
-    console.print(fmt::format("replayed {} with {} and {}: all identical\n", counted(rooms.size(), "room"),
-                              counted(events, "event"), counted(lessons, "lesson")));
-  }
+  console.print(fmt::format("replayed {} with {} and {}: all identical\n", counted(rooms.size(), "room"),
+                            counted(events, "event"), counted(lessons, "lesson")));
   return 0;
 }
 
@@ -224,12 +178,8 @@ int erase_persons(const SessionOptions& options, Console& console) {
   }
   const auto room = options.room.empty() ? std::nullopt : std::optional{options.room};
   const auto changed = redact(options.folder, room, now_us());
-  if (console.json()) {
-    console.print_json({{"schema", "kith.session-redact/1"}, {"events", changed}});
-  } else {
-    console.print(fmt::format("erased what identifies people in {}; backups and exports still hold it\n",
-                              counted(changed, "event")));
-  }
+  console.print(fmt::format("erased what identifies people in {}; backups and exports still hold it\n",
+                            counted(changed, "event")));
   return 0;
 }
 
@@ -237,16 +187,8 @@ int salvage(const SessionOptions& options, Console& console) {
   if (options.out.empty())
     throw Error{ErrorKind::kUsage, "kith session salvage needs -o DIR, the folder for the recovered session"};
   const auto report = salvage_session(options.folder, options.out);
-  if (console.json()) {
-    console.print_json({{"schema", "kith.session-salvage/1"},
-                        {"rooms", report.rooms},
-                        {"events", report.events},
-                        {"links", report.links},
-                        {"lost", report.lost}});
-  } else {
-    console.print(fmt::format("recovered {} and {} in {}\n", counted(report.rooms, "room"),
-                              counted(report.events, "event"), options.out));
-  }
+  console.print(fmt::format("recovered {} and {} in {}\n", counted(report.rooms, "room"),
+                            counted(report.events, "event"), options.out));
   for (const auto& lost : report.lost) console.warning("missing: " + lost);
   return report.lost.empty() ? 0 : 6;
 }
@@ -260,7 +202,6 @@ void declare(OptionList& list, SessionOptions& options) {
   list.flag("--names", options.names, "Export names, query parameters and completion codes, too");
   list.flag("--text", options.text, "Export what people wrote in their own words, too");
   list.flag("--yes", options.yes, "Replace an existing export; with redact: erase for good");
-  list.json();
 }
 
 int run(const SessionOptions& options, Console& console) {

@@ -85,10 +85,7 @@ void say_how_long(const Study& study, const Domain& domain, std::size_t threads,
 
 int dry_run(const Study& study, std::size_t teams, Console& console) {
   const auto& spec = study.variants.front();
-  if (console.json()) {
-    print_plan(study, teams, console);
-    return 0;
-  }
+  if (console.json()) refuse("kith study --dry-run prints no JSON");
   console.print(
       fmt::format("study {}: {} in {}, seed {}\n  {} x {} x {} x {}\nNothing was run.\n", spec.id,
                   counted(teams, "team"), spec.domain, spec.seed, counted(study.variants.size(), "variant"),

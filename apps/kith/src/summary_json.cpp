@@ -61,19 +61,4 @@ void print_summary(const Study& study, const StudySummary& summary, std::size_t 
                           {"seconds", seconds}});
 }
 
-void print_plan(const Study& study, std::size_t teams, Console& console) {
-  const auto& spec = study.variants.front();
-  Json strategies = Json::array();
-  for (const auto& strategy : spec.strategies) strategies.push_back(strategy.name);
-  console.print_json(Json{{"schema", "kith.study-plan/1"},
-                          {"id", spec.id},
-                          {"domain", spec.domain},
-                          {"seed", spec.seed},
-                          {"variants", study.variants.size()},
-                          {"strategies", strategies},
-                          {"compositions", spec.compositions},
-                          {"replicates", spec.replicates},
-                          {"teams", teams}});
-}
-
 }  // namespace kith::cli

@@ -10,7 +10,4 @@ namespace kith::cli {
 void print_summary(const Study& study, const StudySummary& summary, std::size_t teams,
                    const std::vector<std::string>& failed, double seconds, Console& console);
 
-/// Prints the document kith.study-plan/1: what would be run.
-void print_plan(const Study& study, std::size_t teams, Console& console);
-
 }  // namespace kith::cli

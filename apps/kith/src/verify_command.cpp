@@ -2,14 +2,12 @@
 
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "build_facts.hpp"
 #include "command.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
-#include "kith/present/json.hpp"
 #include "kith/runs/journal.hpp"
 #include "kith/runs/run_folder.hpp"
 #include "kith/runs/verify.hpp"
@@ -32,7 +30,6 @@ void declare(OptionList& list, VerifyCommandOptions& options) {
               "Share of the teams to rerun, above 0, at most 1");
   list.threads(options.threads);
   list.progress(options.progress);
-  list.json();
 }
 
 int run(const VerifyCommandOptions& options, Console& console) {
@@ -62,14 +59,6 @@ int run(const VerifyCommandOptions& options, Console& console) {
   }
   if (result.stopped) {
     throw Error{ErrorKind::kPartial, fmt::format("interrupted after {} teams, all identical", result.checked)};
-  }
-  if (console.json()) {
-    console.print_json(Json{{"schema", "kith.verify/1"},
-                            {"teams", result.teams},
-                            {"checked", result.checked},
-                            {"files", result.files},
-                            {"program", result.program}});
-    return 0;
   }
   console.print(fmt::format("reran {} of {}, compared {}: all identical\n", result.checked,
                             counted(result.teams, "team"), counted(result.files, "file")));

@@ -195,15 +195,22 @@ TEST(CommandLine, EndsQuietlyWhenItsReaderGoesAway) {
   EXPECT_EQ(text_of(scratch / "err"), "");
 }
 
-TEST(Version, NamesTheBuildInTextAndJson) {
+TEST(CommandLine, SaysWhereThereIsNoJson) {
+  const std::vector<std::vector<std::string>> commands{
+      {"session", "list", "x"}, {"study", "quick", "--dry-run"}, {"init"}, {"version"}};
+  for (const auto& arguments : commands) {
+    auto with_json = arguments;
+    with_json.emplace_back("--json");
+    const auto ran = run_kith(with_json);
+    EXPECT_EQ(ran.code, 2) << ran.out;
+    EXPECT_THAT(ran.out, HasSubstr("prints no JSON"));
+  }
+}
+
+TEST(Version, NamesTheBuild) {
   const auto text = run_kith({"--version"});
   EXPECT_EQ(text.code, 0);
-  EXPECT_THAT(text.out, StartsWith("kith "));
-  const auto document = Json::parse(run_kith({"--version", "--json"}).out);
-  EXPECT_EQ(document.at("schema"), "kith.version/1");
-  for (const auto* key : {"version", "git", "dirty", "compiler", "build_type", "flags", "libraries"}) {
-    EXPECT_TRUE(document.contains(key)) << key;
-  }
+  EXPECT_THAT(text.out, ::testing::MatchesRegex("kith [0-9.]+ \\(.+, GNU .+, .+\\)\n"));
 }
 
 TEST(Completion, WritesAScriptThatMentionsEverything) {
@@ -231,9 +238,7 @@ TEST(Doctor, FindsThisMachineHealthy) {
   const auto ran = run_kith({"doctor"});
   EXPECT_EQ(ran.code, 0) << ran.out;
   EXPECT_THAT(ran.out, HasSubstr("self-test"));
-  const auto document = Json::parse(run_kith({"doctor", "--json"}).out);
-  EXPECT_EQ(document.at("schema"), "kith.doctor/1");
-  EXPECT_EQ(document.at("healthy"), true);
+  EXPECT_THAT(ran.out, HasSubstr("CLI11 "));
 }
 
 TEST(Validate, AcceptsStudiesAndDomains) {

@@ -163,7 +163,7 @@ TEST(StandardStreams, ThatAreClosedAreErrorsWhereTheyAreNeeded) {
 }
 
 TEST(Json, ThatCannotBeWrittenIsAnErrorInWords) {
-  const auto ran = run_kith({"version", "--json"}, {.out_to = "/dev/full"});
+  const auto ran = run_kith({"curriculum", "item-delivery", "--json"}, {.out_to = "/dev/full"});
   EXPECT_EQ(ran.code, 5);
   EXPECT_THAT(ran.err, HasSubstr("kith: error: cannot write to standard output: No space left on device"));
   const auto wrong = run_kith({"inspect", "item-delivry", "--json"}, {.out_to = "/dev/full"});

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "run_kith.hpp"
@@ -148,12 +149,10 @@ TEST_F(Model, IsExported) {
   const auto text = run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "gym-json"});
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_EQ(Json::parse(text.out).at("title"), "icy-crossing, MDP 1 (wet ice)");
-  const auto ran = run_kith(
-      {"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet", "--json"});
+  const auto ran =
+      run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  const auto document = Json::parse(ran.out);
-  EXPECT_EQ(document.at("schema"), "kith.export/1");
-  EXPECT_EQ(document.at("files").size(), 7u);
+  EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), '\n'), 7) << ran.out;
   EXPECT_EQ(run_kith({"validate", scratch_ / "wet.toml"}).code, 0);
   const auto again =
       run_kith({"export", scratch_ / "icy_crossing.toml", "--mdp", "1", "--to", "prism", "-o", scratch_ / "wet"});

@@ -258,9 +258,8 @@ TEST(StatusCommand, KnowsAFinishedRun) {
 TEST(VerifyCommand, FindsTheSameBytesOrSaysWhereTheyDiffer) {
   const Scratch scratch;
   ASSERT_EQ(run_kith(small_study(scratch / "run")).code, 0);
-  const auto good = Json::parse(run_kith({"verify", scratch / "run", "--json"}).out);
-  EXPECT_EQ(good.at("schema"), "kith.verify/1");
-  EXPECT_EQ(good.at("checked"), kTeams);
+  EXPECT_THAT(run_kith({"verify", scratch / "run"}).out,
+              HasSubstr("reran " + std::to_string(kTeams) + " of " + std::to_string(kTeams) + " teams"));
   std::ofstream{scratch / "run/tables/teams.csv", std::ios::app} << "x\n";
   const auto bad = run_kith({"verify", scratch / "run"});
   EXPECT_EQ(bad.code, 7);
