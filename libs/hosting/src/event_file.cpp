@@ -150,7 +150,7 @@ EventFile EventFile::open(const fs::path& folder, const StoreIdentity& identity,
       return make(folder, identity, beside ? beside->id : new_store_id(), now_us);
     }
     if (!kith::is_sound(database)) refuse_damaged(path, "SQLite's check of the file fails");
-    migrate(database, kVersion, migrations());
+    require_version(database);
     const auto facts = from_meta(read_meta(database));
     if (!facts) refuse_damaged(path, "its description has a wrong checksum");
     if (facts->identity.study != identity.study) refuse_other_study(path);
@@ -171,7 +171,7 @@ EventFile EventFile::read(const fs::path& folder) {
     // Beside a writer the file alone is not enough, even if it has no log yet.
     Database database{path, is_busy(folder) ? Database::Mode::kWrite : Database::Mode::kRead};
     database.execute("PRAGMA query_only = ON");
-    if (version_of(database) != kVersion) migrate(database, kVersion, {});
+    require_version(database);
     database.execute("BEGIN");
     const auto facts = from_meta(read_meta(database));
     if (!facts) refuse_damaged(path, "its description has a wrong checksum");

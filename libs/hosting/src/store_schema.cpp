@@ -1,7 +1,5 @@
 #include "store_schema.hpp"
 
-#include <algorithm>
-
 #include "kith/files/published_run.hpp"
 #include "kith/files/sqlite_pages.hpp"
 
@@ -20,15 +18,7 @@ constexpr const char* kTables =
     "CREATE TABLE token(hash BLOB NOT NULL, role TEXT NOT NULL, room INTEGER NOT NULL, seat INTEGER NOT NULL,"
     " expires_us INTEGER NOT NULL, revoked INTEGER NOT NULL, checksum BLOB NOT NULL, UNIQUE(hash)) STRICT;";
 
-std::string quoted(const std::string& text) {
-  std::string sql{"'"};
-  for (const char c : text) sql += c == '\'' ? std::string{"''"} : std::string{c};
-  return sql + "'";
-}
-
 }  // namespace
-
-std::span<const Migration> migrations() { return {}; }
 
 void prepare_connection(Database& database) {
   database.execute(
@@ -50,36 +40,14 @@ bool is_empty(Database& database) {
   return tables.step() && tables.integer(0) == 0;
 }
 
-int version_of(Database& database) {
+void require_version(Database& database) {
   auto version = database.prepare("PRAGMA user_version");
-  return version.step() ? static_cast<int>(version.integer(0)) : 0;
-}
-
-void migrate(Database& database, int version, std::span<const Migration> steps) {
-  const int found = version_of(database);
-  if (found == version) return;
-  const auto has_step = [&](int from) {
-    return std::any_of(steps.begin(), steps.end(), [&](const Migration& step) { return step.from == from; });
-  };
-  bool possible = found < version;
-  for (int from = found; possible && from < version; ++from) possible = has_step(from);
-  if (!possible) {
-    refuse_run(ErrorKind::kUsage, "E1613", database.path(),
-               "the session was written by another version of kith (its file has version " + std::to_string(found) +
-                   ", this program reads version " + std::to_string(version) + ")",
-               "use the version of kith that made it, or another folder");
-  }
-  const auto backup = database.path().string() + ".v" + std::to_string(found) + ".bak";
-  std::filesystem::remove(backup);
-  database.execute("VACUUM INTO " + quoted(backup));
-  database.transaction([&] {
-    for (int from = found; from < version; ++from) {
-      for (const auto& step : steps) {
-        if (step.from == from) database.execute(step.sql);
-      }
-    }
-    database.execute("PRAGMA user_version = " + std::to_string(version));
-  });
+  const auto found = version.step() ? version.integer(0) : 0;
+  if (found == EventFile::kVersion) return;
+  refuse_run(ErrorKind::kUsage, "E1613", database.path(),
+             "the session was written by another version of kith (its file has version " + std::to_string(found) +
+                 ", this program reads version " + std::to_string(EventFile::kVersion) + ")",
+             "use the version of kith that made it, or another folder");
 }
 
 bool is_sound(Database& database) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../src/store_schema.hpp"
+#include "kith/files/sqlite.hpp"
 #include "store_support.hpp"
 
 namespace kith {
@@ -135,38 +135,6 @@ TEST(EventFile, LeavesNothingOfARewrittenTextBehind) {
   }
   for (const auto& entry : std::filesystem::directory_iterator{scratch.path()})
     EXPECT_EQ(read_file(entry.path()).find("Quackenbush"), std::string::npos) << entry.path();
-}
-
-TEST(EventFile, ConvertsOlderFilesAfterCopyingThem) {
-  const ScratchFolder scratch;
-  const auto path = scratch.path() / "old.sqlite";
-  Database database{path, Database::Mode::kMake};
-  database.execute("CREATE TABLE t(x INTEGER) STRICT; INSERT INTO t VALUES (1); PRAGMA user_version = 3");
-  const std::vector<Migration> steps{{.from = 4, .sql = "UPDATE t SET x = x * 10"},
-                                     {.from = 3, .sql = "UPDATE t SET x = x + 1"}};
-  migrate(database, 5, steps);
-  EXPECT_EQ(version_of(database), 5);
-  auto value = database.prepare("SELECT x FROM t");
-  ASSERT_TRUE(value.step());
-  EXPECT_EQ(value.integer(0), 20);
-  Database backup{path.string() + ".v3.bak", Database::Mode::kRead};
-  EXPECT_EQ(version_of(backup), 3);
-  auto old = backup.prepare("SELECT x FROM t");
-  ASSERT_TRUE(old.step());
-  EXPECT_EQ(old.integer(0), 1);
-}
-
-TEST(EventFile, ChangesNothingIfAConversionFails) {
-  const ScratchFolder scratch;
-  Database database{scratch.path() / "old.sqlite", Database::Mode::kMake};
-  database.execute("CREATE TABLE t(x INTEGER) STRICT; INSERT INTO t VALUES (1); PRAGMA user_version = 3");
-  const std::vector<Migration> steps{{.from = 3, .sql = "UPDATE t SET x = 2"},
-                                     {.from = 4, .sql = "UPDATE nowhere SET x = 3"}};
-  EXPECT_THROW(migrate(database, 5, steps), Error);
-  EXPECT_EQ(version_of(database), 3);
-  auto value = database.prepare("SELECT x FROM t");
-  ASSERT_TRUE(value.step());
-  EXPECT_EQ(value.integer(0), 1);
 }
 
 }  // namespace
