@@ -1,4 +1,4 @@
-// Writes the table of false-positive rates into docs/analysis.md, or checks that it is what the tests compute.
+// Writes the table of libs/analysis/tests/README.md, or checks that it is what the tests compute.
 //
 //   node tests/validation/error_rates.mjs KITH_ANALYSIS_TESTS --write
 //   node tests/validation/error_rates.mjs KITH_ANALYSIS_TESTS --check
@@ -25,4 +25,4 @@ function tableOf(lines) {
   };
 }
 
-updateTestTable({ name: 'false-positives', filter: 'FalsePositivesSlow.*', property: 'rates', tableOf });
+updateTestTable({ name: 'false-positives', file: 'libs/analysis/tests/README.md', filter: 'FalsePositivesSlow.*', property: 'rates', tableOf });

@@ -13,7 +13,7 @@ const ROBOTS = {
   warehouse: 'warehouse',
 };
 const BUILT_IN = ['warehouse'];
-const STRATEGIES = ['plan', 'joint', 'common', 'baseline'];
+const STRATEGIES = ['plan', 'joint', 'baseline'];
 const SOON = 30; // periods
 
 // What a robot that can be taught has to meet.

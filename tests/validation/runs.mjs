@@ -50,14 +50,6 @@ export class Runs {
     return commandLine(this.commands[name]);
   }
 
-  // Rows of the table that lists the commands.
-  commandTable() {
-    return {
-      columns: ['run', 'command'],
-      rows: Object.keys(this.commands).map((name) => [name, `\`${this.commandLine(name)}\``]),
-    };
-  }
-
   directory(name) {
     return join(this.folder, name.replace(/ /g, '-'));
   }

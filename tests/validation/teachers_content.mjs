@@ -36,9 +36,7 @@ const KNOWN = [
 const SESSIONS = {
   together: [],
   'together, `release = "posterior"`': ['stop.release="posterior"'],
-  'together, `release = "all-right"`': ['stop.release="all-right"'],
   '`by-type`': ['teacher.grouping="by-type"'],
-  '`by-type`, `release = "posterior"`': ['teacher.grouping="by-type"', 'stop.release="posterior"'],
 };
 const CREWS = { NNPP: TEACHERS, LLHH: MIXED };
 
@@ -50,7 +48,6 @@ export const COMMANDS = {
   'stop of the paper': study(TEACHERS, PAPER_STOP),
   'stop of the paper, two demonstrations': study(TEACHERS, only('plan'), PAPER_STOP, TWO_DEMONSTRATIONS),
   'mixed abilities': study(MIXED),
-  'mixed abilities, bank alone': study(MIXED, only('adaptive'), 'strategy.adaptive.answers=0'),
   'mixed abilities, equally many items': study(MIXED, HUNDRED, only(...PLANNERS), ...EQUALLY_MANY),
   'mixed abilities, equally many items, blind': study(MIXED, HUNDRED, only('adaptive'), ...EQUALLY_MANY, ...BLIND),
   'mixed abilities, equally many items, bank alone': study(MIXED, HUNDRED, only('adaptive'), ...EQUALLY_MANY, 'strategy.adaptive.answers=0'),
@@ -60,7 +57,6 @@ export const COMMANDS = {
   ...Object.fromEntries([0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...ESTIMATES, ...POSTERIOR(p))])),
   known: study(TEACHERS, only('joint', ...PLANNERS), ...KNOWN, ...ESTIMATES),
   'known, blind': study(TEACHERS, only('adaptive'), ...KNOWN.filter((one) => !one.startsWith('teacher.hypotheses')), ...BLIND),
-  'known, bank alone': study(TEACHERS, only('adaptive'), ...KNOWN, 'strategy.adaptive.answers=0'),
   'known, placement tests': study(TEACHERS, only('adaptive'), ...KNOWN, 'teacher.placement_tests=4'),
   ...Object.fromEntries(
     Object.entries(CREWS).flatMap(([crew, file]) =>
@@ -84,8 +80,6 @@ export const COMMANDS = {
   'capacity 2, review': study(TEACHERS, FEW, only('joint'), 'teacher.review=true', ...TAKE_IN_TWO),
   'capacity 2, planned for': study(TEACHERS, FEW, only(...PLANNERS), ...TAKE_IN_TWO, ...PLAN_FOR_TWO),
   'planned for capacity 2 in vain': study(TEACHERS, FEW, only('plan'), 'strategy.plan.capacity=2'),
-  'capacity 2, stop of the paper': study(TEACHERS, FEW, only('joint', 'plan'), PAPER_STOP, ...TAKE_IN_TWO),
-  'capacity 2, stop of the paper, planned for': study(TEACHERS, FEW, only('plan'), PAPER_STOP, ...TAKE_IN_TWO, ...PLAN_FOR_TWO),
   'capacity 2, mixed abilities, planned for': study(MIXED, FEW, only(...PLANNERS), ...MIXED_TAKE_IN_TWO, ...PLAN_FOR_TWO),
 };
 
@@ -94,9 +88,7 @@ const MEASURES = {
   periods: [(team) => team.periods, 2],
   regret: [(team) => team.exam_regret, 4],
   'share right': [(team) => team.exam_share_right, 4],
-  'of the worst member': [(team) => team.exam_worst_share_right, 4],
   p_BEC: [(team) => team.knowledge, 3],
-  'least p_BEC of a team': [(team) => team.knowledge_min, 3],
   'person periods': [(team) => team.person_periods, 1],
   items: [(team) => team.demonstrations + team.tests, 1],
 };
@@ -125,17 +117,6 @@ export function makeContent(runs) {
 
   // `joint` needs nine periods for the items that the others, with three demonstrations per lesson, have in six.
   const runOfFewItems = (domain, strategy) => (strategy === 'joint' ? `rivals, ${domain}` : `rivals in six periods, ${domain}`);
-  const compareRivals = (runOf) => ({
-    columns: ['domain', 'strategy', 'share right', 'of the worst member', 'regret', 'p_BEC', 'items'],
-    rows: DOMAINS.flatMap((domain) =>
-      RIVALS.map((strategy) => [
-        domain,
-        `\`${strategy}\``,
-        ...['share right', 'of the worst member', 'regret', 'p_BEC', 'items'].map((measure) => cell(runOf(domain, strategy), strategy, measure)),
-      ]),
-    ),
-  });
-
   // Rows about people: {type, ability, ability_mean, ...} after a period.
   const people = (run, period) => runs.table(run, 'estimates').filter((row) => row.kc === '' && row.period === period);
   const abilities = (run, period, [low, high]) => {
@@ -176,16 +157,10 @@ export function makeContent(runs) {
   };
   const sureForecasts = () => forecasts().filter(({ forecast }) => forecast >= 0.9);
   const lowForecasts = () => forecasts().filter(({ forecast }) => forecast < 0.1);
-  // What the teacher says about who knew a component. Who did begins with 0.43 to 0.54 of the belief in its constraints, others
-  // with at most 0.12.
-  const knowers = (period) =>
-    runs.table('known', 'estimates').filter((row) => row.strategy === 'adaptive' && row.kc !== '' && row.p_knew !== '' && row.period === period);
 
   const tables = {
-    commands: () => runs.commandTable(),
-
     lessons: () =>
-      table('strategy', ['regret', 'p_BEC', 'least p_BEC of a team', 'items'], [
+      table('strategy', ['regret', 'p_BEC', 'items'], [
         ...named('lessons', [...PAPER, 'pick', ...PLANNERS]),
         ...PLANNERS.map((strategy) => [`\`${strategy}\`, two demonstrations per lesson`, 'two demonstrations', strategy]),
         ['`joint` in six periods', 'six periods', 'joint'],
@@ -193,35 +168,6 @@ export function makeContent(runs) {
         ['`joint` with `review`', 'review', 'joint'],
         ['`pick` with `review`', 'review', 'pick'],
       ]),
-
-    stop: () =>
-      table('strategy', ['periods', 'regret', 'p_BEC', 'items'], [
-        ...named('stop of the paper', [...PAPER, 'pick', ...PLANNERS]),
-        ['`plan`, two demonstrations per lesson', 'stop of the paper, two demonstrations', 'plan'],
-      ]),
-
-    mixed: () => ({
-      columns: ['strategy', ...['LLH', 'LLLHHH'].flatMap((composition) => [`${composition}: regret`, `${composition}: p_BEC`])],
-      rows: [
-        ...named('mixed abilities', ['joint', ...PLANNERS]),
-        ['`adaptive` with the bank alone (`answers = 0`)', 'mixed abilities, bank alone', 'adaptive'],
-      ].map(([label, run, strategy]) => [
-        label,
-        ...['LLH', 'LLLHHH'].flatMap((composition) => ['regret', 'p_BEC'].map((measure) => cell(run, strategy, measure, composition))),
-      ]),
-    }),
-
-    'mixed-equal': () => ({
-      columns: ['strategy', ...['LLH', 'LLLHHH'].flatMap((composition) => [`${composition}: regret`, `${composition}: p_BEC`, 'items'])],
-      rows: [
-        ['one average person, no answers', 'mixed abilities, equally many items, blind', 'adaptive'],
-        ['the bank alone', 'mixed abilities, equally many items, bank alone', 'adaptive'],
-        ...named('mixed abilities, equally many items', PLANNERS),
-      ].map(([label, run, strategy]) => [
-        label,
-        ...['LLH', 'LLLHHH'].flatMap((composition) => ['regret', 'p_BEC', 'items'].map((measure) => cell(run, strategy, measure, composition))),
-      ]),
-    }),
 
     abilities: () => ({
       columns: ['people', 'after periods', 'correlation', 'AUC', '80 % intervals cover', 'told', 'of these, correctly'],
@@ -245,43 +191,16 @@ export function makeContent(runs) {
       ]),
     }),
 
-    forecasts: () => ({
-      columns: ['strategy', 'composition', 'forecast periods', 'central 80 %', 'periods', 'teams within'],
-      rows: FORECAST.flatMap((strategy) =>
-        ['NNN', 'NPP'].map((composition) => {
-          const teams = teamsOf('forecasts', strategy, composition);
-          const { forecast_periods: forecast, forecast_periods_low: low, forecast_periods_high: high } = teams[0];
-          const within = teams.filter((team) => team.periods >= low && team.periods <= high).length;
-          const periods = teams.map((team) => team.periods);
-          return [
-            `\`${strategy}\``, composition, forecast.toFixed(2), `${low} to ${high}`,
-            withError({ value: mean(periods), se: errorOfMean(periods) }, 2), withError(share(within, teams.length), 2),
-          ];
-        }),
+    rivals: () => ({
+      columns: ['domain', 'strategy', 'share right', 'regret', 'items'],
+      rows: DOMAINS.flatMap((domain) =>
+        RIVALS.map((strategy) => [
+          domain,
+          `\`${strategy}\``,
+          ...['share right', 'regret', 'items'].map((measure) => cell(`rivals, ${domain}`, strategy, measure)),
+        ]),
       ),
     }),
-
-    known: () =>
-      table('strategy', ['regret', 'p_BEC'], [
-        ['one average person, no answers', 'known, blind', 'adaptive'],
-        ['the bank alone', 'known, bank alone', 'adaptive'],
-        ...named('known', ['joint', ...PLANNERS]),
-        ['`adaptive` with four placement tests', 'known, placement tests', 'adaptive'],
-      ]),
-
-    sessions: () => ({
-      columns: ['sessions', ...Object.keys(CREWS).flatMap((crew) => [`${crew}: periods`, 'person periods', 'p_BEC', 'share right of the worst member'])],
-      rows: Object.keys(SESSIONS).map((label) => [
-        label,
-        ...Object.keys(CREWS).flatMap((crew) =>
-          ['periods', 'person periods', 'p_BEC', 'of the worst member'].map((measure) => cell(`${crew} ${label.replaceAll('`', '')}`, 'joint', measure)),
-        ),
-      ]),
-    }),
-
-    rivals: () => compareRivals((domain) => `rivals, ${domain}`),
-
-    'equal-items': () => compareRivals(runOfFewItems),
 
     capacity: () =>
       table('strategy', ['regret', 'p_BEC', 'items'], [
@@ -290,22 +209,6 @@ export function makeContent(runs) {
         ...PLANNERS.map((strategy) => [`\`${strategy}\` with \`capacity = 2\``, 'capacity 2, planned for', strategy]),
         ['`plan` with `capacity = 2`, people who take in everything', 'planned for capacity 2 in vain', 'plan'],
       ]),
-
-    'capacity-stop': () =>
-      table('strategy', ['periods', 'regret', 'p_BEC', 'items'], [
-        ...named('capacity 2, stop of the paper', ['joint', 'plan']),
-        ['`plan` with `capacity = 2`', 'capacity 2, stop of the paper, planned for', 'plan'],
-      ]),
-
-    'capacity-mixed': () => ({
-      columns: ['strategy', ...['LLH', 'LLLHHH'].flatMap((composition) => [`${composition}: regret`, `${composition}: p_BEC`])],
-      rows: PLANNERS.map((strategy) => [
-        `\`${strategy}\` with \`capacity = 2\``,
-        ...['LLH', 'LLLHHH'].flatMap((composition) =>
-          ['regret', 'p_BEC'].map((measure) => cell('capacity 2, mixed abilities, planned for', strategy, measure, composition)),
-        ),
-      ]),
-    }),
   };
 
   const best = (run, measure, pick) => pick(...PAPER.map((strategy) => of(run, strategy, measure).value));
@@ -398,11 +301,6 @@ export function makeContent(runs) {
     const values = teams.map(MEASURES[measure][0]);
     return `${fixed(Math.min(...values), digits)} to ${fixed(Math.max(...values), digits)}`;
   };
-  const knewArea = (period) => {
-    const rows = knowers(period);
-    const of = (holds) => rows.filter((row) => holds(row.knew)).map((row) => row.p_knew);
-    return areaUnderCurve(of((mass) => mass < 0.3), of((mass) => mass > 0.3));
-  };
   const figures = {
     'sure-forecasts': () => String(sureForecasts().length),
     'sure-forecast-mean': () => forecastMean(sureForecasts()).toFixed(3),
@@ -410,8 +308,6 @@ export function makeContent(runs) {
     'low-forecasts': () => String(lowForecasts().length),
     'low-forecast-mean': () => forecastMean(lowForecasts()).toFixed(3),
     'low-forecast-share': () => figure(doneShare(lowForecasts()), 3),
-    'knew-first': () => figure(knewArea(1), 2),
-    'knew-last': () => figure(knewArea(4), 2),
     'navigation-right': () => figure(of('stop by the exam, navigation', 'joint', 'share right'), 2),
     'navigation-knowledge': () => figure(of('stop by the exam, navigation', 'joint', 'p_BEC'), 2),
     'exam-stop-plan-periods': () => rangeOf('stop by the exam, navigation', 'plan', 'periods', 0),

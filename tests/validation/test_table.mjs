@@ -1,4 +1,4 @@
-// A table of docs/analysis.md that a test program computes: the lines of a property of its tests.
+// A table of a page that a test program computes: the lines of a property of its tests.
 //
 // The programs that use it take TEST_PROGRAM --write|--check and exit with 0 if the page agrees, 1 if it does not or a
 // test fails, 2 for a wrong command line. `--page FILE` takes a copy of the page instead.
@@ -26,8 +26,8 @@ function linesOf(program, filter, property) {
   }
 }
 
-// `tableOf` makes the table of the lines; it gets the printed one, too: rows of texts.
-export function updateTestTable({ name, filter, property, tableOf }) {
+// `file` is the page; `tableOf` makes the table of the lines and gets the printed one, too: rows of texts.
+export function updateTestTable({ name, file, filter, property, tableOf }) {
   let values, positionals;
   try {
     ({ values, positionals } = parseArgs({
@@ -40,7 +40,7 @@ export function updateTestTable({ name, filter, property, tableOf }) {
     process.exitCode = 2;
     return;
   }
-  const page = values.page ? resolve(values.page) : join(source, 'docs/analysis.md');
+  const page = values.page ? resolve(values.page) : join(source, file);
   const parts = parsePage(readFileSync(page, 'utf8'));
   const part = parts.find((one) => one.kind === 'table' && one.name === name);
   if (!part) throw new Error(`${page} has no table '${name}'`);

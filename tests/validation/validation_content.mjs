@@ -272,27 +272,6 @@ export function makeContent(runs, source) {
       ]),
     }),
 
-    reference: () => ({
-      columns: ['', ...['0.9', '1.0'].flatMap((scale) => [`kith, ${scale}`, `reference, ${scale}`])],
-      rows: OUTCOMES.flatMap((outcome) =>
-        Object.entries(POOLS).flatMap(([teams, label]) => {
-          const digits = DIGITS[outcome];
-          return ['mean', 'sd'].map((statistic, k) => [
-            `${QUANTITIES[statistic]}${outcome}, ${label}`,
-            ...['0.9', '1.0'].flatMap((scale) => {
-              const [there, deviation] = reference.study[scale][`${outcome} ${teams}`];
-              const n = reference['study teams'][teams];
-              const se = k ? errorOfSd(deviation, n) : deviation / Math.sqrt(n);
-              return [
-                withError(summary(`scale ${scale}`, outcome)[`${statistic} ${teams}`], digits),
-                `${fixed(k ? deviation : there, digits)} +- ${fixed(se, digits)}`,
-              ];
-            }),
-          ]);
-        }),
-      ),
-    }),
-
     domains: () => ({
       columns: [
         'domain', 'periods: baseline', 'joint', 'common - the other three', 'knowledge: baseline', 'joint (knowledge)',
@@ -311,19 +290,17 @@ export function makeContent(runs, source) {
 
     power: () => {
       const paired = runs.json('findings, paired').replication;
-      const unpaired = runs.json('findings, unpaired').replication;
       const share = ({ significant, low, high }, { studies }) => ({
         text: `${percent(significant / studies, 1)} (${percent(low).replace(' %', '')} .. ${percent(high).replace(' %', '')})`,
         value: (100 * significant) / studies,
         se: (100 * (high - low)) / (2 * 1.96),
       });
       return {
-        columns: ['finding', 'published', 'significant here', 'with other people in every strategy', 'power by F', 'power imposed'],
-        rows: paired.findings.map((finding, i) => [
+        columns: ['finding', 'published', 'significant here', 'power by F', 'power imposed'],
+        rows: paired.findings.map((finding) => [
           finding.effect,
           `${finding.published_significant ? `p < ${String(finding.alpha).replace(/^0/, '')}` : 'n.s.'}${finding.published_f ? `, F = ${fixed(finding.published_f, 2)}` : ''}`,
           share(finding, paired),
-          share(unpaired.findings[i], unpaired),
           finding.analytic_power === null ? '' : { text: fixed(finding.analytic_power, 2), value: finding.analytic_power },
           finding.imposed_power === null
             ? ''
@@ -381,6 +358,12 @@ export function makeContent(runs, source) {
   const insignificant = (outcome, name) => termWithin(outcome, name).p_value > 0.05;
   const claims = {
     'facts-agree': () => Object.entries(reference.facts).every(([name, value]) => factsHere()[name] === value),
+    'reference-periods-agree': () =>
+      ['0.9', '1.0'].every((scale) =>
+        Object.entries({ group: 0.1, baseline: 0.3 }).every(([teams, bound]) =>
+          Math.abs(summary(`scale ${scale}`, 'periods')[`mean ${teams}`].value - reference.study[scale][`periods ${teams}`][0]) < bound,
+        ),
+      ),
     'common-conveys-least': () =>
       orderOf((strategy) => summary('large', 'area_sr')[`mean ${strategy}`].value)[3] === 'common' &&
       [1, 2].every((kc) => orderOf((strategy) => areaMean(strategy, kc).value)[3] === 'common'),

@@ -15,8 +15,8 @@
 #include "kith/random/distributions.hpp"
 
 // How often each documented analysis finds an effect that is not there: 1000 simulated studies without effects, tests
-// at 5 %. The standard error of a rate of 5 % is 0.7 %. docs/analysis.md has the rates; error_rates.mjs writes them
-// there from the property "rates" of the tests.
+// at 5 %. The standard error of a rate of 5 % is 0.7 %. README.md has the rates; error_rates.mjs writes them there
+// from the property "rates" of the tests.
 namespace kith::testing {
 
 inline constexpr std::size_t kStudies = 1'000;

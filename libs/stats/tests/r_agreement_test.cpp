@@ -1,6 +1,6 @@
 // How closely estimates and tests agree with R, on the same designs for every procedure: the data sets of
-// reference/make_reference_designs.R. docs/analysis.md has the table; agreement.mjs writes it there from the property
-// "agreement" of these tests.
+// reference/make_reference_designs.R. reference/README.md has the table; agreement.mjs writes it there from the
+// property "agreement" of these tests.
 #include <gtest/gtest.h>
 
 #include <algorithm>
