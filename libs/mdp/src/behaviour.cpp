@@ -53,7 +53,10 @@ std::vector<IntegerVector> rounded(const Mdp& mdp, std::span<const double> featu
                     "units of 1/" +
                         std::to_string(scale) + "; make ending likelier, or give a smaller discount"};
       }
-      counts[s][k] = std::llround(units);
+      // As std::llround, which is a call.
+      const auto whole = static_cast<std::int64_t>(units);
+      const double rest = units - static_cast<double>(whole);
+      counts[s][k] = whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
     }
   }
   return counts;

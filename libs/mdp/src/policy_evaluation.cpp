@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace kith::detail {
@@ -131,45 +132,54 @@ bool PolicyChain::factorise(std::span<double> values) const {
   return true;
 }
 
-void sum_up_paths(const Mdp& mdp, std::span<const std::uint32_t> choice, std::span<const double> row_counts,
-                  std::size_t kinds, std::span<double> values) {
+namespace {
+
+// sum_up_paths() with a number of kinds that the compiler may know.
+template <typename Kinds>
+void sum_up(const PathSteps& steps, std::span<const double> row_counts, Kinds kinds, double discount,
+            std::span<double> values) {
   enum class Mark : unsigned char { kNew, kOnWalk, kKnown };
-  const std::size_t n = mdp.num_states();
-  const double discount = mdp.discount();
+  const std::size_t n = steps.next.size();
   std::vector<Mark> marks(n, Mark::kNew);
-  struct Step {
-    std::size_t from;
-    const Outcome* outcome;
-  };
-  std::vector<Step> walk;
-  for (std::size_t start = 0; start < n; ++start) {
-    std::size_t s = start;
-    while (s < n && marks[s] == Mark::kNew) {
+  std::vector<std::uint32_t> walk;
+  walk.reserve(n);
+  for (std::uint32_t start = 0; start < n; ++start) {
+    std::uint32_t s = start;
+    for (; s < n && marks[s] == Mark::kNew; s = steps.next[s]) {
       marks[s] = Mark::kOnWalk;
-      walk.push_back({s, &mdp.outcomes(mdp.choices(StateIndex{s})[choice[s]]).front()});
-      s = walk.back().outcome->next.value();
+      walk.push_back(s);
     }
     if (s < n && marks[s] == Mark::kOnWalk) {  // the walk has met itself
       auto first = walk.size() - 1;
-      while (walk[first].from != s) --first;
+      while (walk[first] != s) --first;
       double* const round = &values[s * kinds];
-      std::fill_n(round, kinds, 0.0);
+      std::fill_n(round, std::size_t{kinds}, 0.0);
       double share = 1.0;
       for (auto at = first; at < walk.size(); ++at, share *= discount) {
-        for (std::size_t k = 0; k < kinds; ++k)
-          round[k] += share * row_counts[walk[at].outcome->feature_row * kinds + k];
+        for (std::size_t k = 0; k < kinds; ++k) round[k] += share * row_counts[steps.row[walk[at]] * kinds + k];
       }
       for (std::size_t k = 0; k < kinds; ++k) round[k] /= 1.0 - share;
       marks[s] = Mark::kKnown;
     }
     for (; !walk.empty(); walk.pop_back()) {
-      const auto [from, outcome] = walk.back();
+      const std::uint32_t from = walk.back();
       if (marks[from] == Mark::kKnown) continue;
       marks[from] = Mark::kKnown;
-      const double* const ahead = &values[outcome->next.value() * kinds];
-      const double* const row = &row_counts[outcome->feature_row * kinds];
+      const double* const ahead = &values[steps.next[from] * kinds];
+      const double* const row = &row_counts[steps.row[from] * kinds];
       for (std::size_t k = 0; k < kinds; ++k) values[from * kinds + k] = row[k] + discount * ahead[k];
     }
+  }
+}
+
+}  // namespace
+
+void sum_up_paths(const PathSteps& steps, std::span<const double> row_counts, std::size_t kinds, double discount,
+                  std::span<double> values) {
+  if (kinds == 1) {
+    sum_up(steps, row_counts, std::integral_constant<std::size_t, 1>{}, discount, values);
+  } else {
+    sum_up(steps, row_counts, kinds, discount, values);
   }
 }
 
@@ -182,8 +192,14 @@ std::vector<double> policy_features(const Mdp& mdp, const Policy& policy) {
       const auto phi = mdp.feature_row(row);
       rows.insert(rows.end(), phi.begin(), phi.end());
     }
+    PathSteps steps;
+    for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+      const Outcome& outcome = mdp.outcomes(mdp.choices(StateIndex{s})[policy.choice[s]]).front();
+      steps.next.push_back(static_cast<std::uint32_t>(outcome.next.value()));
+      steps.row.push_back(outcome.feature_row);
+    }
     std::vector<double> features((mdp.num_states() + mdp.num_terminals()) * d, 0.0);
-    sum_up_paths(mdp, policy.choice, rows, d, features);
+    sum_up_paths(steps, rows, d, mdp.discount(), features);
     return features;
   }
   std::vector<double> immediate(mdp.num_states() * d, 0.0);

@@ -55,12 +55,18 @@ class PolicyChain {
   std::vector<double> constant_;  // shape [num_states, kinds], by position
 };
 
-// What the paths of a deterministic, discounted process count under a policy, each step as its feature row says: exact,
-// in one pass, the cycle of a path that never ends as a geometric series.
+// The one step that a policy takes from each state of a deterministic process.
+struct PathSteps {
+  std::vector<std::uint32_t> next;  // the state that it leads to, shape [num_states]
+  std::vector<std::uint32_t> row;   // of the feature table, shape [num_states]
+};
+
+// What the paths of a deterministic, discounted process count, each step as its feature row says: exact, in one pass,
+// the cycle of a path that never ends as a geometric series.
 // @param row_counts  row-major, shape [num_feature_rows, kinds]. @param values  shape [num_states + num_terminals,
 // kinds]; those of terminal states are kept.
-void sum_up_paths(const Mdp& mdp, std::span<const std::uint32_t> choice, std::span<const double> row_counts,
-                  std::size_t kinds, std::span<double> values);
+void sum_up_paths(const PathSteps& steps, std::span<const double> row_counts, std::size_t kinds, double discount,
+                  std::span<double> values);
 
 // Expected (discounted) features of a policy, a function of the arguments alone, shape [num_states + num_terminals,
 // num_features]; infinite where the policy ends so rarely that they cannot be computed.

@@ -18,6 +18,39 @@ constexpr int kFewPolicies = 50;  // after so many each is evaluated to the end:
                                   // come no nearer to its values, and what they improve is not the policy
 constexpr int kMostPolicies = 10'000;  // in practice a few dozen
 
+// Lists the states that finish under a policy of a deterministic process, by following its paths. Whether no other
+// state has an allowed choice that leads to one of them.
+bool finishes_as_far_as_allowed(const Mdp& mdp, const ChoiceMask& mask, Policy& policy) {
+  enum class Mark : unsigned char { kNew, kOnWalk, kEnds };
+  const std::size_t n = mdp.num_states();
+  const auto next = [&](std::size_t s, std::size_t c) {
+    return mdp.outcomes(mdp.choices(StateIndex{s})[c]).front().next.value();
+  };
+  std::vector<Mark> marks(n + mdp.num_terminals(), Mark::kNew);
+  std::fill_n(marks.begin() + static_cast<std::ptrdiff_t>(n), mdp.num_terminals(), Mark::kEnds);
+  policy.finishing.reserve(n);
+  std::vector<std::uint32_t> walk;
+  for (std::size_t start = 0; start < n; ++start) {
+    walk.clear();
+    std::size_t s = start;
+    for (; marks[s] == Mark::kNew; s = next(s, policy.choice[s])) {
+      marks[s] = Mark::kOnWalk;
+      walk.push_back(static_cast<std::uint32_t>(s));
+    }
+    if (marks[s] != Mark::kEnds) continue;  // it has met itself, or a path that never ends
+    for (const std::uint32_t on : walk) marks[on] = Mark::kEnds;
+    policy.finishing.insert(policy.finishing.end(), walk.rbegin(), walk.rend());
+  }
+  for (std::size_t s = 0; s < n && !policy.finishes(); ++s) {
+    if (marks[s] == Mark::kEnds) continue;
+    const std::size_t first = mdp.first_choice(StateIndex{s});
+    for (std::size_t c = 0; c < mdp.choices(StateIndex{s}).size(); ++c) {
+      if ((mask.empty() || mask[first + c] != 0) && marks[next(s, c)] == Mark::kEnds) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask) {
@@ -28,6 +61,11 @@ Policy first_finishing(const Mdp& mdp, const ChoiceMask& mask) {
   std::vector<std::uint32_t> first(n, 0);
   for (std::size_t s = 0; s < n; ++s) {
     while (!is_allowed(StateIndex{s}, first[s])) ++first[s];
+  }
+  if (mdp.is_deterministic() && mdp.discount() < 1.0) {
+    Policy policy{std::move(first), {}};
+    if (finishes_as_far_as_allowed(mdp, mask, policy)) return policy;
+    first = std::move(policy.choice);
   }
   Policy policy = make_policy(mdp, std::move(first));
   if (policy.finishes()) return policy;
@@ -88,6 +126,20 @@ bool takes_first(const Mdp& mdp, const ChoiceMask& mask, const Policy& policy) {
   return true;
 }
 
+PolicySolver::PolicySolver(const Mdp& mdp, std::span<const double> row_rewards, double tolerance,
+                           const ChoiceMask& mask)
+    : mdp_{mdp}, rewards_{row_rewards}, tolerance_{tolerance}, mask_{mask} {
+  if (!has_steps()) return;
+  steps_.reserve(mdp.num_choices());
+  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
+    for (const Choice& choice : mdp.choices(s)) {
+      const Outcome& outcome = mdp.outcomes(choice).front();
+      steps_.push_back(
+          {row_rewards[outcome.feature_row], static_cast<std::uint32_t>(outcome.next.value()), outcome.feature_row});
+    }
+  }
+}
+
 double PolicySolver::worth(const Choice& choice, std::span<const double> values) const {
   double sum = 0.0;
   for (const Outcome& outcome : mdp_.outcomes(choice)) {
@@ -130,14 +182,16 @@ bool PolicySolver::improve(Policy& policy, std::span<const double> values) const
 
 // Policy iteration where outcomes are certain and discounted. It begins with the best steps to states that are no
 // farther from an end, and improves in that order, each state after those that it may lead to: what is better at the
-// end of a path reaches its beginning in one pass.
+// end of a path reaches its beginning in one pass. A state is looked at again when its value, or that of a state that
+// it may lead to, has changed.
 std::vector<double> PolicySolver::values_of_paths() const {
   const std::size_t n = mdp_.num_states();
+  const double discount = mdp_.discount();
   std::vector<std::uint32_t> order;
   std::vector<unsigned char> is_valued(n + mdp_.num_terminals(), 0);
   std::fill(is_valued.begin() + static_cast<std::ptrdiff_t>(n), is_valued.end(), static_cast<unsigned char>(1));
   std::vector<double> values(n + mdp_.num_terminals(), 0.0);
-  std::vector<std::uint32_t> choice(n, 0);
+  PathSteps policy{std::vector<std::uint32_t>(n), std::vector<std::uint32_t>(n)};
   order.reserve(n);
   for (const StateIndex s : mdp_.by_distance()) order.push_back(static_cast<std::uint32_t>(s.value()));
   if (order.size() < n) {
@@ -147,39 +201,60 @@ std::vector<double> PolicySolver::values_of_paths() const {
       if (!is_listed[s]) order.push_back(s);
     }
   }
-  // The best choice of a state among those that `admits`; whether there is one that is worth more than `least`.
+  const auto take = [&](std::uint32_t s, const Step& step) {
+    policy.next[s] = step.next;
+    policy.row[s] = step.feature_row;
+  };
+  // The best step of a state among those that `admits`; whether there is one that is worth more than `least`.
   const auto choose = [&](std::uint32_t s, double least, const auto& admits) {
     const std::size_t first = mdp_.first_choice(StateIndex{s});
-    bool found = false;
-    std::uint32_t c = 0;
-    for (const Choice& candidate : mdp_.choices(StateIndex{s})) {
-      const Outcome& outcome = mdp_.outcomes(candidate).front();
-      if (is_allowed(first + c) && admits(outcome)) {
-        const double worth = rewards_[outcome.feature_row] + mdp_.discount() * values[outcome.next.value()];
-        if (worth > least) {
-          found = true;
-          least = worth;
-          choice[s] = c;
-        }
+    const std::size_t last = first + mdp_.choices(StateIndex{s}).size();
+    const Step* best = nullptr;
+    for (std::size_t c = first; c < last; ++c) {
+      const Step& step = steps_[c];
+      if (!is_allowed(c) || !admits(step)) continue;
+      const double worth = step.reward + discount * values[step.next];
+      if (worth > least) {
+        best = &step;
+        least = worth;
       }
-      ++c;
     }
-    if (found) values[s] = least;
-    return found;
+    if (best == nullptr) return false;
+    take(s, *best);
+    values[s] = least;
+    return true;
   };
   for (const std::uint32_t s : order) {
     const bool found = choose(s, -std::numeric_limits<double>::infinity(),
-                              [&](const Outcome& outcome) { return is_valued[outcome.next.value()] != 0; });
+                              [&](const Step& step) { return is_valued[step.next] != 0; });
     is_valued[s] = found ? 1 : 0;
-    while (!found && !is_allowed(mdp_.first_choice(StateIndex{s}) + choice[s])) ++choice[s];
+    if (found) continue;
+    std::size_t c = mdp_.first_choice(StateIndex{s});
+    while (!is_allowed(c)) ++c;
+    take(s, steps_[c]);
   }
   const double slack = std::max(1e-13, 0.01 * tolerance_);  // far within a tie, far above rounding
+  std::vector<unsigned char> is_open(n, 1);
+  const auto open_arrivals = [&](std::uint32_t s) {
+    for (const Arrival& arrival : mdp_.arrivals(StateIndex{s})) is_open[arrival.from.value()] = 1;
+  };
+  std::vector<double> before;
   for (int i = 0; i < kMostPolicies; ++i) {
-    sum_up_paths(mdp_, choice, rewards_, 1, values);
+    before = values;
+    sum_up_paths(policy, rewards_, 1, discount, values);
+    for (std::uint32_t s = 0; s < n; ++s) {
+      if (values[s] == before[s]) continue;
+      is_open[s] = 1;
+      open_arrivals(s);
+    }
     bool improved = false;
     for (const std::uint32_t s : order) {
+      if (is_open[s] == 0) continue;
+      is_open[s] = 0;
       const double clearly = values[s] + slack * std::max(1.0, std::abs(values[s]));
-      improved = choose(s, clearly, [](const Outcome&) { return true; }) || improved;
+      if (!choose(s, clearly, [](const Step&) { return true; })) continue;
+      improved = true;
+      open_arrivals(s);
     }
     if (!improved) return values;
   }
@@ -187,8 +262,8 @@ std::vector<double> PolicySolver::values_of_paths() const {
 }
 
 std::optional<std::vector<double>> PolicySolver::optimal_values() const {
+  if (has_steps()) return values_of_paths();
   const bool must_finish = mdp_.discount() == 1.0;
-  if (mdp_.is_deterministic() && !must_finish) return values_of_paths();
   Policy policy = first_finishing(mdp_, mask_);
   if (must_finish && !policy.finishes()) return std::nullopt;
   std::vector<double> values(mdp_.num_states() + mdp_.num_terminals(), 0.0);
@@ -221,6 +296,15 @@ std::optional<std::vector<double>> PolicySolver::optimal_values() const {
 
 ChoiceMask PolicySolver::tight_choices(std::span<const double> values) const {
   ChoiceMask tight(mdp_.num_choices(), 0);
+  if (has_steps()) {
+    for (std::size_t s = 0, c = 0; s < mdp_.num_states(); ++s) {
+      for (const std::size_t last = c + mdp_.choices(StateIndex{s}).size(); c < last; ++c) {
+        const double worth = steps_[c].reward + mdp_.discount() * values[steps_[c].next];
+        tight[c] = is_allowed(c) && is_tight(values[s], worth, tolerance_) ? 1 : 0;
+      }
+    }
+    return tight;
+  }
   for (std::size_t s = 0; s < mdp_.num_states(); ++s) {
     std::size_t c = mdp_.first_choice(StateIndex{s});
     for (const Choice& choice : mdp_.choices(StateIndex{s})) {

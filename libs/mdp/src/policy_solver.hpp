@@ -25,8 +25,7 @@ using ChoiceMask = std::vector<unsigned char>;
 // The arguments are kept by reference.
 class PolicySolver {
  public:
-  PolicySolver(const Mdp& mdp, std::span<const double> row_rewards, double tolerance, const ChoiceMask& mask)
-      : mdp_{mdp}, rewards_{row_rewards}, tolerance_{tolerance}, mask_{mask} {}
+  PolicySolver(const Mdp& mdp, std::span<const double> row_rewards, double tolerance, const ChoiceMask& mask);
 
   // Optimal values, shape [num_states + num_terminals]. Nothing if there is no finite optimum.
   [[nodiscard]] std::optional<std::vector<double>> optimal_values() const;
@@ -34,6 +33,15 @@ class PolicySolver {
   [[nodiscard]] ChoiceMask tight_choices(std::span<const double> values) const;
 
  private:
+  // What a choice does where outcomes are certain.
+  struct Step {
+    double reward;
+    std::uint32_t next;
+    std::uint32_t feature_row;
+  };
+
+  // Whether the process is deterministic and discounted.
+  [[nodiscard]] bool has_steps() const { return mdp_.is_deterministic() && mdp_.discount() < 1.0; }
   [[nodiscard]] bool is_allowed(std::size_t choice) const { return mask_.empty() || mask_[choice] != 0; }
   [[nodiscard]] double worth(const Choice& choice, std::span<const double> values) const;
   [[nodiscard]] PolicyChain chain_of(const Policy& policy) const;
@@ -44,6 +52,7 @@ class PolicySolver {
   std::span<const double> rewards_;
   double tolerance_;
   const ChoiceMask& mask_;
+  std::vector<Step> steps_;  // per choice, side by side: outcomes take three times as much memory; if has_steps()
 };
 
 // The first choice of the mask in every state; states from which this does not lead to an end take the first choice
