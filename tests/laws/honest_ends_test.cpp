@@ -112,9 +112,7 @@ void expect_honest(const Atlas& atlas, const StudySpec& spec, const TeamRecord& 
     tests += period.tests;
   }
   EXPECT_EQ(team.demonstrations, demonstrations);
-  if (spec.teaching.placement_tests == 0) {
-    EXPECT_EQ(team.tests, tests);
-  }
+  EXPECT_EQ(team.tests, tests);
   EXPECT_GE(components.size(), team.components_learned > 0 ? 1u : 0u);
   for (const auto& response : team.responses) {
     EXPECT_EQ(response.correct, response.regret.has_value() && *response.regret == 0.0);

@@ -57,7 +57,6 @@ export const COMMANDS = {
   ...Object.fromEntries([0.8, 0.9, 0.95].map((p) => [`posterior ${p}`, study(TEACHERS, FEW, only('joint'), AT_ONCE, ...ESTIMATES, ...POSTERIOR(p))])),
   known: study(TEACHERS, only('joint', ...PLANNERS), ...KNOWN, ...ESTIMATES),
   'known, blind': study(TEACHERS, only('adaptive'), ...KNOWN.filter((one) => !one.startsWith('teacher.hypotheses')), ...BLIND),
-  'known, placement tests': study(TEACHERS, only('adaptive'), ...KNOWN, 'teacher.placement_tests=4'),
   ...Object.fromEntries(
     Object.entries(CREWS).flatMap(([crew, file]) =>
       Object.entries(SESSIONS).map(([label, settings]) => [
@@ -262,7 +261,6 @@ export function makeContent(runs) {
       const less = (strategy) => value('known', strategy, 'regret') < value('known, blind', 'adaptive', 'regret');
       return ['adaptive', 'oracle'].every((one) => gain(one) > 0 && gain(one) < 0.05 && less(one)) && gain('plan') < 0 && !less('plan');
     },
-    'placement-adds-nothing': () => Math.abs(value('known, placement tests', 'adaptive', 'p_BEC') - value('known', 'adaptive', 'p_BEC')) < 0.01,
     'releasing-costs-knowledge': () =>
       Object.keys(CREWS).every((crew) => {
         const [all, released] = [`${crew} together`, `${crew} together, release = "posterior"`];

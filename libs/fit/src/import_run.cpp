@@ -113,11 +113,9 @@ class RunImport {
                                    "demonstration conveyed to them",
                                    study_file, 0, "set teacher.learner_counterfactuals = \"teacher\"")}};
       }
-      if (variant.teaching.release != ReleaseRule::kNone || variant.teaching.placement_tests > 0) {
-        throw Error{{detail::fault("E0713",
-                                   "people were released from components or asked before the first lesson, which "
-                                   "the method does not describe",
-                                   study_file, 0, "fit a run without stop.release and teacher.placement_tests")}};
+      if (variant.teaching.release != ReleaseRule::kNone) {
+        throw Error{{detail::fault("E0713", "people were released from components, which the method does not describe",
+                                   study_file, 0, "fit a run without stop.release")}};
       }
       for (const auto& type : variant.learner_types) {
         if (type.model->kind == bayesian_model().kind) continue;

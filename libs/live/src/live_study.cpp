@@ -72,7 +72,6 @@ void require_whole_group(const StudySpec& spec) {
   std::string key;
   if (spec.teaching.release != ReleaseRule::kNone) key = "stop.release";
   if (spec.grouping != Grouping::kTogether) key = "teacher.grouping";
-  if (spec.teaching.placement_tests > 0) key = "teacher.placement_tests";
   if (key.empty()) return;
   throw Error{ErrorKind::kInvalidInput, "'" + key + "' works in simulated studies only: remove it to teach people"};
 }

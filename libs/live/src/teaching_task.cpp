@@ -52,7 +52,6 @@ struct EventBytes {
   void operator()(const MemberReturned& event) const { bytes.count(event.member); }
   void operator()(const StrategyChanged& event) const { bytes.text(event.strategy.name); }
   void operator()(const MemberReplaced& event) const { bytes.count(event.member); }
-  void operator()(const PlacementTaken&) const {}  // live sessions have no placement tests
 };
 
 std::string key_of(const TeachingTask::Content& content) {

@@ -283,10 +283,6 @@ class Paragraph {
           " had no part in the remaining periods of a component.");
     }
     if (spec_.grouping == Grouping::kByType) say("The members of each learner type had a session of their own.");
-    if (options.placement_tests > 0) {
-      say("Before the first lesson everybody answered up to " + counted(options.placement_tests, "test") +
-          ", without feedback, which were chosen to tell which components they knew.");
-    }
     const auto missed = static_cast<std::size_t>(std::count_if(
         data_.teams.begin(), data_.teams.end(), [](const auto& team) { return !team.completed && !team.skipped; }));
     const auto skipped = static_cast<std::size_t>(

@@ -52,7 +52,6 @@ constexpr std::array kMeanings{
     Meaning{"teacher.objective", "what strategies that look ahead maximise"},
     Meaning{"teacher.hypotheses",
             "what the teacher's hypotheses about a member differ in: 'ability' or 'known-components'"},
-    Meaning{"teacher.placement_tests", "tests before the first lesson that tell these hypotheses apart, at most"},
     Meaning{"teacher.grouping", "'together': one session for the whole team; 'by-type': one for each learner type"},
     Meaning{"stop.release", "who leaves a component before the team does: 'none', 'all-right' or 'posterior'"},
     Meaning{"pace.demonstration_s", "seconds that a demonstration is assumed to take"},

@@ -284,7 +284,6 @@ class DataReader {
 
   void read_responses() {
     read_table("responses.csv", {"period", "test", "member", "correct"}, [&](const StudyRow& row) {
-      if (row.count(0, 0, max_period(row)) == 0) return;  // a placement test
       const auto period = period_of(row, 0);
       const auto [series, type] = place(row, member_of(row, 2));
       auto& values = data_.answers[{series, type, 0, period}];

@@ -337,12 +337,7 @@ class SpecReader {
     set_if(options.max_demonstrations, teacher.integer("max_demonstrations", Presence::kOptional, {0, 1000}));
     set_if(options.objective, teacher.word("objective", Presence::kOptional, kObjectiveWords));
     set_if(options.hypotheses_about, teacher.word("hypotheses", Presence::kOptional, kHypothesesWords));
-    set_if(options.placement_tests, teacher.integer("placement_tests", Presence::kOptional, {0, 100}));
-    if (options.placement_tests > 0 && options.hypotheses_about != HypothesesAbout::kKnownComponents) {
-      report_.error("E0423", teacher.value("placement_tests", Presence::kOptional)->place(),
-                    "before the first lesson no test can tell how well people learn",
-                    "write hypotheses = \"known-components\" under [teacher], or remove placement_tests");
-    }
+    static_cast<void>(teacher.integer("placement_tests", Presence::kOptional, {0, 0}));  // of earlier run folders
     set_if(spec_.grouping, teacher.word("grouping", Presence::kOptional, kGroupingWords));
     read_beliefs(teacher);
     teacher.finish();

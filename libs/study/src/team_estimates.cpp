@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kith/teaching/placement.hpp"
+#include "kith/teaching/known_components.hpp"
 #include "kith/teaching/random_test.hpp"
 
 namespace kith {

@@ -71,7 +71,6 @@ void TeamExaminer::at_end(const Session& session, const Learners& learners, std:
 void TeamExaminer::ask(const Session& session, const Learners& learners, std::vector<LearnerRecord>& rows,
                        std::size_t member) {
   std::vector<DemoIndex> seen;
-  for (const auto& test : session.placement()) seen.push_back(test.demo);
   for (const auto& period : session.history()) {
     for (const auto& shown : period.lesson.demonstrations) seen.push_back(shown.demo);
     for (const auto& test : period.lesson.tests) seen.push_back(test.demo);

@@ -110,7 +110,6 @@ class TeamRun {
       if (!session.strategy().kind.needs_truth) return session.propose(cache_);
       return session.propose(cache_, truth_about(session, learners));
     };
-    if (session.awaits_placement()) take_placement(session, learners, rows);
     TeamExaminer exam{cache_, spec_, record_};
     exam.at_start(learners, rows);
     TeamEstimates estimates{cache_, spec_, record_};
@@ -144,30 +143,6 @@ class TeamRun {
       if (learner->belief() == nullptr) continue;
       const double own = learner->belief()->least_support();
       fewest = std::min(fewest.value_or(own), own);
-    }
-  }
-
-  void take_placement(Session& session, const Learners& learners, std::vector<LearnerRecord>& rows) {
-    const auto tests = session.placement();
-    std::vector<DemoIndex> starts;
-    for (const auto& test : tests) starts.push_back(test.demo);
-    std::vector<std::vector<Answer>> answers;
-    for (const auto& learner : learners) answers.push_back(learner->answer(cache_.behaviours(), starts, 0).answers);
-    session.take_placement(answers);
-    const auto verdicts = session.placement_verdicts();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i].tests += tests.size();
-      for (const auto& verdict : verdicts[i]) rows[i].correct += verdict.correct ? 1u : 0u;
-    }
-    constexpr double kMinute = 60.0;  // there is no feedback
-    const double minutes = static_cast<double>(tests.size()) * spec_.pace.test_s / kMinute;
-    record_.tests += tests.size();
-    record_.cost.minutes += minutes;
-    record_.cost.person_minutes += minutes * static_cast<double>(rows.size());
-    if (spec_.record == RecordLevel::kTeam) return;
-    const auto component = session.components().size();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      write_answers(answer_record(0, component, rows[i]), tests, answers[i], verdicts[i]);
     }
   }
 

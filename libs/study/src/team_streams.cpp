@@ -1,7 +1,7 @@
 #include "kith/study/team_streams.hpp"
 
 #include "kith/core/assert.hpp"
-#include "kith/teaching/placement.hpp"
+#include "kith/teaching/known_components.hpp"
 
 namespace kith {
 

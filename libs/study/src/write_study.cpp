@@ -133,7 +133,6 @@ TableWriter teacher(const StudySpec& spec) {
   table.add_count("max_demonstrations", options.max_demonstrations);
   table.add("objective", kObjectiveWords[static_cast<std::size_t>(options.objective)]);
   table.add("hypotheses", kHypothesesWords[static_cast<std::size_t>(options.hypotheses_about)]);
-  table.add_count("placement_tests", options.placement_tests);
   table.add("grouping", kGroupingWords[static_cast<std::size_t>(spec.grouping)]);
   std::vector<std::string> beliefs;
   for (const auto& rule : options.rules) beliefs.emplace_back(rule.name);

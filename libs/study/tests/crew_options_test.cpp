@@ -117,19 +117,6 @@ TEST(KnownComponents, RaiseWhatPeopleBelieveAndNothingElse) {
   }
 }
 
-TEST(Placement, IsAskedBeforeTheFirstLesson) {
-  auto spec = crew_spec();
-  spec.teaching.hypotheses_about = HypothesesAbout::kKnownComponents;
-  spec.teaching.placement_tests = 3;
-  const auto team = run_crews({{spec}}).front();
-  const auto first = std::count_if(team.responses.begin(), team.responses.end(),
-                                   [](const ResponseRecord& one) { return one.period == 0; });
-  EXPECT_EQ(first, 9);
-  std::size_t asked = 3;
-  for (const auto& period : team.period_records) asked += period.tests;
-  EXPECT_EQ(team.tests, asked);
-}
-
 TEST(SessionForecasts, AreOfOtherPeopleOfTheSameCrew) {
   auto spec = crew_spec();
   spec.forecast_sessions = 12;

@@ -92,7 +92,6 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.exam, ExamLevel::kNone);
   EXPECT_EQ(spec.grouping, Grouping::kTogether);
   EXPECT_EQ(spec.teaching.release, ReleaseRule::kNone);
-  EXPECT_EQ(spec.teaching.placement_tests, 0u);
   EXPECT_EQ(spec.forecast_sessions, 0u);
   EXPECT_FALSE(spec.estimates);
   EXPECT_EQ(spec.pace, Pace{});
@@ -150,7 +149,7 @@ TEST(StudyFile, ReadsWhenTheExamStops) {
 TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
   const auto text = study_with("[learner.N]",
                                "[teacher]\ngrouping = \"by-type\"\nhypotheses = \"known-components\"\n"
-                               "placement_tests = 4\n[stop]\nrelease = \"posterior\"\n[pace]\ndemonstration_s = 8\n"
+                               "[stop]\nrelease = \"posterior\"\n[pace]\ndemonstration_s = 8\n"
                                "test_s = 12.5\nfeedback_s = 0\n[record]\nforecast = 50\nestimates = true\n"
                                "proficient_ability = 0.8\n[learner.N]\nknown = 0.5");
   const auto first = parse(text);
@@ -160,7 +159,6 @@ TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
     const auto& spec = reading.study->variants.front();
     EXPECT_EQ(spec.grouping, Grouping::kByType);
     EXPECT_EQ(spec.teaching.hypotheses_about, HypothesesAbout::kKnownComponents);
-    EXPECT_EQ(spec.teaching.placement_tests, 4u);
     EXPECT_EQ(spec.teaching.release, ReleaseRule::kPosterior);
     EXPECT_EQ(spec.pace, (Pace{8.0, 12.5, 0.0}));
     EXPECT_EQ(spec.forecast_sessions, 50u);
@@ -241,7 +239,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0112", "[design]",
                 "group.dropout = { policy = \"replace-from-pool\", otherwise = \"continue-now\" }\n[design]", 6},
         Mistake{"E0422", "[design]", "group.people = [3]\n[design]", 6},
-        Mistake{"E0423", "[design]", "teacher.placement_tests = 2\n[design]", 6},
         Mistake{"E0422", "[design]", "group.screening = { high = \"N\" }\n[design]", 6},
         Mistake{"E0422", "[design]", "group.screening = { tests = 2, high = \"Q\" }\n[design]", 6},
         Mistake{"E0422", "[design]", "group.completion.redirect = \"javascript:alert(1)\"\n[design]", 6},

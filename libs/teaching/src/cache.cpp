@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "kith/teaching/placement.hpp"
 #include "kith/teaching/teaching_options.hpp"
 
 namespace kith {
@@ -49,21 +48,6 @@ const std::shared_ptr<const StartSample>& TeachingCache::tests_of(std::size_t co
   auto& known = tests_.at(component);
   if (!known) known = std::make_shared<const StartSample>(StartSample::spread_over_facets(*atlas_, component));
   return known;
-}
-
-const std::vector<Test>& TeachingCache::placement(const TeachingOptions& options) {
-  const auto& filter = options.filter;
-  const auto known = std::find_if(placements_.begin(), placements_.end(), [&](const Placement& one) {
-    return one.tests_wanted == options.placement_tests && one.particles == filter.particles &&
-           one.likelihood == options.likelihood && one.hypotheses == options.hypotheses;
-  });
-  if (known != placements_.end()) return known->tests;
-  auto tests = placement_tests(*atlas_, cover(atlas_->prior_cone(), filter.particles), options.likelihood,
-                               options.hypotheses, options.placement_tests);
-  return placements_
-      .emplace_back(Placement{options.hypotheses, filter.particles, options.placement_tests, options.likelihood,
-                              std::move(tests)})
-      .tests;
 }
 
 }  // namespace kith

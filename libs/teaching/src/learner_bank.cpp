@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "kith/teaching/placement.hpp"
+#include "kith/teaching/known_components.hpp"
 
 namespace kith {
 namespace {

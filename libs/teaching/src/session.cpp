@@ -164,9 +164,6 @@ struct Session::Prepared {
 bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) {
   if (finished()) return false;
   require_phase(SessionPhase::kProposal, "choosing a lesson");
-  if (awaits_placement()) {
-    throw Error{ErrorKind::kUsage, "no lesson can be chosen: the placement tests have not been answered yet"};
-  }
   require(&cache.atlas() == atlas_.get(), "the cache is of another atlas");
   require(truth.empty() || truth.size() == num_members(), "the truth is that of another team");
   if (awaits_newcomer()) {

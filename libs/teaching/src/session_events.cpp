@@ -8,9 +8,9 @@
 namespace kith {
 
 std::string_view name_of(const SessionEvent& event) noexcept {
-  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",   "tests-answered",  "tests-closed",
-                                         "feedback-given",  "member-left",    "member-returned", "strategy-changed",
-                                         "placement-taken", "member-replaced"};
+  constexpr std::string_view kNames[] = {"lesson-proposed", "lesson-shown",     "tests-answered",
+                                         "tests-closed",    "feedback-given",   "member-left",
+                                         "member-returned", "strategy-changed", "member-replaced"};
   static_assert(std::size(kNames) == std::variant_size_v<SessionEvent>);
   return kNames[event.index()];
 }
@@ -72,7 +72,6 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
     void operator()(const MemberReturned& e) const { session.come_back(e.member); }
     void operator()(const MemberReplaced& e) const { session.replace(e.member); }
     void operator()(const StrategyChanged& e) const { session.change_strategy(e.strategy); }
-    void operator()(const PlacementTaken& e) const { session.take_placement(e.answers); }
   };
   std::visit(Visitor{*this, cache}, event);
 }
@@ -83,8 +82,7 @@ bool operator==(const Session& a, const Session& b) {
          a.components_ == b.components_ && a.seats_ == b.seats_ && a.is_new_ == b.is_new_ && a.visited_ == b.visited_ &&
          a.taught_before_ == b.taught_before_ && a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ &&
          a.pending_ == b.pending_ && a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ &&
-         a.belief_ == b.belief_ && a.judged_ == b.judged_ && a.bank_ == b.bank_ &&
-         a.placement_verdicts_ == b.placement_verdicts_;
+         a.belief_ == b.belief_ && a.judged_ == b.judged_ && a.bank_ == b.bank_;
 }
 
 }  // namespace kith

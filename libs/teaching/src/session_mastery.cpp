@@ -3,24 +3,15 @@
 #include <algorithm>
 #include <string>
 
-#include "kith/core/error.hpp"
-#include "kith/teaching/placement.hpp"
+#include "kith/teaching/known_components.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
-namespace {
-
-[[noreturn]] void refuse_placement(const std::string& message) { throw Error{ErrorKind::kInvalidInput, message}; }
-
-}  // namespace
-
 void Session::make_bank(TeachingCache& cache) {
   const bool stops = options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior;
   if (stops && atlas_->is_tabulated()) exam_ = cache.shared_exam();
-  if (options_.hypotheses_about == HypothesesAbout::kKnownComponents) {
+  if (options_.hypotheses_about == HypothesesAbout::kKnownComponents)
     options_.hypotheses = grid_of_known_components(atlas_->knowledge_components().size());
-    if (options_.placement_tests > 0) placement_ = cache.placement(options_);
-  }
   if (options_.hypotheses_about == HypothesesAbout::kNothing) options_.hypotheses = one_hypothesis();
   if (!stops && !options_.keep_bank && !choice_.kind.needs(choice_.parameters).bank) return;
   bank_.emplace(cache.cover(atlas_->prior_cone(), options_.filter.particles), options_.filter, options_.likelihood,
@@ -47,37 +38,6 @@ void Session::admit_newcomers(TeachingCache& cache) {
     right_in_a_row_[i] = 0;
     is_new_[i] = false;
   }
-}
-
-void Session::take_placement(std::vector<std::vector<Answer>> answers) {
-  if (!awaits_placement()) throw Error{ErrorKind::kUsage, "there is no placement test to answer now"};
-  if (answers.size() != num_members()) {
-    refuse_placement("there are answers of " + std::to_string(answers.size()) + " members instead of " +
-                     std::to_string(num_members()));
-  }
-  std::vector<std::vector<Verdict>> verdicts(num_members());
-  std::vector<std::vector<HalfSpace>> shown(num_members());
-  for (std::size_t i = 0; i < num_members(); ++i) {
-    if (answers[i].empty()) continue;
-    if (answers[i].size() != placement_.size()) {
-      refuse_placement("member " + std::to_string(i + 1) + " gave " + std::to_string(answers[i].size()) +
-                       " answers to " + std::to_string(placement_.size()) + " placement tests");
-    }
-    for (std::size_t t = 0; t < placement_.size(); ++t) {
-      verdicts[i].push_back(judge(placement_[t], answers[i][t]));
-      for (const auto& half_space : verdicts[i].back().half_spaces) {
-        if (std::find(shown[i].begin(), shown[i].end(), half_space) == shown[i].end()) shown[i].push_back(half_space);
-      }
-    }
-  }
-  auto taken = events_.prepare(PlacementTaken{answers});
-  auto judged = judged_;
-  if (judged) static_cast<void>(judged->observe_responses(shown, 0));
-  static_cast<void>(belief_.observe_responses(shown, 0));
-  judged_ = std::move(judged);
-  if (bank_) bank_->see_placement(*atlas_, placement_, answers, verdicts);
-  placement_verdicts_ = std::move(verdicts);
-  events_.push_back(std::move(taken));
 }
 
 // Periods of the present component, with this one.

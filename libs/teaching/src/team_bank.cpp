@@ -42,16 +42,6 @@ void TeamBank::take_answers(std::size_t i, std::span<const Verdict> verdicts, st
   informed_[i].diffuse(response_noise_, random_[i].split(period).split("response noise"));
 }
 
-void TeamBank::see_placement(const Atlas& atlas, std::span<const Test> tests,
-                             std::span<const std::vector<Answer>> answers,
-                             std::span<const std::vector<Verdict>> verdicts) {
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (answers[i].empty()) continue;
-    members_[i].see_answers(AnswerFit{atlas, tests, answers[i], verdicts[i]});
-    take_answers(i, verdicts[i], 0);
-  }
-}
-
 void TeamBank::watch(const Lesson& lesson, const std::vector<bool>& present) {
   std::vector<HalfSpace> conveyed;
   for (const auto& shown : lesson.demonstrations) {

@@ -44,11 +44,10 @@ struct LiveStudy {
 /// starts without an answerable_path(): the atlas of the result has no tests there.
 /// @param folder  where consent_file and language are looked for.
 /// @throws kith::Error (kInvalidInput) if the study varies keys, a strategy needs the truth about learners, the study
-/// releases members, teaches types apart or asks placement tests, its only strategy teaches one person and no
-/// composition has one, no group has a place for people of high or of low
-/// ability although the screening seats them, or consent_file or language cannot be understood; (kInfeasible) if a
-/// world has more than kMaxLiveStates states or the domain cannot be taught or asked about; (kIo) if a file cannot be
-/// read.
+/// releases members or teaches types apart, its only strategy teaches one person and no composition has one, no group
+/// has a place for people of high or of low ability although the screening seats them, or consent_file or language
+/// cannot be understood; (kInfeasible) if a world has more than kMaxLiveStates states or the domain cannot be taught or
+/// asked about; (kIo) if a file cannot be read.
 [[nodiscard]] std::shared_ptr<const LiveStudy> make_live_study(const Study& study, std::shared_ptr<const Atlas> atlas,
                                                                const std::filesystem::path& folder = {});
 

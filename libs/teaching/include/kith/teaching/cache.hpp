@@ -80,9 +80,6 @@ class TeachingCache {
   const std::shared_ptr<const StartSample>& starts_of(std::size_t component);
   const std::shared_ptr<const StartSample>& tests_of(std::size_t component);
 
-  /// The placement tests of sessions with these options; see placement_tests().
-  const std::vector<Test>& placement(const TeachingOptions& options);
-
  private:
   struct Known {
     Known(const Atlas& atlas, std::size_t max_bytes, std::shared_ptr<PolicyPartitions> partitions)
@@ -96,14 +93,6 @@ class TeachingCache {
   std::shared_ptr<PolicyPartitions> partitions_;
   std::unique_ptr<Known> known_;
   std::shared_ptr<const Exam> exam_;
-  // Placement tests by what they depend on; few.
-  struct Placement {
-    std::vector<LearnerHypothesis> hypotheses;
-    std::size_t particles, tests_wanted;
-    LikelihoodForm likelihood;
-    std::vector<Test> tests;
-  };
-  std::list<Placement> placements_;
   std::vector<std::shared_ptr<const StartSample>> starts_;  // per component
   std::vector<std::shared_ptr<const StartSample>> tests_;   // per component
   std::list<PriorCover> covers_;                            // few: one per prior and filter size of a study

@@ -97,10 +97,6 @@ class Session {
   [[nodiscard]] std::span<const ComponentStatus> components() const noexcept { return components_; }
 
   // --- events ---------------------------------------------------------------
-  /// The members' answers to placement(), before the first lesson: evidence for the teacher, without feedback.
-  /// @param answers  per member one per test, or none if the member does not take part.
-  /// @throws kith::Error (kUsage) unless awaits_placement(); (kInvalidInput) for answers that cannot be given.
-  void take_placement(std::vector<std::vector<Answer>> answers);
   /// Chooses the next lesson of the current component, or of the first later one that has anything to teach.
   /// @param cache  of the same atlas; makes it faster and changes no result.
   /// @param truth  the members as they are, which only simulations know, for strategies that ask for it; may be empty.
@@ -133,16 +129,6 @@ class Session {
   const Feedback& submit(std::span<const std::vector<Answer>> answers);
 
   // --- state ----------------------------------------------------------------
-  /// The tests before the first lesson; none unless TeachingOptions::placement_tests.
-  [[nodiscard]] std::span<const Test> placement() const noexcept { return placement_; }
-  /// Whether they are to be answered now; nothing can be proposed before.
-  [[nodiscard]] bool awaits_placement() const noexcept {
-    return !placement_.empty() && placement_verdicts_.empty() && events_.empty();
-  }
-  /// What their answers showed, per member and test; empty before.
-  [[nodiscard]] std::span<const std::vector<Verdict>> placement_verdicts() const noexcept {
-    return placement_verdicts_;
-  }
   /// What to show and ask now. @throws kith::Error (kUsage) in the phases kProposal and kFinished.
   [[nodiscard]] const Lesson& lesson() const;
   /// Whether a member is released until the next component begins.
@@ -209,8 +195,6 @@ class Session {
   TeamBelief belief_;
   std::optional<TeamBelief> judged_;  // about every member, without response noise; if reads_beliefs()
   std::optional<TeamBank> bank_;
-  std::vector<Test> placement_;
-  std::vector<std::vector<Verdict>> placement_verdicts_;
   std::shared_ptr<const Exam> exam_;  // what MasteryRule::kPosterior judges by
   double mastery_ = 0.0;
   // Per component what MasteryRule::kExam judges by, or kPosterior where there are no tables.

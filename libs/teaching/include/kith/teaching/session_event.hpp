@@ -50,12 +50,6 @@ struct StrategyChanged {
   friend bool operator==(const StrategyChanged&, const StrategyChanged&) = default;
 };
 
-/// The members answered the placement tests, before the first lesson.
-struct PlacementTaken {
-  std::vector<std::vector<Answer>> answers;  ///< Per member, per test; empty for a member who did not take part.
-  friend bool operator==(const PlacementTaken&, const PlacementTaken&) = default;
-};
-
 /// Somebody else takes the place of a member who left, and takes part from the next lesson on.
 struct MemberReplaced {
   std::size_t member = 0;
@@ -64,12 +58,12 @@ struct MemberReplaced {
 
 /// Everything that can happen to a session, see Session.
 using SessionEvent = std::variant<LessonProposed, LessonShown, TestsAnswered, TestsClosed, FeedbackGiven, MemberLeft,
-                                  MemberReturned, StrategyChanged, PlacementTaken, MemberReplaced>;
+                                  MemberReturned, StrategyChanged, MemberReplaced>;
 /// In the order in which they happened.
 using SessionEvents = SharedList<SessionEvent>;
 
 /// "lesson-proposed", "lesson-shown", "tests-answered", "tests-closed", "feedback-given", "member-left",
-/// "member-returned", "strategy-changed", "placement-taken", "member-replaced".
+/// "member-returned", "strategy-changed", "member-replaced".
 [[nodiscard]] std::string_view name_of(const SessionEvent& event) noexcept;
 
 }  // namespace kith

@@ -83,9 +83,6 @@ struct TeachingOptions {
   /// What members may be like, as the bank has it that strategies and stopping rules may ask for; see LearnerBank.
   std::vector<LearnerHypothesis> hypotheses = grid_of_hypotheses();
   HypothesesAbout hypotheses_about = HypothesesAbout::kAbility;
-  /// Tests before the first lesson, at most, that tell the hypotheses apart; see placement_tests(). There is no
-  /// feedback on them, and they are asked only if hypotheses differ in what people know.
-  std::size_t placement_tests = 0;
   bool keep_bank = false;     ///< the bank is kept even if nobody reads it
   bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
   bool keep_rules = false;    ///< the same for the beliefs of all rules

@@ -32,9 +32,6 @@ class TeamBank {
                const std::vector<LearnerHypothesis>& hypotheses, const RandomStream& person,
                std::span<const std::vector<HalfSpace>> components = {});
 
-  /// What the members answered before the first lesson, without feedback; empty lists are ignored.
-  void see_placement(const Atlas& atlas, std::span<const Test> tests, std::span<const std::vector<Answer>> answers,
-                     std::span<const std::vector<Verdict>> verdicts);
   /// The members present watched a lesson.
   void watch(const Lesson& lesson, const std::vector<bool>& present);
   /// The tests were closed; the feedback that follows is taken in, too.
