@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -6,11 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "input.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/analysis/exports.hpp"
 #include "kith/analysis/r_script.hpp"
-#include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/file_set.hpp"
 #include "kith/files/published_run.hpp"
@@ -114,9 +111,8 @@ Analysis analysis_of(const AnalyzeOptions& options) {
   std::error_code failure;
   const bool is_run = options.input != "-" && !fs::is_regular_file(options.input, failure);
   if (options.model.empty()) {
-    if (!is_run)
-      throw Error{ErrorKind::kUsage, "to analyse a table, give a model, such as --model 'knowledge ~ strategy'"};
-    if (!options.where.empty()) throw Error{ErrorKind::kUsage, "--where can only be used with --model"};
+    if (!is_run) refuse("to analyse a table, give a model, such as --model 'knowledge ~ strategy'");
+    if (!options.where.empty()) refuse("--where can only be used with --model");
     return analyze_run(options.input, analysis_options(options));
   }
   std::vector<RowFilter> filters;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -87,14 +88,8 @@ void declare(OptionList& list, AskOptions& options) {
 int run(const AskOptions& options, Console& console) {
   const WorkNotice notice{console, "looking through " + options.domain};
   const Atlas atlas{load_domain(options.domain)};
-  std::string question;
-  for (const auto& word : options.question) question += (question.empty() ? "" : " ") + word;
-  const auto reply = answer_question(atlas, question);
-  if (console.json()) {
-    console.print_json(reply_json(atlas, reply));
-  } else {
-    console.print(reply_text(atlas, reply, console));
-  }
+  const auto reply = answer_question(atlas, fmt::format("{}", fmt::join(options.question, " ")));
+  console.print([&] { return reply_json(atlas, reply); }, [&] { return reply_text(atlas, reply, console); });
   return 0;
 }
 

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
-#include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/planning/calibration.hpp"
 #include "kith/present/json.hpp"
+#include "page.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
 #include "work_notice.hpp"
@@ -96,11 +94,14 @@ std::string targets_table(const TargetSet& set, const Calibration& result, const
          "\n";
 }
 
+std::vector<std::string> with_parameters(std::vector<std::string> head, const TargetSet& set) {
+  for (const auto& parameter : set.parameters) head.push_back(parameter.name);
+  return head;
+}
+
 std::string candidates_table(const TargetSet& set, const Calibration& result, const Console& console) {
   TextTable table{"lr" + std::string(set.parameters.size(), 'r')};
-  std::vector<std::string> header{"confirmed with new teams", "misfit"};
-  for (const auto& parameter : set.parameters) header.push_back(parameter.name);
-  table.add(header);
+  table.add(with_parameters({"confirmed with new teams", "misfit"}, set));
   for (const auto& candidate : result.candidates) {
     std::vector<std::string> row{candidate.label, fmt::format("{:.2f}", candidate.misfit)};
     for (const double value : candidate.values) row.push_back(fmt::format("{}", value));
@@ -114,9 +115,7 @@ std::string candidates_table(const TargetSet& set, const Calibration& result, co
 
 std::string sensitivity_table(const TargetSet& set, const Calibration& result, const Console& console) {
   TextTable table{"lr" + std::string(set.parameters.size(), 'r')};
-  std::vector<std::string> header{"share of variance", "explained"};
-  for (const auto& parameter : set.parameters) header.push_back(parameter.name);
-  table.add(header);
+  table.add(with_parameters({"share of variance", "explained"}, set));
   for (std::size_t t = 0; t < set.targets.size(); ++t) {
     std::vector<std::string> row{to_string(set.targets[t]),
                                  fmt::format("{:.0f}%", 100.0 * std::max(0.0, result.sensitivity_explained[t]))};
@@ -184,8 +183,7 @@ std::string frontier_table(const TargetSet& set, const Calibration& result, cons
                                   fmt::format("{} error", name_of(*result.second_quantity))};
   for (const auto t : means)
     header.push_back(fmt::format("{} {}", to_string(set.targets[t].teams), name_of(set.targets[t].quantity)));
-  for (const auto& parameter : set.parameters) header.push_back(parameter.name);
-  table.add(header);
+  table.add(with_parameters(std::move(header), set));
   for (const auto& one : result.frontier) {
     std::vector<std::string> row{fmt::format("{:.2f}", one.first_error), fmt::format("{:.2f}", one.second_error)};
     for (const auto t : means) row.push_back(figure(one.point.targets[t].model));
@@ -315,9 +313,7 @@ std::string commented(const std::string& text) {
 }
 
 std::string plain_report(const TargetSet& set, const Calibration& result) {
-  CommonOptions plain;
-  plain.color = ColorMode::kNever;
-  const Console console{plain};
+  const Console console{{.color = ColorMode::kNever}};
   return parameters_table(set, result, console) + "\n" + targets_table(set, result, console) + "\n" +
          conflict_sentences(set, result);
 }
@@ -346,11 +342,9 @@ void check_out(const CalibrateOptions& options) {
   if (options.out.empty()) return;
   std::error_code failure;
   for (const auto& input : {options.study, options.targets}) {
-    if (std::filesystem::equivalent(options.out, input, failure))
-      throw Error{ErrorKind::kUsage, "-o must not be the input " + input};
+    if (std::filesystem::equivalent(options.out, input, failure)) refuse("-o must not be the input " + input);
   }
-  if (std::filesystem::exists(options.out, failure) && !options.yes)
-    throw Error{ErrorKind::kUsage, options.out + " exists; use --yes to replace it"};
+  require_replaceable(options.out, options.yes);
 }
 
 CalibrationOptions search_options(const CalibrateOptions& options) {
@@ -387,9 +381,8 @@ void declare(OptionList& list, CalibrateOptions& options) {
 }
 
 int run(const CalibrateOptions& options, Console& console) {
-  if (options.targets.empty()) throw Error{ErrorKind::kUsage, "kith calibrate needs --targets FILE"};
-  if (options.study == "-" && options.targets == "-")
-    throw Error{ErrorKind::kUsage, "only one of STUDY and --targets can be standard input"};
+  if (options.targets.empty()) refuse("kith calibrate needs --targets FILE");
+  if (options.study == "-" && options.targets == "-") refuse("only one of STUDY and --targets can be standard input");
   check_out(options);
   const StudyText source{options.study, options.set};
   const auto reading = source.read({});
@@ -397,25 +390,16 @@ int run(const CalibrateOptions& options, Console& console) {
   check_single_variant(options.study, *reading.study);
   const auto set = targets_of(options.targets, source);
   if (set.targets.empty() || set.parameters.empty()) {
-    Diagnostic nothing;
-    nothing.id = "E0811";
-    nothing.file = options.targets;
-    nothing.message = set.targets.empty() ? "there is no [[target]]" : "there is no [[parameter]]";
-    throw Error{{nothing}};
+    throw Error{{Diagnostic{.id = "E0811",
+                            .message = set.targets.empty() ? "there is no [[target]]" : "there is no [[parameter]]",
+                            .file = options.targets}}};
   }
 
   watch_signals();
-  const auto atlas = [&] {
-    const WorkNotice notice{console, "planning the domain"};
-    return Atlas{*reading.domain};
-  }();
-  require_something_to_teach(atlas);
+  const Atlas atlas = planned(*reading.domain, console);
   Progress progress{options.progress, console};
   auto search = search_options(options);
-  search.on_progress = [&](std::size_t done, std::size_t total) {
-    progress.update(done, total);
-    return stop_signal() == 0;
-  };
+  search.on_progress = progress.until_stopped();
   if (!console.quiet()) {
     const auto& spec = reading.study->variants.front();
     const auto teams = most_teams_per_cell(search) * spec.strategies.size() * spec.compositions.size();
@@ -424,16 +408,10 @@ int run(const CalibrateOptions& options, Console& console) {
   const auto result = calibrate(
       atlas, [&](const auto& overrides) { return source.read(overrides); }, set, search);
   progress.finish();
-  if (!result) {
-    console.warning("interrupted; nothing was written");
-    return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
-  }
+  if (!result) return interrupted("interrupted; nothing was written", console);
   if (!options.out.empty()) write_file_atomically(options.out, study_file(options, source, set, *result));
-  if (console.json()) {
-    console.print_json(document_of(options.study, search.seed, set, *result));
-    return 0;
-  }
-  console.print(report(set, *result, console));
+  console.print([&] { return document_of(options.study, search.seed, set, *result); },
+                [&] { return report(set, *result, console); });
   console.info(fmt::format("{} simulated{}", counted(result->teams_simulated, "team"),
                            options.out.empty() ? "" : "; the calibrated study is in " + options.out));
   return 0;

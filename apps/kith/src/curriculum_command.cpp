@@ -4,8 +4,8 @@
 
 #include "build_facts.hpp"
 #include "command.hpp"
+#include "embedded.hpp"
 #include "kith/bec/memory_needs.hpp"
-#include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
@@ -13,7 +13,6 @@
 #include "kith/present/legend.hpp"
 #include "kith/present/picture.hpp"
 #include "kith/present/wrapped.hpp"
-#include "lesson_page.hpp"
 #include "page.hpp"
 #include "work_notice.hpp"
 

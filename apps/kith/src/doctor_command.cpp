@@ -7,7 +7,6 @@
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 

@@ -1,14 +1,12 @@
 // What an error id means: the tables of docs/errors.md, which are the registry of ids. And what kinds there are.
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string_view>
 
 #include "command.hpp"
-#include "error_page.hpp"
+#include "embedded.hpp"
 #include "kind_lists.hpp"
 #include "kith/core/diagnostic.hpp"
-#include "kith/core/error.hpp"
 #include "kith/present/wrapped.hpp"
 
 namespace kith::cli {

@@ -8,6 +8,7 @@
 #include "kith/domains/export_model.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/files/file_set.hpp"
+#include "page.hpp"
 
 namespace kith::cli {
 namespace {
@@ -59,12 +60,7 @@ int run(const ExportOptions& options, Console& console) {
     console.print(files.front().text);
     return 0;
   }
-  for (const auto& file : files) {
-    const auto path = out.parent_path() / file.name;
-    if (!options.yes && fs::is_regular_file(path, ignored)) {
-      refuse(path.string() + " exists; choose another name, or add --yes to replace it");
-    }
-  }
+  for (const auto& file : files) require_replaceable(out.parent_path() / file.name, options.yes);
   if (files.size() == 1) {
     write_file_atomically(out.parent_path() / files.front().name, files.front().text);
   } else {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -171,8 +172,7 @@ void declare(OptionList& list, FindOptions& options) {
 int run(const FindOptions& options, Console& console) {
   const WorkNotice notice{console, "looking through " + options.domain};
   const Atlas atlas{load_domain(options.domain)};
-  std::string wanted;
-  for (const auto& word : options.constraint) wanted += (wanted.empty() ? "" : " ") + word;
+  const auto wanted = fmt::format("{}", fmt::join(options.constraint, " "));
   if (wanted.empty()) {
     list_constraints(atlas, console);
     return 0;

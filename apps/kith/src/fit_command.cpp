@@ -2,22 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "command.hpp"
-#include "fit_json.hpp"
-#include "fit_text.hpp"
+#include "fit_output.hpp"
 #include "interrupt.hpp"
-#include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/fit/accuracy.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/grid_search.hpp"
 #include "kith/fit/import_logs.hpp"
 #include "kith/present/json.hpp"
+#include "page.hpp"
 #include "planning_input.hpp"
 #include "progress.hpp"
 
@@ -38,31 +35,9 @@ struct FitCommandOptions {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-void check_out(const FitCommandOptions& options) {
-  std::error_code ignored;
-  if (options.out.empty() || options.yes || !std::filesystem::is_regular_file(options.out, ignored)) return;
-  throw Error{ErrorKind::kUsage, options.out + " exists; choose another name, or add --yes to replace it"};
-}
-
-int wrote_nothing(Console& console) {
-  const std::string message = "interrupted; nothing was written";
-  console.warning(message);
-  if (console.json()) {
-    Diagnostic diagnostic;
-    diagnostic.id = "interrupted";
-    diagnostic.message = message;
-    console.print_json(error_document({diagnostic}));
-  }
-  return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
-}
-
 int finish(const FitCommandOptions& options, const Json& document, const std::string& text, Console& console) {
   if (!options.out.empty()) write_file_atomically(options.out, document.dump(2) + "\n");
-  if (console.json()) {
-    console.print_json(document);
-  } else {
-    console.print(text);
-  }
+  console.print([&] { return document; }, [&] { return text; });
   if (!options.out.empty()) console.info("result written to " + options.out);
   return 0;
 }
@@ -119,14 +94,13 @@ void declare(OptionList& list, FitCommandOptions& options) {
 }
 
 int run(const FitCommandOptions& options, Console& console) {
-  check_out(options);
+  require_replaceable(options.out, options.yes);
   const auto detail = options.answers == "path" ? AnswerDetail::kPath : AnswerDetail::kVerdict;
   const auto imported = import_logs({options.logs.begin(), options.logs.end()}, detail);
   if (!console.quiet()) console.show(imported.logs.notes);
   if (!imported.accuracy.empty()) {
     if (options.method == "grid") {
-      throw Error{ErrorKind::kUsage,
-                  "--method grid needs logs that tell what people saw; these tell only what they answered"};
+      refuse("--method grid needs logs that tell what people saw; these tell only what they answered");
     }
     const auto fit = fit_accuracy(imported.accuracy);
     return finish(options, to_json(fit), text_of(fit, console), console);
@@ -134,10 +108,7 @@ int run(const FitCommandOptions& options, Console& console) {
 
   watch_signals();
   Progress progress{options.progress, console};
-  const ParallelOptions parallel{.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
-                                   progress.update(done, total);
-                                   return stop_signal() == 0;
-                                 }};
+  const ParallelOptions parallel{.threads = options.threads, .on_progress = progress.until_stopped()};
   const LikelihoodOptions how{.replicates = options.replicates, .seed = options.seed, .parallel = parallel};
   const bool says_time = !console.quiet() && !imported.logs.people.empty();
   if (options.method == "grid") {
@@ -145,7 +116,7 @@ int run(const FitCommandOptions& options, Console& console) {
     if (says_time) console.info(likelihood_work_text(logs, published_grid(), how));
     const auto groups = search_grid(logs, how);
     progress.finish();
-    if (!groups) return wrote_nothing(console);
+    if (!groups) return interrupted("interrupted; nothing was written", console);
     return finish(options, to_json(*groups), text_of(*groups, console), console);
   }
   FitOptions fit_options;
@@ -157,7 +128,7 @@ int run(const FitCommandOptions& options, Console& console) {
   if (says_time) console.info(likelihood_work_text(imported.logs, grid_of(fit_options), how));
   const auto report = fit_learners(imported.logs, fit_options);
   progress.finish();
-  if (!report.complete) return wrote_nothing(console);
+  if (!report.complete) return interrupted("interrupted; nothing was written", console);
   return finish(options, to_json(report, imported.logs.notes), text_of(report, console), console);
 }
 

@@ -1,4 +1,4 @@
-#include "fit_json.hpp"
+#include "fit_output.hpp"
 
 #include <nlohmann/json.hpp>
 

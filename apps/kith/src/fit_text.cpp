@@ -1,4 +1,4 @@
-#include "fit_text.hpp"
+#include "fit_output.hpp"
 
 #include <fmt/format.h>
 

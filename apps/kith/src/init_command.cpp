@@ -1,12 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 
 #include "command.hpp"
+#include "embedded.hpp"
 #include "input.hpp"
-#include "kith/core/error.hpp"
 #include "kith/files/file_set.hpp"
-#include "templates.hpp"
 
 namespace kith::cli {
 namespace {
@@ -45,20 +45,20 @@ int run(const InitOptions& options, Console& console) {
   for (const auto& file : files) {
     std::error_code failure;
     if (std::filesystem::exists(std::filesystem::symlink_status(folder / file.name, failure))) {
-      throw Error{ErrorKind::kUsage, (folder / file.name).string() + " exists already; name another folder"};
+      refuse((folder / file.name).string() + " exists already; name another folder");
     }
   }
   FileSet set{folder};
   for (const auto& file : files) set.write(file.name, file.content);
   set.commit();
 
-  std::string names;
-  for (const auto& file : files) names += (names.empty() ? "" : ", ") + file.name;
+  std::vector<std::string> names;
+  for (const auto& file : files) names.push_back(file.name);
   const auto enter = folder == "." ? std::string{} : "  cd " + folder.string() + "\n";
   console.print(
       fmt::format("wrote {} in {}; try\n{}  kith validate domain.toml study.toml\n"
                   "  kith curriculum domain.toml\n  kith study study.toml -o results\n",
-                  names, folder.string(), enter));
+                  fmt::join(names, ", "), folder.string(), enter));
   return 0;
 }
 

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <optional>
 
 #include "command.hpp"
-#include "domain_view.hpp"
 #include "kith/bec/comparison.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/explain/expected_ways.hpp"
 #include "kith/explain/words.hpp"
+#include "kith/mdp/behaviour.hpp"
+#include "kith/mdp/planner.hpp"
 #include "kith/present/inspect_json.hpp"
 #include "kith/present/inspect_svg.hpp"
 #include "kith/present/legend.hpp"
@@ -29,33 +30,34 @@ struct InspectOptions {
 
 constexpr std::size_t kListLength = 20;  // without --all
 
-// Writes the parts of the human form one after the other.
+// Writes the parts of the human form one after the other. With a single feature there is no atlas, as there is nothing
+// to teach, but still something to see.
 class Inspection {
  public:
-  Inspection(const Atlas& atlas, const InspectOptions& options, const Console& console)
-      : atlas_{atlas},
-        domain_{atlas.domain()},
-        options_{options},
-        console_{console},
-        view_{domain_, options.mdp, options.all, console},
-        mdp_{view_.mdp()} {}
+  Inspection(const Domain& domain, const Atlas* atlas, MdpIndex mdp, bool all, const Console& console)
+      : domain_{domain}, atlas_{atlas}, mdp_{mdp}, all_{all}, console_{console} {}
 
-  std::string text() {
-    out_ += view_.title();
-    if (options_.show.empty()) {
-      out_ += view_.map() + view_.reward();
-      bec();
-      components();
-      coverage();
+  std::string text(const std::vector<std::string>& parts) {
+    out_ += title();
+    if (parts.empty()) {
+      out_ += map() + reward();
+      if (atlas_ == nullptr) {
+        out_ += policy();
+      } else {
+        bec();
+        components();
+        coverage();
+      }
     }
-    for (const auto& part : options_.show) show(part);
+    for (const auto& part : parts) show(part);
     return out_;
   }
 
  private:
   void show(const std::string& part) {
-    if (part == "map") out_ += view_.map();
-    if (part == "policy") out_ += view_.policy();
+    if (part == "map") out_ += map();
+    if (part == "policy") out_ += policy();
+    if (atlas_ == nullptr) return;
     if (part == "bec") bec();
     if (part == "kc") components();
     if (part == "demos") demos();
@@ -63,7 +65,97 @@ class Inspection {
     if (part == "counterfactuals") counterfactuals();
   }
 
-  void heading(const std::string& text) { out_ += "\n" + console_.bold(text) + "\n"; }
+  [[nodiscard]] std::string heading_text(const std::string& text) const { return "\n" + console_.bold(text) + "\n"; }
+  void heading(const std::string& text) { out_ += heading_text(text); }
+
+  [[nodiscard]] std::string title() const {
+    return console_.bold(domain_.id()) + (domain_.title().empty() ? "" : ": " + domain_.title()) + "\n" +
+           fmt::format("{}, {}, {}\n", counted(domain_.num_mdps(), "MDP"), counted(domain_.num_starts(), "start state"),
+                       counted(domain_.num_features(), "feature"));
+  }
+
+  // With the legend of the symbols; without a map the size of the model.
+  [[nodiscard]] std::string map() const {
+    const auto map = domain_.drawing();
+    if (!map) return model();
+    const DemoId start{mdp_, domain_.initial_state(mdp_)};
+    return (map->is_picture() ? model() : "") +
+           heading_text(fmt::format("Map of MDP {}, and its first start", mdp_.value())) +
+           beside({bare_picture(*map, start), start_picture(*map, start)}, 2) + "\n" + legend(domain_, 2);
+  }
+
+  // What there is instead of a map.
+  [[nodiscard]] std::string model() const {
+    const auto& mdp = domain_.mdp(mdp_);
+    const auto name = domain_.describe_variant(mdp_);
+    auto text = heading_text(fmt::format("Model of MDP {}{}", mdp_.value(), name.empty() ? "" : ": " + name)) +
+                fmt::format("  {} and {}, {}, {}\n", counted(mdp.num_states(), "state"),
+                            counted(mdp.num_terminals(), "terminal one"), counted(mdp.num_actions(), "action"),
+                            mdp.is_deterministic() ? "outcomes are certain" : "outcomes are uncertain") +
+                fmt::format("  discount {}\n  the robot enters at: {}\n", mdp.discount(),
+                            domain_.state_name(mdp_, domain_.initial_state(mdp_)));
+    for (std::size_t t = 0; t < std::min(mdp.num_terminals(), kListLength); ++t) {
+      text += "  an end: " + domain_.state_name(mdp_, StateIndex{mdp.num_states() + t}) + "\n";
+    }
+    return text;
+  }
+
+  // What there is instead of arrows.
+  [[nodiscard]] std::string policy_table() const {
+    const auto& mdp = domain_.mdp(mdp_);
+    const auto behaviour = behave(mdp, domain_.weights().raw, {.scale = domain_.count_scale()});
+    if (!behaviour) return "  there is none with a finite return\n";
+    TextTable table{"llr"};
+    table.add({"  state", "action", "value"});
+    const auto shown = all_ ? mdp.num_states() : std::min(mdp.num_states(), kListLength);
+    for (std::size_t s = 0; s < shown; ++s) {
+      const auto& choice = mdp.choices(StateIndex{s})[behaviour->choice[s]];
+      table.add({"  " + domain_.state_name(mdp_, StateIndex{s}), domain_.action_names()[choice.action.value()],
+                 fmt::format("{:.4f}", behaviour->values[s])});
+    }
+    auto text = table.text(console_);
+    if (shown < mdp.num_states()) text += fmt::format("  ... {} more: --all shows them\n", mdp.num_states() - shown);
+    return text + "  values are with the weights as written\n";
+  }
+
+  // Raw and at length 1.
+  [[nodiscard]] std::string reward() const {
+    TextTable table{"llrr"};
+    table.add({"  feature", "words", "weight", "at length 1"});
+    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
+      IntegerVector once(domain_.num_features());
+      once[k] = 1;
+      table.add({"  " + domain_.feature_names()[k], domain_.feature_words(k),
+                 fmt::format("{}", domain_.weights().raw[k]),
+                 fmt::format("{:.4f}", domain_.weights().return_of(once))});
+    }
+    auto text = heading_text("Reward") + table.text(console_);
+    for (const auto& half_space : domain_.prior()) text += "  known to all: " + described(domain_, half_space) + "\n";
+    return text;
+  }
+
+  // For every configuration on the way from the start, or as a table.
+  [[nodiscard]] std::string policy() const {
+    auto text = heading_text(fmt::format("The robot's policy in MDP {}", mdp_.value()));
+    const auto& mdp = domain_.mdp(mdp_);
+    const auto map = domain_.drawing();
+    if (!map) return text + policy_table();
+    const auto policy = policy_to_draw(domain_, mdp_);
+    if (!policy) return text + policy_table();
+    const auto start = domain_.initial_state(mdp_);
+    const auto& path = policy->path;
+    for (const auto& now : configurations_on(domain_, *map, mdp_, path)) {
+      text += "  " + configuration_in_words(*map, mdp_, now) + "\n" +
+              beside({policy_picture(domain_, *map, mdp_, policy->choice, now)}, 4);
+    }
+    text += "  ^ v < > move the robot; a letter begins the name of another action\n";
+    if (mdp.is_deterministic() && mdp.discount() < 1.0)
+      text += "  from the start: " + actions_text(domain_, mdp_, path) + "\n";
+    if (!kith::is_exact(mdp)) return text + policy_table();
+    const auto counts = plan_exactly(mdp, domain_.weights().integer).solution.value().feature_counts[start.value()];
+    return text + "  from the start: " + actions_text(domain_, path.actions) + "\n" +
+           fmt::format("  {}, return {:.4f}\n", counts_text(domain_, counts), domain_.weights().return_of(counts));
+  }
 
   void constraints(const std::vector<HalfSpace>& half_spaces, const std::string& indent) {
     for (const auto& half_space : half_spaces) out_ += indent + described(domain_, half_space) + "\n";
@@ -71,10 +163,10 @@ class Inspection {
 
   void bec() {
     heading("What determines the policy: its behaviour equivalence class");
-    constraints(atlas_.policy_bec_half_spaces(), "  ");
-    out_ += fmt::format("  {}; the prior has {}\n", area_text(atlas_.policy_bec_area()),
-                        area_text(atlas_.prior_cone().measure()));
-    if (const auto left = atlas_.regret_left()) {
+    constraints(atlas_->policy_bec_half_spaces(), "  ");
+    out_ += fmt::format("  {}; the prior has {}\n", area_text(atlas_->policy_bec_area()),
+                        area_text(atlas_->prior_cone().measure()));
+    if (const auto left = atlas_->regret_left()) {
       out_ += fmt::format(
           "  an estimate, as the robot's paths from these starts do not meet every state: people within it keep\n"
           "  {:.2g} % of the regret that people have before any lesson\n",
@@ -85,12 +177,12 @@ class Inspection {
   void components() {
     heading("Knowledge components, in the order of teaching");
     std::size_t number = 0;
-    for (const auto& component : atlas_.knowledge_components()) {
+    for (const auto& component : atlas_->knowledge_components()) {
       const auto mdps = std::count(component.uses_mdp.begin(), component.uses_mdp.end(), true);
       out_ += fmt::format("  {}. {} ({} MDPs{}), {}\n", ++number, component.name, mdps,
                           component.masked.empty() ? "" : ", without " + masked_names(domain_, component),
                           area_text({component.area_sr, component.area_error}));
-      constraints(atlas_.constraints().half_spaces(component.constraints), "     ");
+      constraints(atlas_->constraints().half_spaces(component.constraints), "     ");
     }
   }
 
@@ -106,16 +198,16 @@ class Inspection {
   }
 
   void coverage() {
-    if (!atlas_.is_tabulated()) {
+    if (!atlas_->is_tabulated()) {
       heading("What people could expect the robot to do");
       out_ += "  computed on demand; not precomputed for this domain\n";
       return;
     }
-    const auto& coverage = atlas_.coverage();
+    const auto& coverage = atlas_->coverage();
     heading("What people could expect the robot to do");
     out_ += fmt::format("  {} paths that are optimal for some weights: {:.2f} per start state, at most {}\n",
                         coverage.vertices, coverage.mean, coverage.max);
-    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_.cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_->cells().size());
   }
 
   void demos() {
@@ -123,44 +215,44 @@ class Inspection {
     const auto n = starts.size();
     heading(fmt::format("Demonstrations of MDP {}: {}", mdp_.value(), n));
     for (std::size_t i = 0; i < limited(n); ++i) {
-      const auto demo = atlas_.index({mdp_, starts[i]});
-      const auto path = atlas_.trajectory(demo);
-      const auto& counts = atlas_.feature_counts(demo);
+      const auto demo = atlas_->index({mdp_, starts[i]});
+      const auto path = atlas_->trajectory(demo);
+      const auto& counts = atlas_->feature_counts(demo);
       out_ += fmt::format("  start {}: {} ({}, return {:.4f}{})\n", starts[i].value(),
                           actions_text(domain_, mdp_, path), counts_text(domain_, counts), return_of(domain_, counts),
-                          atlas_.is_unique(demo) ? "" : ", one of several best paths");
-      out_ += start_and_path(domain_, atlas_.id(demo), path, 4);
-      constraints(atlas_.constraints().half_spaces(atlas_.one_step(demo)), "    ");
+                          atlas_->is_unique(demo) ? "" : ", one of several best paths");
+      out_ += start_and_path(domain_, atlas_->id(demo), path, 4);
+      constraints(atlas_->constraints().half_spaces(atlas_->one_step(demo)), "    ");
     }
     note_cut(n);
   }
 
   void tests() {
     heading("What can test each constraint of the policy");
-    for (const auto& half_space : atlas_.policy_bec_half_spaces()) {
-      const auto c = atlas_.constraints().find(half_space);
-      const auto tests = c ? atlas_.tests_for(*c) : std::span<const DemoIndex>{};
+    for (const auto& half_space : atlas_->policy_bec_half_spaces()) {
+      const auto c = atlas_->constraints().find(half_space);
+      const auto tests = c ? atlas_->tests_for(*c) : std::span<const DemoIndex>{};
       out_ += "  " + described(domain_, half_space) + fmt::format(": {} start states\n", tests.size());
       if (tests.empty()) continue;
-      const auto id = atlas_.id(tests.front());
+      const auto id = atlas_->id(tests.front());
       out_ += fmt::format("    for instance MDP {}, start {}\n", id.mdp.value(), id.start.value());
-      const auto path = atlas_.trajectory(tests.front());
+      const auto path = atlas_->trajectory(tests.front());
       out_ += start_and_path(domain_, id, path, 4);
       if (path.repeats_from) out_ += "    and so on: " + never_in_words(domain_, id.mdp, path) + "\n";
     }
   }
 
   void counterfactuals() {
-    const auto demo = atlas_.index({mdp_, domain_.initial_state(mdp_)});
+    const auto demo = atlas_->index({mdp_, domain_.initial_state(mdp_)});
     heading(fmt::format("What people could expect from the start of MDP {}", mdp_.value()));
     if (const auto map = domain_.drawing()) {
-      out_ += beside({bare_picture(*map, atlas_.id(demo)), start_picture(*map, atlas_.id(demo))}, 4);
+      out_ += beside({bare_picture(*map, atlas_->id(demo)), start_picture(*map, atlas_->id(demo))}, 4);
     } else {
       out_ += "    " + domain_.state_name(mdp_, domain_.initial_state(mdp_)) + "\n";
     }
-    if (!atlas_.is_tabulated()) return expected_by_a_sample(demo);
-    const auto& robot = atlas_.feature_counts(demo);
-    const auto paths = atlas_.coverage_set(demo);
+    if (!atlas_->is_tabulated()) return expected_by_a_sample(demo);
+    const auto& robot = atlas_->feature_counts(demo);
+    const auto paths = atlas_->coverage_set(demo);
     for (std::size_t i = 0; i < limited(paths.size()); ++i) {
       if (paths[i] == robot) {
         out_ += "  " + counts_text(domain_, paths[i]) + ": the robot's own path\n";
@@ -170,18 +262,18 @@ class Inspection {
               in_words(domain_, HalfSpace{robot - paths[i]}) + "\n";
     }
     note_cut(paths.size());
-    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_.cells().size());
+    out_ += fmt::format("  {} different behaviours over all start states (policy cells)\n", atlas_->cells().size());
   }
 
   void expected_by_a_sample(DemoIndex demo) {
-    Behaviours behaviours{atlas_};
+    Behaviours behaviours{*atlas_};
     const auto ways = expected_ways(behaviours, demo);
     out_ += "  by people whose weights fill the prior evenly\n";
     for (std::size_t i = 0; i < limited(ways.size()); ++i) {
       const auto& way = ways[i];
       out_ += fmt::format("  {:3.0f} %  {}: ", 100.0 * way.share, counts_text(domain_, way.counts));
-      const auto told = preference_of_robot(domain_, atlas_.feature_counts(demo) - way.counts);
-      if (way.counts == atlas_.feature_counts(demo)) {
+      const auto told = preference_of_robot(domain_, atlas_->feature_counts(demo) - way.counts);
+      if (way.counts == atlas_->feature_counts(demo)) {
         out_ += "the robot's own path\n";
       } else {
         out_ += told ? "shows them " + described(domain_, *told) + "\n" : "just as good\n";
@@ -192,45 +284,18 @@ class Inspection {
     note_cut(ways.size());
   }
 
-  [[nodiscard]] std::size_t limited(std::size_t n) const { return options_.all ? n : std::min(n, kListLength); }
+  [[nodiscard]] std::size_t limited(std::size_t n) const { return all_ ? n : std::min(n, kListLength); }
   void note_cut(std::size_t n) {
     if (limited(n) < n) out_ += console_.dim(fmt::format("  ... {} more: --all shows them", n - limited(n))) + "\n";
   }
 
-  const Atlas& atlas_;
   const Domain& domain_;
-  const InspectOptions& options_;
-  const Console& console_;
-  DomainView view_;
+  const Atlas* atlas_;
   MdpIndex mdp_;
+  bool all_;
+  const Console& console_;
   std::string out_;
 };
-
-void write_svg(const InspectOptions& options, const std::vector<SvgFile>& files, Console& console) {
-  write_pictures(options.svg, files);
-  std::vector<std::string> names;
-  for (const auto& file : files) names.push_back(file.name);
-  console.info(fmt::format("{} in {}", listed(names), options.svg));
-}
-
-// With a single feature there is nothing to teach, but still something to see.
-int inspect_without_atlas(const Domain& domain, const InspectOptions& options, Console& console) {
-  const DomainView view{domain, options.mdp, options.all, console};
-  if (!options.svg.empty()) write_svg(options, domain_pictures(domain, view.mdp()), console);
-  if (console.json()) {
-    console.print_json(inspection_json(domain));
-  } else {
-    std::string text = view.title();
-    const auto& show = options.show;
-    const auto asked = [&](const char* part) { return std::find(show.begin(), show.end(), part) != show.end(); };
-    if (show.empty() || asked("map")) text += view.map();
-    if (show.empty()) text += view.reward();
-    if (show.empty() || asked("policy")) text += view.policy();
-    console.print(text);
-  }
-  console.warning("what can be taught is not shown: with a single feature there is nothing to weigh");
-  return 0;
-}
 
 void declare(OptionList& list, InspectOptions& options) {
   list.domain(options.domain).required();
@@ -244,21 +309,31 @@ void declare(OptionList& list, InspectOptions& options) {
 
 int run(const InspectOptions& options, Console& console) {
   const WorkNotice notice{console, "planning " + options.domain};
-  auto domain = load_domain(options.domain);
-  if (domain.num_features() < 2) return inspect_without_atlas(domain, options, console);
-  const Atlas atlas{std::move(domain)};
-  const auto mdp = DomainView{atlas.domain(), options.mdp, options.all, console}.mdp();
+  const auto domain = load_domain(options.domain);
+  const MdpIndex mdp{options.mdp.value_or(domain.num_mdps() - 1)};
+  if (mdp.value() >= domain.num_mdps())
+    refuse(fmt::format("there is no MDP {}: they are numbered 0 to {}", mdp.value(), domain.num_mdps() - 1));
+  std::optional<const Atlas> atlas;
+  if (domain.num_features() > 1) atlas.emplace(domain);
   if (!options.svg.empty()) {
-    auto files = domain_pictures(atlas.domain(), mdp);
-    for (auto& file : atlas_pictures(atlas, mdp)) files.push_back(std::move(file));
-    write_svg(options, files, console);
+    auto files = domain_pictures(domain, mdp);
+    if (atlas) {
+      for (auto& file : atlas_pictures(*atlas, mdp)) files.push_back(std::move(file));
+    }
+    write_pictures(options.svg, files);
+    std::vector<std::string> names;
+    for (const auto& file : files) names.push_back(file.name);
+    console.info(fmt::format("{} in {}", listed(names), options.svg));
   }
-  if (console.json()) {
-    const bool demos = std::find(options.show.begin(), options.show.end(), "demos") != options.show.end();
-    console.print_json(inspection_json(atlas, {demos, options.mdp}));
-  } else {
-    console.print(Inspection{atlas, options, console}.text());
-  }
+  const bool demos = std::find(options.show.begin(), options.show.end(), "demos") != options.show.end();
+  console.print(
+      [&] {
+        return atlas ? inspection_json(*atlas, {demos, options.mdp}) : inspection_json(domain);
+      },
+      [&] {
+        return Inspection{domain, atlas ? &*atlas : nullptr, mdp, options.all, console}.text(options.show);
+      });
+  if (!atlas) console.warning("what can be taught is not shown: with a single feature there is nothing to weigh");
   return 0;
 }
 

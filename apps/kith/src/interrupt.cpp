@@ -5,7 +5,10 @@
 #include <atomic>
 #include <csignal>
 #include <ctime>
+#include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "kith/present/json.hpp"
 
 namespace kith::cli {
 namespace {
@@ -83,5 +86,11 @@ void watch_signals() {
 void expect_to_be_stopped() noexcept { ending = &kStopped; }
 
 int stop_signal() noexcept { return received; }
+
+int interrupted(const std::string& what, Console& console, const std::string& command) {
+  console.warning(command.empty() ? what : what + "; to resume, run:\n  " + command);
+  if (console.json()) console.print_json(error_document({{.id = "interrupted", .message = what, .hint = command}}));
+  return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
+}
 
 }  // namespace kith::cli

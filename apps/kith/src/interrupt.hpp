@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include "console.hpp"
+
 namespace kith::cli {
 
 /// From now on a reader that went away, or a file that may not grow, is an error of write(), not the end.
@@ -17,5 +21,9 @@ void expect_to_be_stopped() noexcept;
 
 /// The signal that asked us to stop, or 0.
 [[nodiscard]] int stop_signal() noexcept;
+
+/// Says what an interrupted command leaves behind, also as JSON. @param command  resumes it; empty: nothing does.
+/// @return the exit code.
+int interrupted(const std::string& what, Console& console, const std::string& command = {});
 
 }  // namespace kith::cli

@@ -1,6 +1,6 @@
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -16,31 +16,51 @@
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/present/json.hpp"
-#include "remedies.hpp"
 #include "standard_streams.hpp"
 
 namespace kith::cli {
 namespace {
 
-// How errors without a place in a file are named in JSON.
-const char* name_of(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::kUsage:
-      return "usage";
-    case ErrorKind::kInvalidInput:
-      return "invalid-input";
-    case ErrorKind::kInfeasible:
-      return "infeasible";
-    case ErrorKind::kIo:
-      return "io";
-    case ErrorKind::kPartial:
-      return "partial";
-    case ErrorKind::kMismatch:
-      return "mismatch";
-    case ErrorKind::kBusy:
-      return "busy";
+// Remedies as options and commands of this program.
+std::string_view words_for(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::kNone:
+      return {};
+    case Remedy::kReplaceContents:
+      return "choose another folder, or add --yes to replace what is in this one";
+    case Remedy::kStartOver:
+      return "start the study over with --resume never";
+    case Remedy::kAllowStart:
+      return "leave out --resume require to start the study from the beginning";
+    case Remedy::kRunStudy:
+      return "make one with: kith study STUDY -o DIR";
+    case Remedy::kRunShard:
+      return "make one with: kith study STUDY --shard I/N -o DIR";
+    case Remedy::kMergeShards:
+      return "merge all shards with: kith merge DIR... -o DIR";
+    case Remedy::kMergePart:
+      return "merge what is available with --allow-partial";
+    case Remedy::kAnalyseTable:
+      return "analyse a table of your own with: kith analyze FILE --model ...";
+    case Remedy::kLikelihoodMethod:
+      return "use --method likelihood";
+    case Remedy::kShowMap:
+      return "see the map with everything on it: kith inspect DOMAIN";
+    case Remedy::kShowStates:
+      return "see the names of all states: kith inspect DOMAIN --show policy --all";
+    case Remedy::kListConstraints:
+      return "choose one that this lists: kith find DOMAIN";
   }
-  return "internal";
+  return {};
+}
+
+// The diagnostics with their remedies added to the hints.
+std::vector<Diagnostic> with_remedies(std::vector<Diagnostic> diagnostics) {
+  for (auto& one : diagnostics) {
+    const auto words = words_for(one.remedy);
+    if (!words.empty()) one.hint.append(one.hint.empty() ? "" : "; or ").append(words);
+  }
+  return diagnostics;
 }
 
 // "E1201" is explained on a page, "usage" is for scripts.
@@ -57,11 +77,7 @@ void show(Console& console, std::vector<Diagnostic> diagnostics) {
 }
 
 Diagnostic diagnostic_of(std::string id, std::string message, std::string hint = {}) {
-  Diagnostic diagnostic;
-  diagnostic.id = std::move(id);
-  diagnostic.message = std::move(message);
-  diagnostic.hint = std::move(hint);
-  return diagnostic;
+  return {.id = std::move(id), .message = std::move(message), .hint = std::move(hint)};
 }
 
 // Where the document cannot be written, its errors are shown as text, and then the reason: scripts and people both
@@ -77,7 +93,7 @@ int report(Console& console, std::vector<Diagnostic> diagnostics, int code) try 
   return kBrokenPipeCode;
 } catch (const Error& unwritable) {
   const bool is_known = diagnostics.size() == 1 && diagnostics.front().message == unwritable.what();
-  if (!is_known) diagnostics.push_back(diagnostic_of(name_of(unwritable.kind()), unwritable.what()));
+  if (!is_known) diagnostics.push_back(diagnostic_of(ending_of(unwritable.kind()).name, unwritable.what()));
   show(console, std::move(diagnostics));
   return exit_code(unwritable.kind());
 }
@@ -98,15 +114,12 @@ int report_out_of_memory(Console& console) {
 int report(Console& console, const std::filesystem::filesystem_error& error) {
   const auto path = error.path1().empty() ? std::string{"a file"} : error.path1().string();
   const auto message = "cannot access " + path + ": " + error.code().message();
-  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), message)}, exit_code(ErrorKind::kIo));
+  return report(console, {diagnostic_of("io", message)}, exit_code(ErrorKind::kIo));
 }
 
 int report(Console& console, const UsageError& error) {
-  auto hint = error.hint;
-  std::string help{"kith "};
-  if (!error.command.empty()) help.append(error.command).append(" ");
-  help.append("-h");
-  hint += (hint.empty() ? "see `" : " (see `") + help + (hint.empty() ? "`" : "`)");
+  const auto see = fmt::format("see `kith {}{}-h`", error.command, error.command.empty() ? "" : " ");
+  const auto hint = error.hint.empty() ? see : error.hint + " (" + see + ")";
   return report(console, {diagnostic_of("usage", error.message, hint)}, exit_code(ErrorKind::kUsage));
 }
 
@@ -114,7 +127,7 @@ int report(Console& console, const Error& error) {
   auto diagnostics = with_remedies(error.diagnostics());
   if (diagnostics.empty()) diagnostics.push_back(diagnostic_of({}, error.what()));
   for (auto& one : diagnostics) {
-    if (one.id.empty()) one.id = name_of(error.kind());
+    if (one.id.empty()) one.id = ending_of(error.kind()).name;
   }
   return report(console, std::move(diagnostics), exit_code(error.kind()));
 }
@@ -182,7 +195,7 @@ int guarded(const std::vector<std::string>& arguments, Console& console) try {
 } catch (const std::filesystem::filesystem_error& error) {
   return report(console, error);
 } catch (const std::system_error& error) {
-  return report(console, {diagnostic_of(name_of(ErrorKind::kIo), error.what())}, exit_code(ErrorKind::kIo));
+  return report(console, {diagnostic_of("io", error.what())}, exit_code(ErrorKind::kIo));
 } catch (const std::exception& error) {
   const std::string message = std::string{"internal error: "} + error.what();
   return report(console, {diagnostic_of("internal", message, "this is a bug in kith; please report it")},

@@ -34,7 +34,7 @@ void declare(OptionList& list, MergeOptions& options) {
 }
 
 int run(const MergeOptions& options, Console& console) {
-  if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith merge needs -o DIR, the folder for the results"};
+  if (options.out.empty()) refuse("kith merge needs -o DIR, the folder for the results");
   RunPlace place{options.out, std::chrono::steady_clock::now()};
   auto facts = facts_of_build();
   facts.started = utc_now();
@@ -42,7 +42,7 @@ int run(const MergeOptions& options, Console& console) {
   for (const auto& folder : folders) {
     std::error_code ignored;
     if (std::filesystem::equivalent(folder, options.out, ignored)) {
-      throw Error{ErrorKind::kUsage, "kith merge cannot write to " + options.out + ", which is one of the shards"};
+      refuse("kith merge cannot write to " + options.out + ", which is one of the shards");
     }
   }
   const auto shards = open_shards(folders, program_name(), options.allow_partial);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "command.hpp"
 #include "kith/core/error.hpp"
 #include "kith/report/report.hpp"
 
@@ -18,7 +19,7 @@ std::string page_with(const std::string& document, std::string_view page) {
 void write_page(std::string_view what, const std::string& page, const std::string& out, Console& console,
                 OldLink link) {
   if (out == "-") {
-    if (console.json()) throw Error{ErrorKind::kUsage, "--json and '-o -' would both write to standard output"};
+    if (console.json()) refuse("--json and '-o -' would both write to standard output");
     console.print(page);
     return;
   }
@@ -26,6 +27,12 @@ void write_page(std::string_view what, const std::string& page, const std::strin
   constexpr double kKilobyte = 1e3;
   console.info(fmt::format("{} in {} ({:.0f} kB); open it in a browser (no network needed)", what, out,
                            static_cast<double>(page.size()) / kKilobyte));
+}
+
+void require_replaceable(const std::filesystem::path& file, bool may_replace) {
+  std::error_code ignored;
+  if (may_replace || !std::filesystem::is_regular_file(file, ignored)) return;
+  refuse(file.string() + " exists; choose another name, or add --yes to replace it");
 }
 
 }  // namespace kith::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,8 @@ namespace kith::cli {
 /// @throws kith::Error (kUsage) if `out` is "-" and standard output is for JSON; (kIo) if the file cannot be written.
 void write_page(std::string_view what, const std::string& page, const std::string& out, Console& console,
                 OldLink link = OldLink::kFollow);
+
+/// @throws kith::Error (kUsage) if the file is there and may not be replaced.
+void require_replaceable(const std::filesystem::path& file, bool may_replace);
 
 }  // namespace kith::cli

@@ -39,12 +39,8 @@ StudyReading StudyText::read(const std::vector<std::string>& overrides) const {
 
 void check_single_variant(const std::string& name, const Study& study) {
   if (study.variants.size() == 1 && study.variants.front().factors.empty()) return;
-  Diagnostic varies;
-  varies.id = "E0812";
-  varies.file = name;
-  varies.message = "this study varies parameters";
-  varies.hint = "remove design.vary";
-  throw Error{{varies}};
+  throw Error{{Diagnostic{
+      .id = "E0812", .message = "this study varies parameters", .file = name, .hint = "remove design.vary"}}};
 }
 
 std::string duration_text(double seconds) {

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 
 #include "build_facts.hpp"
 #include "command.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
-#include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/files/atomic_file.hpp"
 #include "kith/planning/power.hpp"
@@ -50,12 +49,7 @@ constexpr std::size_t kDefaultPool = 1'000;
 Effect effect_of(const std::string& text, const StudySpec& spec) {
   auto reading = parse_effect(text, spec);
   if (!reading.effect) {
-    Diagnostic diagnostic;
-    diagnostic.id = "E0809";
-    diagnostic.file = "--effect";
-    diagnostic.message = reading.problem;
-    diagnostic.hint = reading.hint;
-    throw Error{{diagnostic}};
+    throw Error{{Diagnostic{.id = "E0809", .message = reading.problem, .file = "--effect", .hint = reading.hint}}};
   }
   return *reading.effect;
 }
@@ -91,39 +85,31 @@ std::vector<Effect> default_effects(const StudySpec& spec, std::size_t num_featu
     if (auto reading = parse_effect(text, spec); reading.effect) effects.push_back(*reading.effect);
   }
   if (!effects.empty()) return effects;
-  throw Error{ErrorKind::kUsage, "this study has nothing to compare: it has one cell, or only the baseline"};
+  refuse("this study has nothing to compare: it has one cell, or only the baseline");
 }
 
-std::vector<std::size_t> sizes_of(const PowerCommandOptions& options) {
-  std::vector<std::size_t> teams(options.teams.begin(), options.teams.end());
-  if (teams.empty()) teams = PowerOptions{}.teams;
-  std::sort(teams.begin(), teams.end());
-  teams.erase(std::unique(teams.begin(), teams.end()), teams.end());
-  return teams;
+// Those of --teams, and for a preregistration that of the study, ascending.
+std::vector<std::size_t> sizes_of(const PowerCommandOptions& options, std::size_t replicates) {
+  std::set<std::size_t> sizes{options.teams.begin(), options.teams.end()};
+  const auto usual = PowerOptions{}.teams;
+  if (sizes.empty()) sizes = {usual.begin(), usual.end()};
+  if (!options.preregister.empty()) {
+    if (replicates < 2)
+      refuse("--preregister: the study has one team per cell, so nothing can be tested; set replicates");
+    sizes.insert(replicates);
+  }
+  return {sizes.begin(), sizes.end()};
 }
-
-// The sizes and one more, ascending.
-std::vector<std::size_t> with_size(std::vector<std::size_t> sizes, std::size_t one) {
-  if (one < 2)
-    throw Error{ErrorKind::kUsage,
-                "--preregister: the study has one team per cell, so nothing can be tested; set replicates"};
-  sizes.push_back(one);
-  std::sort(sizes.begin(), sizes.end());
-  sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
-  return sizes;
-}
-
-std::string list_of(const std::vector<std::size_t>& sizes) { return fmt::format("{}", fmt::join(sizes, ",")); }
 
 void check_pool(const PowerCommandOptions& options, std::size_t pool, const std::vector<std::size_t>& teams) {
   const auto least = 2 * teams.back();
   if (pool >= least) return;
-  const auto which = options.teams.empty() ? fmt::format("--teams is {} by default", list_of(teams))
+  const auto which = options.teams.empty() ? fmt::format("--teams is {} by default", fmt::join(teams, ","))
                                            : fmt::format("the largest of --teams is {}", teams.back());
-  throw Error{ErrorKind::kUsage,
-              fmt::format("--pool {} is too small: studies are drawn from the pool, so it needs at least twice the "
-                          "teams of the largest study ({}); use --pool {} or smaller --teams",
-                          pool, which, least)};
+  refuse(
+      fmt::format("--pool {} is too small: studies are drawn from the pool, so it needs at least twice the "
+                  "teams of the largest study ({}); use --pool {} or smaller --teams",
+                  pool, which, least));
 }
 
 // What the analyses take for granted, in sentences.
@@ -379,11 +365,6 @@ Json replication_json(const std::vector<PublishedFinding>& findings, const Repli
           {"mean_agreement", result.mean_agreement}};
 }
 
-int computed_nothing(Console& console) {
-  console.warning("interrupted; there is no result");
-  return 128 + (stop_signal() != 0 ? stop_signal() : SIGINT);
-}
-
 int run_curves(const PowerCommandOptions& options, const StudyReading& reading, const Atlas& atlas, Progress& progress,
                Console& console) {
   const auto& spec = reading.study->variants.front();
@@ -391,8 +372,7 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   for (const auto& text : options.effects) effects.push_back(effect_of(text, spec));
   if (effects.empty()) effects = default_effects(spec, atlas.domain().num_features());
   PowerOptions power;
-  power.teams = sizes_of(options);
-  if (!options.preregister.empty()) power.teams = with_size(power.teams, spec.replicates);
+  power.teams = sizes_of(options, spec.replicates);
   power.alpha = options.alpha;
   power.target = options.target;
   power.draws = options.draws;
@@ -409,13 +389,10 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
   const Study pool_study{{pool_spec}};
   require_pool_memory(pool_study, options.threads, num_teams(pool_study));  // before the time is measured
   if (!console.quiet()) console.info(work_text(atlas, pool_spec, options.threads, num_teams(pool_study)));
-  const auto pools = simulate_pools(
-      atlas, pool_study, {.threads = options.threads, .on_progress = [&](std::size_t done, std::size_t total) {
-                            progress.update(done, total);
-                            return stop_signal() == 0;
-                          }});
+  const auto pools =
+      simulate_pools(atlas, pool_study, {.threads = options.threads, .on_progress = progress.until_stopped()});
   progress.finish();
-  if (!pools) return computed_nothing(console);
+  if (!pools) return interrupted("interrupted; there is no result", console);
   const auto& pool = pools->front();
   const auto cells = checked_cells(pool, effects, console);
   const auto curves = power_curves(pool, effects, power);
@@ -456,33 +433,24 @@ int run_curves(const PowerCommandOptions& options, const StudyReading& reading, 
 int run_replication(const PowerCommandOptions& options, const Study& study, const StudyText& source, const Atlas& atlas,
                     Progress& progress, Console& console) {
   auto spec = study.variants.front();
-  if (options.teams.size() > 1)
-    throw Error{ErrorKind::kUsage, "--findings repeats a study of one size, so --teams takes one number"};
+  if (options.teams.size() > 1) refuse("--findings repeats a study of one size, so --teams takes one number");
   if (!options.teams.empty()) spec.replicates = options.teams.front();
   const auto set = targets_of(options.findings, source);
-  if (set.findings.empty()) {
-    Diagnostic nothing;
-    nothing.id = "E0813";
-    nothing.file = options.findings;
-    nothing.message = "there is no [[finding]]";
-    throw Error{{nothing}};
-  }
+  if (set.findings.empty())
+    throw Error{{Diagnostic{.id = "E0813", .message = "there is no [[finding]]", .file = options.findings}}};
   ReplicationOptions replication;
   replication.studies = options.studies;
   replication.seed = options.seed.value_or(spec.seed);
   replication.threads = options.threads;
   replication.paired = options.paired;
-  replication.on_progress = [&](std::size_t done, std::size_t total) {
-    progress.update(done, total);
-    return stop_signal() == 0;
-  };
+  replication.on_progress = progress.until_stopped();
   if (!console.quiet()) {
     const auto teams = spec.replicates * spec.strategies.size() * spec.compositions.size() * replication.studies;
     console.info(work_text(atlas, spec, options.threads, teams));
   }
   const auto result = replicate_findings(atlas, spec, set.findings, replication);
   progress.finish();
-  if (!result) return computed_nothing(console);
+  if (!result) return interrupted("interrupted; there is no result", console);
   if (console.json()) {
     auto document = Json{{"schema", "kith.power/1"},
                          {"study", options.study},
@@ -531,11 +499,7 @@ int run(const PowerCommandOptions& options, Console& console) {
   if (!console.quiet()) console.show(reading.diagnostics);
   check_single_variant(options.study, *reading.study);
   watch_signals();
-  const auto atlas = [&] {
-    const WorkNotice notice{console, "planning the domain"};
-    return Atlas{*reading.domain};
-  }();
-  require_something_to_teach(atlas);
+  const Atlas atlas = planned(*reading.domain, console);
   Progress progress{options.progress, console};
   if (!options.findings.empty()) return run_replication(options, *reading.study, source, atlas, progress, console);
   return run_curves(options, reading, atlas, progress, console);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interrupt.hpp"
+
 namespace kith::cli {
 namespace {
 
@@ -68,6 +70,13 @@ void Progress::update(std::size_t done, std::size_t total, std::size_t failed) {
   } else {
     write_log(fmt::format("kith: info: {} of {} {}, about {} left\n", done, total, noun_, clock_text(left)));
   }
+}
+
+std::function<bool(std::size_t, std::size_t)> Progress::until_stopped() {
+  return [this](std::size_t done, std::size_t total) {
+    update(done, total);
+    return stop_signal() == 0;
+  };
 }
 
 void Progress::finish() noexcept {

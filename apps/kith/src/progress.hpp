@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "console.hpp"
@@ -22,6 +23,8 @@ class Progress {
   /// From here on time counts, with so many done already.
   void begin(std::size_t done);
   void update(std::size_t done, std::size_t total, std::size_t failed = 0);
+  /// For loops that report how far they are and go on while this is true: update(), until a signal asks to stop.
+  [[nodiscard]] std::function<bool(std::size_t done, std::size_t total)> until_stopped();
   /// Removes the bar.
   void finish() noexcept;
 

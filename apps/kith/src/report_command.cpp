@@ -3,9 +3,9 @@
 #include <chrono>
 
 #include "command.hpp"
+#include "embedded.hpp"
 #include "kith/report/report.hpp"
 #include "page.hpp"
-#include "report_page.hpp"
 
 namespace kith::cli {
 namespace {

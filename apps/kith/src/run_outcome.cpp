@@ -7,8 +7,7 @@
 #include "build_facts.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
-#include "summary_json.hpp"
-#include "summary_table.hpp"
+#include "study_summary.hpp"
 
 namespace kith::cli {
 
@@ -29,15 +28,13 @@ int publish_run(StudyRun& run, RunFacts facts, const RunPlace& place, Console& c
   const int code = run.failures().empty() && !partial ? 0 : exit_code(ErrorKind::kPartial);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - place.begin).count();
   report_failures(run.study(), run.failures(), console);
-  if (console.json()) {
-    std::vector<std::string> failed;
-    for (const auto& [team, message] : run.failures()) {
-      failed.push_back(describe_team(run.study(), team_address(run.study(), team)) + ": " + message);
-    }
-    print_summary(run.study(), *summary, run.num_done(), failed, seconds, console);
-    return code;
+  std::vector<std::string> failed;
+  for (const auto& [team, message] : run.failures()) {
+    failed.push_back(describe_team(run.study(), team_address(run.study(), team)) + ": " + message);
   }
-  console.print(summary_table(run.study(), place.num_features, *summary, console));
+  console.print([&] { return summary_json(run.study(), *summary, run.num_done(), failed, seconds); },
+                [&] { return summary_table(run.study(), place.num_features, *summary, console); });
+  if (console.json()) return code;
   console.info(fmt::format("{} in {:.2f} s; tables in {}/tables, columns in codebook.json",
                            counted(run.num_done(), "team"), seconds, place.folder));
   return code;

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "kith/core/error.hpp"
+#include "command.hpp"
 
 namespace kith::cli {
 namespace {
@@ -85,12 +85,11 @@ std::optional<PublicUrl> public_url_of(std::string text) {
 
 void check_combination(const ServeOptions& options) {
   if (options.lan && is_loopback(options.bind)) {
-    throw Error{ErrorKind::kUsage, "--lan and --bind " + options.bind + " contradict each other"};
+    refuse("--lan and --bind " + options.bind + " contradict each other");
   }
   if (options.trusted_proxy.empty()) return;
   if (!is_address(options.trusted_proxy)) {
-    throw Error{ErrorKind::kUsage,
-                "--trusted-proxy must be an IP address such as 192.0.2.1, not '" + options.trusted_proxy + "'"};
+    refuse("--trusted-proxy must be an IP address such as 192.0.2.1, not '" + options.trusted_proxy + "'");
   }
 }
 
@@ -102,8 +101,7 @@ ServeAddress serve_address(const ServeOptions& options) {
   if (!options.public_url.empty()) {
     url = public_url_of(options.public_url);
     if (!url) {
-      throw Error{ErrorKind::kUsage, "--public-url must be like https://study.example.org, without a path, not '" +
-                                         options.public_url + "'"};
+      refuse("--public-url must be like https://study.example.org, without a path, not '" + options.public_url + "'");
     }
   }
   ServeAddress address;
@@ -111,9 +109,9 @@ ServeAddress serve_address(const ServeOptions& options) {
   const bool is_local = is_loopback(address.bind);
   const bool has_tls = url && url->is_secure;
   if (!is_local && !has_tls && !options.insecure_lan) {
-    throw Error{ErrorKind::kUsage, "answers and links would cross the network unencrypted",
-                Advice{"put a reverse proxy with TLS in front and name its address with --public-url https://..., or "
-                       "add --lan --insecure-lan on a network that you trust (docs/security.md)"}};
+    refuse("answers and links would cross the network unencrypted",
+           Advice{"put a reverse proxy with TLS in front and name its address with --public-url https://..., or "
+                  "add --lan --insecure-lan on a network that you trust (docs/security.md)"});
   }
   if (!is_local && !has_tls) {
     address.warnings.emplace_back("answers and links cross the network unencrypted (--insecure-lan)");

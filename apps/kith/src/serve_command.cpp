@@ -19,6 +19,7 @@
 
 #include "build_facts.hpp"
 #include "command.hpp"
+#include "embedded.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
@@ -32,7 +33,6 @@
 #include "local_facilitator.hpp"
 #include "serve_address.hpp"
 #include "serve_rehearsal.hpp"
-#include "templates.hpp"
 #include "web_assets.hpp"
 #include "work_notice.hpp"
 
@@ -79,14 +79,14 @@ class NoticeBoard {
 
 void check_options(const ServeOptions& options) {
   if (options.demo == !options.study.empty()) {
-    throw Error{ErrorKind::kUsage, options.demo ? "--demo has a study of its own; leave out " + options.study
-                                                : "kith serve needs a study, or --demo"};
+    refuse(options.demo ? "--demo has a study of its own; leave out " + options.study
+                        : "kith serve needs a study, or --demo");
   }
   if (options.out.empty() && !options.demo && options.rehearse == 0) {
-    throw Error{ErrorKind::kUsage, "kith serve needs -o DIR, the folder for the answers"};
+    refuse("kith serve needs -o DIR, the folder for the answers");
   }
   if (options.restart_after > 0.0 && options.for_seconds > 0.0 && options.restart_after >= options.for_seconds) {
-    throw Error{ErrorKind::kUsage, "the rehearsal is over before --restart-after; choose a time less than --for"};
+    refuse("the rehearsal is over before --restart-after; choose a time less than --for");
   }
   if (web_assets().empty() && options.rehearse == 0) {
     throw Error{ErrorKind::kInfeasible, "this program was built without pages for browsers",

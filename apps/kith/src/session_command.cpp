@@ -1,4 +1,5 @@
 // kith session: what live sessions left in their folder.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -42,11 +43,7 @@ std::int64_t now_us() {
 // "2026-01-31 12:00" in UTC; "-" for no time.
 std::string time_text(std::int64_t us) {
   if (us == 0) return "-";
-  const std::time_t seconds = us / 1'000'000;
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  char text[32];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &parts)};
+  return fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time_t{us / 1'000'000}));
 }
 
 std::string state_of(const RoomSummary& room) {
@@ -76,9 +73,8 @@ StoredRoom room_to_show(EventFile& file, const SessionOptions& options) {
   if (!options.room.empty()) return find_room(file, options.room);
   const auto rooms = file.rooms();
   if (rooms.size() == 1) return rooms.front();
-  throw Error{ErrorKind::kUsage,
-              fmt::format("{} has {}; say which one with --room ID", options.folder, counted(rooms.size(), "room")),
-              "list the rooms with 'kith session list'"};
+  refuse(fmt::format("{} has {}; say which one with --room ID", options.folder, counted(rooms.size(), "room")),
+         "list the rooms with 'kith session list'");
 }
 
 int show(const SessionOptions& options, Console& console) {
@@ -115,16 +111,14 @@ std::set<std::string> replaced_by_export(const SessionOptions& options) {
   if (!fs::exists(folder, none) || fs::is_empty(folder, none)) return {};
   const auto former = files_of_export(folder);
   if (!former) {
-    throw Error{ErrorKind::kUsage, options.out + " is not empty and is no export of a session",
-                "choose another folder"};
+    refuse(options.out + " is not empty and is no export of a session", "choose another folder");
   }
-  if (!options.yes) throw Error{ErrorKind::kUsage, options.out + " exists already", Remedy::kReplaceContents};
+  if (!options.yes) refuse(options.out + " exists already", Remedy::kReplaceContents);
   return *former;
 }
 
 int write_tables(const SessionOptions& options, Console& console) {
-  if (options.out.empty())
-    throw Error{ErrorKind::kUsage, "kith session export needs -o DIR, the folder for the tables"};
+  if (options.out.empty()) refuse("kith session export needs -o DIR, the folder for the tables");
   auto file = EventFile::read(options.folder);
   SessionExportOptions what{.room = {}, .with_names = options.names, .with_text = options.text};
   if (!options.room.empty()) what.room = find_room(file, options.room).number;
@@ -158,12 +152,10 @@ int replay_rooms(const SessionOptions& options, Console& console) {
     events += replayed.events;
     lessons += replayed.lessons;
     if (replayed.problem.empty()) continue;
-    Diagnostic problem;
-    problem.id = "E1614";
-    problem.file = options.folder;
-    problem.message = "room " + replayed.id + " does not replay to what it was: " + replayed.problem;
-    problem.hint = "use the version of kith and the kind of machine that the session was run with";
-    problems.push_back(std::move(problem));
+    problems.push_back({.id = "E1614",
+                        .message = "room " + replayed.id + " does not replay to what it was: " + replayed.problem,
+                        .file = options.folder,
+                        .hint = "use the version of kith and the kind of machine that the session was run with"});
   }
   if (!problems.empty()) throw Error{ErrorKind::kMismatch, counted(problems.size(), "mismatch"), problems};
   console.print(fmt::format("replayed {} with {} and {}: all identical\n", counted(rooms.size(), "room"),
@@ -173,8 +165,8 @@ int replay_rooms(const SessionOptions& options, Console& console) {
 
 int erase_persons(const SessionOptions& options, Console& console) {
   if (!options.yes) {
-    throw Error{ErrorKind::kUsage, "kith session redact erases names, free text and query parameters for good",
-                "export what you need first, then add --yes"};
+    refuse("kith session redact erases names, free text and query parameters for good",
+           "export what you need first, then add --yes");
   }
   const auto room = options.room.empty() ? std::nullopt : std::optional{options.room};
   const auto changed = redact(options.folder, room, now_us());
@@ -184,8 +176,7 @@ int erase_persons(const SessionOptions& options, Console& console) {
 }
 
 int salvage(const SessionOptions& options, Console& console) {
-  if (options.out.empty())
-    throw Error{ErrorKind::kUsage, "kith session salvage needs -o DIR, the folder for the recovered session"};
+  if (options.out.empty()) refuse("kith session salvage needs -o DIR, the folder for the recovered session");
   const auto report = salvage_session(options.folder, options.out);
   console.print(fmt::format("recovered {} and {} in {}\n", counted(report.rooms, "room"),
                             counted(report.events, "event"), options.out));

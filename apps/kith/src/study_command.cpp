@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,7 +15,6 @@
 #include "interrupt.hpp"
 #include "kith/bec/memory_needs.hpp"
 #include "kith/core/error.hpp"
-#include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/present/json.hpp"
 #include "kith/runs/study_run.hpp"
@@ -25,7 +23,6 @@
 #include "planning_input.hpp"
 #include "progress.hpp"
 #include "run_outcome.hpp"
-#include "summary_json.hpp"
 #include "work_notice.hpp"
 
 namespace kith::cli {
@@ -76,10 +73,7 @@ void check_folder(const StudyOptions& options, const StudyReading& reading) {
 void say_how_long(const Study& study, const Domain& domain, std::size_t threads, std::size_t teams, Console& console) {
   require_study_memory(study, threads);
   require_teaching_memory(domain, threads);
-  std::optional<WorkNotice> notice{std::in_place, console, "planning " + domain.id()};
-  const Atlas atlas{domain};
-  notice.reset();
-  require_something_to_teach(atlas);
+  const Atlas atlas = planned(domain, console);
   console.info(work_text(atlas, study.variants.front(), threads, teams));
 }
 
@@ -94,21 +88,12 @@ int dry_run(const Study& study, std::size_t teams, Console& console) {
   return 0;
 }
 
-// All that is finished is saved: says so, and how to go on.
+// All that is finished is saved.
 int interrupted(const StudyOptions& options, const StudyRun& run, std::size_t done, Console& console) {
-  const int signal = stop_signal();
   const auto what = fmt::format("interrupted after {} of {} teams; ", done, run.num_teams()) +
                     (done > 0 ? "they are saved in " + options.out : "nothing was saved");
-  const auto line = options.study == "-" ? "the same command, with the same study on standard input" : shell_line();
-  console.warning(what + "; to resume, run:\n  " + line);
-  if (console.json()) {
-    Diagnostic diagnostic;
-    diagnostic.id = "interrupted";
-    diagnostic.message = what;
-    diagnostic.hint = line;
-    console.print_json(error_document({diagnostic}));
-  }
-  return 128 + (signal != 0 ? signal : SIGINT);
+  return interrupted(what, console,
+                     options.study == "-" ? "the same command, with the same study on standard input" : shell_line());
 }
 
 StudyRunOptions run_options(const StudyOptions& options) {
@@ -191,7 +176,7 @@ int run(const StudyOptions& options, Console& console) {
     if (!console.quiet()) say_how_long(*reading.study, *reading.domain, threads, teams, console);
     return dry_run(*reading.study, teams, console);
   }
-  if (options.out.empty()) throw Error{ErrorKind::kUsage, "kith study needs -o DIR, the folder for the results"};
+  if (options.out.empty()) refuse("kith study needs -o DIR, the folder for the results");
 
   const auto ranks = mpi_ranks();
   if (!is_first_rank()) console = Console{{.quiet = true}};
@@ -209,10 +194,7 @@ int run(const StudyOptions& options, Console& console) {
   require_study_memory(*reading.study, how_many_threads);
   require_teaching_memory(*reading.domain, how_many_threads);
   const auto plan_begin = Clock::now();
-  std::optional<WorkNotice> notice{std::in_place, console, "planning " + reading.domain->id()};
-  const Atlas atlas{*reading.domain};
-  notice.reset();
-  require_something_to_teach(atlas);
+  const Atlas atlas = planned(*reading.domain, console);
   const double plan_seconds = seconds_since(plan_begin);
   StudyRun run{options.out, std::move(reading), std::move(how)};
   done = run.num_resumed();

@@ -98,11 +98,7 @@ int run(const TeachOptions& options, Console& console) {
   const Atlas atlas{std::move(assignment.domain)};
   require_something_to_teach(atlas);
   const auto transcript = transcribe(atlas, assignment.spec, assignment.address);
-  if (console.json()) {
-    console.print_json(transcript_json(atlas, transcript));
-  } else {
-    console.print(to_text(atlas, transcript));
-  }
+  console.print([&] { return transcript_json(atlas, transcript); }, [&] { return to_text(atlas, transcript); });
   return 0;
 }
 

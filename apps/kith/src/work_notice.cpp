@@ -7,6 +7,8 @@
 #include <mutex>
 #include <system_error>
 
+#include "kith/explain/curriculum.hpp"
+
 namespace kith::cli {
 
 WorkNotice::WorkNotice(const Console& console, std::string what) {
@@ -25,6 +27,13 @@ WorkNotice::WorkNotice(const Console& console, std::string what) {
   } catch (const std::system_error&) {
     // No thread to be had: the work is done all the same.
   }
+}
+
+Atlas planned(const Domain& domain, const Console& console) {
+  const WorkNotice notice{console, "planning " + domain.id()};
+  Atlas atlas{domain};
+  require_something_to_teach(atlas);
+  return atlas;
 }
 
 }  // namespace kith::cli

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "console.hpp"
+#include "kith/bec/atlas.hpp"
 
 namespace kith::cli {
 
@@ -17,5 +18,8 @@ class WorkNotice {
  private:
   std::jthread waiter_;  // none where nobody would read it; stopped and joined at the end
 };
+
+/// Plans the domain, which can take long. @throws kith::Error (kInfeasible) if there is nothing to teach.
+[[nodiscard]] Atlas planned(const Domain& domain, const Console& console);
 
 }  // namespace kith::cli

@@ -7,13 +7,18 @@
 #include "kith/fit/accuracy.hpp"
 #include "kith/fit/fit.hpp"
 #include "kith/fit/grid_search.hpp"
+#include "kith/present/json.hpp"
 
 namespace kith::cli {
 
-// What `kith fit` found, as people read it.
+// What `kith fit` found, as people read it, and as documents of schema kith.fit/1, whose "method" says which of them it
+// is.
 
 [[nodiscard]] std::string text_of(const FitReport& report, const Console& console);
 [[nodiscard]] std::string text_of(const AccuracyFit& fit, const Console& console);
 [[nodiscard]] std::string text_of(const std::vector<GridSearchGroup>& groups, const Console& console);
+[[nodiscard]] Json to_json(const FitReport& report, const std::vector<Diagnostic>& notes);
+[[nodiscard]] Json to_json(const AccuracyFit& fit);
+[[nodiscard]] Json to_json(const std::vector<GridSearchGroup>& groups);
 
 }  // namespace kith::cli

@@ -2,9 +2,10 @@
 
 #include <string_view>
 
+// Files that become constants when kith is built.
 namespace kith::detail {
 
-// The files that `kith init` writes, from apps/kith/templates, embedded when kith was built.
+// What `kith init` writes, from apps/kith/templates.
 extern const std::string_view kBlankDomain;
 extern const std::string_view kStudyTemplate;
 extern const std::string_view kHumanStudyTemplate;
@@ -12,5 +13,12 @@ extern const std::string_view kDemoStudy;
 extern const std::string_view kReadmeTemplate;
 extern const std::string_view kHumanStudyReadme;
 extern const std::string_view kConsentTemplate;
+
+// The pages that show a report and a curriculum, made from web/; empty if kith was built without pages.
+extern const std::string_view kReportPage;
+extern const std::string_view kLessonPage;
+
+// docs/errors.md.
+extern const std::string_view kErrorPage;
 
 }  // namespace kith::detail
