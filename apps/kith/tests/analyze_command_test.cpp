@@ -1,20 +1,14 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ContainsRegex;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using Json = nlohmann::json;
 
 // A finished run of 40 teams, made once.
 class AnalyzeCommand : public ::testing::Test {
@@ -152,19 +146,6 @@ TEST_F(AnalyzeCommand, NamesFileAndRowOfBadInput) {
   const auto single = run_kith({"analyze", text, "--model", "y ~ g", "--where", "y!=two", "--where", "g=a"});
   EXPECT_EQ(single.code, 4);
   EXPECT_THAT(single.err, HasSubstr("error[E0904]: column 'g' is 'a' in every row"));
-}
-
-TEST_F(AnalyzeCommand, ListsTheValuesWhereNoRowIsLeft) {
-  const auto ran = run_kith({"analyze", folder(), "--model", "knowledge ~ composition", "--where", "strategy=jiont"});
-  EXPECT_EQ(ran.code, 4);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("error[E0909]: no row has strategy=jiont"), HasSubstr("did you mean 'joint'?")));
-}
-
-TEST_F(AnalyzeCommand, ReadsTablesOfSpreadsheets) {
-  const auto ran = run_kith({"analyze", "-", "--model", "y ~ g"},
-                            {.input = "g;y\nTRUE;1\nTRUE;2\nTRUE;3,0\nFALSE;4\nFALSE;5\nFALSE;6\n"});
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("13.50"));
 }
 
 TEST_F(AnalyzeCommand, RefusesFoldersWithoutFinishedResults) {

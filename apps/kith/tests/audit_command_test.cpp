@@ -1,18 +1,11 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
-
-using Json = nlohmann::json;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::vector<std::string> study(const std::string& folder, const std::string& setting = "replicates=2") {
   return {"study", "quick", "-o", folder, "--set", setting, "-q"};

@@ -1,9 +1,7 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -13,10 +11,6 @@
 
 namespace kith::testing {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using Json = nlohmann::json;
 
 // Whether a cell is on the map of a document.
 void expect_on_map(const Json& document, const Json& cell) {

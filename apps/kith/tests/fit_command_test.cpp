@@ -1,16 +1,11 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
-
-using ::testing::HasSubstr;
-using Json = nlohmann::json;
 
 // Some people in a run folder, made once.
 class FitCommand : public ::testing::Test {
@@ -69,10 +64,6 @@ TEST_F(FitCommand, WritesTheSameJsonToFileAndOutput) {
   EXPECT_EQ(again.code, 2);
   EXPECT_THAT(again.err, HasSubstr("--yes"));
   EXPECT_EQ(fit({"-q", "-o", file, "--yes"}).code, 0);
-}
-
-TEST_F(FitCommand, DoesNotDependOnThreads) {
-  EXPECT_EQ(fit({"--json", "-q", "-j", "1"}).out, fit({"--json", "-q", "-j", "3"}).out);
 }
 
 TEST_F(FitCommand, SearchesTheGrid) {

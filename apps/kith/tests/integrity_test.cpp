@@ -1,20 +1,12 @@
 // Nothing of two runs is ever combined, and nothing that is missing goes unsaid.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <csignal>
-#include <nlohmann/json.hpp>
 
 #include "small_study.hpp"
 
 namespace kith::testing {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using Json = nlohmann::json;
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;

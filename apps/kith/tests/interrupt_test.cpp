@@ -1,5 +1,4 @@
 // Signals, whatever the program is doing.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -14,7 +13,6 @@ namespace kith::testing {
 namespace {
 
 using ::testing::AnyOf;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Clock = std::chrono::steady_clock;
 

@@ -1,21 +1,13 @@
 // What is too large is refused at once, with the limit and what to do: a test for every row of docs/limits.md that
 // no layer has one for.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-
-#include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "large_map.hpp"
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using Json = nlohmann::json;
 
 RunWith memory(const std::string& amount) { return {{{"KITH_MEMORY", amount}}, "", ""}; }
 

@@ -1,29 +1,11 @@
 // What people are told: complaints about the command line, pictures and words.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 
 #include "domain_texts.hpp"
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using Json = nlohmann::json;
-
-// The text with every `from` replaced; a test that replaces nothing tests nothing.
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  for (; at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
-  return text;
-}
-
-std::string item_delivery() { return text_of(std::string{KITH_SOURCE_DIR} + "/domains/item_delivery.toml"); }
 
 TEST(Messages, SayInPlainWordsWhatIsWrongWithAValue) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
@@ -95,17 +77,6 @@ TEST(Transcript, TellsAVerdictFromAnAction) {
   EXPECT_THAT(text, AllOf(HasSubstr("member 3: correct: "), HasSubstr("member 1: wrong (regret 0."),
                           HasSubstr("ability is reset to its initial value")));
   EXPECT_THAT(text, Not(::testing::ContainsRegex("member [0-9]: right")));
-}
-
-TEST(Words, AgreeInNumberOrAvoidTheQuestion) {
-  EXPECT_THAT(run_kith({"inspect", "item-delivery", "--show", "bec"}).out,
-              AllOf(HasSubstr("crossing rubble costs more than 2 steps"),
-                    HasSubstr("4 steps cost more than stopping at the charger is worth")));
-  const Scratch scratch;
-  std::ofstream{scratch / "d.toml"} << replaced(item_delivery(), "\"crossing rubble\"", "\"rubble crossings\"");
-  EXPECT_THAT(run_kith({"inspect", scratch / "d.toml", "--show", "bec"}).out,
-              AllOf(HasSubstr("the cost of rubble crossings outweighs the cost of 2 steps"),
-                    HasSubstr("4 steps cost more than stopping at the charger is worth")));
 }
 
 TEST(Inspect, ShowsADomainThatCannotBeTaught) {

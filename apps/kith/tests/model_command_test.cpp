@@ -1,19 +1,12 @@
 // Models without a map on the command line: validated, shown, exported, taught, studied.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using Json = nlohmann::json;
 
 const std::string kIce = std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing";
 

@@ -1,18 +1,11 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
-using Json = nlohmann::json;
 
 // A finished run, made once.
 class ReportCommand : public ::testing::Test {

@@ -1,6 +1,5 @@
 // kith serve: how it starts, what it prints, how it stops. What it serves is tested in libs/server and libs/hosting.
 #include <arpa/inet.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -9,7 +8,6 @@
 #include <csignal>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "kith/hosting/event_file.hpp"
@@ -20,12 +18,9 @@
 namespace kith::testing {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
-using Json = nlohmann::json;
 
 // The answer to a request, whole; empty if there is none.
 std::string ask_port(int port, const std::string& path) {

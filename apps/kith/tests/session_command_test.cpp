@@ -1,58 +1,23 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "kith/files/atomic_file.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/hosting/event_file.hpp"
-#include "kith/hosting/session_study.hpp"
-#include "kith/live/room.hpp"
 #include "run_kith.hpp"
+#include "small_session.hpp"
 
 namespace kith::testing {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ContainsRegex;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 // A session in which two groups got a room and one person joined and gave a name.
 class SessionCommand : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto study = make_session_study(load_study("quick"));
-    std::filesystem::create_directories(folder());
-    auto file = EventFile::make(folder(), {.study = study.digest, .program = "kith test", .inputs = study.inputs},
-                                std::string(32, 'a'), 1'700'000'000'000'000);
-    StoreBatch batch;
-    for (const std::int64_t number : {1, 2}) {
-      const RoomSetup setup{.id = "r" + std::to_string(number),
-                            .code = number == 1 ? "AAAAAA" : "BBBBBB",
-                            .strategy = "common",
-                            .composition = "NP",
-                            .replicate = static_cast<std::size_t>(number)};
-      batch.rooms.push_back({.number = number, .setup = to_json(setup).dump(), .created_us = 1'700'000'001'000'000});
-    }
-    batch.events.push_back({.room = 1,
-                            .seq = 1,
-                            .at_us = 1'700'000'002'000'000,
-                            .actor = "server",
-                            .type = "joined",
-                            .json = R"({"seat":1,"member":0})"});
-    batch.events.push_back({.room = 1,
-                            .seq = 2,
-                            .at_us = 1'700'000'003'000'000,
-                            .actor = "seat:1",
-                            .type = "consented",
-                            .json = R"({"version":"1","query":{}})",
-                            .message = "m1"});
-    file.write({&batch, 1});
-  }
+  void SetUp() override { make_session(folder(), 2); }
 
   [[nodiscard]] std::string folder() const { return scratch_ / "live"; }
 
@@ -76,25 +41,13 @@ TEST_F(SessionCommand, ListsAndShowsRooms) {
 }
 
 TEST_F(SessionCommand, ShowsTheOnlyRoom) {
-  const auto study = make_session_study(load_study("quick"));
-  std::filesystem::create_directories(scratch_ / "one");
-  auto file = EventFile::make(scratch_ / "one", {.study = study.digest, .program = "kith test", .inputs = study.inputs},
-                              std::string(32, 'b'), 1'700'000'000'000'000);
-  EXPECT_THAT(run_kith({"session", "show", scratch_ / "one"}).err, HasSubstr("has 0 rooms"));
-  StoreBatch batch;
-  const RoomSetup setup{.id = "r1", .code = "AAAAAA", .strategy = "common", .composition = "NP", .replicate = 1};
-  batch.rooms.push_back({.number = 1, .setup = to_json(setup).dump(), .created_us = 1'700'000'001'000'000});
-  batch.events.push_back({.room = 1,
-                          .seq = 1,
-                          .at_us = 1'700'000'002'000'000,
-                          .actor = "server",
-                          .type = "joined",
-                          .json = R"({"seat":1,"member":0})"});
-  file.write({&batch, 1});
+  make_session(scratch_ / "one", 1);
   const auto shown = run_kith({"session", "show", scratch_ / "one"});
   EXPECT_EQ(shown.code, 0) << shown.err;
   EXPECT_EQ(shown.out, run_kith({"session", "show", scratch_ / "one", "--room", "r1"}).out);
   EXPECT_THAT(shown.out, HasSubstr("joined"));
+  make_session(scratch_ / "none", 0);
+  EXPECT_THAT(run_kith({"session", "show", scratch_ / "none"}).err, HasSubstr("has 0 rooms"));
 }
 
 TEST_F(SessionCommand, ExportsTablesThatAreCompleteAndChecked) {
@@ -116,7 +69,7 @@ TEST_F(SessionCommand, ExportsTablesThatCanBeReported) {
   ASSERT_EQ(run_kith({"session", "export", folder(), "-o", scratch_ / "tables"}).code, 0);
   const auto ran = run_kith({"report", scratch_ / "tables", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const auto document = kith::Json::parse(ran.out);
+  const auto document = Json::parse(ran.out);
   EXPECT_EQ(document["overview"]["teams"], 0) << "nobody was taught yet";
   EXPECT_EQ(document["domain"], "item-delivery");
   EXPECT_EQ(run_kith({"report", scratch_ / "tables"}).code, 0);

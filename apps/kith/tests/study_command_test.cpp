@@ -1,18 +1,9 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "run_kith.hpp"
 
 namespace kith::testing {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using Json = nlohmann::json;
 
 TEST(StudyCommand, PrintsATableAndSaysWhereTheTablesAre) {
   const Scratch scratch;

@@ -1,13 +1,10 @@
 // What becomes of a study whatever ends it, and of its folder.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <csignal>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "small_study.hpp"
@@ -15,11 +12,7 @@
 namespace kith::testing {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
-using Json = nlohmann::json;
 
 namespace fs = std::filesystem;
 

@@ -1,5 +1,4 @@
 // Commands that write, under all the names that a place can have: nothing that was there is lost when one fails.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -8,10 +7,8 @@
 #include <fstream>
 #include <map>
 
-#include "kith/hosting/event_file.hpp"
-#include "kith/hosting/session_study.hpp"
-#include "kith/live/room.hpp"
 #include "run_kith.hpp"
+#include "small_session.hpp"
 
 namespace kith::testing {
 namespace {
@@ -59,20 +56,7 @@ class Writing : public ::testing::Test {
   static void SetUpTestSuite() {
     inputs_ = new Scratch;
     ASSERT_EQ(run_kith({"study", "quick", "-o", run(), "--set", "replicates=1", "-q", "--progress", "none"}).code, 0);
-    const auto study = make_session_study(load_study("quick"));
-    fs::create_directories(session());
-    auto file = EventFile::make(session(), {.study = study.digest, .program = "kith test", .inputs = study.inputs},
-                                std::string(32, 'a'), 1'700'000'000'000'000);
-    StoreBatch batch;
-    const RoomSetup setup{.id = "r1", .code = "AAAAAA", .strategy = "common", .composition = "NP", .replicate = 1};
-    batch.rooms.push_back({.number = 1, .setup = to_json(setup).dump(), .created_us = 1'700'000'001'000'000});
-    batch.events.push_back({.room = 1,
-                            .seq = 1,
-                            .at_us = 1'700'000'002'000'000,
-                            .actor = "server",
-                            .type = "joined",
-                            .json = R"({"seat":1,"member":0})"});
-    file.write({&batch, 1});
+    make_session(session(), 1);
   }
   static void TearDownTestSuite() {
     delete inputs_;
