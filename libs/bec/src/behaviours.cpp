@@ -116,7 +116,7 @@ PolicyPartitions::PolicyPartitions(std::shared_ptr<PartitionStore> store)
     : store_{std::move(store)}, generation_{store_->current_with_room()} {}
 
 std::optional<PolicyPartitions::Located> PolicyPartitions::locate(MdpIndex m, const Direction& weights) {
-  if (!is_exact(store_->atlas().domain().mdp(m))) return std::nullopt;
+  if (!can_be_partitioned(store_->atlas().domain().mdp(m))) return std::nullopt;
   const bool may_grow = generation_->bytes() < store_->max_bytes_ / 2 && store_->memory() < store_->max_bytes_;
   const bool has_optimum = lookup_.locate(generation_->partition(*store_, m),
                                           {weights.data(), static_cast<std::size_t>(weights.size())}, may_grow);

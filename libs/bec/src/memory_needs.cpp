@@ -44,7 +44,7 @@ std::uint64_t teaching_memory(const Domain& domain) {
 std::uint64_t partition_memory(const Domain& domain) {
   if (is_cheap_to_tabulate(domain)) return 0;
   for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-    if (is_exact(domain.mdp(m))) return PartitionStore::kDefaultBytes;
+    if (can_be_partitioned(domain.mdp(m))) return PartitionStore::kDefaultBytes;
   }
   return 0;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "checks.hpp"
@@ -24,8 +23,6 @@ using detail::PolicySolver;
 using detail::require;
 using detail::RobotWeights;
 
-constexpr double kMostUnits = 9007199254740992.0;  // 2^53, up to which doubles count exactly
-
 bool can_go_on_everywhere(const Mdp& mdp) {
   if (mdp.discount() == 1.0) return mdp.by_distance().size() == mdp.num_states();
   for (std::size_t s = 0; s < mdp.num_states(); ++s) {
@@ -43,22 +40,10 @@ void count_in_units(std::int64_t scale, std::vector<IntegerVector>& counts) {
 
 std::vector<IntegerVector> rounded(const Mdp& mdp, std::span<const double> features, std::int64_t scale) {
   const std::size_t d = mdp.num_features();
-  std::vector<IntegerVector> counts(features.size() / d, IntegerVector(d));
-  for (std::size_t s = 0; s < counts.size(); ++s) {
-    for (std::size_t k = 0; k < d; ++k) {
-      const double units = features[s * d + k] * static_cast<double>(scale);
-      if (!(std::abs(units) < kMostUnits)) {
-        throw Error{ErrorKind::kInfeasible,
-                    "some people would expect paths that are too long: expected feature counts must stay below 2^53 "
-                    "units of 1/" +
-                        std::to_string(scale) + "; make ending likelier, or give a smaller discount"};
-      }
-      // As std::llround, which is a call.
-      const auto whole = static_cast<std::int64_t>(units);
-      const double rest = units - static_cast<double>(whole);
-      counts[s][k] = whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
-    }
-  }
+  std::vector<IntegerVector> counts;
+  counts.reserve(features.size() / d);
+  for (std::size_t i = 0; i < features.size(); i += d)
+    counts.push_back(detail::in_units(features.subspan(i, d), scale));
   return counts;
 }
 

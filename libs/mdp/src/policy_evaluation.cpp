@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <type_traits>
 #include <utility>
+
+#include "kith/core/error.hpp"
 
 namespace kith::detail {
 namespace {
 
+constexpr double kMostUnits = 9007199254740992.0;  // 2^53, up to which doubles count exactly
 constexpr int kMostSweeps = 200;
 constexpr double kStill = 1e-14;  // largest change, relative to the largest value
 
@@ -132,39 +137,35 @@ bool PolicyChain::factorise(std::span<double> values) const {
   return true;
 }
 
-namespace {
-
-// sum_up_paths() with a number of kinds that the compiler may know.
+// sum_up() with a number of kinds that the compiler may know.
 template <typename Kinds>
-void sum_up(const PathSteps& steps, std::span<const double> row_counts, Kinds kinds, double discount,
-            std::span<double> values) {
-  enum class Mark : unsigned char { kNew, kOnWalk, kKnown };
-  const std::size_t n = steps.next.size();
-  std::vector<Mark> marks(n, Mark::kNew);
-  std::vector<std::uint32_t> walk;
-  walk.reserve(n);
-  for (std::uint32_t start = 0; start < n; ++start) {
+void PathWalk::sum_up_kinds(std::span<const std::uint32_t> states, const PathSteps& steps,
+                            std::span<const double> row_counts, Kinds kinds, double discount,
+                            std::span<double> values) {
+  const std::size_t n = marks_.size();
+  for (const std::uint32_t s : states) marks_[s] = Mark::kNew;
+  for (const std::uint32_t start : states) {
     std::uint32_t s = start;
-    for (; s < n && marks[s] == Mark::kNew; s = steps.next[s]) {
-      marks[s] = Mark::kOnWalk;
-      walk.push_back(s);
+    for (; s < n && marks_[s] == Mark::kNew; s = steps.next[s]) {
+      marks_[s] = Mark::kOnWalk;
+      walk_.push_back(s);
     }
-    if (s < n && marks[s] == Mark::kOnWalk) {  // the walk has met itself
-      auto first = walk.size() - 1;
-      while (walk[first] != s) --first;
+    if (s < n && marks_[s] == Mark::kOnWalk) {  // the walk has met itself
+      auto first = walk_.size() - 1;
+      while (walk_[first] != s) --first;
       double* const round = &values[s * kinds];
       std::fill_n(round, std::size_t{kinds}, 0.0);
       double share = 1.0;
-      for (auto at = first; at < walk.size(); ++at, share *= discount) {
-        for (std::size_t k = 0; k < kinds; ++k) round[k] += share * row_counts[steps.row[walk[at]] * kinds + k];
+      for (auto at = first; at < walk_.size(); ++at, share *= discount) {
+        for (std::size_t k = 0; k < kinds; ++k) round[k] += share * row_counts[steps.row[walk_[at]] * kinds + k];
       }
       for (std::size_t k = 0; k < kinds; ++k) round[k] /= 1.0 - share;
-      marks[s] = Mark::kKnown;
+      marks_[s] = Mark::kKnown;
     }
-    for (; !walk.empty(); walk.pop_back()) {
-      const std::uint32_t from = walk.back();
-      if (marks[from] == Mark::kKnown) continue;
-      marks[from] = Mark::kKnown;
+    for (; !walk_.empty(); walk_.pop_back()) {
+      const std::uint32_t from = walk_.back();
+      if (marks_[from] == Mark::kKnown) continue;
+      marks_[from] = Mark::kKnown;
       const double* const ahead = &values[steps.next[from] * kinds];
       const double* const row = &row_counts[steps.row[from] * kinds];
       for (std::size_t k = 0; k < kinds; ++k) values[from * kinds + k] = row[k] + discount * ahead[k];
@@ -172,34 +173,29 @@ void sum_up(const PathSteps& steps, std::span<const double> row_counts, Kinds ki
   }
 }
 
-}  // namespace
-
-void sum_up_paths(const PathSteps& steps, std::span<const double> row_counts, std::size_t kinds, double discount,
-                  std::span<double> values) {
+void PathWalk::sum_up(std::span<const std::uint32_t> states, const PathSteps& steps, std::span<const double> row_counts,
+                      std::size_t kinds, double discount, std::span<double> values) {
   if (kinds == 1) {
-    sum_up(steps, row_counts, std::integral_constant<std::size_t, 1>{}, discount, values);
+    sum_up_kinds(states, steps, row_counts, std::integral_constant<std::size_t, 1>{}, discount, values);
   } else {
-    sum_up(steps, row_counts, kinds, discount, values);
+    sum_up_kinds(states, steps, row_counts, kinds, discount, values);
   }
 }
 
 std::vector<double> policy_features(const Mdp& mdp, const Policy& policy) {
   const std::size_t d = mdp.num_features();
   if (mdp.is_deterministic() && mdp.discount() < 1.0) {
-    std::vector<double> rows;
-    rows.reserve(mdp.num_feature_rows() * d);
-    for (std::size_t row = 0; row < mdp.num_feature_rows(); ++row) {
-      const auto phi = mdp.feature_row(row);
-      rows.insert(rows.end(), phi.begin(), phi.end());
-    }
+    const auto rows = feature_rows(mdp);
     PathSteps steps;
     for (std::size_t s = 0; s < mdp.num_states(); ++s) {
       const Outcome& outcome = mdp.outcomes(mdp.choices(StateIndex{s})[policy.choice[s]]).front();
       steps.next.push_back(static_cast<std::uint32_t>(outcome.next.value()));
       steps.row.push_back(outcome.feature_row);
     }
+    std::vector<std::uint32_t> all(mdp.num_states());
+    std::iota(all.begin(), all.end(), 0u);
     std::vector<double> features((mdp.num_states() + mdp.num_terminals()) * d, 0.0);
-    sum_up_paths(steps, rows, d, mdp.discount(), features);
+    PathWalk{all.size()}.sum_up(all, steps, rows, d, mdp.discount(), features);
     return features;
   }
   std::vector<double> immediate(mdp.num_states() * d, 0.0);
@@ -213,6 +209,24 @@ std::vector<double> policy_features(const Mdp& mdp, const Policy& policy) {
   if (!PolicyChain{mdp, policy, immediate, d}.solve(features))
     std::fill_n(features.begin(), immediate.size(), std::numeric_limits<double>::infinity());
   return features;
+}
+
+IntegerVector in_units(std::span<const double> features, std::int64_t scale) {
+  IntegerVector counts(features.size());
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    const double units = features[k] * static_cast<double>(scale);
+    if (!(std::abs(units) < kMostUnits)) {
+      throw Error{ErrorKind::kInfeasible,
+                  "some people would expect paths that are too long: expected feature counts must stay below 2^53 "
+                  "units of 1/" +
+                      std::to_string(scale) + "; make ending likelier, or give a smaller discount"};
+    }
+    // As std::llround, which is a call.
+    const auto whole = static_cast<std::int64_t>(units);
+    const double rest = units - static_cast<double>(whole);
+    counts[k] = whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+  }
+  return counts;
 }
 
 }  // namespace kith::detail

@@ -55,21 +55,45 @@ class PolicyChain {
   std::vector<double> constant_;  // shape [num_states, kinds], by position
 };
 
-// The one step that a policy takes from each state of a deterministic process.
+// Steps of a deterministic process, one per state (those of a policy) or one per choice.
 struct PathSteps {
-  std::vector<std::uint32_t> next;  // the state that it leads to, shape [num_states]
-  std::vector<std::uint32_t> row;   // of the feature table, shape [num_states]
+  std::vector<std::uint32_t> next;  // the state that it leads to
+  std::vector<std::uint32_t> row;   // of the feature table
 };
 
-// What the paths of a deterministic, discounted process count, each step as its feature row says: exact, in one pass,
-// the cycle of a path that never ends as a geometric series.
-// @param row_counts  row-major, shape [num_feature_rows, kinds]. @param values  shape [num_states + num_terminals,
-// kinds]; those of terminal states are kept.
-void sum_up_paths(const PathSteps& steps, std::span<const double> row_counts, std::size_t kinds, double discount,
-                  std::span<double> values);
+// Sums up along the paths of a deterministic, discounted process. It keeps the memory that this takes.
+class PathWalk {
+ public:
+  explicit PathWalk(std::size_t num_states) : marks_(num_states, Mark::kKnown) {}
+
+  // What the paths from some states count under a policy, each step as its feature row says: exact, in one pass, the
+  // cycle of a path that never ends as a geometric series.
+  // @param row_counts  row-major, shape [num_feature_rows, kinds]. @param values  shape [num_states + num_terminals,
+  // kinds]; those of other states are given.
+  void sum_up(std::span<const std::uint32_t> states, const PathSteps& policy, std::span<const double> row_counts,
+              std::size_t kinds, double discount, std::span<double> values);
+
+ private:
+  enum class Mark : unsigned char { kNew, kOnWalk, kKnown };
+  template <typename Kinds>
+  void sum_up_kinds(std::span<const std::uint32_t> states, const PathSteps& steps, std::span<const double> row_counts,
+                    Kinds kinds, double discount, std::span<double> values);
+
+  std::vector<Mark> marks_;  // shape [num_states]
+  std::vector<std::uint32_t> walk_;
+};
+
+// The features of all rows, row-major, shape [num_feature_rows, num_features].
+[[nodiscard]] inline std::span<const double> feature_rows(const Mdp& mdp) {
+  if (mdp.num_feature_rows() == 0) return {};
+  return {mdp.feature_row(0).data(), mdp.num_feature_rows() * mdp.num_features()};
+}
 
 // Expected (discounted) features of a policy, a function of the arguments alone, shape [num_states + num_terminals,
 // num_features]; infinite where the policy ends so rarely that they cannot be computed.
 [[nodiscard]] std::vector<double> policy_features(const Mdp& mdp, const Policy& policy);
+
+// Features in units of 1 / scale, rounded to nearest. @throws kith::Error (kInfeasible) from 2^53 units on.
+[[nodiscard]] IntegerVector in_units(std::span<const double> features, std::int64_t scale);
 
 }  // namespace kith::detail

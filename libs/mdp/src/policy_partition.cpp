@@ -1,7 +1,9 @@
 #include "kith/mdp/policy_partition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -14,12 +16,17 @@
 #include "component_paths.hpp"
 #include "kith/core/assert.hpp"
 #include "path_follower.hpp"
+#include "path_values.hpp"
 
 namespace kith {
 namespace {
 
 // By how much, relative to the length of the weights, a part's half-spaces must hold: far more than rounding.
 constexpr double kClear = 1e-6;
+// Discounted counts that differ by less, relative to the largest, differ by rounding alone; normals of parts that
+// differ by less are one, because any clearance is far larger.
+constexpr double kSame = 1e-13;
+constexpr double kSameNormal = 1e-12;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 double dot_of(const double* normal, std::span<const double> weights) {
@@ -27,6 +34,54 @@ double dot_of(const double* normal, std::span<const double> weights) {
   for (std::size_t k = 0; k < weights.size(); ++k) sum += normal[k] * weights[k];
   return sum;
 }
+
+// Collects normals of d entries, each once: those that differ by less than `quantum` count as equal if the grid of that
+// width does not part them.
+class NormalSet {
+ public:
+  NormalSet(std::size_t dimension, double quantum, std::size_t most) : d_{dimension}, quantum_{quantum} {
+    std::size_t size = 16;
+    while (size < 2 * most) size *= 2;
+    slots_.assign(size, kNone);
+  }
+
+  void insert(const double* normal) {
+    std::uint64_t hash = 0xCBF29CE484222325ull;
+    for (std::size_t k = 0; k < d_; ++k) {
+      hash =
+          (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(normal[k] / quantum_))) * 0xFF51AFD7ED558CCDull;
+      hash ^= hash >> 32;
+    }
+    for (std::size_t at = hash & (slots_.size() - 1);; at = (at + 1) & (slots_.size() - 1)) {
+      if (slots_[at] == kNone) {
+        slots_[at] = static_cast<std::uint32_t>(normals_.size() / d_);
+        normals_.insert(normals_.end(), normal, normal + d_);
+        return;
+      }
+      const double* const other = &normals_[slots_[at] * d_];
+      bool is_equal = true;
+      for (std::size_t k = 0; k < d_; ++k) is_equal = is_equal && std::abs(normal[k] - other[k]) <= quantum_;
+      if (is_equal) return;
+    }
+  }
+
+  // Row-major, those that hold by least for these weights first: they are the first to fail elsewhere.
+  [[nodiscard]] std::vector<double> by_margin(std::span<const double> weights) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < normals_.size(); i += d_) order.emplace_back(dot_of(&normals_[i], weights), i);
+    std::sort(order.begin(), order.end());
+    std::vector<double> sorted;
+    sorted.reserve(normals_.size());
+    for (const auto& [margin, i] : order) sorted.insert(sorted.end(), &normals_[i], &normals_[i] + d_);
+    return sorted;
+  }
+
+ private:
+  std::size_t d_;
+  double quantum_;
+  std::vector<std::uint32_t> slots_;
+  std::vector<double> normals_;
+};
 
 }  // namespace
 
@@ -38,21 +93,31 @@ class PolicyPartition::Body {
     std::vector<double> normals;       // row-major, shape [n, d]: primitive
     std::vector<double> reach;         // the largest |counts_k| of any state, shape [d]
     std::vector<std::int64_t> counts;  // of the kept states, less those of the first exit; row-major, shape [kept, d]
+    std::vector<double> expected;      // the same of a discounted process, less nothing
     std::uint32_t number = 0;          // within the component
   };
 
   Body(const Mdp& mdp, std::span<const StateIndex> states, std::vector<double> robot_weights,
        const BehaveOptions& options)
       : mdp_{mdp}, states_{states.begin(), states.end()}, robot_{std::move(robot_weights)}, options_{options} {
-    detail::require_exact(mdp, robot_.size(), "PolicyPartition");
-    has_optima_ = mdp.by_distance().size() == mdp.num_states();
+    detail::require(robot_.size() == mdp.num_features(), "PolicyPartition", "there must be one weight per feature");
+    detail::require(can_be_partitioned(mdp), "PolicyPartition",
+                    "the process must be exact, or deterministic and discounted");
     find_components();
+    if (is_exact(mdp)) {
+      has_optima_ = mdp.by_distance().size() == mdp.num_states();
+      return;
+    }
+    for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) has_optima_ = has_optima_ && !mdp.choices(s).empty();
+    steps_ = detail::steps_of_choices(mdp);
+    for (const std::uint32_t s : detail::states_by_distance(mdp)) by_distance_[component_of_[s]].push_back(s);
   }
 
   [[nodiscard]] const Mdp& mdp() const noexcept { return mdp_; }
   [[nodiscard]] std::span<const StateIndex> states() const noexcept { return states_; }
   [[nodiscard]] std::span<const double> robot() const noexcept { return robot_; }
   [[nodiscard]] const BehaveOptions& options() const noexcept { return options_; }
+  [[nodiscard]] bool is_discounted() const noexcept { return mdp_.discount() < 1.0; }
   [[nodiscard]] bool has_optima() const noexcept { return has_optima_; }
   [[nodiscard]] std::size_t num_components() const noexcept { return components_.size(); }
   [[nodiscard]] bool is_alone(std::size_t c) const { return components_[c].is_alone; }
@@ -64,6 +129,10 @@ class PolicyPartition::Body {
     const auto starts = mdp_.component_starts();
     return mdp_.by_component().subspan(starts[c], starts[c + 1] - starts[c]);
   }
+
+  // Of a discounted process: what its choices do, and the states of a component, nearest to an end first.
+  [[nodiscard]] const detail::PathSteps& steps() const noexcept { return steps_; }
+  [[nodiscard]] std::span<const std::uint32_t> by_distance(std::size_t c) const { return by_distance_[c]; }
 
   [[nodiscard]] std::size_t num_parts() const noexcept { return num_parts_; }
   [[nodiscard]] std::size_t memory() const noexcept { return bytes_; }
@@ -110,7 +179,7 @@ class PolicyPartition::Body {
     const std::size_t d = weights.size();
     const std::size_t bytes = sizeof(Part) + (known.parts.empty() ? sizeof(Case) + differences.size() * 8 + 64 : 0) +
                               (part->normals.size() + 2 * d) * sizeof(double) +
-                              part->counts.size() * sizeof(std::int64_t);
+                              part->counts.size() * sizeof(std::int64_t) + part->expected.size() * sizeof(double);
     known.sums.insert(known.sums.end(), sum.begin(), sum.end());
     part->number = components_[c].num_parts++;
     bytes_ += bytes;
@@ -160,6 +229,7 @@ class PolicyPartition::Body {
     const auto starts = mdp_.component_starts();
     const auto by_component = mdp_.by_component();
     components_.resize(starts.empty() ? 0 : starts.size() - 1);
+    by_distance_.resize(components_.size());
     component_of_.assign(mdp_.num_states(), 0);
     kept_place_.assign(mdp_.num_states(), kNone);
     std::vector<bool> matters(mdp_.num_states(), false);
@@ -200,6 +270,9 @@ class PolicyPartition::Body {
   std::vector<std::uint32_t> component_of_;  // shape [num_states]
   std::vector<std::uint32_t> kept_place_;    // shape [num_states]: position in Component::kept
 
+  detail::PathSteps steps_;                              // of a discounted process, shape [num_choices]
+  std::vector<std::vector<std::uint32_t>> by_distance_;  // the same, per component
+
   mutable std::shared_mutex mutex_;    // of the cases of components, and of gains
   std::vector<Component> components_;  // all but the cases never changes
   std::vector<double> gains_;          // cycles that earn for some weights, row-major, shape [n, d]: primitive
@@ -220,15 +293,18 @@ class PolicyLookup::Body {
     rewards_.clear();
     follower_.reset();
     paths_.reset();
+    values_.reset();
+    planned_.reset();
     loose_.clear();
     key_.clear();
     is_kept_ = true;
     if (!known.has_optima()) return false;
     double square = 0.0;
     for (const double w : weights) square += w * w;
+    places_.resize(std::max(places_.size(), known.num_components()));
+    if (known.is_discounted()) return locate_discounted();
     clear_by_ = kClear * std::sqrt(square);
     if (known.gains(weights, clear_by_)) return false;
-    places_.resize(std::max(places_.size(), known.num_components()));
     for (std::size_t c = 0; c < known.num_components(); ++c) {
       if (!(known.is_alone(c) ? step(c) : enter(c))) return false;
     }
@@ -237,7 +313,12 @@ class PolicyLookup::Body {
   }
 
   [[nodiscard]] IntegerVector counts(std::size_t i) const {
-    auto result = counts_at(known_->states()[i].value());
+    const StateIndex s = known_->states()[i];
+    if (planned_) return planned_->counts[s.value()];
+    if (known_->is_discounted()) {
+      return detail::in_units({expected_at(s.value()), known_->mdp().num_features()}, known_->options().scale);
+    }
+    auto result = counts_at(s.value());
     for (std::size_t k = 0; k < result.size(); ++k) result[k] *= known_->options().scale;
     return result;
   }
@@ -247,10 +328,12 @@ class PolicyLookup::Body {
 
  private:
   using Part = PolicyPartition::Body::Part;
+  using Expected = std::array<double, IntegerVector::kMaxDimension>;  // the first d entries, the others 0
   // Where the weights of the last locate() lie in a component.
   struct Place {
     const Part* part = nullptr;
     IntegerVector base;  // the counts of the first exit, or of the only state
+    Expected alone{};    // those of the only state of a discounted component
   };
 
   // Of a state that matters, in a component that was located.
@@ -354,6 +437,158 @@ class PolicyLookup::Body {
     return true;
   }
 
+  // A discounted process always has an optimum. If in some component nothing is clearly best, it is planned as a whole.
+  bool locate_discounted() {
+    clear_by_ = 0.0;
+    for (std::size_t c = 0; c < known_->num_components(); ++c) {
+      if (known_->is_alone(c) ? step_discounted(c) : enter_discounted(c)) continue;
+      key_.clear();
+      planned_ = behave_in_favour(known_->mdp(), weights_, known_->robot(), known_->options());
+      return planned_.has_value();
+    }
+    if (!is_kept_) key_.clear();
+    return true;
+  }
+
+  // Expected counts of a state that matters, in a component that was located.
+  [[nodiscard]] const double* expected_at(std::size_t s) const {
+    if (s >= known_->mdp().num_states()) return kNothing.data();
+    const auto& place = places_[known_->component_of(s)];
+    if (place.part == nullptr) return place.alone.data();
+    return &place.part->expected[known_->kept_place(s) * known_->mdp().num_features()];
+  }
+
+  // `counts` less what a choice counts, given what the state that it leads to counts.
+  [[nodiscard]] Expected less(const double* counts, std::size_t choice, const double* next) const {
+    const Mdp& mdp = known_->mdp();
+    const double* const phi = mdp.feature_row(known_->steps().row[choice]).data();
+    Expected result{};
+    for (std::size_t k = 0; k < weights_.size(); ++k) result[k] = counts[k] - phi[k] - mdp.discount() * next[k];
+    return result;
+  }
+
+  // Whether counts differ, as a loss tells, by more than rounding. @param largest  count.
+  static bool differs(const Expected& loss, double largest) {
+    return std::any_of(loss.begin(), loss.end(), [&](double x) { return std::abs(x) > kSame * largest; });
+  }
+
+  // A component of one state. False unless its best choice is clearly so.
+  bool step_discounted(std::size_t c) {
+    const Mdp& mdp = known_->mdp();
+    const auto& steps = known_->steps();
+    const StateIndex s = known_->members(c).front();
+    const std::size_t first = mdp.first_choice(s), last = first + mdp.choices(s).size();
+    const auto negative_counts = [&](std::size_t i) { return less(kNothing.data(), i, expected_at(steps.next[i])); };
+    std::size_t chosen = first;
+    double least = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      const double cost = dot_of(negative_counts(i).data(), weights_);
+      if (i > first && !(cost < least)) continue;
+      least = cost;
+      chosen = i;
+    }
+    auto& own = places_[c].alone;
+    own = negative_counts(chosen);
+    double largest = 1.0, reach = 0.0;
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      own[k] = -own[k];
+      largest = std::max(largest, std::abs(own[k]));
+      reach += std::abs(own[k] * weights_[k]);
+    }
+    const double clear_by = clearance(reach);
+    std::size_t first_equal = chosen;
+    for (std::size_t i = first; i < last; ++i) {
+      const auto loss = less(own.data(), i, expected_at(steps.next[i]));
+      if (!differs(loss, largest)) {
+        first_equal = std::min(first_equal, i);
+      } else if (!(dot_of(loss.data(), weights_) > clear_by)) {
+        return false;
+      }
+    }
+    if (first_equal != chosen) {
+      own = negative_counts(first_equal);
+      for (double& x : own) x = -x;
+    }
+    places_[c].part = nullptr;
+    key_.push_back(static_cast<std::uint32_t>(first_equal - first));
+    return true;
+  }
+
+  // A component of several states. False unless its best choices are clearly so.
+  bool enter_discounted(std::size_t c) {
+    differences_.clear();
+    for (const std::uint32_t exit : known_->exits(c)) {
+      if (exit >= known_->mdp().num_states()) continue;
+      const double* const counts = expected_at(exit);
+      for (std::size_t k = 0; k < weights_.size(); ++k) {
+        differences_.push_back(std::bit_cast<std::int64_t>(counts[k]));
+      }
+    }
+    const Part* part = known_->candidate(c, differences_, weights_);
+    if (part == nullptr || !holds(*part)) {
+      part = plan_discounted(c);
+    } else {
+      key_.push_back(part->number);
+    }
+    places_[c].part = part;
+    return part != nullptr;
+  }
+
+  const Part* plan_discounted(std::size_t c) {
+    const Mdp& mdp = known_->mdp();
+    const auto& steps = known_->steps();
+    const std::size_t d = weights_.size();
+    if (!values_) {
+      rewards_ = detail::row_rewards(mdp, weights_);
+      values_.emplace(mdp, steps, rewards_, known_->options().tolerance, all_);
+      expected_.resize(std::max(expected_.size(), (mdp.num_states() + mdp.num_terminals()) * d));
+      std::fill_n(expected_.begin() + static_cast<std::ptrdiff_t>(mdp.num_states() * d), mdp.num_terminals() * d, 0.0);
+    }
+    for (const std::uint32_t exit : known_->exits(c)) {
+      const double* const counts = expected_at(exit);
+      std::copy_n(counts, d, &expected_[exit * d]);
+      values_->set_value(exit, dot_of(counts, weights_));
+    }
+    values_->solve(known_->by_distance(c));
+    values_->take_first_tight(known_->by_distance(c));
+    values_->sum_up(known_->by_distance(c), detail::feature_rows(mdp), d, expected_);
+    auto part = std::make_unique<Part>();
+    std::vector<double> sum(d, 0.0);
+    if (!bound_discounted(c, *part, sum)) return nullptr;
+    for (const std::uint32_t s : known_->kept(c)) {
+      part->expected.insert(part->expected.end(), &expected_[s * d], &expected_[s * d] + d);
+    }
+    return may_grow_ && is_kept_ ? keep(c, std::move(part), sum) : leave(std::move(part));
+  }
+
+  // The half-spaces that the counts in `expected_` follow from, and their sum over all states. Choices that count the
+  // same as that of the plan are no different. False unless all half-spaces hold clearly.
+  [[nodiscard]] bool bound_discounted(std::size_t c, Part& part, std::vector<double>& sum) const {
+    const Mdp& mdp = known_->mdp();
+    const auto& steps = known_->steps();
+    const std::size_t d = weights_.size();
+    part.reach.assign(d, 0.0);
+    std::size_t num_choices = 0;
+    for (const StateIndex s : known_->members(c)) {
+      num_choices += mdp.choices(s).size();
+      for (std::size_t k = 0; k < d; ++k) {
+        part.reach[k] = std::max(part.reach[k], std::abs(expected_[s.value() * d + k]));
+        sum[k] += expected_[s.value() * d + k];
+      }
+    }
+    const double largest = std::max(1.0, *std::max_element(part.reach.begin(), part.reach.end()));
+    NormalSet normals{d, kSameNormal * largest, num_choices};
+    for (const StateIndex s : known_->members(c)) {
+      const std::size_t first = mdp.first_choice(s);
+      for (std::size_t i = first; i < first + mdp.choices(s).size(); ++i) {
+        const auto loss = less(&expected_[s.value() * d], i, &expected_[steps.next[i] * d]);
+        if (differs(loss, largest)) normals.insert(loss.data());
+      }
+    }
+    part.normals = normals.by_margin(weights_);
+    return holds(part);
+  }
+
   // A cycle that earns, unless it hardly earns anything.
   void keep_gain(const IntegerVector& features) {
     if (may_grow_ && dot(features, weights_) > clear_by_) grown_by_ += known_->add_gain(primitive(features));
@@ -366,19 +601,26 @@ class PolicyLookup::Body {
     for (const std::uint32_t s : known_->kept(c)) {
       part->counts.insert(part->counts.end(), counts_[s].begin(), counts_[s].end());
     }
-    if (!may_grow_ || !is_kept_ || !bound(c, *part)) {
-      is_kept_ = false;
-      return loose_.emplace_back(std::move(part)).get();
-    }
+    if (!may_grow_ || !is_kept_ || !bound(c, *part)) return leave(std::move(part));
     std::vector<double> sum(d, 0.0);
     for (const StateIndex s : known_->members(c)) {
       for (std::size_t k = 0; k < d; ++k) sum[k] += static_cast<double>(counts_[s.value()][k]);
     }
+    return keep(c, std::move(part), sum);
+  }
+
+  const Part* keep(std::size_t c, std::unique_ptr<Part> part, std::span<const double> sum) {
     const auto [kept, bytes] = known_->add(c, differences_, weights_, std::move(part), sum,
                                            [this](const Part& other) { return holds(other); });
     grown_by_ += bytes;
     key_.push_back(kept->number);
     return kept;
+  }
+
+  // For this look-up alone.
+  const Part* leave(std::unique_ptr<Part> part) {
+    is_kept_ = false;
+    return loose_.emplace_back(std::move(part)).get();
   }
 
   // The half-spaces that the plan in `counts_` follows from. False unless all hold clearly.
@@ -425,6 +667,13 @@ class PolicyLookup::Body {
   std::optional<detail::ComponentPaths> paths_;
   std::optional<detail::PathFollower> follower_;  // of paths_
   std::vector<IntegerVector> counts_;
+
+  // Of a discounted process.
+  static constexpr Expected kNothing{};
+  const detail::ChoiceMask all_;
+  std::optional<detail::PathValues> values_;  // empty until something is planned
+  std::vector<double> expected_;              // row-major, shape [num_states + num_terminals, d]
+  std::optional<Behaviour> planned_;          // where something was not clear
 };
 
 PolicyPartition::PolicyPartition(const Mdp& mdp, std::span<const StateIndex> states, std::vector<double> robot_weights,

@@ -129,15 +129,7 @@ bool takes_first(const Mdp& mdp, const ChoiceMask& mask, const Policy& policy) {
 PolicySolver::PolicySolver(const Mdp& mdp, std::span<const double> row_rewards, double tolerance,
                            const ChoiceMask& mask)
     : mdp_{mdp}, rewards_{row_rewards}, tolerance_{tolerance}, mask_{mask} {
-  if (!has_steps()) return;
-  steps_.reserve(mdp.num_choices());
-  for (StateIndex s{0}; s.value() < mdp.num_states(); ++s) {
-    for (const Choice& choice : mdp.choices(s)) {
-      const Outcome& outcome = mdp.outcomes(choice).front();
-      steps_.push_back(
-          {row_rewards[outcome.feature_row], static_cast<std::uint32_t>(outcome.next.value()), outcome.feature_row});
-    }
-  }
+  if (mdp.is_deterministic() && mdp.discount() < 1.0) steps_ = steps_of_choices(mdp);
 }
 
 double PolicySolver::worth(const Choice& choice, std::span<const double> values) const {
@@ -180,89 +172,12 @@ bool PolicySolver::improve(Policy& policy, std::span<const double> values) const
   return improved;
 }
 
-// Policy iteration where outcomes are certain and discounted. It begins with the best steps to states that are no
-// farther from an end, and improves in that order, each state after those that it may lead to: what is better at the
-// end of a path reaches its beginning in one pass. A state is looked at again when its value, or that of a state that
-// it may lead to, has changed.
-std::vector<double> PolicySolver::values_of_paths() const {
-  const std::size_t n = mdp_.num_states();
-  const double discount = mdp_.discount();
-  std::vector<std::uint32_t> order;
-  std::vector<unsigned char> is_valued(n + mdp_.num_terminals(), 0);
-  std::fill(is_valued.begin() + static_cast<std::ptrdiff_t>(n), is_valued.end(), static_cast<unsigned char>(1));
-  std::vector<double> values(n + mdp_.num_terminals(), 0.0);
-  PathSteps policy{std::vector<std::uint32_t>(n), std::vector<std::uint32_t>(n)};
-  order.reserve(n);
-  for (const StateIndex s : mdp_.by_distance()) order.push_back(static_cast<std::uint32_t>(s.value()));
-  if (order.size() < n) {
-    std::vector<bool> is_listed(n, false);
-    for (const std::uint32_t s : order) is_listed[s] = true;
-    for (std::uint32_t s = 0; s < n; ++s) {
-      if (!is_listed[s]) order.push_back(s);
-    }
-  }
-  const auto take = [&](std::uint32_t s, const Step& step) {
-    policy.next[s] = step.next;
-    policy.row[s] = step.feature_row;
-  };
-  // The best step of a state among those that `admits`; whether there is one that is worth more than `least`.
-  const auto choose = [&](std::uint32_t s, double least, const auto& admits) {
-    const std::size_t first = mdp_.first_choice(StateIndex{s});
-    const std::size_t last = first + mdp_.choices(StateIndex{s}).size();
-    const Step* best = nullptr;
-    for (std::size_t c = first; c < last; ++c) {
-      const Step& step = steps_[c];
-      if (!is_allowed(c) || !admits(step)) continue;
-      const double worth = step.reward + discount * values[step.next];
-      if (worth > least) {
-        best = &step;
-        least = worth;
-      }
-    }
-    if (best == nullptr) return false;
-    take(s, *best);
-    values[s] = least;
-    return true;
-  };
-  for (const std::uint32_t s : order) {
-    const bool found = choose(s, -std::numeric_limits<double>::infinity(),
-                              [&](const Step& step) { return is_valued[step.next] != 0; });
-    is_valued[s] = found ? 1 : 0;
-    if (found) continue;
-    std::size_t c = mdp_.first_choice(StateIndex{s});
-    while (!is_allowed(c)) ++c;
-    take(s, steps_[c]);
-  }
-  const double slack = std::max(1e-13, 0.01 * tolerance_);  // far within a tie, far above rounding
-  std::vector<unsigned char> is_open(n, 1);
-  const auto open_arrivals = [&](std::uint32_t s) {
-    for (const Arrival& arrival : mdp_.arrivals(StateIndex{s})) is_open[arrival.from.value()] = 1;
-  };
-  std::vector<double> before;
-  for (int i = 0; i < kMostPolicies; ++i) {
-    before = values;
-    sum_up_paths(policy, rewards_, 1, discount, values);
-    for (std::uint32_t s = 0; s < n; ++s) {
-      if (values[s] == before[s]) continue;
-      is_open[s] = 1;
-      open_arrivals(s);
-    }
-    bool improved = false;
-    for (const std::uint32_t s : order) {
-      if (is_open[s] == 0) continue;
-      is_open[s] = 0;
-      const double clearly = values[s] + slack * std::max(1.0, std::abs(values[s]));
-      if (!choose(s, clearly, [](const Step&) { return true; })) continue;
-      improved = true;
-      open_arrivals(s);
-    }
-    if (!improved) return values;
-  }
-  throw Error{ErrorKind::kInfeasible, "policy iteration does not converge"};
-}
-
 std::optional<std::vector<double>> PolicySolver::optimal_values() const {
-  if (has_steps()) return values_of_paths();
+  if (!steps_.next.empty()) {
+    PathValues paths{mdp_, steps_, rewards_, tolerance_, mask_};
+    paths.solve(states_by_distance(mdp_));
+    return std::move(paths.values());
+  }
   const bool must_finish = mdp_.discount() == 1.0;
   Policy policy = first_finishing(mdp_, mask_);
   if (must_finish && !policy.finishes()) return std::nullopt;
@@ -296,10 +211,10 @@ std::optional<std::vector<double>> PolicySolver::optimal_values() const {
 
 ChoiceMask PolicySolver::tight_choices(std::span<const double> values) const {
   ChoiceMask tight(mdp_.num_choices(), 0);
-  if (has_steps()) {
+  if (!steps_.next.empty()) {
     for (std::size_t s = 0, c = 0; s < mdp_.num_states(); ++s) {
       for (const std::size_t last = c + mdp_.choices(StateIndex{s}).size(); c < last; ++c) {
-        const double worth = steps_[c].reward + mdp_.discount() * values[steps_[c].next];
+        const double worth = rewards_[steps_.row[c]] + mdp_.discount() * values[steps_.next[c]];
         tight[c] = is_allowed(c) && is_tight(values[s], worth, tolerance_) ? 1 : 0;
       }
     }

@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "kith/mdp/mdp.hpp"
+#include "path_values.hpp"
 #include "policy_evaluation.hpp"
 
 namespace kith::detail {
-
-// One byte per choice of the Mdp, in the order of Mdp::first_choice(); empty: all.
-using ChoiceMask = std::vector<unsigned char>;
 
 // Optimal values of any Mdp under one reward, among the choices of a mask.
 //
@@ -33,26 +31,16 @@ class PolicySolver {
   [[nodiscard]] ChoiceMask tight_choices(std::span<const double> values) const;
 
  private:
-  // What a choice does where outcomes are certain.
-  struct Step {
-    double reward;
-    std::uint32_t next;
-    std::uint32_t feature_row;
-  };
-
-  // Whether the process is deterministic and discounted.
-  [[nodiscard]] bool has_steps() const { return mdp_.is_deterministic() && mdp_.discount() < 1.0; }
   [[nodiscard]] bool is_allowed(std::size_t choice) const { return mask_.empty() || mask_[choice] != 0; }
   [[nodiscard]] double worth(const Choice& choice, std::span<const double> values) const;
   [[nodiscard]] PolicyChain chain_of(const Policy& policy) const;
   [[nodiscard]] bool improve(Policy& policy, std::span<const double> values) const;
-  [[nodiscard]] std::vector<double> values_of_paths() const;
 
   const Mdp& mdp_;
   std::span<const double> rewards_;
   double tolerance_;
   const ChoiceMask& mask_;
-  std::vector<Step> steps_;  // per choice, side by side: outcomes take three times as much memory; if has_steps()
+  PathSteps steps_;  // of a deterministic, discounted process, else empty
 };
 
 // The first choice of the mask in every state; states from which this does not lead to an end take the first choice

@@ -30,7 +30,7 @@ std::vector<double> random_direction(RandomStream& random) {
 
 // A floor of w x h cells with a few kinds of terrain, which is crossed twice: to the upper right and back. The first
 // visit of the middle is counted once more, so that there are four components.
-Mdp errand(std::size_t w, std::size_t h, RandomStream& random) {
+Mdp errand(std::size_t w, std::size_t h, RandomStream& random, double discount = 1.0) {
   std::vector<std::size_t> kind(w * h);
   for (auto& k : kind) k = uniform_index(4, random);
   const std::size_t n = w * h;
@@ -53,12 +53,12 @@ Mdp errand(std::size_t w, std::size_t h, RandomStream& random) {
     if (y + 1 < h) go(2, s % n + w);
     if (y > 0) go(3, s % n - w);
   }
-  return make_mdp(4 * n, 1, edges);
+  return make_mdp(4 * n, 1, edges, discount);
 }
 
 void expect_same(PolicyPartition& partition, const Mdp& mdp, const std::vector<double>& weights,
-                 const std::vector<double>& robot) {
-  const auto behaviour = behave_in_favour(mdp, weights, robot);
+                 const std::vector<double>& robot, std::int64_t scale = 1) {
+  const auto behaviour = behave_in_favour(mdp, weights, robot, {.scale = scale});
   PolicyLookup lookup;
   ASSERT_EQ(lookup.locate(partition, weights), behaviour.has_value());
   if (!behaviour) return;
@@ -91,6 +91,60 @@ TEST(PolicyPartition, LooksUpWhatItHasMetInAProcessOfSeveralComponents) {
   EXPECT_LT(num_parts, 300u);  // far fewer than weights times components
   for (const auto& w : weights) expect_same(partition, mdp, w, robot);
   EXPECT_EQ(partition.num_parts(), num_parts);
+}
+
+// The same process, discounted.
+Mdp discounted(const Mdp& mdp, double discount) {
+  std::vector<testing::Edge> edges;
+  for (std::size_t s = 0; s < mdp.num_states(); ++s) {
+    for (const Choice& choice : mdp.choices(StateIndex{s})) {
+      const Outcome& outcome = mdp.outcomes(choice).front();
+      const auto phi = mdp.features(outcome);
+      edges.push_back({s, choice.action.value(), outcome.next.value(), {phi.begin(), phi.end()}});
+    }
+  }
+  return make_mdp(mdp.num_states(), mdp.num_terminals(), edges, discount);
+}
+
+TEST(PolicyPartition, EqualsPlanningInDiscountedProcesses) {
+  constexpr std::int64_t kUnits = std::int64_t{1} << 24;
+  RandomStream random{37};
+  for (int i = 0; i < testing::kNumRandom / 3; ++i) {
+    SCOPED_TRACE(i);
+    const std::vector<double> discounts{0.3, 0.9, 0.95, 0.999};
+    const Mdp mdp = discounted(testing::random_mdp(9, random), discounts[uniform_index(4, random)]);
+    const auto robot = testing::to_real(testing::random_vector(-9, 9, random));
+    PolicyPartition partition{mdp, all_states(mdp), robot, {.scale = kUnits}};
+    for (int k = 0; k < 6; ++k) expect_same(partition, mdp, random_direction(random), robot, kUnits);
+    for (int k = 0; k < 6; ++k) {
+      expect_same(partition, mdp, testing::to_real(testing::random_weights(random)), robot, kUnits);
+    }
+  }
+}
+
+TEST(PolicyPartition, LooksUpWhatItHasMetInADiscountedProcess) {
+  constexpr std::int64_t kUnits = std::int64_t{1} << 24;
+  RandomStream random{38};
+  for (const double discount : {0.9, 0.95, 0.99}) {
+    const Mdp mdp = errand(6, 5, random, discount);
+    const std::vector<double> robot{-2.0, 0.5, -1.0};
+    PolicyPartition partition{mdp, all_states(mdp), robot, {.scale = kUnits}};
+    std::vector<std::vector<double>> weights;
+    for (int k = 0; k < 300; ++k) weights.push_back(random_direction(random));
+    for (const auto& w : weights) expect_same(partition, mdp, w, robot, kUnits);
+    const std::size_t num_parts = partition.num_parts();
+    EXPECT_GT(num_parts, 20u);
+    EXPECT_LT(num_parts, 600u);  // of 1 200 weights times components
+    PolicyLookup lookup;
+    std::size_t num_found = 0;
+    for (const auto& w : weights) {
+      ASSERT_TRUE(lookup.locate(partition, w));
+      num_found += lookup.key().empty() ? 0u : 1u;
+      expect_same(partition, mdp, w, robot, kUnits);
+    }
+    EXPECT_GT(num_found, 290u);
+    EXPECT_EQ(partition.num_parts(), num_parts);
+  }
 }
 
 TEST(PolicyPartition, HasEqualKeysForEqualBehaviourOnly) {
@@ -209,8 +263,12 @@ TEST(PolicyPartition, RefusesWhatItCannotAnswer) {
   PolicyLookup lookup;
   EXPECT_THROW((void)lookup.locate(partition, std::vector{1.0}), std::invalid_argument);
   EXPECT_THROW((PolicyPartition{mdp, all_states(mdp), {1.0}}), std::invalid_argument);
-  const Mdp discounted = make_mdp(1, 1, {{0, 0, 1, {1, 1}}}, 0.9);
-  EXPECT_THROW((PolicyPartition{discounted, all_states(discounted), {1.0, 1.0}}), std::invalid_argument);
+  MdpBuilder builder{1, 1, 1, 2, 0.9};
+  const std::vector<MdpBuilder::Transition> slips{{StateIndex{0}, 0.5, {1.0, 1.0}}, {StateIndex{1}, 0.5, {1.0, 1.0}}};
+  builder.add_choice(StateIndex{0}, ActionIndex{0}, slips);
+  const Mdp stochastic = std::move(builder).build();
+  EXPECT_FALSE(can_be_partitioned(stochastic));
+  EXPECT_THROW((PolicyPartition{stochastic, all_states(stochastic), {1.0, 1.0}}), std::invalid_argument);
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ class PolicyPartitions {
   [[nodiscard]] std::span<const StateIndex> states(MdpIndex m) const { return store_->states(m); }
   [[nodiscard]] std::int32_t place(DemoIndex demo) const { return store_->place(demo); }
 
-  /// Finds out what people with these weights do in an MDP; nothing if it is not exact, else what was found, which is
-  /// valid until the next call, and whether they have an optimum.
+  /// Finds out what people with these weights do in an MDP; nothing unless can_be_partitioned(), else what was found,
+  /// which is valid until the next call, and whether they have an optimum.
   struct Located {
     const PolicyLookup* found = nullptr;
     bool has_optimum = false;
@@ -94,11 +94,11 @@ class PolicyPartitions {
 ///
 /// Without tables every weight that is met is a policy cell of its own, numbered in
 /// order. For a cell and an MDP the behaviour is found when it is first asked for (behave_in_favour(): the benefit of
-/// the doubt): in exact MDPs by their PolicyPartition, else by planning. Of it only the losses on candidates' paths are
-/// kept, four bytes each, once for all weights that behave alike in the MDP; they are shown to as one person. For at
-/// most `max_cells` cells it is known which behaviour is theirs; then the oldest are forgotten. When the behaviours
-/// take more than `max_row_bytes` and more than max_cells * 4 bytes * states on candidates' paths, all are forgotten.
-/// What is forgotten is found again when asked for.
+/// the doubt): by the MDP's PolicyPartition if it can have one, else by planning. Of it only the losses on candidates'
+/// paths are kept, four bytes each, once for all weights that behave alike in the MDP; they are shown to as one person.
+/// For at most `max_cells` cells it is known which behaviour is theirs; then the oldest are forgotten. When the
+/// behaviours take more than `max_row_bytes` and more than max_cells * 4 bytes * states on candidates' paths, all are
+/// forgotten. What is forgotten is found again when asked for.
 ///
 /// With tables, one row of what is conveyed is kept per policy cell and demonstration class; when they take more than
 /// `max_row_bytes` the oldest are forgotten and, if asked for again, computed again.

@@ -12,8 +12,13 @@
 
 namespace kith {
 
-/// What people with any reward weights do in one exact process (is_exact()): a partition of weight space by policy,
-/// which grows where weights are met, so that weights that behave like earlier ones cost a look-up.
+/// Whether PolicyPartition can answer a process: it is exact (is_exact()), or deterministic and discounted.
+[[nodiscard]] inline bool can_be_partitioned(const Mdp& mdp) noexcept {
+  return is_exact(mdp) || (mdp.is_deterministic() && mdp.discount() < 1.0);
+}
+
+/// What people with any reward weights do in one process: a partition of weight space by policy, which grows where
+/// weights are met, so that weights that behave like earlier ones cost a look-up.
 ///
 /// The process is answered one strongly connected component after the other. What is best within a component depends
 /// on the differences between the counts of the states that it leads to, and on the weights. For each such list of
@@ -23,13 +28,18 @@ namespace kith {
 /// other weights are planned, within the component alone. Cycles that earn are kept as well: weights for which one of
 /// them does have no optimum.
 ///
+/// In a discounted process what is best within a component depends on the counts themselves, not on differences, and
+/// there is always an optimum. Where some choice is neither clearly worse than another nor counts the same, the whole
+/// process is planned.
+///
 /// A cache in front of a pure function: what PolicyLookup finds never depends on what was asked before, nor on the
-/// order in which threads ask, and equals the result of behave_in_favour(). Threads may share a partition. What is
+/// order in which threads ask, and equals the result of behave_in_favour() (of a discounted process up to rounding:
+/// where sums along paths differ in the last bits, so may the last unit). Threads may share a partition. What is
 /// known stays until the partition is destroyed. The process must outlive it.
 class PolicyPartition {
  public:
   /// @param states  the states whose counts will be asked for, ascending. @param robot_weights  shape [d]; see
-  /// behave_in_favour(). @throws std::invalid_argument unless the process is exact and there is one weight per feature.
+  /// behave_in_favour(). @throws std::invalid_argument unless can_be_partitioned() and there is one weight per feature.
   PolicyPartition(const Mdp& mdp, std::span<const StateIndex> states, std::vector<double> robot_weights,
                   const BehaveOptions& options = {});
   PolicyPartition(const PolicyPartition&) = delete;
