@@ -63,13 +63,15 @@ AuditOptions audit_options(const AuditCommandOptions& options, const StudySpec& 
   return how;
 }
 
+// The people of one group.
 void judge(TeachingCache& cache, const AuditOptions& how, std::vector<Observed>& people) {
-  Auditor auditor{cache, how};
-  for (auto& [person, periods] : people) {
-    auto random = RandomStream{1}.split("audit").split(person.team).split(person.room).split(person.member);
-    if (person.seat != 0) random = random.split(person.seat);
-    person.audit = auditor.audit(periods, random);
-  }
+  if (people.empty()) return;
+  const auto& first = people.front().person;
+  std::vector<std::vector<ObservedPeriod>> periods;
+  for (auto& one : people) periods.push_back(std::move(one.periods));
+  auto audits =
+      Auditor{cache, how}.audit_group(periods, RandomStream{1}.split("audit").split(first.team).split(first.room));
+  for (std::size_t i = 0; i < people.size(); ++i) people[i].person.audit = std::move(audits[i]);
 }
 
 // --- a run ---------------------------------------------------------------------------------------------------------

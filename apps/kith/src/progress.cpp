@@ -51,7 +51,7 @@ void Progress::update(std::size_t done, std::size_t total, std::size_t failed) {
   const auto interval = mode_ == ProgressMode::kBar    ? std::chrono::milliseconds{100}
                         : mode_ == ProgressMode::kJson ? std::chrono::milliseconds{1000}
                                                        : std::chrono::milliseconds{10'000};
-  const bool last = done == total && mode_ == ProgressMode::kJson;
+  const bool last = done == total && (mode_ == ProgressMode::kJson || (lines_ && has_line_));
   if (now - last_ < interval && !last) return;
   last_ = now;
   const double elapsed = std::max(1e-6, std::chrono::duration<double>(now - start_).count());
@@ -68,7 +68,9 @@ void Progress::update(std::size_t done, std::size_t total, std::size_t failed) {
     write_log(fmt::format("\r[{}{}]{}\033[K", std::string(full, '#'), std::string(room - full, '.'), text));
     drawn_ = true;
   } else {
-    write_log(fmt::format("kith: info: {} of {} {}, about {} left\n", done, total, noun_, clock_text(left)));
+    const auto rest = done == total ? std::string{} : ", about " + clock_text(left) + " left";
+    write_log(fmt::format("kith: info: {} of {} {}{}\n", done, total, noun_, rest));
+    has_line_ = done != total;
   }
 }
 

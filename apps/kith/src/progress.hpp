@@ -38,6 +38,7 @@ class Progress {
   Clock::time_point last_ = start_;
   std::size_t before_ = 0;  // done when it began
   bool drawn_ = false;
+  bool has_line_ = false;  // of a number below all
 };
 
 /// "1:05" or "2:03:04"; for people who wait.

@@ -73,7 +73,8 @@ Auditor::Auditor(TeachingCache& cache, const AuditOptions& options)
     : cache_{&cache}, options_{options}, unit_{reference_feature(cache.atlas())} {
   const bool is_good = is_probability(options.sure) && is_probability(options.likely) && options.negligible >= 0.0 &&
                        is_probability(options.wrongly) && options.unexplained >= 0.0 && options.unexplained < 1.0 &&
-                       options.telling >= 1.0 && options.forgetting >= 0.0 && std::isfinite(options.forgetting);
+                       options.telling >= 1.0 && options.against_stopping > 0.0 && options.forgetting >= 0.0 &&
+                       std::isfinite(options.forgetting);
   if (!is_good) throw std::invalid_argument{"Auditor: an option is out of range"};
   const auto& atlas = cache.atlas();
   for (const auto& component : atlas.knowledge_components()) {
@@ -83,7 +84,30 @@ Auditor::Auditor(TeachingCache& cache, const AuditOptions& options)
 }
 
 PersonAudit Auditor::audit(std::span<const ObservedPeriod> periods, const RandomStream& random) {
-  MisconceptionBank bank{*cache_, options_.bank, random.split("bank")};
+  return audit(periods, MisconceptionBank::beliefs(*cache_, options_.bank, random.split("bank")), random);
+}
+
+std::vector<PersonAudit> Auditor::audit_group(std::span<const std::vector<ObservedPeriod>> people,
+                                              const RandomStream& random) {
+  std::vector<PersonAudit> audits(people.size());
+  std::vector<bool> is_done(people.size(), false);
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    if (is_done[i]) continue;
+    const auto beliefs = MisconceptionBank::beliefs(*cache_, options_.bank, random.split("bank").split(i));
+    for (std::size_t j = i; j < people.size(); ++j) {
+      const bool shares =
+          std::equal(people[i].begin(), people[i].end(), people[j].begin(), people[j].end(), LessonBeliefs::are_same);
+      if (is_done[j] || !shares) continue;
+      audits[j] = audit(people[j], beliefs, random.split(j));
+      is_done[j] = true;
+    }
+  }
+  return audits;
+}
+
+PersonAudit Auditor::audit(std::span<const ObservedPeriod> periods, std::shared_ptr<LessonBeliefs> beliefs,
+                           const RandomStream& random) {
+  MisconceptionBank bank{cache_->atlas(), options_.bank, std::move(beliefs)};
   for (const auto& period : periods) bank.observe(cache_->atlas(), period);
   PersonAudit person;
   person.components.resize(constraints_.size());
@@ -112,7 +136,8 @@ void Auditor::judge(const MisconceptionBank& bank, std::span<const ObservedPerio
     if (audit.periods == 0) continue;
     audit.understanding = Understanding::kCannotTell;
     audit.misconception = misconception(bank, k, periods);
-    if (audit.level.probability >= options_.sure && shows_learning) {
+    const bool is_sure = audit.level.probability >= options_.sure && shows_learning;
+    if (is_sure && bank.odds_against_stopping(constraints_[k], options_.level) >= options_.against_stopping) {
       audit.understanding = Understanding::kUnderstands;
     } else if (audit.misconception && audit.misconception->probability >= options_.likely) {
       audit.understanding = Understanding::kMisconception;
@@ -324,18 +349,26 @@ void Auditor::plan_tests(const MisconceptionBank& bank, const RandomStream& rand
                          std::vector<ComponentAudit>& audits) const {
   constexpr std::array<std::size_t, 9> kBreaks{1, 2, 3, 4, 6, 8, 12, 16, kLongestBreak};
   if (options_.forgetting == 0.0) return;
-  const auto is_open = [](const ComponentAudit& audit) {
-    return audit.understanding == Understanding::kUnderstands && audit.test_after == 0;
-  };
+  std::vector<std::vector<HalfSpace>> lists;
+  std::vector<ComponentAudit*> open;
+  for (auto& audit : audits) {
+    if (audit.understanding == Understanding::kUnderstands) open.push_back(&audit);
+  }
   for (const auto periods : kBreaks) {
-    if (std::none_of(audits.begin(), audits.end(), is_open)) return;
-    auto later = bank;
-    later.forget(options_.forgetting * std::sqrt(static_cast<double>(periods)), random.split(periods));
-    for (auto& audit : audits) {
-      if (!is_open(audit)) continue;
-      const auto level = credible_level(later.shares(constraints_[audit.component]), options_.level);
-      if (level.probability < options_.sure) audit.test_after = periods;
+    if (open.empty()) return;
+    lists.clear();
+    for (const auto* audit : open) lists.push_back(constraints_[audit->component]);
+    const double angle = options_.forgetting * std::sqrt(static_cast<double>(periods));
+    const auto later = bank.shares_after(angle, lists, random.split(periods));
+    std::vector<ComponentAudit*> still;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (probability_of_enough(later[i], options_.level) < options_.sure) {
+        open[i]->test_after = periods;
+      } else {
+        still.push_back(open[i]);
+      }
     }
+    open = std::move(still);
   }
 }
 

@@ -157,7 +157,8 @@ void expect_as_promised(const Measured& measured, double standard_errors) {
   EXPECT_GE(measured.named.value(), 0.9);
   EXPECT_LE(measured.wrong_about_others.value(), allowed(measured.wrong_about_others, standard_errors));
   EXPECT_LE(measured.wrong_about_planted.value(), 0.05);
-  EXPECT_GE(measured.understands.value(), 0.2) << "who says it of nobody is never wrong";
+  // Few, because people who stopped half way may not be said to: docs/audit.md.
+  EXPECT_GE(measured.understands.value(), 0.1) << "who says it of nobody is never wrong";
   EXPECT_GE(measured.covered.value(), 0.75);
 }
 

@@ -48,9 +48,10 @@ Said said_of(const LearnerModel& model, const std::string& stop, std::size_t peo
   for (std::size_t team = 1; team <= num_teams(study); ++team) {
     testing::TrueLevels truth{auditor};
     const auto record = run_team(item_delivery(), cache, study.variants.front(), team_address(study, team), &truth);
-    const auto observed = observed_people(item_delivery(), record);
-    for (std::size_t m = 0; m < observed.size(); ++m) {
-      const auto person = auditor.audit(observed[m], RandomStream{1}.split(team).split(m));
+    const auto people_of_team =
+        auditor.audit_group(observed_people(item_delivery(), record), RandomStream{1}.split(team));
+    for (std::size_t m = 0; m < people_of_team.size(); ++m) {
+      const auto& person = people_of_team[m];
       bool wrongly = false;
       for (const auto& audit : person.components) {
         const bool understands = audit.understanding == Understanding::kUnderstands;
@@ -81,8 +82,8 @@ TEST(JudgedPeopleSlow, WhoDoNotUnderstandAreNotSaidTo) {
   }
 }
 
-// The same of few people, all kinds together. If 2 % of 24 people are judged wrongly, more than three are with
-// probability 0.001.
+// The same of few people, all kinds together. If 2 % of 24 people are judged wrongly, more than two are with
+// probability 0.012.
 TEST(JudgedPeople, WhoDoNotUnderstandAreNotSaidTo) {
   Said all;
   for (const auto& model : testing::people_not_as_assumed()) {
@@ -91,7 +92,7 @@ TEST(JudgedPeople, WhoDoNotUnderstandAreNotSaidTo) {
     all.wrongly += said.wrongly;
   }
   EXPECT_EQ(all.people, 24u);
-  EXPECT_LE(all.wrongly, 3u);
+  EXPECT_LE(all.wrongly, 2u);
 }
 
 bool costs(const IntegerVector& loss) { return sign_of_dot(item_delivery().domain().weights().integer, loss) > 0; }
@@ -133,9 +134,17 @@ TEST(JudgedPeople, WhoHaveNoRightAnswerAreNotSaidToUnderstand) {
   }
 }
 
+// A quarter of the components that people understand; see docs/audit.md on why it is not more.
+TEST(JudgedPeopleSlow, WhoLearnAsAssumedAreStillFound) {
+  const auto said = said_of(bayesian_model(), kNinePeriods, 200);
+  EXPECT_GE(static_cast<double>(said.rightly), 0.25 * static_cast<double>(said.understood));
+  EXPECT_LE(said.wrongly, 4u);
+}
+
+// Of 62 such components, fewer than 8 are found with probability 0.01 if it is a quarter.
 TEST(JudgedPeople, WhoLearnAsAssumedAreStillFound) {
   const auto said = said_of(bayesian_model(), kNinePeriods, 24);
-  EXPECT_GE(static_cast<double>(said.rightly), 0.3 * static_cast<double>(said.understood));
+  EXPECT_GE(said.rightly, 8u);
   EXPECT_EQ(said.unexplained, 0u);
 }
 

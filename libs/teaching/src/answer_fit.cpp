@@ -150,6 +150,25 @@ std::vector<double> AnswerFit::with_slips(const std::vector<double>& right) cons
   return result;
 }
 
+bool AnswerFit::is_by_cells() const noexcept {
+  return atlas_->is_tabulated() &&
+         std::all_of(tests_.begin(), tests_.end(), [](const auto& test) { return test.by_cell; });
+}
+
+AnswerFit::Rating AnswerFit::of(std::span<const double> cell_masses) const {
+  std::vector<double> right(tests_.size() + 1, 0.0);
+  double likelihood = 0.0, any = 0.0;
+  for (std::size_t c = 0; c < cell_masses.size(); ++c) {
+    if (factor_of_cell_[c] < 0.0 || cell_masses[c] == 0.0) continue;
+    any += cell_masses[c];
+    likelihood += cell_masses[c] * factor_of_cell_[c];
+    right[num_right_of_cell_[c]] += cell_masses[c];
+  }
+  if (!(any > 0.0)) return of(Guess::kAny);  // who has no answer can only have guessed
+  for (double& mass : right) mass /= any;
+  return {likelihood / any, with_slips(right)};
+}
+
 AnswerFit::Rating AnswerFit::of(const ParticleBelief& belief, PointCells& cells) const {
   const auto masses = belief.weights();
   const bool tabulated = atlas_->is_tabulated();

@@ -15,6 +15,15 @@ constexpr double kCertain = 1.0 - 1e-9;
 
 }  // namespace
 
+void check(std::span<const LearnerHypothesis> hypotheses) {
+  if (hypotheses.empty()) throw std::invalid_argument{"LearnerHypothesis: there is none"};
+  for (const auto& one : hypotheses) {
+    const bool is_good = one.ability >= 0.5 && one.ability <= 1.0 && one.confirm_gain >= 0.0 &&
+                         one.correct_gain >= 0.0 && one.probability > 0.0;
+    if (!is_good) throw std::invalid_argument{"LearnerHypothesis: one is out of range"};
+  }
+}
+
 std::vector<LearnerHypothesis> one_hypothesis() { return {LearnerHypothesis{}}; }
 
 std::vector<LearnerHypothesis> grid_of_hypotheses() {
@@ -48,25 +57,20 @@ std::vector<LearnerHypothesis> grid_of_known_components(std::size_t num_componen
 
 LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
                          std::vector<LearnerHypothesis> hypotheses, RandomStream random,
-                         std::span<const std::vector<HalfSpace>> components, bool everybody_learns)
+                         std::span<const std::vector<HalfSpace>> components)
     : likelihood_{likelihood},
       hypotheses_{std::move(hypotheses)},
       random_{random},
       beliefs_(hypotheses_.size(), ParticleBelief{cover, filter}),
       cells_(hypotheses_.size()) {
-  if (hypotheses_.empty()) throw std::invalid_argument{"LearnerBank: there is no hypothesis"};
+  check(hypotheses_);
   double sum = 0.0;
-  for (const auto& one : hypotheses_) {
-    const bool is_good = one.ability >= 0.5 && one.ability <= 1.0 && one.confirm_gain >= 0.0 &&
-                         one.correct_gain >= 0.0 && one.probability > 0.0;
-    if (!is_good) throw std::invalid_argument{"LearnerBank: a hypothesis is out of range"};
-    sum += one.probability;
-  }
+  for (const auto& one : hypotheses_) sum += one.probability;
   for (const auto& one : hypotheses_) {
     weights_.push_back(one.probability / sum);
     abilities_.push_back(one.ability);
   }
-  if (!everybody_learns && hypotheses_.size() > 1) {
+  if (hypotheses_.size() > 1) {
     others_ = NonLearners{beliefs_.front()};
     learns_ = 1.0 - others_.weight();
   }
@@ -92,25 +96,18 @@ void LearnerBank::watch(std::span<const HalfSpace> half_spaces, std::size_t peri
   if (has_begun_ && !others_.empty()) {
     const auto likeliest = std::max_element(weights_.begin(), weights_.end()) - weights_.begin();
     const double before = others_.weight();
-    others_.begin_period(learns_, beliefs_[static_cast<std::size_t>(likeliest)], {1.0});
+    others_.begin_period(learns_, &beliefs_[static_cast<std::size_t>(likeliest)], {1.0});
     learns_ -= others_.weight() - before;
   }
   has_begun_ = true;
   for (std::size_t h = 0; h < beliefs_.size(); ++h) observe(h, half_spaces, random_.split("watch").split(period));
 }
 
-std::vector<AnswerFit::Rating> LearnerBank::ratings(const AnswerFit& fit) {
-  std::vector<AnswerFit::Rating> result;
-  for (std::size_t h = 0; h < beliefs_.size(); ++h) result.push_back(fit.of(beliefs_[h], cells_[h]));
-  return result;
-}
-
 void LearnerBank::see_answers(const AnswerFit& fit) {
   if (hypotheses_.size() < 2 || fit.num_tests() == 0) return;  // there is nothing to tell apart
   double learns = 0.0;
-  const auto fits = ratings(fit);
   for (std::size_t h = 0; h < weights_.size(); ++h) {
-    weights_[h] *= fits[h].likelihood;
+    weights_[h] *= fit.of(beliefs_[h], cells_[h]).likelihood;
     learns += weights_[h];
   }
   for (double& weight : weights_) weight /= learns;
@@ -119,14 +116,6 @@ void LearnerBank::see_answers(const AnswerFit& fit) {
   const double sum = learns_ + others_.weight();
   learns_ /= sum;
   others_.scale(1.0 / sum);
-}
-
-void LearnerBank::forget(double angle, const RandomStream& random) {
-  for (std::size_t h = 0; h < beliefs_.size(); ++h) {
-    beliefs_[h].diffuse(angle, random.split(h));
-    cells_[h].forget();
-  }
-  others_.forget(angle, random.split("others"));
 }
 
 void LearnerBank::hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) {

@@ -1,6 +1,8 @@
 #include "kith/teaching/misconception_bank.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "count_distribution.hpp"
@@ -8,10 +10,26 @@
 namespace kith {
 namespace {
 
+constexpr double kTooUnlikely = 1e-7;
+
+// The prior of every state of mind, and the constraints that those behind the first violate.
+std::vector<Cone> priors_of(const Atlas& atlas, std::vector<HalfSpace>& violated) {
+  std::vector<Cone> priors{atlas.prior_cone()};
+  for (const auto& constraint : constraints_to_learn(atlas)) {
+    auto beyond = priors.front().clipped(constraint.opposite());
+    if (!beyond) continue;
+    priors.push_back(*std::move(beyond));
+    violated.push_back(constraint);
+  }
+  return priors;
+}
+
 // (a u + b v) / (a + b); u and v have the same shape.
 std::vector<double> mixed(double a, const std::vector<double>& u, double b, const std::vector<double>& v) {
+  if (a == 0.0) return v;
+  if (b == 0.0) return u;
   std::vector<double> sum(u.size());
-  for (std::size_t i = 0; i < u.size(); ++i) sum[i] = a + b > 0.0 ? (a * u[i] + b * v[i]) / (a + b) : u[i];
+  for (std::size_t i = 0; i < u.size(); ++i) sum[i] = (a * u[i] + b * v[i]) / (a + b);
   return sum;
 }
 
@@ -29,108 +47,157 @@ std::vector<HalfSpace> constraints_to_learn(const Atlas& atlas) {
   return result;
 }
 
-MisconceptionBank::MisconceptionBank(TeachingCache& cache, const Options& options, const RandomStream& random)
-    : mended_{options.mended} {
+std::shared_ptr<LessonBeliefs> MisconceptionBank::beliefs(TeachingCache& cache, const Options& options,
+                                                          const RandomStream& random) {
+  std::vector<HalfSpace> violated;
+  const auto priors = priors_of(cache.atlas(), violated);
+  return std::make_shared<LessonBeliefs>(cache, options, priors, random);
+}
+
+MisconceptionBank::MisconceptionBank(const Atlas& atlas, const Options& options, std::shared_ptr<LessonBeliefs> beliefs)
+    : mended_{options.mended}, beliefs_{std::move(beliefs)} {
+  constexpr std::size_t kMany = 12, kFour = 4;
   const bool is_good = options.misconceived >= 0.0 && options.misconceived < 1.0 && mended_ >= 0.0 && mended_ <= 1.0;
   if (!is_good) throw std::invalid_argument{"MisconceptionBank: an option is out of range"};
-  const auto add = [&](const Cone& prior, const RandomStream& stream) {
-    banks_.emplace_back(cache.cover(prior, options.filter.particles), options.filter, options.likelihood,
-                        options.hypotheses, stream, std::span<const std::vector<HalfSpace>>{}, true);
-  };
-  const auto& prior = cache.atlas().prior_cone();
-  add(prior, random.split("learns"));
-  for (const auto& constraint : constraints_to_learn(cache.atlas())) {
-    const auto beyond = prior.clipped(constraint.opposite());
-    if (!beyond) continue;
-    add(*beyond, random.split("misconception").split(constraints_.size()));
-    constraints_.push_back(constraint);
+  static_cast<void>(priors_of(atlas, constraints_));
+  if (beliefs_->num_states() != constraints_.size() + 1) {
+    throw std::invalid_argument{"MisconceptionBank: the beliefs are those of another domain"};
   }
-  const double each = constraints_.empty() ? 0.0 : options.misconceived / static_cast<double>(constraints_.size());
-  others_ = NonLearners{ParticleBelief{cache.cover(prior, options.filter.particles), options.filter}};
-  for (std::size_t s = 0; s < banks_.size(); ++s) {
-    const double state = s > 0 ? each : 1.0 - each * static_cast<double>(constraints_.size());
-    auto& weights = weights_.emplace_back();
-    for (const double weight : banks_[s].weights()) weights.push_back(state * weight);
-    right_.emplace_back(weights.size(), std::vector{1.0});
+  const auto& hypotheses = beliefs_->hypotheses();
+  const auto n = hypotheses.size();
+  stands_for_ = n >= kMany && n % kFour == 0 ? kFour : 1;
+  double sum = 0.0;
+  for (const auto& one : hypotheses) sum += one.probability;
+  others_ = NonLearners{beliefs_->after(0, 0, 0).belief()};
+  const double learn = 1.0 - others_.weight();
+  const double misconceived = constraints_.empty() ? 0.0 : options.misconceived;
+  for (std::size_t h = 0; h < n; ++h) {
+    const double weight = learn * (1.0 - misconceived) * hypotheses[h].probability / sum;
+    people_.push_back({.hypothesis = h, .weight = weight, .likelihood = 1.0});
   }
-  scale_learners(1.0 - others_.weight());
-}
-
-void MisconceptionBank::scale_learners(double factor) {
-  for (auto& state : weights_) {
-    for (double& weight : state) weight *= factor;
+  for (std::size_t s = 1; s < beliefs_->num_states(); ++s) {
+    for (std::size_t first = 0; first < n; first += stands_for_) {
+      double probability = 0.0;
+      for (std::size_t h = first; h < first + stands_for_; ++h) probability += hypotheses[h].probability / sum;
+      people_.push_back({.state = s,
+                         .hypothesis = first + stands_for_ / 2,
+                         .weight = learn * misconceived / static_cast<double>(constraints_.size()) * probability});
+    }
   }
 }
 
-// A period begins, and some of those who learn everything stop, with the belief of the likeliest of them.
+KnownBelief& MisconceptionBank::belief(const People& people) const {
+  return beliefs_->after(people.state, people.hypothesis, std::min(people.periods, num_periods_));
+}
+
+// A period begins, and some of those who learn everything stop.
 void MisconceptionBank::let_some_stop() {
-  auto& weights = weights_.front();
-  std::size_t likeliest = 0;
   double learn = 0.0;
-  std::vector<double> right(right_.front().front().size(), 0.0);
-  for (std::size_t h = 0; h < weights.size(); ++h) {
-    right = mixed(learn, right, weights[h], right_.front()[h]);
-    learn += weights[h];
-    if (weights[h] > weights[likeliest]) likeliest = h;
+  std::vector<double> right{1.0};
+  for (const auto& one : people_) {
+    if (!learns(one)) continue;
+    right = mixed(learn, right, one.weight, one.right);
+    learn += one.weight;
   }
+  if (learn == 0.0) return;
   const double before = others_.weight();
-  others_.begin_period(learn, banks_.front().belief(likeliest), right);
-  const double stopped = others_.weight() - before;
-  for (double& weight : weights) weight *= 1.0 - stopped / learn;
+  others_.begin_period(learn, nullptr, right);
+  const double guess = (others_.weight() - before) / learn;
+  for (std::size_t i = 0; i < beliefs_->hypotheses().size(); ++i) {
+    auto stopped = people_[i];
+    stopped.periods = num_periods_;
+    stopped.weight *= NonLearners::kStop;
+    people_[i].weight *= 1.0 - NonLearners::kStop - guess;
+    if (stopped.weight > 0.0 || stopped.likelihood > 0.0) people_.push_back(std::move(stopped));
+  }
 }
 
 void MisconceptionBank::observe(const Atlas& atlas, const ObservedPeriod& period) {
-  std::vector<HalfSpace> conveyed;
-  for (const auto& shown : period.demonstrations) {
-    conveyed.insert(conveyed.end(), shown.half_spaces.begin(), shown.half_spaces.end());
-  }
+  beliefs_->take(num_periods_, period);
+  if (num_periods_ > 0) let_some_stop();
   const AnswerFit fit{atlas, period.tests, period.answers, period.verdicts};
   num_tests_ += fit.num_tests();
   num_right_ += fit.num_right();
-  const bool begins = period.component != component_;
-  if (component_ != kNone) let_some_stop();
-  component_ = period.component;
-  double sum = 0.0;
-  for (std::size_t s = 0; s < banks_.size(); ++s) {
-    auto& bank = banks_[s];
-    if (begins) bank.begin_component();
-    bank.watch(conveyed, period.period);
-    if (fit.num_tests() > 0) {
-      const auto ratings = bank.ratings(fit);
-      for (std::size_t h = 0; h < ratings.size(); ++h) {
-        weights_[s][h] *= ratings[h].likelihood;
-        right_[s][h] = convolved(right_[s][h], ratings[h].right);
-      }
-    }
-    for (const double weight : weights_[s]) sum += weight;
-    bank.hear_feedback(period.all_correct, period.feedback, period.period);
-  }
-  if (fit.num_tests() > 0) others_.see_answers(fit);
-  sum += others_.weight();
-  scale_learners(1.0 / sum);
-  others_.scale(1.0 / sum);
+  if (fit.num_tests() > 0) weigh(atlas, fit);
+  ++num_periods_;
   if (!period.feedback.empty()) mend();
 }
 
-void MisconceptionBank::mend() {
-  for (std::size_t s = 1; s < banks_.size(); ++s) {
-    for (std::size_t h = 0; h < weights_[s].size(); ++h) {
-      const double mended = mended_ * weights_[s][h];
-      right_[0][h] = mixed(weights_[0][h], right_[0][h], mended, right_[s][h]);
-      weights_[0][h] += mended;
-      weights_[s][h] -= mended;
-    }
+void MisconceptionBank::weigh(const Atlas& atlas, const AnswerFit& fit) {
+  double sum = 0.0, best = 0.0;
+  for (auto& one : people_) {
+    if (one.weight == 0.0 && one.likelihood == 0.0) continue;
+    auto& believed =
+        one.periods == kGoesOn ? beliefs_->answering(one.state, one.hypothesis, num_periods_) : belief(one);
+    const auto rating = believed.rating(atlas, fit);
+    one.weight *= rating.likelihood;
+    one.likelihood *= rating.likelihood;
+    one.right = convolved(one.right, rating.right);
+    sum += one.weight;
+    best = std::max(best, one.likelihood);
   }
+  others_.see_answers(fit);
+  sum += others_.weight();
+  others_.scale(1.0 / sum);
+  for (auto& one : people_) {
+    one.weight /= sum;
+    one.likelihood = best > 0.0 ? one.likelihood / best : 0.0;
+    if (one.weight >= kTooUnlikely || one.likelihood >= kTooUnlikely) continue;
+    one.weight = 0.0;
+    one.likelihood = 0.0;
+  }
+}
+
+void MisconceptionBank::mend() {
+  for (auto& one : people_) {
+    if (one.state == 0 || one.weight == 0.0) continue;
+    const double mended = mended_ * one.weight / static_cast<double>(stands_for_);
+    const auto first = one.hypothesis - stands_for_ / 2;
+    for (std::size_t h = first; h < first + stands_for_; ++h) {
+      people_[h].right = mixed(people_[h].weight, people_[h].right, mended, one.right);
+      people_[h].weight += mended;
+    }
+    one.weight *= 1.0 - mended_;
+  }
+}
+
+double MisconceptionBank::probability_of_learning() const noexcept {
+  double sum = 0.0;
+  for (const auto& one : people_) sum += one.periods == kGoesOn ? one.weight : 0.0;
+  return sum;
+}
+
+double MisconceptionBank::odds_against_stopping(std::span<const HalfSpace> half_spaces,
+                                                const CredibleLevelOptions& options) const {
+  const auto& hypotheses = beliefs_->hypotheses();
+  const auto enough = [&](const People& one) {
+    return probability_of_enough(belief(one).mass_in(half_spaces), options);
+  };
+  double sum = 0.0, all = 0.0, often = 0.0;
+  for (const auto& one : people_) {
+    if (!learns(one)) continue;
+    const double prior = hypotheses[one.hypothesis].probability;
+    sum += prior;
+    if (one.likelihood == 0.0) continue;
+    all += prior * one.likelihood;
+    often += prior * one.likelihood * enough(one);
+  }
+  if (!(all > 0.0)) return 0.0;
+  double most = 0.0;
+  for (const auto& one : people_) {
+    if (one.periods == kGoesOn || one.likelihood == 0.0) continue;
+    most = std::max(most, one.likelihood * (often / all - enough(one)));
+  }
+  return most > 0.0 ? all / sum / most : std::numeric_limits<double>::infinity();
 }
 
 Agreement MisconceptionBank::agreement() const {
   std::vector<double> right(num_tests_ + 1, 0.0);
   const auto add = [&](double weight, const std::vector<double>& some) {
+    if (weight == 0.0) return;
     for (std::size_t n = 0; n < some.size(); ++n) right[n] += weight * some[n];
   };
-  for (std::size_t s = 0; s < weights_.size(); ++s) {
-    for (std::size_t h = 0; h < weights_[s].size(); ++h) add(weights_[s][h], right_[s][h]);
-  }
+  for (const auto& one : people_) add(one.weight, one.right);
   for (const auto& state : others_.states()) add(state.weight, state.right);
   Agreement result{.tests = num_tests_, .right = num_right_};
   double squares = 0.0, fewer = 0.0, more = 0.0;
@@ -146,28 +213,44 @@ Agreement MisconceptionBank::agreement() const {
   return result;
 }
 
-void MisconceptionBank::forget(double angle, const RandomStream& random) {
-  for (std::size_t s = 0; s < banks_.size(); ++s) banks_[s].forget(angle, random.split(s));
-  others_.forget(angle, random.split("others"));
-}
-
 double MisconceptionBank::probability_of_misconception(std::size_t j) const {
   double sum = 0.0;
-  for (const double weight : weights_[j + 1]) sum += weight;
+  for (const auto& one : people_) sum += one.state == j + 1 ? one.weight : 0.0;
   return sum;
 }
 
-std::vector<WeightedShare> MisconceptionBank::shares(std::span<const HalfSpace> half_spaces, double stopping) const {
-  constexpr double kIgnored = 1e-7;
+std::vector<WeightedShare> MisconceptionBank::shares(std::span<const HalfSpace> half_spaces) const {
   std::vector<WeightedShare> result;
-  for (std::size_t s = 0; s < banks_.size(); ++s) {
-    for (std::size_t h = 0; h < weights_[s].size(); ++h) {
-      if (weights_[s][h] < kIgnored) continue;
-      result.push_back({weights_[s][h], banks_[s].belief(h).mass_in(half_spaces)});
-    }
+  for (const auto& one : people_) {
+    if (one.weight >= kTooUnlikely) result.push_back({one.weight, belief(one).mass_in(half_spaces)});
   }
-  const auto others = others_.shares(half_spaces, stopping);
+  const auto others = others_.shares(half_spaces);
   result.insert(result.end(), others.begin(), others.end());
+  return result;
+}
+
+std::vector<std::vector<WeightedShare>> MisconceptionBank::shares_after(double angle,
+                                                                        std::span<const std::vector<HalfSpace>> lists,
+                                                                        const RandomStream& random) const {
+  constexpr double kNearlyAll = 0.99;
+  std::vector<const People*> order;
+  double left = kNearlyAll - others_.weight();
+  for (const auto& one : people_) {
+    if (one.weight >= kTooUnlikely) order.push_back(&one);
+  }
+  std::stable_sort(order.begin(), order.end(), [](auto* a, auto* b) { return a->weight > b->weight; });
+  std::vector<std::vector<WeightedShare>> result;
+  for (const auto& list : lists) result.push_back(others_.shares(list));
+  for (const auto* one : order) {
+    auto& now = belief(*one);
+    const auto number = static_cast<std::size_t>(one - people_.data());
+    auto later = left > 0.0 ? std::optional{now.belief()} : std::nullopt;
+    if (later) later->diffuse(angle, random.split(number));
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      result[i].push_back({one->weight, later ? later->mass_in(lists[i]) : now.mass_in(lists[i])});
+    }
+    left -= one->weight;
+  }
   return result;
 }
 
@@ -194,8 +277,8 @@ std::vector<Direction> MisconceptionBank::violators(const HalfSpace& constraint,
       masses.push_back(mass);
     }
   };
-  for (std::size_t s = 0; s < banks_.size(); ++s) {
-    for (std::size_t h = 0; h < weights_[s].size(); ++h) add(weights_[s][h], banks_[s].belief(h));
+  for (const auto& one : people_) {
+    if (one.weight >= kTooUnlikely) add(one.weight, belief(one).belief());
   }
   for (const auto& state : others_.states()) {
     if (state.belief) add(state.weight, *state.belief);

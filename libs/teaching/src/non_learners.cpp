@@ -37,12 +37,12 @@ double NonLearners::weight_of_guessing() const noexcept {
   return sum;
 }
 
-void NonLearners::begin_period(double learn, const ParticleBelief& belief, const std::vector<double>& right) {
+void NonLearners::begin_period(double learn, const ParticleBelief* belief, const std::vector<double>& right) {
   if (empty() || learn * kStop < kNegligible) return;
   for (const auto guess : {AnswerFit::Guess::kSensible, AnswerFit::Guess::kAny}) {
     states_.push_back({.weight = learn * kGuessOn / 2.0, .guess = guess, .right = right});
   }
-  states_.push_back({.weight = learn * kStop, .belief = belief, .right = right});
+  if (belief != nullptr) states_.push_back({.weight = learn * kStop, .belief = *belief, .right = right});
 }
 
 void NonLearners::see_answers(const AnswerFit& fit) {
@@ -56,15 +56,6 @@ void NonLearners::see_answers(const AnswerFit& fit) {
 void NonLearners::scale(double factor) {
   for (auto& state : states_) state.weight *= factor;
   std::erase_if(states_, [](const State& state) { return state.weight < kNegligible && state.odds == 0.0; });
-}
-
-void NonLearners::forget(double angle, const RandomStream& random) {
-  for (std::size_t s = 0; s < states_.size(); ++s) {
-    auto& state = states_[s];
-    if (!state.belief || state.weight < kNegligible) continue;
-    state.belief->diffuse(angle, random.split(s));
-    state.cells.forget();
-  }
 }
 
 double NonLearners::odds_of_learning(double learn) const noexcept {

@@ -14,6 +14,16 @@
 namespace kith {
 namespace {
 
+// How the answers fit each of the hypotheses.
+std::vector<AnswerFit::Rating> ratings_of(const LearnerBank& bank, const AnswerFit& fit) {
+  std::vector<AnswerFit::Rating> ratings;
+  for (std::size_t h = 0; h < bank.hypotheses().size(); ++h) {
+    PointCells cells;
+    ratings.push_back(fit.of(bank.belief(h), cells));
+  }
+  return ratings;
+}
+
 using testing::item_delivery;
 
 class LearnerBankTest : public ::testing::Test {
@@ -102,8 +112,8 @@ TEST_F(LearnerBankTest, WeighsPathsThatAreBestForNobodyByTheirVerdicts) {
   const std::vector<kith::Test> test{asked.front()};
   const std::vector<Answer> answers{detour};
   const std::vector verdicts{Verdict{.half_spaces = {verdict}}};
-  const auto by_verdict = one.ratings(AnswerFit{item_delivery(), test, answers, verdicts});
-  const auto silent = one.ratings(AnswerFit{item_delivery(), test, answers, std::vector{Verdict{}}});
+  const auto by_verdict = ratings_of(one, AnswerFit{item_delivery(), test, answers, verdicts});
+  const auto silent = ratings_of(one, AnswerFit{item_delivery(), test, answers, std::vector{Verdict{}}});
   const double slip =
       AnswerFit::slip() / (static_cast<double>(item_delivery().coverage_set(test.front().demo).size()) + 1.0);
   for (std::size_t h = 0; h < by_verdict.size(); ++h) {
@@ -198,7 +208,7 @@ TEST_F(LearnerBankTest, ExpectsAnswersWithProbabilitiesThatSumToOne) {
     const AnswerFit fit{item_delivery(), asked, set, verdicts};
     sensible += fit.of(AnswerFit::Guess::kSensible).likelihood;
     any += fit.of(AnswerFit::Guess::kAny).likelihood;
-    const auto ratings = one.ratings(fit);
+    const auto ratings = ratings_of(one, fit);
     for (std::size_t h = 0; h < ratings.size(); ++h) {
       sums[h] += ratings[h].likelihood;
       ASSERT_EQ(ratings[h].right.size(), asked.size() + 1);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "item_delivery.hpp"
@@ -23,7 +24,7 @@ class MisconceptionBankTest : public ::testing::Test {
     MisconceptionBank::Options options;
     options.filter.particles = 200;
     options.mended = mended;
-    return {cache_, options, RandomStream{3}};
+    return {item_delivery(), options, MisconceptionBank::beliefs(cache_, options, RandomStream{3})};
   }
 
   // A lesson about all of the first component, with a test of kRubble that somebody with these weights answers.
@@ -114,9 +115,52 @@ TEST_F(MisconceptionBankTest, LearnsNothingFromTestsWithoutAnswers) {
 TEST_F(MisconceptionBankTest, ForgetsWithTime) {
   auto one = bank();
   for (std::size_t period = 1; period <= 4; ++period) one.observe(item_delivery(), lesson(period, robot_));
-  const double before = one.probability_of({&kRubble, 1});
-  one.forget(0.4, RandomStream{1});
-  EXPECT_LT(one.probability_of({&kRubble, 1}), before);
+  const std::vector<std::vector<HalfSpace>> lists{{kRubble}};
+  const auto after = [&](double angle) {
+    double sum = 0.0, all = 0.0;
+    const auto later = one.shares_after(angle, lists, RandomStream{1});
+    for (const auto& [weight, share] : later.front()) {
+      sum += weight * share;
+      all += weight;
+    }
+    EXPECT_NEAR(all, 1.0, 1e-5);
+    return sum;
+  };
+  EXPECT_NEAR(after(0.0), one.probability_of({&kRubble, 1}), 1e-9);
+  EXPECT_LT(after(0.4), after(0.0));
+}
+
+// In any order of asking, and whatever the others answered.
+TEST_F(MisconceptionBankTest, SharesBeliefsAmongPeopleWithTheSameLessons) {
+  MisconceptionBank::Options options;
+  options.filter.particles = 200;
+  const auto beliefs = MisconceptionBank::beliefs(cache_, options, RandomStream{3});
+  MisconceptionBank right{item_delivery(), options, beliefs}, wrong{item_delivery(), options, beliefs};
+  auto alone = bank();
+  for (std::size_t period = 1; period <= 3; ++period) right.observe(item_delivery(), lesson(period, robot_));
+  for (std::size_t period = 1; period <= 3; ++period) wrong.observe(item_delivery(), lesson(period, cheap_rubble_));
+  for (std::size_t period = 1; period <= 3; ++period) alone.observe(item_delivery(), lesson(period, cheap_rubble_));
+  EXPECT_EQ(wrong.probability_of({&kRubble, 1}), alone.probability_of({&kRubble, 1}));
+  EXPECT_EQ(wrong.probability_of_learning(), alone.probability_of_learning());
+  EXPECT_GT(right.probability_of({&kRubble, 1}), wrong.probability_of({&kRubble, 1}));
+  MisconceptionBank other{item_delivery(), options, beliefs};
+  EXPECT_THROW(other.observe(item_delivery(), lesson(2, robot_)), std::invalid_argument);
+}
+
+// Nobody can have stopped in the first period. Later, right answers speak against it and wrong ones for it.
+TEST_F(MisconceptionBankTest, TellsWhoLearnsFromWhoStopped) {
+  auto learns = bank(), stopped = bank();
+  const std::vector<HalfSpace> rubble{kRubble};
+  learns.observe(item_delivery(), lesson(1, robot_));
+  EXPECT_EQ(learns.odds_against_stopping(rubble, {}), std::numeric_limits<double>::infinity());
+  stopped.observe(item_delivery(), lesson(1, cheap_rubble_));
+  for (std::size_t period = 2; period <= 4; ++period) {
+    learns.observe(item_delivery(), lesson(period, robot_));
+    stopped.observe(item_delivery(), lesson(period, cheap_rubble_));
+  }
+  EXPECT_GT(learns.odds_against_stopping(rubble, {}), 1.0);
+  EXPECT_LT(stopped.odds_against_stopping(rubble, {}), 0.5);
+  EXPECT_LT(stopped.probability_of_learning(), learns.probability_of_learning());
 }
 
 TEST_F(MisconceptionBankTest, DrawsWeightsThatViolateAConstraint) {
@@ -129,10 +173,11 @@ TEST_F(MisconceptionBankTest, DrawsWeightsThatViolateAConstraint) {
 TEST_F(MisconceptionBankTest, RefusesWhatIsOutOfRange) {
   MisconceptionBank::Options options;
   options.misconceived = 1.0;
-  EXPECT_THROW(MisconceptionBank(cache_, options, RandomStream{1}), std::invalid_argument);
+  const auto beliefs = MisconceptionBank::beliefs(cache_, options, RandomStream{1});
+  EXPECT_THROW(MisconceptionBank(item_delivery(), options, beliefs), std::invalid_argument);
   options.misconceived = 0.1;
   options.mended = 1.5;
-  EXPECT_THROW(MisconceptionBank(cache_, options, RandomStream{1}), std::invalid_argument);
+  EXPECT_THROW(MisconceptionBank(item_delivery(), options, beliefs), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -88,6 +89,10 @@ struct AuditOptions {
   double sure = 0.95;  ///< Probability from which a person is said to understand.
   /// At most this share of people who guess, or whom no lesson ever reaches, can be said to understand anything.
   double wrongly = 0.02;
+  /// How many times as probable the answers of somebody who is said to understand have to be from people who learn as
+  /// from anybody who stopped before (MisconceptionBank::odds_against_stopping()). With 3.5, at most 2 % of those who
+  /// stop half way are said to understand what they do not (docs/audit.md).
+  double against_stopping = 3.5;
   /// Agreement::p below which the answers of a person count as not explained.
   double unexplained = 0.01;
   double likely = 0.5;      ///< Probability from which a misconception is said to be there.
@@ -100,8 +105,8 @@ struct AuditOptions {
 /// Judges from their answers who understands what.
 ///
 /// A person is said to understand a component if the level is high enough with probability `sure`, and the answers tell
-/// the person from people who guess or never learn (MisconceptionBank::odds_of_learning() >= 1 / wrongly). Not
-/// thread-safe: it uses the cache.
+/// the person from people who guess or never learn (MisconceptionBank::odds_of_learning() >= 1 / wrongly) and from
+/// people who stopped too early. Not thread-safe: it uses the cache.
 class Auditor {
  public:
   /// @param cache  stays valid as long as this object. @throws std::invalid_argument if an option is out of range.
@@ -110,6 +115,10 @@ class Auditor {
   /// @param periods  all that was observed of the person, in order.
   /// @param random  moves the points of beliefs; equal streams give equal results.
   [[nodiscard]] PersonAudit audit(std::span<const ObservedPeriod> periods, const RandomStream& random);
+  /// Several people; those who had the same lessons share LessonBeliefs, which saves most of the time.
+  /// @param people  the periods of each. @return one audit each.
+  [[nodiscard]] std::vector<PersonAudit> audit_group(std::span<const std::vector<ObservedPeriod>> people,
+                                                     const RandomStream& random);
 
   /// The constraints of a component that people may violate, sorted.
   [[nodiscard]] const std::vector<HalfSpace>& constraints_of(std::size_t component) const {
@@ -132,6 +141,8 @@ class Auditor {
                             std::span<const ObservedPeriod> periods, LikelyMisconception& misconception);
   [[nodiscard]] std::optional<DemoIndex> choose_test(const MisconceptionBank& bank, const ComponentAudit& audit,
                                                      std::span<const ObservedPeriod> periods) const;
+  [[nodiscard]] PersonAudit audit(std::span<const ObservedPeriod> periods, std::shared_ptr<LessonBeliefs> beliefs,
+                                  const RandomStream& random);
   void plan_tests(const MisconceptionBank& bank, const RandomStream& random, std::vector<ComponentAudit>& audits) const;
 
   TeachingCache* cache_;

@@ -16,8 +16,6 @@ class PointCells {
  public:
   /// @pre behaviours are tabulated.
   [[nodiscard]] std::span<const std::uint32_t> of(const Atlas& atlas, const ParticleBelief& belief);
-  /// The points have moved.
-  void forget() noexcept { cells_.clear(); }
 
  private:
   std::size_t num_resamplings_ = 0;
@@ -58,6 +56,10 @@ class AnswerFit {
   };
   /// Of somebody who answers by a belief. @param cells  those of the belief's points; only changed as a cache.
   [[nodiscard]] Rating of(const ParticleBelief& belief, PointCells& cells) const;
+  /// Whether policy cells tell every answer.
+  [[nodiscard]] bool is_by_cells() const noexcept;
+  /// The same by the mass of every policy cell. @pre is_by_cells().
+  [[nodiscard]] Rating of(std::span<const double> cell_masses) const;
   /// How people guess.
   enum class Guess { kSensible, kAny };
   /// Of somebody who guesses.

@@ -12,9 +12,9 @@ struct WeightedShare {
 };
 
 struct CredibleLevelOptions {
-  double enough = 0.8;      ///< The share that counts as enough, in (0, 1).
-  double coverage = 0.8;    ///< Probability of the interval, in (0, 1).
-  double precision = 80.0;  ///< n > 0 of the Beta(n share, n (1 - share)) that each hypothesis stands for.
+  double enough = 0.8;       ///< The share that counts as enough, in (0, 1).
+  double coverage = 0.8;     ///< Probability of the interval, in (0, 1).
+  double precision = 160.0;  ///< n > 0 of the Beta(n share, n (1 - share)) that each hypothesis stands for.
 };
 
 /// How often something holds of a person, and how well that is known.
@@ -33,6 +33,11 @@ struct CredibleLevel {
 /// @throws std::invalid_argument if an option is out of range, or no weight is above 0.
 [[nodiscard]] CredibleLevel credible_level(std::span<const WeightedShare> shares,
                                            const CredibleLevelOptions& options = {});
+
+/// CredibleLevel::probability alone, of a mixture and of one hypothesis. @pre the options are in range.
+[[nodiscard]] double probability_of_enough(std::span<const WeightedShare> shares,
+                                           const CredibleLevelOptions& options = {});
+[[nodiscard]] double probability_of_enough(double share, const CredibleLevelOptions& options = {});
 
 /// The level by nothing but the answers: Beta(1 + right, 1 + wrong). `precision` is not used.
 /// @throws std::invalid_argument if an option is out of range, or right > tests.

@@ -25,23 +25,17 @@ class LearnerBank {
  public:
   /// @param random  the root of what moves the beliefs' points.
   /// @param components  constraints_of_components(), for hypotheses that somebody knows some of them.
-  /// @param everybody_learns  without NonLearners; also with a single hypothesis, which answers cannot weigh.
+  /// NonLearners are left out with a single hypothesis, which answers cannot weigh.
   /// @throws std::invalid_argument if there is no hypothesis or one is out of range.
   LearnerBank(const PriorCover& cover, const FilterOptions& filter, LikelihoodForm likelihood,
               std::vector<LearnerHypothesis> hypotheses, RandomStream random,
-              std::span<const std::vector<HalfSpace>> components = {}, bool everybody_learns = false);
+              std::span<const std::vector<HalfSpace>> components = {});
 
   void begin_component();
   void watch(std::span<const HalfSpace> half_spaces, std::size_t period);
   /// What the person answered; tests without an answer say nothing.
   void see_answers(const AnswerFit& fit);
-  /// How the answers fit each of the hypotheses.
-  [[nodiscard]] std::vector<AnswerFit::Rating> ratings(const AnswerFit& fit);
   void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period);
-
-  /// Blurs all beliefs: every point is moved by N(0, angle^2) per axis of its tangent plane (radians), inside the
-  /// prior.
-  void forget(double angle, const RandomStream& random);
 
   [[nodiscard]] std::span<const LearnerHypothesis> hypotheses() const noexcept { return hypotheses_; }
   /// Posterior probabilities, one per hypothesis, if the person learns; sum to 1.

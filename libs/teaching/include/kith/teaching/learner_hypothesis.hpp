@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kith/belief/particle_belief.hpp"
@@ -17,6 +18,9 @@ struct LearnerHypothesis {
   std::uint32_t known = 0;      ///< Components that the person knows beforehand: bit k is component k.
   friend bool operator==(const LearnerHypothesis&, const LearnerHypothesis&) = default;
 };
+
+/// @throws std::invalid_argument if there is no hypothesis or one is out of range.
+void check(std::span<const LearnerHypothesis> hypotheses);
 
 /// One person of average ability: (0.8, 0.02, 0.045).
 [[nodiscard]] std::vector<LearnerHypothesis> one_hypothesis();

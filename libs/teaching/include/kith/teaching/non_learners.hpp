@@ -36,14 +36,13 @@ class NonLearners {
 
   /// A period begins, and some of those who learn stop.
   /// @param learn  the probability of learning so far, of which a share kStop + kGuessOn is taken over.
-  /// @param belief  what they believe. @param right  the distribution of their number of right answers so far.
-  void begin_period(double learn, const ParticleBelief& belief, const std::vector<double>& right);
+  /// @param belief  what they believe; null: those who stop are kept elsewhere, only kGuessOn is taken over.
+  /// @param right  the distribution of their number of right answers so far.
+  void begin_period(double learn, const ParticleBelief* belief, const std::vector<double>& right);
   /// Weighs by the answers of a period: weight() becomes the probability of the state and the answers.
   void see_answers(const AnswerFit& fit);
   /// Multiplies all weights, and drops states that have become negligible beside 1.
   void scale(double factor);
-  /// See LearnerBank::forget(); negligible states are left as they are.
-  void forget(double angle, const RandomStream& random);
 
   /// How many times as probable the answers are from people who learn than from the likeliest of those who guess or
   /// learn nothing from the first period on. Of all such people at most a share of 1 / r ever gives answers for which
