@@ -10,7 +10,8 @@
 namespace kith::detail {
 namespace {
 
-constexpr int kMostRounds = 10'000;  // in practice a few dozen
+constexpr int kMostRounds = 10'000;  // in practice a few
+constexpr int kSweepsPerRound = 8;   // of improvements before paths are summed up again, which cycles need
 
 }  // namespace
 
@@ -106,16 +107,19 @@ void PathValues::solve(std::span<const std::uint32_t> states) {
       is_open_[states[at]] = 1;
       open_arrivals(states[at]);
     }
-    bool improved = false;
-    for (const std::uint32_t s : states) {
-      if (is_open_[s] == 0) continue;
-      is_open_[s] = 0;
-      const double clearly = values_[s] + slack * std::max(1.0, std::abs(values_[s]));
-      if (!choose(s, clearly, [](std::uint32_t) { return true; })) continue;
-      improved = true;
-      open_arrivals(s);
+    int sweeps = 0;
+    for (bool improved = true; improved && sweeps < kSweepsPerRound; sweeps += improved ? 1 : 0) {
+      improved = false;
+      for (const std::uint32_t s : states) {
+        if (is_open_[s] == 0) continue;
+        is_open_[s] = 0;
+        const double clearly = values_[s] + slack * std::max(1.0, std::abs(values_[s]));
+        if (!choose(s, clearly, [](std::uint32_t) { return true; })) continue;
+        improved = true;
+        open_arrivals(s);
+      }
     }
-    if (!improved) {
+    if (sweeps == 0) {
       // Those that lead here are solved later.
       for (const std::uint32_t s : states) {
         for (const Arrival& arrival : mdp_.arrivals(StateIndex{s})) is_open_[arrival.from.value()] = 0;

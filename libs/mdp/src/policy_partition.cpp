@@ -55,7 +55,7 @@ class NormalSet {
     for (std::size_t at = hash & (slots_.size() - 1);; at = (at + 1) & (slots_.size() - 1)) {
       if (slots_[at] == kNone) {
         slots_[at] = static_cast<std::uint32_t>(normals_.size() / d_);
-        normals_.insert(normals_.end(), normal, normal + d_);
+        for (std::size_t k = 0; k < d_; ++k) normals_.push_back(normal[k]);
         return;
       }
       const double* const other = &normals_[slots_[at] * d_];
@@ -67,12 +67,17 @@ class NormalSet {
 
   // Row-major, those that hold by least for these weights first: they are the first to fail elsewhere.
   [[nodiscard]] std::vector<double> by_margin(std::span<const double> weights) const {
+    constexpr std::ptrdiff_t kMostSorted = 64;
     std::vector<std::pair<double, std::size_t>> order;
+    order.reserve(normals_.size() / d_);
     for (std::size_t i = 0; i < normals_.size(); i += d_) order.emplace_back(dot_of(&normals_[i], weights), i);
-    std::sort(order.begin(), order.end());
+    const auto last = order.begin() + std::min(kMostSorted, std::ssize(order));
+    std::partial_sort(order.begin(), last, order.end());
     std::vector<double> sorted;
     sorted.reserve(normals_.size());
-    for (const auto& [margin, i] : order) sorted.insert(sorted.end(), &normals_[i], &normals_[i] + d_);
+    for (const auto& [margin, i] : order) {
+      for (std::size_t k = 0; k < d_; ++k) sorted.push_back(normals_[i + k]);
+    }
     return sorted;
   }
 
