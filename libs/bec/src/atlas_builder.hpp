@@ -80,7 +80,7 @@ class AtlasBuilder {
   using IntsMap = std::unordered_map<std::vector<std::int64_t>, Value, IntsHash>;
 
   Atlas& atlas_;
-  std::vector<std::size_t> rank_;   // where each feature stands in it
+  std::vector<std::size_t> rank_;  // where each feature stands in it
   // What paths show grows with their length.
   MemoryGuard memory_{"going on to collect what the robot's paths show", "use a smaller map or fewer features"};
   // One-step constraints before numbering: raw ones, and the minimal set per demonstration.
