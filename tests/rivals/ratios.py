@@ -51,7 +51,7 @@ def measure(bench, kith):
         commands = {
             "study": study + ["-o", run],
             "planner": study + ["-o", plan, "--set", 'design.strategies=["plan"]', "--set", "replicates=5"],
-            "audit": [kith, "audit", run, "-o", os.path.join(folder, "audit.html"), "-q", "--yes"],
+            "audit": [kith, "audit", run, "-o", os.path.join(folder, "audit.html"), "-q"],
         }
         for name, command in commands.items():  # in plain filter steps
             ratios[name] = seconds(*command) * 1e6 / times["step_naive"]
