@@ -1,0 +1,99 @@
+// Which groups a room can be made for, and how people are tested before.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "kith/core/error.hpp"
+#include "kith/live/room.hpp"
+#include "kith/live/screening.hpp"
+#include "live_play.hpp"
+
+namespace kith {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::live_study;
+using testing::page;
+using testing::Play;
+
+TEST(LiveStudy, RefusesADesignOfWhichNoGroupCanBeTaught) {
+  const auto with = [](const std::string& compositions, const std::string& group) {
+    auto text = testing::kLiveStudy + group;
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
+    replace("[\"common\", \"joint\", \"individual-low\", \"baseline\"]", "[\"baseline\"]");
+    replace("[\"NNP\", \"NN\", \"N\"]", compositions);
+    const auto reading = parse_study(text, "live.toml");
+    return make_live_study(*reading.study, testing::atlas_of("item-delivery"));
+  };
+  EXPECT_EQ(live_cells(*with("[\"N\", \"P\"]", "")).size(), 2u);
+  for (const auto& [compositions, group] :
+       {std::pair{"[\"NN\", \"NNP\"]", ""}, std::pair{"[\"N\"]", "[group]\nsize = 2\n"}}) {
+    try {
+      (void)with(compositions, group);
+      ADD_FAILURE() << compositions;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInvalidInput);
+      EXPECT_THAT(error.what(), HasSubstr("Add a composition of one learner"));
+    }
+  }
+}
+
+TEST(Room, RefusesASetUpThatCannotBeTaught) {
+  const auto study = live_study();
+  TeachingCache cache{study->atlas};
+  const auto refusal = [&](RoomSetup setup) -> std::string {
+    try {
+      (void)Room{study, std::move(setup), cache};
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal({.id = "r", .strategy = "baseline", .composition = "NN"}), HasSubstr("one person at a time"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "commn", .composition = "NN"}), HasSubstr("no strategy 'commn'"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NX"}), HasSubstr("no learner type 'X'"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = ""}), HasSubstr("1 to 30 seats"));
+  EXPECT_THAT(refusal({.id = "r", .strategy = "common", .composition = "NN", .simulated = {true}}), HasSubstr("seats"));
+  const RoomSetup setup{.id = "r",
+                        .code = "c",
+                        .strategy = "common",
+                        .composition = "NN",
+                        .simulated = {true, false},
+                        .replicate = 7,
+                        .salt = "s"};
+  EXPECT_EQ(room_setup(to_json(setup)), setup);
+  EXPECT_THROW((void)room_setup(Json::array()), Error);
+}
+
+TEST(Room, AsksScreeningTestsBeforeTheLobby) {
+  Play play{live_study("[group]\nscreening = { tests = 3 }\n"), "N"};
+  play.join(1);
+  ASSERT_EQ(play.seat(1, "consent", {{"accept", true}, {"version", "1"}}), "");
+  ASSERT_EQ(play.seat(1, "checked"), "");
+  ASSERT_EQ(play.room().stage_of(1), "screening");
+  EXPECT_EQ(page(play, 1)["predict"]["of"], 3);
+  EXPECT_EQ(play.seat(1, "screen", {{"test", 1}, {"actions", Json::array()}, {"ms", 1}}), "not-now");
+  const auto& tests = play.study().screening;
+  ASSERT_EQ(play.seat(1, "screen", {{"test", 0}, {"actions", play.right_path(tests[0])}, {"ms", 1}}), "");
+  ASSERT_EQ(play.seat(1, "screen", {{"test", 1}, {"actions", play.wrong_path(tests[1])}, {"ms", 1}}), "");
+  EXPECT_FALSE(page(play, 1).contains("feedback"));
+  ASSERT_EQ(play.seat(1, "screen", {{"test", 2}, {"actions", play.right_path(tests[2])}, {"ms", 1}}), "");
+  EXPECT_EQ(play.room().stage(), RoomStage::kRunning);
+  const auto row = play.room().row({Viewer::Role::kFacilitator, 0});
+  EXPECT_EQ(row["seats"][0]["estimate"], screening_estimate(2, 3));
+  EXPECT_EQ(row["seats"][0]["estimate_is_high"], true);
+  play.expect_replay();
+}
+
+TEST(Screening, EstimatesByTheRuleOfSuccession) {
+  EXPECT_EQ(screening_estimate(0, 0), 0.5);
+  EXPECT_EQ(screening_estimate(0, 2), 0.25);
+  EXPECT_EQ(screening_estimate(3, 3), 0.8);
+  EXPECT_THROW((void)screening_estimate(2, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kith
