@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "value_iteration.hpp"
+
 namespace kith::rivals {
 namespace {
 
@@ -43,7 +45,7 @@ NaiveCounterfactuals::NaiveCounterfactuals(const Atlas& atlas) : atlas_{atlas} {
 void NaiveCounterfactuals::add_conveyed(MdpIndex m, const Eigen::Vector3d& weights,
                                         std::vector<std::vector<IntegerVector>>& by_demo) const {
   const auto& mdp = atlas_.domain().mdp(m);
-  const auto plan = value_iteration(mdp, std::array{weights.x(), weights.y(), weights.z()});
+  const auto plan = testing::value_iteration(mdp, std::array{weights.x(), weights.y(), weights.z()});
   if (!plan.converged) return;
   const auto counts = path_counts(mdp, plan.greedy_choice);
   for (std::size_t s = 0; s < mdp.num_states(); ++s) {
@@ -76,7 +78,7 @@ std::size_t NaiveCounterfactuals::plans(std::span<const Eigen::Vector3d> persons
   for (const auto& weights : persons) {
     for (MdpIndex m{0}; m.value() < atlas_.domain().num_mdps(); ++m) {
       const std::array w{weights.x(), weights.y(), weights.z()};
-      converged += value_iteration(atlas_.domain().mdp(m), w).converged ? 1u : 0u;
+      converged += testing::value_iteration(atlas_.domain().mdp(m), w).converged ? 1u : 0u;
     }
   }
   return converged;

@@ -7,6 +7,7 @@
 #include "kith/bec/atlas.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/random/distributions.hpp"
+#include "value_iteration.hpp"
 
 namespace kith {
 namespace {
@@ -63,7 +64,7 @@ void BM_ConveyedToEightByValueIteration(benchmark::State& state) {
     for (const auto& w : weights) {
       const std::array<double, 3> x{w.x(), w.y(), w.z()};
       for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
-        const auto result = value_iteration(domain.mdp(m), x);
+        const auto result = testing::value_iteration(domain.mdp(m), x);
         benchmark::DoNotOptimize(result.values.data());
       }
     }

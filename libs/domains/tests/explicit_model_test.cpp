@@ -13,6 +13,7 @@
 #include "kith/mdp/planner.hpp"
 #include "models_under_test.hpp"
 #include "scratch_folder.hpp"
+#include "value_iteration.hpp"
 
 namespace kith {
 namespace {
@@ -74,7 +75,7 @@ TEST(ExplicitModel, HasTheValuesWorkedOutByHand) {
   // V(ice) = -1.75 + V(ice) / 4, so -7/3. Creeping is better.
   for (const auto& texts : {kIceCsv, kIcePrism}) {
     const Domain domain = sound_model(texts);
-    const auto result = value_iteration(domain.mdp(kFirst), domain.weights().raw);
+    const auto result = testing::value_iteration(domain.mdp(kFirst), domain.weights().raw);
     ASSERT_TRUE(result.converged);
     EXPECT_NEAR(result.values[1], -2.0, 1e-9);
     EXPECT_NEAR(result.values[0], -3.0, 1e-9);
@@ -93,7 +94,7 @@ TEST(ExplicitModel, MakesFeaturesOfDistinctRewards) {
   EXPECT_THAT(domain.weights().raw, ElementsAre(-3.0, -1.0));
   EXPECT_THAT(domain.action_names(), ElementsAre("go", "creep"));
   EXPECT_EQ(domain.mdp(kFirst).num_states(), 2u);
-  const auto result = value_iteration(domain.mdp(kFirst), domain.weights().raw);
+  const auto result = testing::value_iteration(domain.mdp(kFirst), domain.weights().raw);
   EXPECT_NEAR(result.values[0], -3.0, 1e-9);
   EXPECT_NEAR(result.values[1], -2.0, 1e-9);
 }

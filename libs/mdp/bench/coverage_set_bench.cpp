@@ -10,6 +10,7 @@
 #include "kith/mdp/behaviour.hpp"
 #include "kith/mdp/planner.hpp"
 #include "kith/random/distributions.hpp"
+#include "value_iteration.hpp"
 
 namespace kith {
 namespace {
@@ -92,7 +93,7 @@ void BM_ValuesByValueIteration(benchmark::State& state) {
   const Mdp mdp = grid(static_cast<std::size_t>(state.range(0)));
   const auto weights = weights_inside(64);
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(value_iteration(mdp, weights[i++ % weights.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(testing::value_iteration(mdp, weights[i++ % weights.size()]));
 }
 BENCHMARK(BM_ValuesByValueIteration)->Arg(4)->Arg(6)->Arg(10)->Arg(16)->Unit(benchmark::kMicrosecond);
 

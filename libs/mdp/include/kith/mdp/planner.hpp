@@ -79,41 +79,4 @@ struct ExactPlan {
 [[nodiscard]] Trajectory canonical_trajectory(const Mdp& mdp, std::span<const std::uint32_t> canonical_choice,
                                               StateIndex start);
 
-/// When value_iteration() stops.
-struct ValueIterationOptions {
-  double tolerance = 1e-12;  ///< Stop when no value changes by more than tolerance * max(1, largest |V|).
-  /// 0: as many as the discount needs to forget the start; num_states + 1 when undiscounted and deterministic;
-  /// 1000 * (num_states + 1) when undiscounted and stochastic.
-  std::size_t max_sweeps = 0;
-};
-
-/// What value_iteration() found.
-struct ValueIterationResult {
-  std::vector<double> values;  ///< Shape [num_states + num_terminals].
-  /// First choice within 1e-9 * max(1, |V|) of the best, shape [num_states]; 0 in a dead end.
-  std::vector<std::uint32_t> greedy_choice;
-  std::size_t sweeps = 0;  ///< Including the last one, which changed nothing.
-  bool converged = false;  ///< False: no finite optimum was found within the sweeps.
-};
-
-/// Value iteration for the general case, stochastic or not, discounted or not:
-///   V(s) = max_a sum_s' p(s' | s, a) (w . phi(s, a, s') + discount V(s')),
-/// in place, nearest to a terminal state first. Starts at 0; at -infinity when
-/// undiscounted and deterministic, so that values only rise and |S| sweeps
-/// settle whether the optimum is finite. States that cannot finish (dead ends)
-/// keep -infinity and nothing has converged then.
-/// A cycle that earns exactly nothing does not prevent convergence here.
-/// @throws std::invalid_argument unless weights.size() == d, all are finite and tolerance > 0.
-[[nodiscard]] ValueIterationResult value_iteration(const Mdp& mdp, std::span<const double> weights,
-                                                   const ValueIterationOptions& options = {});
-
-/// Expected (discounted) feature counts mu_pi(s) of the policy that takes
-/// `choice[s]`, by iterating mu = E[phi + discount * mu'] until a sweep changes no
-/// entry by more than tolerance * max(1, largest |mu|). Row-major, shape
-/// [num_states + num_terminals, num_features].
-/// @throws std::invalid_argument if a choice does not exist, tolerance <= 0, or the process is undiscounted and the
-/// policy cannot reach a terminal state from everywhere (the sums would be infinite).
-[[nodiscard]] std::vector<double> feature_expectations(const Mdp& mdp, std::span<const std::uint32_t> choice,
-                                                       double tolerance = 1e-12);
-
 }  // namespace kith
