@@ -15,7 +15,7 @@ constexpr double kCertain = 1.0 - 1e-9;
 
 }  // namespace
 
-void check(std::span<const LearnerHypothesis> hypotheses) {
+void require_hypotheses(std::span<const LearnerHypothesis> hypotheses) {
   if (hypotheses.empty()) throw std::invalid_argument{"LearnerHypothesis: there is none"};
   for (const auto& one : hypotheses) {
     const bool is_good = one.ability >= 0.5 && one.ability <= 1.0 && one.confirm_gain >= 0.0 &&
@@ -63,7 +63,7 @@ LearnerBank::LearnerBank(const PriorCover& cover, const FilterOptions& filter, L
       random_{random},
       beliefs_(hypotheses_.size(), ParticleBelief{cover, filter}),
       cells_(hypotheses_.size()) {
-  check(hypotheses_);
+  require_hypotheses(hypotheses_);
   double sum = 0.0;
   for (const auto& one : hypotheses_) sum += one.probability;
   for (const auto& one : hypotheses_) {

@@ -26,7 +26,7 @@ AnswerFit::Rating KnownBelief::rating(const Atlas& atlas, const AnswerFit& fit) 
 LessonBeliefs::LessonBeliefs(TeachingCache& cache, Options options, std::span<const Cone> priors,
                              const RandomStream& random)
     : options_{std::move(options)}, random_{random} {
-  check(options_.hypotheses);
+  require_hypotheses(options_.hypotheses);
   for (const auto& prior : priors) {
     starts_.emplace_back(ParticleBelief{cache.cover(prior, options_.filter.particles), options_.filter});
   }

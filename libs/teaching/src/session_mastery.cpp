@@ -7,6 +7,7 @@
 #include "kith/teaching/session.hpp"
 
 namespace kith {
+
 void Session::make_bank(TeachingCache& cache) {
   const bool stops = options_.mastery == MasteryRule::kPosterior || options_.release == ReleaseRule::kPosterior;
   if (stops && atlas_->is_tabulated()) exam_ = cache.shared_exam();

@@ -20,7 +20,7 @@ struct LearnerHypothesis {
 };
 
 /// @throws std::invalid_argument if there is no hypothesis or one is out of range.
-void check(std::span<const LearnerHypothesis> hypotheses);
+void require_hypotheses(std::span<const LearnerHypothesis> hypotheses);
 
 /// One person of average ability: (0.8, 0.02, 0.045).
 [[nodiscard]] std::vector<LearnerHypothesis> one_hypothesis();

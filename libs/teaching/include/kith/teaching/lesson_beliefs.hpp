@@ -60,9 +60,10 @@ class LessonBeliefs {
 
   [[nodiscard]] std::size_t num_states() const noexcept { return starts_.size(); }
   [[nodiscard]] const std::vector<LearnerHypothesis>& hypotheses() const noexcept { return options_.hypotheses; }
-  /// The belief after the demonstrations of period t, in state s under hypothesis h. @pre t was taken.
+  /// The belief after the demonstrations of period t, in state s under hypothesis h; valid until the next call.
+  /// @pre t was taken.
   [[nodiscard]] KnownBelief& answering(std::size_t s, std::size_t h, std::size_t t);
-  /// The belief after t periods. @pre t of them were taken.
+  /// The belief after t periods; valid until the next call. @pre t of them were taken.
   [[nodiscard]] KnownBelief& after(std::size_t s, std::size_t h, std::size_t t);
 
  private:
