@@ -31,26 +31,30 @@ class Simplest {
   explicit Simplest(const Atlas& atlas) : atlas_{atlas} {}
 
   void offer(DemoIndex demo, bool is_new, std::size_t besides) {
-    const Rank rank{!is_new, besides, atlas_.domain().complexity(atlas_.id(demo)),
-                    atlas_.trajectory(demo).actions.size(), demo};
-    if (found_ && best_ <= rank) return;
-    best_ = rank;
-    found_ = true;
+    const Rank rank{!is_new, besides, atlas_.domain().complexity(atlas_.id(demo))};
+    if (best_ && rank > rank_) return;
+    if (best_ && rank == rank_) {
+      // Paths are long to find.
+      const std::pair ties{length(demo), demo}, best{length(*best_), *best_};
+      if (best <= ties) return;
+    }
+    rank_ = rank;
+    best_ = demo;
   }
-  [[nodiscard]] std::optional<DemoIndex> best() const { return found_ ? std::optional{best_.demo} : std::nullopt; }
+  [[nodiscard]] std::optional<DemoIndex> best() const { return best_; }
 
  private:
   struct Rank {
     bool is_old = false;
     std::size_t besides = 0;  // other constraints that come with it
     int complexity = 0;
-    std::size_t length = 0;
-    DemoIndex demo{};
     friend auto operator<=>(const Rank&, const Rank&) = default;
   };
+  [[nodiscard]] std::size_t length(DemoIndex demo) const { return atlas_.trajectory(demo).actions.size(); }
+
   const Atlas& atlas_;
-  Rank best_;  // if found
-  bool found_ = false;
+  Rank rank_;  // of best_
+  std::optional<DemoIndex> best_;
 };
 
 }  // namespace
@@ -248,18 +252,24 @@ bool Auditor::concerns(const HalfSpace& constraint, const IntegerVector& differe
 std::optional<double> Auditor::factor(const HalfSpace& violated, const Test& test, const Answer& answer,
                                       const Verdict& verdict) {
   const auto& atlas = cache_->atlas();
-  const auto& cover = cache_->cover(atlas.prior_cone(), options_.bank.filter.particles);
+  if (everybody_.empty()) {
+    const auto& cover = cache_->cover(atlas.prior_cone(), options_.bank.filter.particles);
+    for (std::size_t i = 0; i < cover.size(); ++i) {
+      const auto weights = cover.point(i);
+      const auto cell = atlas.is_tabulated() ? cache_->behaviours().locate(weights) : PolicyCellIndex{0};
+      everybody_.push_back({weights, cell});
+    }
+  }
   std::array<double, 2> people{}, given{};  // who satisfy it, who violate it
   const bool by_path = [&] {
     if (!atlas.is_tabulated()) return false;
     const auto& losses = atlas.hull(atlas.hull(test.demo)).losses;
     return std::find(losses.begin(), losses.end(), atlas.feature_counts(test.demo) - *answer) != losses.end();
   }();
-  for (std::size_t i = 0; i < cover.size(); ++i) {
-    const auto point = cover.point(i);
+  for (const auto& [point, cell] : everybody_) {
     const std::size_t side = violated.contains(point) ? 0 : 1;
     people[side] += 1.0;
-    const bool fits = by_path ? cache_->behaviours().answer(test.demo, cache_->behaviours().locate(point)) == answer
+    const bool fits = by_path ? cache_->behaviours().answer(test.demo, cell) == answer
                               : std::all_of(verdict.half_spaces.begin(), verdict.half_spaces.end(),
                                             [&](const HalfSpace& h) { return h.contains(point); });
     given[side] += fits ? 1.0 : 0.0;

@@ -21,23 +21,35 @@ double below_share(double a, double b, double x) {
 class Mixture {
  public:
   Mixture(std::span<const WeightedShare> shares, double precision) {
-    constexpr double kIgnored = 1e-4;
+    constexpr double kIgnored = 1e-4, kNearlySame = 0.005;
     double sum = 0.0;
     for (const auto& one : shares) sum += one.weight;
     if (!(sum > 0.0)) throw std::invalid_argument{"credible_level: no weight is above 0"};
+    std::vector<WeightedShare> kept;
     for (const auto& one : shares) {
       mean_ += one.weight / sum * one.share;
       if (one.weight / sum < kIgnored) continue;
-      const double share = std::clamp(one.share, kLeastShare, 1.0 - kLeastShare);
-      parts_.push_back({one.weight / sum, precision * share, precision * (1.0 - share)});
+      kept.push_back({one.weight / sum, std::clamp(one.share, kLeastShare, 1.0 - kLeastShare)});
       kept_ += one.weight / sum;
+    }
+    // Many hypotheses have nearly the same share: those together have their mean.
+    std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.share < b.share; });
+    for (std::size_t i = 0; i < kept.size();) {
+      double weight = 0.0, share = 0.0;
+      const double first = kept[i].share;
+      for (; i < kept.size() && kept[i].share - first <= kNearlySame; ++i) {
+        weight += kept[i].weight;
+        share += kept[i].weight * kept[i].share;
+      }
+      share /= weight;
+      parts_.push_back({weight, precision * share, precision * (1.0 - share)});
     }
   }
   [[nodiscard]] double mean() const { return mean_; }
   [[nodiscard]] double below(double share) const {
     double sum = 0.0;
     for (const auto& part : parts_) sum += part.weight * below_share(part.a, part.b, share);
-    return sum / kept_;
+    return std::min(sum / kept_, 1.0);  // rounding may leave a little more
   }
   [[nodiscard]] double quantile(double q) const {
     constexpr int kBits = 30;

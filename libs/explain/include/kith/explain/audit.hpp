@@ -149,6 +149,11 @@ class Auditor {
   AuditOptions options_;
   std::vector<std::vector<HalfSpace>> constraints_;  // per component
   std::size_t unit_ = 0;                             // the reference feature
+  struct Somebody {
+    Direction weights;
+    PolicyCellIndex cell;  // where behaviours are tabulated
+  };
+  std::vector<Somebody> everybody_;  // who knows the prior
 };
 
 }  // namespace kith
