@@ -34,9 +34,8 @@ check_places() {  # no absolute path of one particular machine
 }
 
 check_pragma() {  # every header begins with #pragma once
-  files '*.hpp' | while IFS= read -r file; do
-    [[ $(head -n 1 "$file") == '#pragma once' ]] || echo "$file: the first line is not '#pragma once'"
-  done | none
+  files '*.hpp' | xargs -r -d '\n' awk -v q="'" 'FNR == 1 && $0 != "#pragma once" {
+    print FILENAME ": the first line is not " q "#pragma once" q }' 2>&1 | none
 }
 
 # A layer needs only layers that come before it in libs/CMakeLists.txt.
@@ -61,8 +60,8 @@ check_layers() {
 
 check_newline() {  # text files end with a line break, and lines with what one sees
   {
-    texts | while IFS= read -r file; do
-      [[ -s $file && -n $(tail -c 1 "$file") ]] && echo "$file: no line break at the end"
+    texts | search -LzP '\n\z' | while IFS= read -r file; do
+      [[ -f $file && ! -s $file ]] || echo "$file: no line break at the end"
     done
     files '*.cpp' '*.hpp' '*.cmake' 'CMakeLists.txt' '*.sh' '*.toml' '*.md' | search -nE '[[:space:]]+$'
   } | none
@@ -100,17 +99,16 @@ check_errors() {  # every id stands for one thing
 
 # A type has one definition: of two in one namespace the linker keeps the functions of either.
 check_types() {
-  files '*.cpp' '*.hpp' | grep -E '^(libs/[a-z_]+/(include|src)|apps/[a-z_]+/src)/' | while IFS= read -r file; do
-    awk -v file="$file" '
+  files '*.cpp' '*.hpp' | grep -E '^(libs/[a-z_]+/(include|src)|apps/[a-z_]+/src)/' | xargs -r -d '\n' awk '
+      FNR == 1 { depth = 0 }
       /^namespace/ { space[++depth] = $2 == "{" ? "" : $2; next }
       /^} *\/\/ namespace/ { delete space[depth--]; next }
       /^(struct|class|enum class|enum) [A-Za-z0-9_]+( final)?( *:[^:][^;]*)? *\{/ {
         name = ""
         for (i = 1; i <= depth; ++i) { if (space[i] == "") next; name = name space[i] "::" }
         sub(/^(enum class|struct|class|enum) /, ""); sub(/[ :{].*/, "")
-        print name $0, file
-      }' "$file"
-  done | sort | awk '$1 == last { print $1 " is defined by " where " and by " $2 } { last = $1; where = $2 }' | none
+        print name $0, FILENAME
+      }' | sort | awk '$1 == last { print $1 " is defined by " where " and by " $2 } { last = $1; where = $2 }' | none
 }
 
 # A block of a document whose first line names a file (```cpp examples/a.cpp) is a part of that file, line by line.
