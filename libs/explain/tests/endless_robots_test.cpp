@@ -50,13 +50,11 @@ bool is_done(const Action& action) {
   }
 }
 
-class EndlessRobots : public ::testing::TestWithParam<std::string> {};
-
-TEST_P(EndlessRobots, AreTaughtAskedAboutAndFound) {
+void expect_taught_and_found(const std::string& name, std::span<const double> discounts) {
   std::size_t taught = 0, answered = 0;
-  for (const double discount : kDiscounts) {
+  for (const double discount : discounts) {
     SCOPED_TRACE(discount);
-    const Atlas atlas{discounted_domain(GetParam(), discount)};
+    const Atlas atlas{discounted_domain(name, discount)};
     taught += is_done([&] {
       const auto curriculum = make_curriculum(atlas);
       for (const auto& component : curriculum.components) {
@@ -82,14 +80,27 @@ TEST_P(EndlessRobots, AreTaughtAskedAboutAndFound) {
           expect_shown(atlas.domain(), atlas.id(example.demo).mdp, example.path);
       });
     }
-    if (HasFatalFailure()) return;
+    if (::testing::Test::HasFatalFailure()) return;
   }
   EXPECT_GE(taught, 1U);
   EXPECT_GE(answered, 8U);
 }
 
+class EndlessRobots : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EndlessRobots, AreTaughtAskedAboutAndFound) {
+  expect_taught_and_found(GetParam(), testing::everyday_discounts(GetParam()));
+}
+
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EndlessRobots, ::testing::ValuesIn(testing::built_in_names()),
                          [](const auto& tested) { return testing::test_name(tested.param); });
+
+TEST(EndlessRobotsSlow, InLargeDomainsAreTaughtAskedAboutAndFound) {
+  for (const auto name : testing::kLargeDomains) {
+    SCOPED_TRACE(name);
+    expect_taught_and_found(std::string{name}, kDiscounts);
+  }
+}
 
 TEST(EndlessRobot, AreSaidToMissWhatWouldEndTheirPath) {
   const std::vector<std::pair<std::string, std::string>> kEnds{{"item-delivery", "never delivers the parcel"},

@@ -4,8 +4,10 @@
 #include <array>
 #include <optional>
 #include <regex>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,15 @@ namespace kith::testing {
 
 /// From hardly any to so many that most robots never arrive.
 inline constexpr std::array kDiscounts{0.99, 0.9, 0.7, 0.3};
+
+/// Domains for which all discounts together take half a minute; the night tests them.
+inline constexpr std::array<std::string_view, 3> kLargeDomains{"navigation", "rescue-floor", "warehouse"};
+
+/// The discounts with which a built-in domain is tested in the normal run: a single one if it is large.
+inline std::span<const double> everyday_discounts(std::string_view name) {
+  const std::span<const double> all{kDiscounts};
+  return std::ranges::find(kLargeDomains, name) != kLargeDomains.end() ? all.subspan(2, 1) : all;
+}
 
 /// The text of a domain file with another discount.
 inline std::string with_discount(const std::string& text, double discount) {
