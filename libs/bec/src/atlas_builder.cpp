@@ -314,11 +314,16 @@ void AtlasBuilder::make_one_step_sets() {
 void AtlasBuilder::group_demos() {
   if (atlas_.tabulated_) {
     group_by_hulls();
-    return;
+  } else {
+    for (const std::size_t i : candidates()) {
+      atlas_.demos_[i].demo_class = DemoClassIndex{atlas_.classes_.size()};
+      atlas_.classes_.emplace_back().members.emplace_back(i);
+    }
   }
-  for (const std::size_t i : candidates()) {
-    atlas_.demos_[i].demo_class = DemoClassIndex{atlas_.classes_.size()};
-    atlas_.classes_.emplace_back().members.emplace_back(i);
+  for (auto& component : atlas_.components_) {
+    for (DemoClassIndex c{0}; c.value() < atlas_.num_demo_classes(); ++c) {
+      if (component.uses_mdp[atlas_.id(atlas_.members(c).front()).mdp.value()]) component.demo_classes.push_back(c);
+    }
   }
 }
 

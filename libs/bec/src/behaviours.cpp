@@ -434,8 +434,7 @@ Behaviours::Conveyed Behaviours::planned(const KnowledgeComponent& component, st
   std::vector<SetIndex> distinct, own, last;
   std::size_t last_mdp = worlds_.size();
   SetIndex last_set = kNoSet;
-  for (DemoClassIndex c{0}; c.value() < by_class.size(); ++c) {
-    if (!atlas_->belongs_to(c, component)) continue;
+  for (const auto c : component.demo_classes) {
     const DemoIndex demo = atlas_->members(c).front();
     const std::size_t m = atlas_->id(demo).mdp.value();
     const auto place = static_cast<std::size_t>(partitions_->place(demo));

@@ -70,6 +70,7 @@ TEST(Behaviours, PlansWhatTheTablesSay) {
   Behaviours plans{on_demand()};
   auto random = RandomStream{5}.split("weights");
   const auto& all = item_delivery().knowledge_components().back();
+  const auto& all_planned = on_demand().knowledge_components().back();
   std::size_t with_optimum = 0;
   for (int round = 0; round < 6; ++round) {
     std::vector<PolicyCellIndex> in_tables;
@@ -81,7 +82,7 @@ TEST(Behaviours, PlansWhatTheTablesSay) {
       EXPECT_EQ(plans.locate(weights), in_plans.back());
     }
     const auto from_tables = tables.conveyed_by_class(all, in_tables);
-    const auto from_plans = plans.conveyed_by_class(all, in_plans);
+    const auto from_plans = plans.conveyed_by_class(all_planned, in_plans);
     for (DemoIndex demo{0}; demo.value() < item_delivery().num_demos(); demo = DemoIndex{demo.value() + 7}) {
       ASSERT_EQ(plans.constraints().half_spaces(from_plans.set(on_demand().demo_class(demo))),
                 tables.constraints().half_spaces(from_tables.set(item_delivery().demo_class(demo))));

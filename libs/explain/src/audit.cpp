@@ -311,8 +311,7 @@ void Auditor::choose_demonstration(const MisconceptionBank& bank, std::size_t co
   const auto& lessons = atlas.knowledge_components()[component];
   const auto conveyed = behaviours.conveyed_by_class(lessons, people);
   Simplest simplest{atlas};
-  for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
-    if (!atlas.belongs_to(c, lessons)) continue;
+  for (const auto c : lessons.demo_classes) {
     const auto set = conveyed.set(c);
     if (!set.contains(wanted)) continue;
     for (const auto demo : atlas.members(c)) {

@@ -64,11 +64,7 @@ class Effects {
 class Selection {
  public:
   Selection(TeachingCache& cache, const KnowledgeComponent& component, const VisitedDemos& visited)
-      : atlas_{cache.atlas()}, cache_{cache}, component_{component}, visited_{visited} {
-    for (DemoClassIndex c{0}; c.value() < atlas_.num_demo_classes(); ++c) {
-      if (atlas_.belongs_to(c, component)) classes_.push_back(c);
-    }
-  }
+      : atlas_{cache.atlas()}, cache_{cache}, component_{component}, visited_{visited} {}
 
   // The next demonstration of the unit, or nothing if none has gain.
   std::optional<Demonstration> next(std::span<const PolicyCellIndex> cells, const ConstraintSet& taught_region,
@@ -85,7 +81,7 @@ class Selection {
     constexpr std::size_t kBits = 64;
     const std::size_t words = (cache_.constraints().size() + kBits - 1) / kBits;
     rows_.assign(atlas_.num_demo_classes() * words, 0);
-    for (const auto c : classes_) {
+    for (const auto c : component_.demo_classes) {
       const auto& shown = atlas_.one_step(atlas_.members(c).front());
       for (const auto facet : facets.members()) {
         if (!shown.contains(facet)) continue;
@@ -117,8 +113,8 @@ class Selection {
   std::vector<Prospect> prospects_with_gain(const ConstraintSet& taught_region) {
     std::vector<Prospect> prospects;
     const std::size_t words = conveyed_.words;
-    effects_.restart(words, classes_.size());
-    for (const auto c : classes_) {
+    effects_.restart(words, component_.demo_classes.size());
+    for (const auto c : component_.demo_classes) {
       const std::uint64_t* const row = conveyed_.rows.data() + c.value() * words;
       const auto& effect = effects_.of(row, [&] { return cache_.regions().effect(taught_region, conveyed_.set(c)); });
       if (effect.gain > 1.0 + kGainTolerance) prospects.push_back({c, effect.gain, effect.num_new});
@@ -147,7 +143,6 @@ class Selection {
   TeachingCache& cache_;
   const KnowledgeComponent& component_;
   const VisitedDemos& visited_;
-  std::vector<DemoClassIndex> classes_;  // those of the component
   Behaviours::Conveyed conveyed_;
   std::vector<std::uint64_t> rows_;  // of next_for_the_endless()
   Effects effects_;
@@ -218,6 +213,20 @@ Unit select_demonstrations(TeachingCache& cache, ParticleBelief belief, const Kn
   return unit;
 }
 
+ConstraintSet open_facets(TeachingCache& cache, const ConstraintSet& facets, const ConstraintSet& shown) {
+  auto& regions = cache.regions();
+  const auto is_open = [&](ConstraintIndex facet) {
+    ConstraintSet alone;
+    alone.insert(facet);
+    return regions.effect(shown, alone).gain > 1.0 + kGainTolerance;
+  };
+  ConstraintSet open;
+  for (const auto facet : facets.without(shown).members()) {
+    if (is_open(facet)) open.insert(facet);
+  }
+  return open;
+}
+
 namespace {
 
 // How people miss what is open; each way only where no demonstration tells those of the one before anything. The first
@@ -232,28 +241,13 @@ constexpr std::array kMissed{Missed::kComponent, Missed::kWhatIsLeft, Missed::kN
 constexpr double kNearMiss = 0.02;    // see near_misses()
 constexpr std::size_t kAnybody = 32;  // who cover what was left before
 
-// What is open of `facets` where `shown`, which is minimal, is known.
-ConstraintSet open_of(TeachingCache& cache, const ConstraintSet& facets, const ConstraintSet& shown) {
-  auto& regions = cache.regions();
-  const auto is_open = [&](ConstraintIndex facet) {
-    ConstraintSet alone;
-    alone.insert(facet);
-    return regions.effect(shown, alone).gain > 1.0 + kGainTolerance;
-  };
-  ConstraintSet open;
-  for (const auto facet : facets.without(shown).members()) {
-    if (is_open(facet)) open.insert(facet);
-  }
-  return open;
-}
-
 // People who miss what is open of a component. Nobody if nothing is open.
 ImaginedPeople who_miss(TeachingCache& cache, const KnowledgeComponent& component, const ConstraintSet& shown,
                         Missed how) {
   ImaginedPeople people;
   const auto& known = how == Missed::kComponent ? cache.atlas().prior() : shown;
   const auto left = cache.regions().minimal(known | component.constraints);
-  const auto open = open_of(cache, left, shown);
+  const auto open = open_facets(cache, left, shown);
   if (open.empty()) return people;
   if (how == Missed::kAnywhere) {
     Cone region{cache.atlas().domain().num_features()};  // nothing may have been shown, and nothing be known before
@@ -291,7 +285,7 @@ void complete_unit(TeachingCache& cache, Unit& unit, const KnowledgeComponent& c
       if (next) break;
     }
     if (!next && !people.cells.empty() && !cache.atlas().is_tabulated()) {
-      const auto open = open_of(cache, component.constraints, shown);
+      const auto open = open_facets(cache, component.constraints, shown);
       people = who_miss(cache, component, shown, Missed::kComponent);
       next = fresh.next_for_the_endless(open, shown, unit.demonstrations, random.split(step));
       if (!next) next = any.next_for_the_endless(open, shown, unit.demonstrations, random.split(step));

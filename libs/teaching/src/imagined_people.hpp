@@ -22,6 +22,9 @@ struct ImaginedPeople {
 [[nodiscard]] ImaginedPeople imagine_people(TeachingCache& cache, std::span<const ParticleBelief* const> beliefs,
                                             std::size_t n, RandomStream random);
 
+// What is open of `facets` where `shown`, which is minimal, is known.
+[[nodiscard]] ConstraintSet open_facets(TeachingCache& cache, const ConstraintSet& facets, const ConstraintSet& shown);
+
 // Adds, for each of these facets of the region of a set of constraints, somebody who only just misses it
 // (near_misses()) and is right about everything else. What is conveyed to them is the facet itself, which people who
 // know nothing, or nearly everything, may not bring up.

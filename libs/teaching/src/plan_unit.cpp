@@ -23,12 +23,10 @@ struct Candidate {
 // Those of the component that convey anything.
 std::vector<Candidate> candidates_of(TeachingCache& cache, const KnowledgeComponent& component,
                                      std::span<const PolicyCellIndex> cells) {
-  const auto& atlas = cache.atlas();
   const auto conveyed = cache.behaviours().conveyed_by_class(component, cells);
   std::vector<Candidate> candidates;
   std::unordered_map<ConstraintSet, std::size_t> by_row, by_minimal;  // most classes share theirs with others
-  for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
-    if (!atlas.belongs_to(c, component)) continue;
+  for (const auto c : component.demo_classes) {
     auto row = conveyed.set(c);
     if (row.empty()) continue;
     const auto [same, is_new] = by_row.try_emplace(std::move(row), 0);

@@ -79,8 +79,7 @@ std::map<DemoIndex, Ranked> ranked_starts(const KnowledgeComponent& component, s
                                           const std::vector<HalfSpace>& taught, const VisitedDemos& visited) {
   const auto& atlas = item_delivery();
   std::map<DemoClassIndex, Ranked> of_class;
-  for (DemoClassIndex c{0}; c.value() < atlas.num_demo_classes(); ++c) {
-    if (!atlas.belongs_to(c, component)) continue;
+  for (const auto c : component.demo_classes) {
     auto both = taught;
     for (const auto& half_space : atlas.constraints().half_spaces(atlas.conveyed(atlas.members(c).front(), cells)))
       both.push_back(half_space);

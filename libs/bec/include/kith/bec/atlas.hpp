@@ -19,8 +19,6 @@ namespace kith {
 
 /// A (MDP, start) pair's position among all of a domain's, MDP by MDP.
 using DemoIndex = Index<struct DemoTag>;
-/// Demonstrations that convey the same to everybody; see Atlas::demo_class.
-using DemoClassIndex = Index<struct DemoClassTag>;
 
 /// How an Atlas knows what learners would do.
 enum class BehaviourSource {
@@ -160,10 +158,6 @@ class Atlas {
   [[nodiscard]] DemoClassIndex demo_class(DemoIndex demo) const { return demos_[demo.value()].demo_class; }
   /// In ascending order; all are candidates.
   [[nodiscard]] std::span<const DemoIndex> members(DemoClassIndex c) const { return classes_[c.value()].members; }
-  /// Whether the class's MDPs lack the component's masked feature (the same for all of its members).
-  [[nodiscard]] bool belongs_to(DemoClassIndex c, const KnowledgeComponent& component) const {
-    return component.uses_mdp[id(classes_[c.value()].members.front()).mdp.value()];
-  }
   /// Tabulated only: what demonstrations convey to people who hold weights of the given cells: per class, one row of
   /// words, the union over cells and over the states s_t of the path of mu_robot(s_t) - mu_learner(s_t).
   /// Cells without an optimum in the MDP contribute nothing. Shape [num_demo_classes, words_per_set()].
