@@ -26,8 +26,8 @@ std::string design_note(const RunTeams& teams) {
                         cut_off == 1 ? "is" : "are", cut_off == 1 ? "it" : "they");
   }
   if (skipped > 0) {
-    text += fmt::format("; {} left components out of which nothing could be shown, and {} counted likewise", skipped,
-                        skipped == 1 ? "is" : "are");
+    text += fmt::format("; of {} nothing that could be shown conveyed the rest of a component, and {} counted likewise",
+                        skipped, skipped == 1 ? "is" : "are");
   }
   return text;
 }

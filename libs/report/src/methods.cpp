@@ -289,8 +289,7 @@ class Paragraph {
         std::count_if(data_.teams.begin(), data_.teams.end(), [](const auto& team) { return team.skipped; }));
     if (skipped > 0) {
       say(counted(skipped, "team") +
-          " left out components of which nothing could be shown that adds to what was "
-          "taught, and " +
+          " did not learn all of some component, because nothing that could be shown conveys the rest, and " +
           (skipped == 1 ? "was" : "were") + " treated as censored.");
     }
     if (missed == 0 && skipped > 0) return;

@@ -242,9 +242,10 @@ void note_data(const RunFiles& run, const ReportDesign& design, const RunData& d
   note_impoverished_beliefs(data, notes);
   const auto skipped = std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return t.skipped; });
   if (skipped > 0) {
-    notes.push_back(std::to_string(skipped) + " of " + std::to_string(data.teams.size()) +
-                    " teams left a knowledge component out, because nothing that could be shown adds to what they had "
-                    "been taught. They do not count as completed: the completion curves treat them as censored.");
+    notes.push_back(
+        std::to_string(skipped) + " of " + std::to_string(data.teams.size()) +
+        " teams did not learn all of a knowledge component, because nothing that could be shown conveys the "
+        "rest. They do not count as completed: the completion curves treat them as censored.");
   }
   const auto censored =
       std::count_if(data.teams.begin(), data.teams.end(), [](const auto& t) { return !t.completed && !t.skipped; });

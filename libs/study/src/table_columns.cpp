@@ -94,8 +94,8 @@ Columns team_columns(const Study& study) {
   Columns columns{
       column("seed_address", kText, "Address of the team's random numbers: seed/composition/replicate."),
       column("status", kText,
-             "'complete' if every knowledge component was learned; 'skipped' if those were of which anything could be "
-             "shown; 'max_periods' if teaching stopped before."),
+             "'complete' if every knowledge component was learned or is implied by the lessons of others; 'skipped' if "
+             "something stayed open that nothing could show; 'max_periods' if teaching stopped before."),
       column("completed", kBoolean, "Whether the status is 'complete'."),
       column("periods", kInteger, "Interaction periods; for the baseline the sum over members."),
       column("demonstrations", kInteger, "Demonstrations shown, in all periods."),

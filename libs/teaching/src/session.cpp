@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "imagined_people.hpp"
 #include "kith/bec/comparison.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
@@ -161,6 +162,19 @@ struct Session::Prepared {
   std::vector<HalfSpace> taught_with_unit;
 };
 
+// Whether the lessons leave something open of a component that was skipped, from the component on.
+bool Session::is_anything_open(TeachingCache& cache, std::size_t component) const {
+  auto known = atlas_->prior();
+  for (const auto& period : history_) known |= cache.numbers_of(period.lesson.taught);
+  known = cache.regions().minimal(known);
+  for (; component < components_.size(); ++component) {
+    if (components_[component] != ComponentStatus::kSkipped) continue;
+    const auto& facets = atlas_->knowledge_components()[component].constraints;
+    if (!open_facets(cache, facets, known).empty()) return true;
+  }
+  return false;
+}
+
 bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) {
   if (finished()) return false;
   require_phase(SessionPhase::kProposal, "choosing a lesson");
@@ -196,8 +210,8 @@ bool Session::propose(TeachingCache& cache, std::span<const MemberTruth> truth) 
   if (!prepared) {
     // Those that are left out by design do not count.
     const auto first = options_.scaffold == Scaffold::kNone ? components_.end() - 1 : components_.begin();
-    const bool all = std::find(first, components_.end(), ComponentStatus::kSkipped) == components_.end();
-    status_ = all ? SessionStatus::kComplete : SessionStatus::kSkipped;
+    status_ = is_anything_open(cache, static_cast<std::size_t>(first - components_.begin())) ? SessionStatus::kSkipped
+                                                                                             : SessionStatus::kComplete;
     phase_ = SessionPhase::kFinished;
     return false;
   }

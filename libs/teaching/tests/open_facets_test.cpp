@@ -85,6 +85,7 @@ void expect_what_is_examined_was_shown(const std::string& domain, std::size_t co
         }
       }
     }
+    EXPECT_EQ(session.status(), SessionStatus::kComplete) << where;  // what was skipped is implied by the lessons
     for (std::size_t k = 0; k < session.components().size(); ++k) {
       ASSERT_NE(session.components()[k], ComponentStatus::kOpen) << where;
       if (session.components()[k] == ComponentStatus::kLearned && atlas.is_tabulated()) continue;
@@ -205,6 +206,29 @@ TEST(OpenFacets, PeopleWhoExpectNoEndAreShownASingleDeviation) {
   ASSERT_EQ(shown.size(), 1u);
   EXPECT_TRUE(shown.front().completes);
   EXPECT_EQ(shown.front().half_spaces, (std::vector<HalfSpace>{HalfSpace{IntegerVector{-1, -2}}}));
+}
+
+// Nothing shows in the worlds without the goal that riding costs something: whoever learns from other lessons that it
+// does has learned everything, whoever is right before that has not.
+TEST(SessionStatus, SaysWhetherLessonsImplyWhatWasSkipped) {
+  const Atlas& atlas = atlas_of(KITH_SOURCE_DIR "/domains/lee2021_skateboard.toml");
+  std::map<SessionStatus, int> times;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    TeachingCache cache{atlas};
+    auto session = session_of(cache, kBaseline, options_with(8), seed);
+    teach_right(session, cache);
+    ASSERT_EQ(session.components().front(), ComponentStatus::kSkipped);
+    bool is_open = false;
+    auto taught = atlas.prior();
+    for (const auto& period : session.history()) taught |= cache.numbers_of(period.lesson.taught);
+    for (const auto& facet : atlas.constraints().half_spaces(atlas.knowledge_components().front().constraints)) {
+      is_open = is_open || cuts(cache, taught, facet);
+    }
+    EXPECT_EQ(session.status(), is_open ? SessionStatus::kSkipped : SessionStatus::kComplete) << seed;
+    ++times[session.status()];
+  }
+  EXPECT_GE(times[SessionStatus::kSkipped], 1);
+  EXPECT_GE(times[SessionStatus::kComplete], 1);
 }
 
 TEST(SessionStatus, LeavesOutWhatIsNotTaughtByDesign) {

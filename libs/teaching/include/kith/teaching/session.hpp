@@ -22,8 +22,8 @@ namespace kith {
 /// How a session stands or ended; of several sessions of a team, the last of theirs counts.
 enum class SessionStatus : std::uint8_t {
   kRunning,
-  kComplete,    ///< Every component was learned, but for those that Scaffold::kNone leaves out.
-  kSkipped,     ///< The others were learned; of some, nothing that could be shown would have told anything.
+  kComplete,    ///< Every component was learned, or is implied by the lessons of others or left out by Scaffold::kNone.
+  kSkipped,     ///< Of some components something is open that nothing could show; the others were learned.
   kMaxPeriods,  ///< TeachingOptions::max_periods came before.
 };
 /// "running", "complete", "skipped" or "max_periods".
@@ -175,6 +175,7 @@ class Session {
   [[nodiscard]] bool awaits_newcomer() const;
   void admit_newcomers(TeachingCache& cache);
   void make_bank(TeachingCache& cache);
+  [[nodiscard]] bool is_anything_open(TeachingCache& cache, std::size_t component) const;
   void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
   [[nodiscard]] bool reads_beliefs() const;
   void make_judged(TeachingCache& cache);
