@@ -50,7 +50,8 @@ void require_word(const std::string& text, const std::vector<std::string>& words
 std::string wrong_integer(const std::string& text, const IntegerRange& range) {
   const auto value = parsed<std::int64_t>(text);
   if (value && *value >= range.min && *value <= range.max) return "";
-  return range.max == IntegerRange{}.max
+  const bool is_too_large = !value && !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return range.max == IntegerRange{}.max && !is_too_large
              ? fmt::format("must be an integer, {} or more, not '{}'", range.min, text)
              : fmt::format("must be an integer from {} to {}, not '{}'", range.min, range.max, text);
 }

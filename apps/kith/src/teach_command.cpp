@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
@@ -49,14 +50,16 @@ Assignment from_options(const TeachOptions& options) {
   if (options.group.empty()) refuse("kith teach needs --group, the members' learner types, such as NNP");
   auto reading = study_of(options.study, options.set);
   auto spec = reading.study->variants.front();
-  for (const char letter : options.group) {
-    bool known = false;
-    std::string letters;
-    for (const auto& type : spec.learner_types) {
-      known = known || type.letter == letter;
-      letters += (letters.empty() ? "" : ", ") + std::string{type.letter};
-    }
-    if (!known) refuse(fmt::format("study '{}' has no learner type '{}', only {}", options.study, letter, letters));
+  std::string letters;
+  for (const auto& type : spec.learner_types) letters += type.letter;
+  if (const auto at = options.group.find_first_not_of(letters); at != std::string::npos) {
+    std::string capitals;
+    for (const char letter : options.group)
+      capitals += static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    refuse(fmt::format(
+        "study '{}' has no learner type '{}', only {}{}", options.study, options.group[at], fmt::join(letters, ", "),
+        capitals.find_first_not_of(letters) == std::string::npos ? fmt::format("; did you mean --group {}?", capitals)
+                                                                 : ""));
   }
   constexpr std::size_t kMaxTeamSize = 30;
   if (options.group.size() > kMaxTeamSize) refuse("a group has at most 30 members");

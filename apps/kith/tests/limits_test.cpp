@@ -99,6 +99,9 @@ TEST(Limits, OfNumbersOnTheCommandLine) {
       {{"calibrate", "quick", "--teams", "100001"}, "--teams must be an integer from 2 to 100000"},
       {{"fit", "x", "--types", "7"}, "--types must be an integer from 1 to 6"},
       {{"fit", "x", "--replicates", "1001"}, "--replicates must be an integer from 1 to 1000"},
+      {{"teach", "item-delivery", "--seed", "9999999999999999999"},
+       "--seed must be an integer from 0 to 9223372036854775807"},
+      {{"teach", "item-delivery", "--group", "nnp"}, "only N, P; did you mean --group NNP?"},
       {{"teach", "item-delivery", "--group", std::string(31, 'N')}, "a group has at most 30 members"}};
   for (const auto& [arguments, message] : refused) expect_refusal(run_kith(arguments), 2, "", message);
 }

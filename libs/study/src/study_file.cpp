@@ -309,6 +309,9 @@ StudyReading load_study(const std::string& name_or_path, StudyReadOptions option
     unknown.hint = suggestion(name_or_path, names);
     throw Error{{unknown}};
   }
+  if (std::filesystem::is_directory(path, failure)) {
+    throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "': it is a folder"};
+  }
   const auto text = text_of(path);
   if (!text) throw Error{ErrorKind::kIo, "cannot read the study file '" + name_or_path + "'"};
   options.folder = path.parent_path();
