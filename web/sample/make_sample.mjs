@@ -209,11 +209,47 @@ const parameters = [
   ['stop', 'max_periods', '50', 'teaching stops here at the latest'],
 ];
 
-const pick = (column, group) => teams.filter((t) => (t.strategy !== 'baseline') === group).map((t) => t[column]);
-const headline = (label, values) => ({ label, n: values.length, ...renameMean(meanInterval(values)) });
-function renameMean({ mean, sd, low, high }) {
-  return { value: round(mean), sd: round(sd), low: round(low), high: round(high) };
-}
+const pick = (of, group) => teams.filter((t) => (t.strategy !== 'baseline') === group).map(of);
+const meanOf = (values) => values.reduce((a, b) => a + b, 0) / values.length;
+const difference = (estimate, half, n) => ({
+  estimate: round(estimate),
+  low: round(estimate - half),
+  high: round(estimate + half),
+  n,
+});
+const outcomes = [
+  { name: 'Periods', digits: 1, of: (t) => t.periods, half: 0.6 },
+  { name: 'Person-periods', digits: 1, of: (t) => (t.strategy === 'baseline' ? 1 : 3) * t.periods, half: 1.2 },
+  { name: 'Knowledge at the end', digits: 2, of: (t) => t.knowledge, half: 0.04 },
+];
+const against = (factor, first, codes) => ({
+  factor,
+  against: first,
+  rows: codes.map((code) => {
+    const group = (level) =>
+      teams.filter((t) => t[factor] === level && (factor === 'strategy' || t.strategy !== 'baseline'));
+    const differences = outcomes.map(({ of, half }) =>
+      difference(meanOf(group(code).map(of)) - meanOf(group(first).map(of)), half, factor === 'strategy' ? 60 : 15),
+    );
+    return { code, differences };
+  }),
+});
+const answer = (question, { name, digits }, rest) => ({
+  question,
+  outcome: name.toLowerCase(),
+  means: '1 and 2',
+  compared: '',
+  estimate: null,
+  low: null,
+  high: null,
+  bound: null,
+  ratio: false,
+  digits,
+  p: 0.5,
+  answer: 'no difference found',
+  finding: 'periods',
+  ...rest,
+});
 
 const report = {
   schema: 'kith.report/1',
@@ -225,6 +261,18 @@ const report = {
   labels: {
     strategies,
     types,
+    meanings: {
+      strategies: {
+        baseline: 'teach the members one after the other, each alone',
+        'individual-low': 'teach for the member who knows least',
+        'individual-high': 'teach for the member who knows most',
+        common: 'teach for what all members know',
+        joint: 'teach for what at least one member knows',
+      },
+      compositions: Object.fromEntries(
+        compositions.map((code) => [code, `${3 - numP(code)} novice, ${numP(code)} proficient`]),
+      ),
+    },
     columns: {
       periods_mean: 'Periods, mean',
       periods_sd: 'Periods, sd',
@@ -242,17 +290,30 @@ const report = {
     strategies: names,
     compositions,
     factors: [],
-    summary: [
-      'These numbers are synthetic: 300 teams of 3 people, taught in 5 ways.',
-      'Teams taught together needed fewer periods than teams whose members were taught one after the other.',
-      'Which strategy was used made no detectable difference; who was in a team affected the number of periods.',
+    simulated: true,
+    finding: 'These numbers are synthetic: teaching a team together takes fewer periods than one after the other',
+    summary: ['These numbers are synthetic: 300 teams of 3 people, taught in 5 ways.'],
+    answers: [
+      ...outcomes.map((outcome) =>
+        answer('Together compared with one after the other', outcome, {
+          means: `${round(meanOf(pick(outcome.of, true)), 2)} and ${round(meanOf(pick(outcome.of, false)), 2)}`,
+          ...difference(meanOf(pick(outcome.of, true)) - meanOf(pick(outcome.of, false)), outcome.half, 60),
+          p: 1e-9,
+          answer: 'they differ',
+        }),
+      ),
+      answer('Among the 4 strategies for a team', outcomes[0], { bound: 0.77 }),
+      answer('Who is in the team', outcomes[0], { compared: 'PPP - NNN', ...difference(-1.4, 1, 15), p: 0.005 }),
     ],
-    headlines: [
-      headline('Periods, group strategies', pick('periods', true)),
-      headline('Periods, baseline', pick('periods', false)),
-      headline('Knowledge, group strategies', pick('knowledge', true)),
-      headline('Knowledge, baseline', pick('knowledge', false)),
-    ],
+    differences: {
+      interval: 't intervals of differences within the same people',
+      outcomes: outcomes.map(({ name, digits }) => ({ name, digits })),
+      groups: [
+        against('strategy', 'baseline', names.slice(1)),
+        against('composition', compositions[0], compositions.slice(1)),
+      ],
+    },
+    limits: ['These numbers are synthetic and say nothing.', 'Passing all tests is not knowing everything.'],
   },
   notes: [
     'These numbers are synthetic: they come from formulas, not from a study.',

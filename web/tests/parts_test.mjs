@@ -69,7 +69,7 @@ describe('a document', () => {
     const bare = (document) => {
       for (const key of ['notes', 'findings', 'methods', 'reproduce', 'beliefs', 'labels']) delete document[key];
       document.tables = {};
-      document.overview.headlines = [];
+      document.overview = { strategies: [], compositions: [] };
     };
     await withDocument(bare, async ({ page }) => assert.deepEqual(await sections(page), ['summary', 'notices']));
   });
@@ -110,13 +110,16 @@ describe('a document', () => {
     const attack = '</script><img src=x onerror="window.attacked=1"><script>window.attacked=1</script>';
     const hostile = (document) => {
       document.title = attack;
+      document.overview.finding = attack;
+      document.overview.answers[0].question = attack;
+      document.labels.meanings.strategies.common = attack;
       document.notes = [attack];
       document.labels.strategies.joint = attack;
       document.findings[0].sentence = attack;
       document.beliefs.teams[0].title = attack;
     };
     await withDocument(hostile, async ({ page }) => {
-      assert.equal(await page.textContent('h1'), attack);
+      assert.equal(await page.textContent('h1'), `${attack}.`);
       assert.equal(await page.title(), attack);
       assert.equal(await page.evaluate(() => window.attacked), undefined);
       await page.hover('#figure-interaction svg .mark-symbol path');

@@ -96,6 +96,24 @@ async function violations(page) {
     );
 }
 
+// How a colour is seen: CIE L*a*b* of what is left of it (Machado, Oliveira and Fernandes 2009).
+const kVision = {
+  protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+  deuteranopia: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+  tritanopia: [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
+};
+function seenAs(hex, kind) {
+  const channels = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
+  const linear = channels.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  const rgb = kVision[kind]?.map((row) => Math.min(1, Math.max(0, row.reduce((sum, x, i) => sum + x * linear[i], 0)))) ?? linear;
+  const toXyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
+  const white = [0.9505, 1, 1.089];
+  const [x, y, z] = toXyz
+    .map((row, i) => row.reduce((sum, part, k) => sum + part * rgb[k], 0) / white[i])
+    .map((t) => (t > 0.008856 ? Math.cbrt(t) : 7.787 * t + 16 / 116));
+  return kind === 'grey' ? [116 * y - 16] : [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}
+
 async function saved(page, button) {
   const [download] = await Promise.all([page.waitForEvent('download'), button.click()]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
@@ -129,7 +147,7 @@ describe('a report', () => {
     });
   }
 
-  it('every figure saves as SVG, PNG and CSV, drawn in light whatever the theme is', async () => {
+  it('every figure saves for print as SVG, PDF, PNG and CSV, drawn in light whatever the theme is', async () => {
     await withReport({ width: 1280, dark: true }, async ({ page }) => {
       const figures = await page.$$('figure');
       for (const figure of figures) {
@@ -138,10 +156,20 @@ describe('a report', () => {
         assert.match(svg.name, /\.svg$/);
         const text = svg.bytes.toString('utf8');
         assert.match(text, /^<svg [^>]*xmlns/, id);
+        const [, mm, , pixels] = /width="([\d.]+)mm" height="[\d.]+mm" viewBox="0 0 (([\d.]+) [\d.]+)"/.exec(text) ?? [];
+        assert.ok(mm > 100 && mm <= 183.01, `${id} is ${mm} mm wide`);
+        const points = [...text.matchAll(/font-size="([\d.]+)px"/g)].map(([, px]) => (px * mm * 72) / 25.4 / pixels);
+        assert.ok(Math.min(...points) >= 7 && Math.max(...points) <= 8, `${id}: text of ${Math.min(...points)} to ${Math.max(...points)} pt`);
         assert.ok(!text.includes('var(--'), `${id} leaves colours to a page`);
         const png = await saved(page, await figure.$('[data-save=png]'));
         assert.match(png.name, /\.png$/);
         assert.deepEqual([...png.bytes.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47], id);
+        assert.equal(png.bytes.readUInt32BE(png.bytes.indexOf('pHYs') + 4), 11811, `${id} has 300 dpi`);
+        const pdf = await saved(page, await figure.$('[data-save=pdf]'));
+        const file = pdf.bytes.toString('latin1');
+        assert.match(file, /^%PDF-1\.4\n[^]* Tj ET\n[^]*%%EOF\n$/, id);
+        const start = Number(/startxref\n(\d+)/.exec(file)[1]);
+        assert.equal(file.slice(start, start + 4), 'xref', id);
         const csv = await saved(page, await figure.$('[data-save=csv]'));
         assert.match(csv.name, /\.csv$/);
         const lines = csv.bytes.toString('utf8').trimEnd().split('\n');
@@ -149,6 +177,7 @@ describe('a report', () => {
         if (values.screenshots) {
           writeFileSync(join(values.screenshots, png.name), png.bytes);
           writeFileSync(join(values.screenshots, svg.name), svg.bytes);
+          writeFileSync(join(values.screenshots, pdf.name), pdf.bytes);
         }
       }
     });
@@ -161,6 +190,8 @@ describe('a report', () => {
       levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
       const captions = await page.$$eval('figcaption', (all) => all.map((caption) => caption.textContent));
       captions.forEach((caption, i) => assert.ok(caption.startsWith(`Figure ${i + 1}. `), caption));
+      const ids = await page.$$eval('[id]', (all) => all.map(({ id }) => id));
+      assert.deepEqual(ids.filter((id, i) => ids.indexOf(id) !== i), [], 'ids that occur twice');
       const lost = await page.$$eval('nav a', (all) =>
         all.map((a) => a.getAttribute('href')).filter((href) => !document.querySelector(href)),
       );
@@ -173,11 +204,15 @@ describe('a report', () => {
     });
   });
 
-  it('plain sentences come first, then figures, then tests, and every table has rows under words', async () => {
+  it('the finding comes first, then figures, then tests, and every table has rows under words', async () => {
     await withReport({ width: 1280, dark: false }, async ({ page }) => {
-      const sentences = await page.$$eval('#summary .lead', (all) => all.map((one) => one.textContent));
-      assert.equal(sentences.length, 3);
-      for (const sentence of sentences) assert.match(sentence, /^[A-Z].{30,400}[.]$/);
+      assert.match(await page.textContent('h1'), /^[A-Z].{30,200}[.]$/);
+      const answers = await page.$$eval('.answers tbody tr:not(.group)', (rows) => rows.map((row) => row.textContent));
+      assert.ok(answers.some((text) => /any two differ by less than \d/.test(text)), 'a bound where nothing was found');
+      assert.ok((await page.$$('.limits li')).length >= 2, 'what the study cannot say');
+      for (const link of await page.$$eval('.answers a, .tests a', (all) => all.map(({ hash }) => hash))) {
+        assert.ok(await page.$(link), `${link} is a test`);
+      }
       const order = await page.$$eval('main section', (all) => all.map(({ id }) => id));
       assert.equal(order[0], 'summary');
       assert.ok(order.indexOf('outcomes') < order.indexOf('findings'), order.join(' '));
@@ -192,11 +227,11 @@ describe('a report', () => {
       for (const { caption, heads, rows } of tables) {
         assert.ok(rows > 0, `no rows: ${caption}`);
         assert.ok(
-          heads.every((head) => /^(F|t|d|n|df|N|sd|95 % (low|high)|[A-Za-z].{2,})$/.test(head) && !/, (low|high)$/.test(head)),
+          heads.every((head) => /^(F|t|d|n|p|df|N|sd|95 % (low|high)|[A-Za-z].{2,})$/.test(head) && !/, (low|high)$/.test(head)),
           `${caption}: ${heads.join(' | ')}`,
         );
       }
-      const tests = await page.$$eval('#findings tbody tr', (rows) =>
+      const tests = await page.$$eval('#findings tbody tr:not(.group)', (rows) =>
         rows.map((row) => [...row.children].map((cell) => cell.textContent)),
       );
       assert.ok(tests.length > 0);
@@ -218,16 +253,31 @@ describe('a report', () => {
     });
   });
 
+  it('strategies stay apart in grey and for all kinds of colour vision, in both themes', async () => {
+    for (const dark of [false, true]) {
+      await withReport({ width: 320, dark }, async ({ page }) => {
+        const colors = await page.evaluate(() =>
+          [0, 1, 2, 3, 4].map((i) => getComputedStyle(document.documentElement).getPropertyValue(`--s${i}`)),
+        );
+        for (const [kind, least] of [['grey', 10], ['protanopia', 20], ['deuteranopia', 20], ['tritanopia', 20], ['all', 20]]) {
+          const seen = colors.map((hex) => seenAs(hex, kind));
+          const apart = seen.flatMap((a, i) => seen.slice(i + 1).map((b) => Math.hypot(...a.map((x, k) => x - b[k]))));
+          assert.ok(Math.min(...apart) >= least, `${kind}: ${colors.join(' ')} are ${Math.min(...apart)} apart`);
+        }
+      });
+    }
+  });
+
   it('belief spheres follow the slider, the arrow keys and the choice of team', async () => {
     await withReport({ width: 1280, dark: false, reducedMotion: true }, async ({ page }) => {
       if (!(await page.$('#figure-beliefs'))) return;
       const label = () => page.getAttribute('#figure-beliefs .chart', 'aria-label');
       const path = () => page.$eval('#figure-beliefs svg', (svg) => svg.innerHTML);
-      assert.match(await label(), /before teaching/);
+      assert.match(await label(), /after period (\d+) of \1/);
       const first = await path();
       await page.focus('#sphere-period');
-      await page.keyboard.press('ArrowRight');
-      assert.match(await label(), /after period 1/);
+      await page.keyboard.press('Home');
+      assert.match(await label(), /before teaching/);
       await page.waitForFunction((before) => document.querySelector('#figure-beliefs svg').innerHTML !== before, first);
       const second = await path();
       await page.focus('#sphere-turn');
@@ -246,7 +296,7 @@ describe('a report', () => {
         'no motion for who asks for less',
       );
       await page.selectOption('#sphere-team', { index: (await page.$$('#sphere-team option')).length - 1 });
-      assert.match(await label(), /before teaching/);
+      assert.match(await label(), /after period (\d+) of \1/);
     });
   });
 });

@@ -6,12 +6,12 @@
 #include "beliefs.hpp"
 #include "estimate_tables.hpp"
 #include "exam_tables.hpp"
+#include "first_screen.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/belief/particle_belief.hpp"
 #include "methods.hpp"
 #include "parameters.hpp"
 #include "people_tables.hpp"
-#include "plain_summary.hpp"
 #include "session_report.hpp"
 #include "session_tables.hpp"
 #include "team_tables.hpp"
@@ -120,7 +120,26 @@ Json labels_of(const RunFiles& run, const ReportDesign& design) {
                      {"key", "Key"},
                      {"value", "Value"},
                      {"meaning", "Meaning"}};
-  return {{"strategies", std::move(strategies)}, {"types", std::move(types)}, {"columns", columns}};
+  std::map<char, std::string> names;
+  for (const auto& type : run.types()) names[type.letter] = type.label;
+  return {{"strategies", std::move(strategies)},
+          {"types", std::move(types)},
+          {"meanings", meanings(design, names)},
+          {"columns", columns}};
+}
+
+// "300 teams of 3 simulated people were taught what a robot does, in 5 ways."
+std::string summary_of(const RunFiles& run, const RunData& data) {
+  const auto by_size = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
+  const auto& all = run.spec().compositions;
+  const auto [least, most] = std::minmax_element(all.begin(), all.end(), by_size);
+  auto people = std::to_string(least->size());
+  if (least->size() < most->size()) people += " to " + std::to_string(most->size());
+  const auto teams = data.teams.size(), ways = run.spec().strategies.size();
+  return std::to_string(teams) + (teams == 1 ? " team of " : " teams of ") + people + " simulated " +
+         (most->size() == 1 ? "person" : "people") + (teams == 1 ? " was" : " were") +
+         " taught how a robot decides by watching what it does, in " + std::to_string(ways) +
+         (ways == 1 ? " way." : " ways.");
 }
 
 Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData& data, const Analysis& analysis) {
@@ -131,7 +150,12 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
       std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.completed; });
   const auto skipped =
       std::count_if(data.teams.begin(), data.teams.end(), [](const auto& team) { return team.skipped; });
-  Json overview{{"teams", data.teams.size()},
+  const FirstScreen screen{.design = design,
+                           .data = data,
+                           .findings = analysis.findings,
+                           .paired = run.spec().pairing == Pairing::kReplicate};
+  Json overview{{"simulated", true},
+                {"teams", data.teams.size()},
                 {"people", design.people},
                 {"completed", completed},
                 {"skipped", skipped},
@@ -140,8 +164,11 @@ Json overview_of(const RunFiles& run, const ReportDesign& design, const RunData&
                 {"strategies", std::move(strategies)},
                 {"compositions", run.spec().compositions},
                 {"factors", std::move(factors)},
-                {"summary", plain_summary(run, design, data, analysis)},
-                {"headlines", headlines(design, data)}};
+                {"finding", headline(screen)},
+                {"summary", Json::array({summary_of(run, data)})},
+                {"answers", answers(screen)},
+                {"limits", limits(screen)}};
+  if (auto figure = differences(screen); !figure.is_null()) overview["differences"] = std::move(figure);
   if (data.leads_with_exam) overview["leads"] = "exam";
   return overview;
 }

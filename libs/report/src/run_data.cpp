@@ -81,6 +81,10 @@ class DataReader {
       team.completed = row.boolean(0);
       team.skipped = row.text(6) == name_of(SessionStatus::kSkipped);
       team.periods = static_cast<double>(row.count(1, 0, most));
+      team.replicate = row.address().replicate;
+      team.person_periods =
+          team.periods *
+          (row.address().strategy == kBaseline ? 1.0 : static_cast<double>(row.address().composition.size()));
       team.knowledge = fraction(row, 2);
       team.area_sr = row.real(3);
       team.items = static_cast<double>(row.count(4, 0, kMax) + row.count(5, 0, kMax));

@@ -17,7 +17,9 @@ namespace kith::detail {
 struct TeamValues {
   bool completed = false;
   bool skipped = false;  // ended with components left out; never in tables of earlier versions
+  std::size_t replicate = 1;
   double periods = 0.0;
+  double person_periods = 0.0;  // summed over the members that were present
   double knowledge = 0.0;
   double area_sr = 0.0;
   // What it took, and the exam at the end; 0 where the tables do not have it.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "first_screen.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/stats/effect_size.hpp"
 #include "session_tables.hpp"
@@ -55,7 +56,9 @@ RunData data_of(const SessionTables& tables) {
   RunData data;
   for (const auto& group : tables.groups) {
     data.teams.push_back({.completed = group.completed,
+                          .replicate = group.replicate,
                           .periods = static_cast<double>(group.periods),
+                          .person_periods = static_cast<double>(group.periods * group.people),
                           .knowledge = group.knowledge.value_or(std::numeric_limits<double>::quiet_NaN()),
                           .area_sr = 0.0});
   }
@@ -211,12 +214,14 @@ Json groups_table(const SessionTables& tables, std::size_t points) {
 
 Json labels_of(const SessionTables& tables, const ReportDesign& design) {
   Json strategies = Json::object(), types = Json::object();
+  std::map<char, std::string> names;
   for (const auto& series : design.series) strategies[series.code] = series.label;
   if (const auto found = tables.about.find("types"); found != tables.about.end() && found->is_array()) {
     for (const auto& type : *found) {
       const auto letter = type.value("letter", "");
       const auto label = type.value("label", "");
       types[letter] = label.empty() ? letter : label;
+      if (!letter.empty()) names[letter.front()] = label;
     }
   }
   const Json columns{{"type", "Type of the place"},
@@ -246,8 +251,11 @@ Json labels_of(const SessionTables& tables, const ReportDesign& design) {
         {"reading",
          "Share of people's answers that were right, with 95 % bands; later periods include only the groups that "
          "needed longest."}}}};
-  return {
-      {"strategies", std::move(strategies)}, {"types", std::move(types)}, {"columns", columns}, {"figures", figures}};
+  return {{"strategies", std::move(strategies)},
+          {"types", std::move(types)},
+          {"meanings", meanings(design, names)},
+          {"columns", columns},
+          {"figures", figures}};
 }
 
 struct AnswerCounts {
@@ -273,15 +281,12 @@ std::size_t num_completed(const SessionTables& tables) {
                                                 [](const LiveGroup& group) { return group.completed; }));
 }
 
-Json summary_of(const SessionTables& tables, const ReportDesign& design) {
+Json summary_of(const SessionTables& tables, std::size_t people) {
   Json sentences = Json::array();
   const auto groups = tables.groups.size();
-  sentences.push_back(how_many(groups, "group", "groups") + " with " + how_many(design.people, "person", "people") +
+  sentences.push_back(how_many(groups, "group", "groups") + " with " + how_many(people, "person", "people") +
                       " in all " + (groups == 1 ? "was" : "were") + " taught how a robot decides, in live sessions.");
   if (groups == 0) return sentences;
-  const auto completed = num_completed(tables);
-  sentences.push_back(completed == groups ? "Everybody learned everything."
-                                          : std::to_string(completed) + " of them learned everything.");
   const auto counts = count_answers(tables);
   if (counts.answers > 0) {
     sentences.push_back(percent_of(counts.right, counts.answers) + " of " +
@@ -291,8 +296,7 @@ Json summary_of(const SessionTables& tables, const ReportDesign& design) {
 }
 
 std::vector<std::string> notes_of(const SessionTables& tables, const PeopleTables& people) {
-  std::vector<std::string> notes{
-      "Knowledge is what the teacher estimated from people's answers. What people believed is not known."};
+  std::vector<std::string> notes;
   if (tables.num_waiting > 0) {
     notes.push_back(how_many(tables.num_waiting, "room was", "rooms were") + " never taught and " +
                     (tables.num_waiting == 1 ? "is" : "are") + " left out.");
@@ -328,11 +332,11 @@ std::size_t num_levels(const SessionTables& tables, std::string LiveGroup::*fact
 
 // Periods and estimated knowledge by what distinguishes the groups. A design in which nothing can be compared has no
 // findings, and that is no error.
-Json findings_of(const SessionTables& tables, std::vector<std::string>& notes) {
+std::vector<Finding> findings_of(const SessionTables& tables, std::vector<std::string>& notes) {
   std::string factors;
   if (num_levels(tables, &LiveGroup::strategy) > 1) factors = "strategy";
   if (num_levels(tables, &LiveGroup::composition) > 1) factors += factors.empty() ? "composition" : "*composition";
-  Json findings = Json::array();
+  std::vector<Finding> findings;
   if (factors.empty()) {
     notes.emplace_back("Nothing was tested: all groups were taught alike.");
     return findings;
@@ -347,8 +351,8 @@ Json findings_of(const SessionTables& tables, std::vector<std::string>& notes) {
         question.observed = "completed";
         question.response_kind = ColumnKind::kCount;
       }
-      const auto analysis = analyze_table(taught, question, {});
-      for (auto& finding : Json::parse(findings_json(analysis))) findings.push_back(std::move(finding));
+      auto analysis = analyze_table(taught, question, {});
+      std::move(analysis.findings.begin(), analysis.findings.end(), std::back_inserter(findings));
     } catch (const Error& error) {
       notes.push_back("'" + response + " ~ " + factors + "' was not tested: " +
                       (error.diagnostics().empty() ? std::string{error.what()} : error.diagnostics().front().message) +
@@ -387,16 +391,6 @@ Json reproduction_of(const SessionTables& tables) {
   return about_run;
 }
 
-Json headlines_of(const ReportDesign& design, const RunData& data) {
-  if (data.teams.empty()) return Json::array();
-  auto list = headlines(design, data);
-  for (auto& headline : list) {
-    auto label = headline["label"].get<std::string>();
-    if (label.rfind("Knowledge", 0) == 0) headline["label"] = "Estimated k" + label.substr(1);
-  }
-  return list;
-}
-
 }  // namespace
 
 Json session_report(const std::filesystem::path& folder, const ReportOptions& options) {
@@ -410,7 +404,8 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
   const PeopleTables people{tables, design};
   auto notes = notes_of(tables, people);
   step("analysing");
-  auto findings = findings_of(tables, notes);
+  const auto findings = findings_of(tables, notes);
+  const FirstScreen screen{.design = design, .data = data, .findings = findings, .simulated = false};
   Json strategies = Json::array();
   for (const auto& series : design.series) strategies.push_back(series.code);
   std::vector<std::string> compositions;
@@ -425,23 +420,29 @@ Json session_report(const std::filesystem::path& folder, const ReportOptions& op
              {"correct_by_period", people.right_answers()},
              {"periods_by_component", component_periods(tables, design)}};
   const auto title = about(tables, "title");
+  Json overview{{"simulated", false},
+                {"teams", tables.groups.size()},
+                {"people", design.people},
+                {"completed", num_completed(tables)},
+                {"strategies", std::move(strategies)},
+                {"compositions", compositions},
+                {"factors", Json::array()},
+                {"summary", summary_of(tables, design.people)}};
+  if (!tables.groups.empty()) {
+    overview["finding"] = headline(screen);
+    overview["answers"] = answers(screen);
+    overview["limits"] = limits(screen);
+    if (auto figure = differences(screen); !figure.is_null()) overview["differences"] = std::move(figure);
+  }
   return {{"schema", "kith.report/1"},
           {"title", title.empty() ? about(tables, "study") : title},
           {"study", about(tables, "study")},
           {"domain", about(tables, "domain")},
           {"labels", labels_of(tables, design)},
-          {"overview",
-           {{"teams", tables.groups.size()},
-            {"people", design.people},
-            {"completed", num_completed(tables)},
-            {"strategies", std::move(strategies)},
-            {"compositions", compositions},
-            {"factors", Json::array()},
-            {"summary", summary_of(tables, design)},
-            {"headlines", headlines_of(design, data)}}},
+          {"overview", std::move(overview)},
           {"notes", notes},
           {"tables", std::move(shown)},
-          {"findings", std::move(findings)},
+          {"findings", Json::parse(findings_json({.subject = {}, .notes = {}, .findings = findings}))},
           {"methods", methods_of(tables, design)},
           {"reproduce", reproduction_of(tables)}};
 }

@@ -49,45 +49,11 @@ Json cell_keys(const ReportDesign& design, std::size_t cell) {
   return Json::array({design.series[design.cells[cell].series].code, design.cells[cell].composition});
 }
 
-Json headline(const std::string& label, const Values& values) {
-  const auto [mean, sd] = spread_of(values);
-  const auto interval = mean_interval(values);
-  return {{"label", label},
-          {"value", number(mean)},
-          {"sd", number(sd)},
-          {"low", interval ? number(interval->low) : Json(nullptr)},
-          {"high", interval ? number(interval->high) : Json(nullptr)},
-          {"n", values.size()}};
-}
-
 }  // namespace
 
 void add_interval(Json& row, std::span<const double> values) {
   row.push_back(number(spread_of(values).mean));
   add_ends(row, values);
-}
-
-Json headlines(const ReportDesign& design, const RunData& data) {
-  Json result = Json::array();
-  const auto add = [&](const std::string& label, Quantity quantity, bool baseline) {
-    Values values;
-    for (std::size_t i = 0; i < data.teams.size(); ++i) {
-      const auto& series = design.series[design.cells[design.cell_of_team[i]].series];
-      if ((series.strategy == kBaseline) == baseline) values.push_back(data.teams[i].*quantity);
-    }
-    if (!values.empty()) result.push_back(headline(label + (baseline ? ", baseline" : ", group strategies"), values));
-  };
-  for (const bool baseline : {false, true}) add("Periods", &TeamValues::periods, baseline);
-  if (data.leads_with_exam) {
-    for (const bool baseline : {false, true}) add("Regret in the exam", &TeamValues::exam_regret, baseline);
-    for (const bool baseline : {false, true}) add("Share right in the exam", &TeamValues::exam_share_right, baseline);
-    return result;
-  }
-  for (const bool baseline : {false, true}) add("Knowledge", &TeamValues::knowledge, baseline);
-  if (data.has_exam) {
-    for (const bool baseline : {false, true}) add("Regret in the exam", &TeamValues::exam_regret, baseline);
-  }
-  return result;
 }
 
 Json cells_table(const ReportDesign& design, const RunData& data) {

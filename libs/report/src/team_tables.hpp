@@ -6,8 +6,6 @@ namespace kith::detail {
 
 // Mean, low and high (95 %), appended to a row; null where there is no answer.
 void add_interval(Json& row, std::span<const double> values);
-// The means of the headline figures: periods and knowledge of all group strategies and of the baseline.
-[[nodiscard]] Json headlines(const ReportDesign& design, const RunData& data);
 
 // Tables of the document that have one value per team and quantity.
 [[nodiscard]] Json cells_table(const ReportDesign& design, const RunData& data);

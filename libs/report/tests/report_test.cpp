@@ -110,24 +110,47 @@ TEST_F(InventedReport, CountsRightAnswers) {
   EXPECT_NEAR(row.at(5).get<double>(), 0.954413, 1e-6);
 }
 
-TEST_F(InventedReport, BeginsWithPlainSentences) {
-  const auto& summary = document_->at("overview").at("summary");
-  ASSERT_EQ(summary.size(), 2u);  // one group strategy and one composition: no differences to speak of
-  EXPECT_EQ(summary.at(0),
-            "The study simulated 4 teams of 2 people who learned how a robot decides by watching what it does, and "
-            "compared 2 ways of teaching them.");
-  EXPECT_EQ(summary.at(1),
-            "Teams taught together needed 5.0 teaching periods on average, teams whose members were taught one after "
-            "the other 4.0; their knowledge at the end was 0.60 and 0.30 (0: nothing, 1: everything).");
+// Teams needed 4 and 6 periods together, their members 3 and 5 alone: paired, the difference is 1 without any spread.
+TEST_F(InventedReport, BeginsWithWhatWasFoundAndHowLargeItIs) {
+  const auto& overview = document_->at("overview");
+  EXPECT_EQ(overview.at("summary").at(0),
+            "4 teams of 2 simulated people were taught how a robot decides by watching what it does, in 2 ways.");
+  EXPECT_THAT(overview.at("finding").get<std::string>(), ::testing::StartsWith("Teaching a team together takes "));
+  const auto& answers = overview.at("answers");
+  ASSERT_EQ(answers.size(), 3u);  // one group strategy and one composition: only the baseline to compare with
+  EXPECT_EQ(answers.at(0).at("outcome"), "periods");
+  EXPECT_EQ(answers.at(0).at("means"), "5.0 and 4.0");
+  EXPECT_EQ(answers.at(1).at("outcome"), "person-periods");
+  EXPECT_EQ(answers.at(1).at("means"), "10.0 and 4.0");
+  EXPECT_EQ(answers.at(2).at("means"), "0.60 and 0.30");
 }
 
-TEST_F(InventedReport, HasHeadlinesOfGroupsAndBaseline) {
-  const auto& headlines = document_->at("overview").at("headlines");
-  ASSERT_EQ(headlines.size(), 4u);
-  EXPECT_EQ(headlines.at(0).at("label"), "Periods, group strategies");
-  EXPECT_NEAR(headlines.at(0).at("value").get<double>(), 5.0, kTiny);
-  EXPECT_NEAR(headlines.at(1).at("value").get<double>(), 4.0, kTiny);
-  EXPECT_NEAR(headlines.at(3).at("value").get<double>(), 0.3, kTiny);
+TEST_F(InventedReport, SaysWhatTheStudyCannotSay) {
+  const auto limits = document_->at("overview").at("limits").dump();
+  EXPECT_THAT(limits, HasSubstr("The learners are simulated."));
+  EXPECT_THAT(limits, HasSubstr("3 of 4 teams passed"));
+  EXPECT_THAT(limits, HasSubstr("0.60 together and 0.30 one after the other on average"));
+  EXPECT_THAT(limits, HasSubstr("together, 5.0 periods are 10.0 person-periods; one after the other, 4.0 periods are "
+                                "4.0 person-periods"));
+}
+
+TEST_F(InventedReport, ComparesStrategiesWithTheBaseline) {
+  const auto& differences = document_->at("overview").at("differences");
+  ASSERT_EQ(differences.at("groups").size(), 1u);  // one composition
+  const auto& group = differences.at("groups").at(0);
+  EXPECT_EQ(group.at("against"), "baseline");
+  ASSERT_EQ(group.at("rows").size(), 1u);
+  EXPECT_EQ(group.at("rows").at(0).at("code"), "common");
+  const auto& periods = group.at("rows").at(0).at("differences").at(0);
+  EXPECT_NEAR(periods.at("estimate").get<double>(), 1.0, kTiny);
+  EXPECT_EQ(periods.at("n"), 2);
+}
+
+TEST_F(InventedReport, SpellsOutItsCodes) {
+  const auto& meanings = document_->at("labels").at("meanings");
+  EXPECT_EQ(meanings.at("strategies").at("common"), "teach for what all members know");
+  EXPECT_EQ(meanings.at("strategies").at("baseline"), "teach the members one after the other, each alone");
+  EXPECT_EQ(meanings.at("compositions").at("NP"), "1 novice, 1 proficient");
 }
 
 TEST_F(InventedReport, LeavesOutSpheresThatDoNotFitTheTables) {
@@ -288,11 +311,8 @@ TEST(Report, LeadsWithTheExamBeyondThreeFeatures) {
                                    "record.level=\"team\"", "stop.max_periods=1"});
   const auto overview = Json::parse(build_report(scratch / "run")).at("overview");
   EXPECT_EQ(overview.at("leads"), "exam");
-  std::vector<std::string> labels;
-  for (const auto& headline : overview.at("headlines")) labels.push_back(headline.at("label"));
-  EXPECT_EQ(labels, (std::vector<std::string>{"Periods, group strategies", "Regret in the exam, group strategies",
-                                              "Share right in the exam, group strategies"}));
-  EXPECT_THAT(overview.at("summary").dump(), HasSubstr("the share of starts from which they predicted the robot"));
+  EXPECT_THAT(overview.at("answers").at(1).at("outcome"), "share right in the exam");
+  EXPECT_THAT(overview.at("limits").dump(), HasSubstr("the share of starts from which members predict the robot"));
   run_tiny_study(scratch / "three", {"replicates=1", "record.level=\"team\"", "record.exam=\"end\""});
   EXPECT_FALSE(Json::parse(build_report(scratch / "three")).at("overview").contains("leads"));
 }
@@ -315,19 +335,27 @@ TEST(Report, SaysWhetherStrategiesAndCompositionsMadeADifference) {
   run_tiny_study(scratch / "run",
                  {"design.strategies=[\"common\", \"joint\"]", "design.compositions=[\"NN\", \"PP\"]"});
   const auto document = Json::parse(build_report(scratch / "run"));
-  const auto& summary = document.at("overview").at("summary");
-  ASSERT_EQ(summary.size(), 3u);
-  const auto text = summary.at(2).get<std::string>();
-  EXPECT_THAT(text, ::testing::StartsWith("Which of the 2 strategies for teaching a team together was used "));
-  EXPECT_THAT(text, HasSubstr("; who was in a team (2 compositions) "));
-  const auto p_of = [&](const std::string& id) {
-    for (const auto& finding : document.at("findings")) {
-      if (finding.at("id") == id) return finding.at("tables").at(0).at("rows").at(0).at("p_value").get<double>();
+  // Every question has its p-value, and an effect where it is small, else what any two levels differ by at most.
+  const auto& answers = document.at("overview").at("answers");
+  std::size_t shown = 0;
+  for (const auto& answer : answers) {
+    const bool is_shown = answer.at("p").get<double>() < 0.05;
+    EXPECT_EQ(answer.at("answer") == "no difference found", !is_shown) << answer;
+    EXPECT_EQ(answer.at("bound").is_null(), is_shown) << answer;
+    EXPECT_EQ(answer.at("estimate").is_null(), !is_shown) << answer;
+    if (is_shown) {
+      EXPECT_LE(answer.at("low"), answer.at("estimate"));
+      EXPECT_GE(answer.at("high"), answer.at("estimate"));
+      ++shown;
     }
-    throw std::out_of_range{id};
-  };
-  const bool none = p_of("periods") >= 0.05 && p_of("knowledge") >= 0.05;
-  EXPECT_EQ(text.find("was used made no detectable difference") != std::string::npos, none) << text;
+  }
+  EXPECT_EQ(answers.size(), 4u);  // strategy and composition, periods and knowledge
+  EXPECT_LT(shown, 4u);
+  for (const auto& finding : document.at("findings")) {
+    if (finding.at("id") != "periods") continue;
+    EXPECT_EQ(finding.at("tables").at(0).at("rows").at(0).at("p_value"), answers.at(0).at("p"));
+  }
+  EXPECT_THAT(document.at("overview").at("finding").get<std::string>(), HasSubstr("the 2 strategies"));
 }
 
 TEST(Report, OfOneCellHasNothingToTest) {

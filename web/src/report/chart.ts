@@ -1,10 +1,9 @@
-// Drawing and exporting a specification. Expressions run through the interpreter (`ast`), because
+// Drawing a specification. Expressions run through the interpreter (`ast`), because
 // the page's policy forbids making code from strings.
 import embed, { type Result } from 'vega-embed';
-import { type Spec as VegaSpec, View, parse } from 'vega';
-import { expressionInterpreter } from 'vega-interpreter';
+import type { Spec as VegaSpec, View } from 'vega';
 import { type TopLevelSpec, compile } from 'vega-lite';
-import { color, inLight } from '../shared/theme';
+import { color } from '../shared/theme';
 
 // Specifications are data; the libraries check them.
 export type Json = string | number | boolean | null | undefined | Json[] | { [key: string]: Json };
@@ -60,7 +59,7 @@ const kConfig = {
 const isVega = (spec: Spec): boolean => String(spec.$schema).includes('/vega/');
 
 // Compiles Vega-Lite; `usermeta.legend` of a figure is the one legend of its strategies.
-function toVega(spec: Spec): VegaSpec {
+export function toVega(spec: Spec): VegaSpec {
   if (isVega(spec)) return { ...spec, config: kConfig } as unknown as VegaSpec;
   const { usermeta, ...rest } = spec;
   const vega = compile(rest as unknown as TopLevelSpec, { config: kConfig as never }).spec;
@@ -83,26 +82,4 @@ export async function draw(box: HTMLElement, spec: Spec): Promise<Drawing> {
     defaultStyle: false,
   });
   return { view: result.view, finish: () => result.finalize() };
-}
-
-// A view without a page, light on white, with a margin.
-function lightView(spec: Spec): View {
-  const light = { ...inLight(toVega(spec)), background: '#ffffff', padding: 12 };
-  return new View(parse(light, {}, { ast: true }), { renderer: 'none', expr: expressionInterpreter } as never);
-}
-
-export async function toSvg(spec: Spec): Promise<Blob> {
-  const view = lightView(spec);
-  const text = await view.toSVG();
-  view.finalize();
-  return new Blob([text], { type: 'image/svg+xml' });
-}
-
-export async function toPng(spec: Spec, scale = 2): Promise<Blob> {
-  const view = lightView(spec);
-  const canvas = (await view.toCanvas(scale)) as unknown as HTMLCanvasElement;
-  view.finalize();
-  return new Promise((resolve, reject) => {
-    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the browser made no PNG'))), 'image/png');
-  });
 }

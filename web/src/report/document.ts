@@ -17,13 +17,39 @@ export interface ResultTable {
 }
 export type ResultKind = 'text' | 'count' | 'number' | 'fraction' | 'p';
 
-export interface Headline {
-  label: string;
-  value: number | null;
-  sd?: number | null;
-  low?: number | null;
-  high?: number | null;
-  n?: number | null;
+// A question of the study: the size of an effect with its 95 % interval, or what any two levels differ by at most.
+export interface Answer {
+  question: string;
+  outcome: string;
+  means?: string;
+  compared?: string;
+  estimate: number | null;
+  low: number | null;
+  high: number | null;
+  bound: number | null;
+  ratio?: boolean; // estimate and bound are ratios, not differences
+  digits: number;
+  p: number | null;
+  answer: string;
+  finding?: string; // the id of the test
+}
+
+export interface Difference {
+  estimate: number | null;
+  low: number | null;
+  high: number | null;
+  n: number;
+}
+
+// Strategies, and compositions, against one of them.
+export interface Differences {
+  interval: string;
+  outcomes: { name: string; digits: number }[];
+  groups: {
+    factor: 'strategy' | 'composition';
+    against: string;
+    rows: { code: string; differences: Difference[] }[]; // one difference per outcome
+  }[];
 }
 
 export interface Finding {
@@ -73,10 +99,12 @@ export interface Report {
   labels?: {
     strategies?: Record<string, string>;
     types?: Record<string, string>;
+    meanings?: { strategies?: Record<string, string>; compositions?: Record<string, string> };
     columns?: Record<string, string>;
     figures?: Record<string, { title?: string; reading?: string }>; // in place of the page's own, by figure
   };
   overview: {
+    simulated?: boolean;
     teams?: number;
     people?: number;
     completed?: number;
@@ -86,9 +114,12 @@ export interface Report {
     strategies: string[];
     compositions: string[];
     factors?: (string | { key: string })[];
-    summary?: string[]; // plain sentences
+    finding?: string; // what was found, in one sentence
+    summary?: string[]; // what was done, in plain sentences
+    answers?: Answer[];
+    differences?: Differences;
+    limits?: string[]; // what the study cannot say
     leads?: 'exam'; // its figures come first: knowledge says little with more than three features
-    headlines?: Headline[];
   };
   notes?: string[];
   tables: Record<string, Table | undefined>;

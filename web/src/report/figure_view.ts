@@ -1,55 +1,53 @@
 // A figure on the page: drawing, caption, save buttons and its data as a table.
-import { type Drawing, draw, toPng, toSvg } from './chart';
+import { type Drawing, type Spec, draw } from './chart';
 import type { Table } from './document';
 import { announce, button, el, lazyDetails } from '../shared/dom';
 import type { Figure } from './figures/figure';
 import { download } from '../shared/download';
+import { type Format, kWidths, paperFile } from './paper';
 import { toCsv } from './save';
 import { tableView } from './table_view';
 import type { Words } from './words';
 
-export const kPaperWidth = 720; // px, of saved figures
 const kSettleMs = 150; // after the last change of width
 
 export interface Saves {
   file: string;
   what: string; // "figure 3", for the buttons' names
-  svg(): Promise<Blob>;
-  png(): Promise<Blob>;
+  spec(width: number): Spec;
   table: Table;
   raw?: Figure['raw'];
 }
 
 export function saveButtons(saves: Saves): HTMLElement {
-  const kinds: { label: string; name: string; file: string; ending: string; make(): Promise<Blob> }[] = [
-    { label: 'SVG', name: `Save ${saves.what} as SVG`, file: saves.file, ending: 'svg', make: saves.svg },
-    { label: 'PNG', name: `Save ${saves.what} as PNG`, file: saves.file, ending: 'png', make: saves.png },
-    {
-      label: 'CSV',
-      name: `Save the data of ${saves.what} as CSV`,
-      file: saves.file,
-      ending: 'csv',
-      make: () => Promise.resolve(toCsv(saves.table)),
-    },
-  ];
-  const raw = saves.raw;
-  if (raw) {
-    kinds.push({
-      label: `CSV of ${raw.what}`,
-      name: `Save the ${raw.what} of ${saves.what} as CSV`,
-      file: `${saves.file}-${raw.what}`,
-      ending: 'csv',
-      make: () => Promise.resolve(toCsv(raw.table)),
-    });
-  }
-  const buttons = kinds.map(({ label, name, file, ending, make }) => {
-    const save = async (): Promise<void> => {
-      download(await make(), `${file}.${ending}`);
-      announce(`Saved ${file}.${ending}`);
-    };
-    return button(label, () => void save(), { 'aria-label': name, title: name, 'data-save': ending });
-  });
-  return el('div', { class: 'actions', role: 'group', 'aria-label': `Save ${saves.what}` }, ...buttons);
+  const { file, what, raw } = saves;
+  const width = el(
+    'select',
+    { 'aria-label': `Width of ${what} in print` },
+    ...kWidths.map((mm, i) => el('option', { value: mm, selected: i === kWidths.length - 1 }, `${mm} mm`)),
+  );
+  const save = async (name: string, make: () => Promise<Blob>): Promise<void> => {
+    download(await make(), name);
+    announce(`Saved ${name}`);
+  };
+  const saving = (label: string, ending: string, title: string, name: string, make: () => Promise<Blob>): HTMLElement =>
+    button(label, () => void save(name, make), { 'aria-label': title, title, 'data-save': ending });
+  const formats: Format[] = ['svg', 'pdf', 'png'];
+  const pictures = formats.map((format) =>
+    saving(format.toUpperCase(), format, `Save ${what} as ${format.toUpperCase()}`, `${file}.${format}`, () =>
+      paperFile((pixels) => saves.spec(pixels), Number(width.value), format),
+    ),
+  );
+  const csv = (label: string, title: string, name: string, table: Table): HTMLElement =>
+    saving(label, 'csv', title, `${name}.csv`, () => Promise.resolve(toCsv(table)));
+  return el(
+    'div',
+    { class: 'actions', role: 'group', 'aria-label': `Save ${what}` },
+    width,
+    ...pictures,
+    csv('CSV', `Save the data of ${what} as CSV`, file, saves.table),
+    raw ? csv(`CSV of ${raw.what}`, `Save the ${raw.what} of ${what} as CSV`, `${file}-${raw.what}`, raw.table) : null,
+  );
 }
 
 // Draws now and again whenever the width has changed for good.
@@ -91,8 +89,7 @@ export function figureView(figure: Figure, number: number, study: string, words:
     saveButtons({
       file: `${study}-${figure.id}`,
       what,
-      svg: () => toSvg(figure.spec(kPaperWidth)),
-      png: () => toPng(figure.spec(kPaperWidth)),
+      spec: (width) => figure.spec(width),
       table: figure.table,
       raw: figure.raw,
     }),

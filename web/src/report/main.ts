@@ -1,13 +1,12 @@
 // Puts the report together from the document inside the page.
-import { readReport } from './document';
+import { type Report, readReport } from './document';
 import { el } from '../shared/dom';
-import { figureSections } from './sections/figures';
+import { FigureNumbers, figureSections } from './sections/figures';
 import { findingsSection } from './sections/findings';
 import { methodsSection } from './sections/methods';
 import { noticesSection } from './sections/notices';
 import { parametersSection } from './sections/parameters';
 import { reproduceSection } from './sections/reproduce';
-import { openForPrinting } from './print';
 import type { Section } from './sections/section';
 import { notesSection, summarySection } from './sections/summary';
 import { Study } from './study';
@@ -25,24 +24,42 @@ function contents(sections: Section[]): HTMLElement {
   );
 }
 
+// What kind of study this is. Its title is the page's, unless something was found.
+function kicker({ title, overview }: Report): string {
+  const kind =
+    overview.simulated === undefined ? 'kith report' : overview.simulated ? 'Simulation, not people' : 'Live sessions';
+  return overview.finding ? `${kind} \u00b7 ${title}` : kind;
+}
+
+// A link to a test opens it.
+function openTarget(): void {
+  const target = document.getElementById(location.hash.slice(1));
+  if (target instanceof HTMLDetailsElement) {
+    target.open = true;
+    target.scrollIntoView();
+  }
+}
+
 function show(page: HTMLElement): void {
   const study = new Study(readReport());
+  const { report } = study;
+  const numbers = new FigureNumbers();
   const sections = [
-    summarySection(study),
+    summarySection(study, numbers),
     notesSection(study),
-    ...figureSections(study),
+    ...figureSections(study, numbers),
     findingsSection(study),
     parametersSection(study),
     methodsSection(study),
-    reproduceSection(study),
+    reproduceSection(study, numbers),
     noticesSection(),
   ].filter((section): section is Section => section !== null);
   page.replaceChildren(
     el(
       'header',
       {},
-      el('div', { class: 'masthead' }, el('p', { class: 'kicker' }, 'kith report'), themeToggle()),
-      el('h1', {}, study.report.title),
+      el('div', { class: 'masthead' }, el('p', { class: 'kicker' }, kicker(report)), themeToggle()),
+      el('h1', {}, report.overview.finding ? `${report.overview.finding}.` : report.title),
     ),
     el(
       'div',
@@ -54,11 +71,12 @@ function show(page: HTMLElement): void {
 }
 
 installTheme();
-openForPrinting();
 const page = document.getElementById('page');
 if (page) {
   try {
     show(page);
+    window.addEventListener('hashchange', openTarget);
+    openTarget();
   } catch (error) {
     page.replaceChildren(
       el('main', { id: 'main' }, el('h1', {}, 'This report cannot be shown'), el('p', {}, String(error))),

@@ -12,8 +12,11 @@ export interface Grid {
   min: number; // least width of a panel, px
   max?: number; // most columns
   gap?: number; // between columns, px
+  first?: number; // panels before these in the same figure
   rowGap?: number; // between rows, px: axis, title of the next panel
 }
+
+const letter = (i: number): string => String.fromCharCode(97 + (i % 26));
 
 export function panels(count: number, width: number, grid: Grid, make: (i: number, place: Place) => Spec): Spec {
   const gap = grid.gap ?? 18;
@@ -23,7 +26,9 @@ export function panels(count: number, width: number, grid: Grid, make: (i: numbe
   const inner = Math.floor((width - grid.left - 16 - gap * (columns - 1)) / columns);
   const concat: Json[] = [];
   for (let i = 0; i < count; ++i) {
-    concat.push(make(i, { firstColumn: i % columns === 0, lastRow: i + columns >= count, width: Math.max(inner, 80) }));
+    const panel = make(i, { firstColumn: i % columns === 0, lastRow: i + columns >= count, width: Math.max(inner, 80) });
+    const isLettered = typeof panel.title === 'string' && count + (grid.first ?? 0) > 1;
+    concat.push(isLettered ? { ...panel, title: `${letter((grid.first ?? 0) + i)}  ${String(panel.title)}` } : panel);
   }
   return {
     $schema: 'https://vega.github.io/schema/vega-lite/v5.json',
@@ -32,6 +37,12 @@ export function panels(count: number, width: number, grid: Grid, make: (i: numbe
     spacing: { row: grid.rowGap ?? 48, column: gap },
     bounds: 'flush',
   };
+}
+
+// Parts with axes of their own, one below the other.
+export function stacked(parts: Spec[]): Spec {
+  const [only] = parts;
+  return parts.length === 1 && only ? only : { $schema: only?.$schema, vconcat: parts, spacing: 28, resolve: { scale: { color: 'independent', shape: 'independent' } } };
 }
 
 // Axes of inner panels keep their grid and lose their words. Labels that reach above the panel stay

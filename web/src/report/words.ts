@@ -17,7 +17,7 @@ export function formatFixed(value: number | null | undefined, digits: number): s
 }
 
 // Probabilities by name of column, so that a tiny one is not shown as 0.
-function formatP(value: number): string {
+export function formatP(value: number): string {
   return value < 0.001 ? '< 0.001' : value.toFixed(3);
 }
 
@@ -54,16 +54,34 @@ export class Words {
   private readonly strategies: Record<string, string>;
   private readonly types: Record<string, string>;
   private readonly columns: Record<string, string>;
+  private readonly meanings: { strategies?: Record<string, string>; compositions?: Record<string, string> };
 
   constructor(report: Report) {
     this.strategies = report.labels?.strategies ?? {};
     this.types = report.labels?.types ?? {};
     this.columns = report.labels?.columns ?? {};
+    this.meanings = report.labels?.meanings ?? {};
   }
 
   strategy(code: Cell | undefined): string {
     const name = String(code ?? '');
     return this.strategies[name] ?? name;
+  }
+
+  // What a strategy does: "for the member who knows least"; empty if the document does not say it.
+  plainStrategy(code: string): string {
+    return (this.meanings.strategies?.[code] ?? '').replace(/^teach (for )/, '$1');
+  }
+
+  // Who is in a team: "2 novice, 1 proficient".
+  plainComposition(code: string): string {
+    return this.meanings.compositions?.[code] ?? '';
+  }
+
+  // What the letters of compositions stand for, for captions: "N: novice, P: proficient."
+  letters(): string {
+    const named = Object.entries(this.types).filter(([letter, name]) => letter !== name);
+    return named.length > 0 ? `${named.map(([letter, name]) => `${letter}: ${name}`).join(', ')}.` : '';
   }
 
   // Capitalised, since it stands alone as a heading of a panel.

@@ -1,22 +1,25 @@
 // The manipulation check: how much do the demonstrations of a strategy convey?
-import type { Row } from '../document';
+import type { Cell, Row } from '../document';
 import { type Study, componentName, rowsOf } from '../study';
 import { dots } from './dots';
 import type { Figure } from './figure';
-import { range } from './gist';
+import { counted, range } from './gist';
 
 function byComponent(study: Study): Figure[] {
   const table = study.table('area');
   if (!table) return [];
-  const rows = rowsOf(table);
-  const title = 'Area of the demonstrations\u2019 constraints by strategy and component';
+  const area = (cell: Cell | undefined): number | null => (typeof cell === 'number' ? Math.exp(cell) : null);
+  const rows = rowsOf(table).map(
+    (row): Row => ({ ...row, area: area(row.mean_log_area), low: area(row.low), high: area(row.high) }),
+  );
+  const title = 'Area that the demonstrations leave, by strategy and component';
   return [
     {
       id: 'area-component',
       title,
       reading:
-        'Points further left convey more: a smaller area means that fewer rewards are possible. Mean of the natural logarithm of the area per period, the first period of a component left out, with 95\u00a0% intervals; components have different scales.',
-      gist: `${title}. Mean log area: ${range(rows, 'mean_log_area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
+        `Points further left convey more: a smaller area means that fewer rewards are possible. Geometric mean of the area per period in steradians on a logarithmic scale, the first period of a component left out, with 95\u00a0% t intervals. ${counted(rows, 'n', 'teams')}`,
+      gist: `${title}. Mean area in steradians: ${range(rows, 'area', (row) => `${study.words.strategy(row.strategy)}, component ${String(row.kc)}`)}`,
       table,
       spec: (width) =>
         dots(
@@ -25,12 +28,12 @@ function byComponent(study: Study): Figure[] {
             panels: study
               .codes(rows, 'kc')
               .map((kc) => ({ title: componentName(kc), means: rows.filter((row) => String(row.kc) === kc) })),
-            mean: 'mean_log_area',
+            mean: 'area',
             low: 'low',
             high: 'high',
-            xTitle: 'Mean log area, ln(sr)',
+            xTitle: 'Area left (sr, log scale)',
             zero: false,
-            ownScales: true,
+            log: true,
             strategyOf: (row) => study.words.strategy(row.strategy),
           },
           width,
@@ -43,14 +46,14 @@ function byComposition(study: Study): Figure[] {
   const table = study.table('area_cells');
   if (!table) return [];
   const rows = rowsOf(table);
-  const title = 'Area of the demonstrations\u2019 constraints by strategy and composition';
+  const title = 'Area that the demonstrations leave, by strategy and composition';
   const name = (row: Row): string => `${study.words.strategy(row.strategy)}, ${String(row.composition)}`;
   return [
     {
       id: 'area-composition',
       title,
       reading:
-        'Points further left convey more: mean area over all periods in steradians, with 95\u00a0% intervals over teams.',
+        `Points further left convey more: mean area over all periods in steradians, with 95\u00a0% t intervals over teams. ${counted(rows, 'n', 'teams in a cell')} ${study.words.letters()}`,
       gist: `${title}. Mean area in steradians: ${range(rows, 'mean_area_sr', name)}`,
       table,
       spec: (width) =>

@@ -1,4 +1,5 @@
-// Curves with bands over periods, one line per strategy, one panel per group.
+// Curves over periods, one line per strategy, one panel per group. The interval of a single line is a band; those of
+// several would lie over each other, so that every line has bars at some of its points, none beside another's.
 import type { Spec } from '../chart';
 import { type Row, num } from '../document';
 import type { Look } from '../palette';
@@ -82,12 +83,19 @@ function layers(
     scale: { domain: labels, range: options.looks.map((look) => look.shape) },
     legend: null,
   };
+  const bars = barsOf(values, labels);
   const layer: Spec[] = [
-    {
-      transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }],
-      mark: { type: 'area', fillOpacity: 0.1, interpolate },
-      encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color },
-    },
+    labels.length === 1
+      ? {
+          transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }],
+          mark: { type: 'area', fillOpacity: 0.14, interpolate },
+          encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color },
+        }
+      : {
+          data: { values: bars },
+          mark: { type: 'rule', strokeWidth: 1.4, opacity: 0.8 },
+          encoding: { x, y: { ...y, field: 'low' }, y2: { field: 'high' }, color },
+        },
     {
       mark: { type: 'line', strokeWidth: 2, interpolate, strokeJoin: 'round' },
       encoding: { x, y: { ...y, field: 'y' }, color, strokeDash: dash },
@@ -103,6 +111,20 @@ function layers(
         },
   ];
   return { data: { values }, width: place.width, height: 190, layer };
+}
+
+interface Point extends Row {
+  strategy: string;
+  x: number | null;
+}
+
+// Of k lines every one has the bar at every k-th of its points, the next line at the next point.
+function barsOf<T extends Point>(values: T[], labels: string[]): T[] {
+  return labels.flatMap((label, i) => {
+    const own = values.filter(({ strategy, low, high }) => strategy === label && low !== null && high !== null);
+    const chosen = own.filter((_, k) => k % labels.length === i);
+    return chosen.length > 0 ? chosen : own.slice(own.length >> 1, (own.length >> 1) + 1);
+  });
 }
 
 export function curves(options: CurvesOptions, width: number): Spec {

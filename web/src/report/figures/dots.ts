@@ -15,7 +15,10 @@ export interface DotsOptions {
   xTitle: string;
   interval?: string; // what low and high are; '95 %' unless said otherwise
   zero: boolean;
+  log?: boolean;
   ownScales?: boolean; // panels that are not compared with each other
+  left?: number; // room for the names, px; '|' breaks a line
+  first?: number; // panels before these in the same figure
   strategyOf(row: Row): string; // its label
 }
 
@@ -39,7 +42,8 @@ function layers(
       title: null,
       ticks: false,
       domain: false,
-      labelLimit: 116,
+      labelLimit: (options.left ?? kLeft) + 12,
+      labelExpr: "split(datum.label, '|')",
       labelPadding: 6,
       labelFontSize: 12,
       labelColor: 'var(--text)',
@@ -47,10 +51,11 @@ function layers(
   };
   const x: Spec = {
     type: 'quantitative',
-    scale: { domain, zero: false, nice: false },
+    scale: { domain, nice: false, ...(options.log ? { type: 'log' } : { zero: false }) },
     axis: {
       title: place.lastRow || options.ownScales ? options.xTitle : null,
-      tickCount: Math.max(3, Math.floor(place.width / 45)),
+      tickCount: Math.max(3, Math.min(8, Math.floor(place.width / 45))),
+      ...(options.log ? { labelOverlap: 'greedy' } : {}),
       domain: false,
       labelFlush: false,
       format: '.3~f',
@@ -79,7 +84,7 @@ function layers(
     const strategy = options.strategyOf(row);
     const i = seen.get(strategy) ?? 0;
     seen.set(strategy, i + 1);
-    return { strategy, value: num(row[options.point ?? '']), spread: spread(i) };
+    return { strategy, value: num(row[options.point ?? '']), spread: spread(i), team: row.team ?? null };
   });
   const tooltip = [
     { field: 'strategy', title: 'Strategy' },
@@ -89,7 +94,7 @@ function layers(
   ];
   const raw: Spec = {
     data: { values: points },
-    mark: { type: 'circle', size: 16, opacity: points.length > 600 ? 0.18 : 0.38 },
+    mark: { type: 'circle', size: 18, opacity: points.length > 600 ? 0.18 : 0.38, cursor: 'pointer' },
     encoding: {
       y,
       x: { ...x, field: 'value' },
@@ -103,6 +108,7 @@ function layers(
     width: place.width,
     height: options.looks.length * 32,
     layer: [
+      ...(!options.log && domain[0] <= 0 && domain[1] >= 0 ? [zeroLine(x)] : []),
       ...(points.length > 0 ? [raw] : []),
       {
         data: { values: known },
@@ -125,19 +131,28 @@ function layers(
   };
 }
 
+const zeroLine = (x: Spec): Spec => ({
+  data: { values: [{ zero: 0 }] },
+  mark: { type: 'rule', stroke: 'var(--text)', strokeWidth: 1, opacity: 0.7 },
+  encoding: { x: { ...x, field: 'zero' } },
+});
+
 function domainOf(options: DotsOptions, list: DotsOptions['panels']): [number, number] {
   const values = list.flatMap((panel) => [
     ...panel.means.flatMap((row) => [num(row[options.mean]), num(row[options.low]), num(row[options.high])]),
     ...(panel.points ?? []).map((row) => num(row[options.point ?? ''])),
   ]);
   const [least, most] = extent(values, options.zero);
+  if (options.log) return [least / 1.04, most * 1.04];
   const margin = 0.03 * (most - least); // so that marks at the ends are whole
-  return [options.zero ? least : least - margin, most + margin];
+  return [options.zero && least === 0 ? 0 : least - margin, most + margin];
 }
+
+const kLeft = 104;
 
 export function dots(options: DotsOptions, width: number): Spec {
   const shared = domainOf(options, options.panels);
-  return panels(options.panels.length, width, { left: 104, min: 124, gap: 26 }, (i, place) => {
+  return panels(options.panels.length, width, { left: options.left ?? kLeft, min: 124, gap: 26, rowGap: options.ownScales ? 70 : 48, first: options.first ?? 0 }, (i, place) => {
     const panel = options.panels[i];
     return panel ? layers(options, panel, place, options.ownScales ? domainOf(options, [panel]) : shared) : {};
   });

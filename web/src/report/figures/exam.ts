@@ -37,7 +37,7 @@ export function examCurveFigures(study: Study): Figure[] {
   return kCurves.map(({ id, y, title, yTitle, reading }) => ({
     id,
     title,
-    reading: `${reading} Means over teams with 95\u00a0% bands; teams that have ended stay as they are. Minutes follow the study\u2019s pace.`,
+    reading: `${reading} Means over teams with 95\u00a0% t intervals at some points; teams that have ended stay as they are. Minutes follow the study\u2019s pace.`,
     gist: `${title}. ${ends(rows, 'period', y, strategyOf)}`,
     table,
     spec: (width) =>

@@ -123,7 +123,7 @@ export function frontFigures(study: Study): Figure[] {
     {
       id: 'efficiency',
       title,
-      reading: `Higher and further left is better. The broken line joins the strategies of the efficiency front: no other strategy leads to ${known.reading} with fewer demonstrations and tests. Means with 95\u00a0% intervals; the data say how often a strategy is on the front in bootstrap samples.`,
+      reading: `Higher and further left is better. The broken line joins the strategies of the efficiency front: no other strategy leads to ${known.reading} with fewer demonstrations and tests. Means with 95\u00a0% t intervals; the data say how often a strategy is on the front in bootstrap samples.`,
       gist: `${title}. On the front: ${fronts.join('; ')}.`,
       table,
       spec: (width) => spec(study, rows, known, width),

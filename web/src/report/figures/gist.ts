@@ -10,6 +10,14 @@ export function range(rows: Row[], column: string, name: (row: Row) => string): 
   return `Lowest: ${say(sorted[0])}. Highest: ${say(sorted[sorted.length - 1])}.`;
 }
 
+// How many there are behind every row, for captions: "n = 15 teams in a cell.", "n = 12 to 15 teams in a cell."
+export function counted(rows: Row[], column: string, what: string): string {
+  const counts = rows.map((row) => num(row[column])).filter((count): count is number => count !== null);
+  if (counts.length === 0) return '';
+  const [least, most] = [Math.min(...counts), Math.max(...counts)];
+  return `n = ${least === most ? String(least) : `${least} to ${most}`} ${what}.`;
+}
+
 // The last value of every series.
 export function ends(rows: Row[], x: string, y: string, series: (row: Row) => string): string {
   const last = new Map<string, Row>();

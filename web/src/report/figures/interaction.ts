@@ -8,7 +8,7 @@ import type { Look } from '../palette';
 import { extent, panels, roundTicks } from '../panels';
 import { type Study, rowsOf } from '../study';
 import type { Figure } from './figure';
-import { range } from './gist';
+import { counted, range } from './gist';
 
 interface Panel {
   title: string;
@@ -84,7 +84,7 @@ function spec(study: Study, list: Panel[], compositions: string[], looks: Look[]
         title: panel.title,
         data: { values },
         width: place.width,
-        height: 200,
+        height: 190,
         layer: [
           {
             transform: [{ filter: 'isValid(datum.low) && isValid(datum.high)' }],
@@ -140,7 +140,7 @@ export function interactionFigures(study: Study): Figure[] {
       id: 'interaction',
       title,
       reading:
-        'Parallel lines mean that a strategy\u2019s advantage does not depend on who is in the team; bars are 95\u00a0% intervals.',
+        `Parallel lines mean that a strategy\u2019s advantage does not depend on who is in the team. Every panel has a scale of its own, which does not begin at 0. Bars are 95\u00a0% t intervals. ${counted(rows, 'teams', 'teams in a cell')} ${study.words.letters()}`,
       gist: `${title}. Mean periods: ${range(rows, 'periods_mean', name)} Mean knowledge: ${range(rows, 'knowledge_mean', name)}`,
       table: cells,
       spec: (width) => spec(study, panelsOf(rows), compositions, study.looks(rows), width),

@@ -3,7 +3,7 @@ import type { Row, Table } from '../document';
 import { type Study, componentName, rowsOf } from '../study';
 import { type CurvesOptions, curves } from './curves';
 import type { Figure } from './figure';
-import { ends } from './gist';
+import { counted, ends } from './gist';
 
 type Words = Pick<Figure, 'id' | 'title' | 'reading'>;
 type Shape = Pick<CurvesOptions, 'x' | 'y' | 'xTitle' | 'yTitle' | 'step'> & Partial<CurvesOptions>;
@@ -36,9 +36,9 @@ export function completionFigures(study: Study): Figure[] {
       table,
       {
         id: 'completion',
-        title: 'Share of teams that have learned everything',
+        title: 'Share of teams that have passed all tests',
         reading:
-          'Curves that are steeper and further left are faster. One minus the Kaplan-Meier estimate with 95\u00a0% bands. For the baseline, periods are summed over members.',
+          `Curves that are steeper and further left are faster. One minus the Kaplan-Meier estimate; bars are 95\u00a0% intervals with Greenwood\u2019s variance, each at some periods only, so that they do not cover each other. For the baseline, periods are summed over members. ${counted(rowsOf(table).filter((row) => row.period === 0), 'at_risk', 'teams in a cell')} ${study.words.letters()}`,
       },
       {
         x: 'period',
@@ -73,7 +73,7 @@ export function knowledgeFigures(study: Study): Figure[] {
         id: 'knowledge-periods',
         title: 'Knowledge over periods by type of learner',
         reading:
-          'Share of a person\u2019s belief in the policy\u2019s region (BEC), means with 95\u00a0% bands. Lines end where too few people are still being taught.',
+          `Only people who are still being taught: from period to period these are fewer, and those who learn more slowly. Share of a person\u2019s belief in the policy\u2019s region (BEC), means with 95\u00a0% t intervals at some periods. Lines end where too few people are left. ${counted(rowsOf(table), 'people', 'people')}`,
       },
       { x: 'period', y: 'mean', xTitle: 'Period', yTitle: 'Knowledge', step: false },
       byType(study),
@@ -92,7 +92,7 @@ export function abilityFigures(study: Study): Figure[] {
         id: 'ability-periods',
         title: 'Learning ability over the periods of a component',
         reading:
-          'Ability while watching, mean with 95\u00a0% bands; it is reset at the start of every component and rises with feedback.',
+          `Only people who are still being taught the component. Ability while watching, means with 95\u00a0% t intervals at some periods; it is reset at the start of every component and rises with feedback. ${counted(rowsOf(table), 'people', 'people')}`,
       },
       { x: 'period_of_kc', y: 'mean', xTitle: 'Period of the component', yTitle: 'Ability', step: false },
       (rows) =>
@@ -120,7 +120,7 @@ export function correctFigures(study: Study): Figure[] {
         id: 'correct-periods',
         title: 'Right answers over periods by type of learner',
         reading:
-          'Share of test answers that were right, with 95\u00a0% bands; later periods include only the teams that needed longest.',
+          `Only teams that are still being taught: later periods include only those that needed longest. Share of test answers that were right, with Wilson\u2019s 95\u00a0% intervals at some periods. ${counted(rowsOf(table), 'answers', 'answers')}`,
       },
       { x: 'period', y: 'share', xTitle: 'Period', yTitle: 'Share of right answers', step: false },
       byType(study),

@@ -83,7 +83,7 @@ function teachingSpec(study: Study, rows: Row[], width: number): Spec {
   }));
 }
 
-function teachingFigures(study: Study): Figure[] {
+export function timeFigures(study: Study): Figure[] {
   const table = study.table('periods_by_component');
   if (!table) return [];
   const rows = rowsOf(table);
@@ -93,7 +93,7 @@ function teachingFigures(study: Study): Figure[] {
       id: 'time-components',
       title,
       reading:
-        'Mean periods spent on each component; the length of a bar is the mean number of periods of a team. Intervals are in the data.',
+        `Mean periods spent on each component; the length of a bar is the mean number of periods of a team. Intervals are in the data. ${study.words.letters()}`,
       gist: `${title}. Mean periods of one component: ${range(rows, 'mean_periods', (row) => `${study.words.strategy(row.strategy)}, ${String(row.composition)}, component ${String(row.kc)}`)}`,
       table,
       spec: (width) => teachingSpec(study, rows, width),
@@ -125,7 +125,7 @@ function computingSpec(rows: Row[], width: number): Spec {
   };
 }
 
-function computingFigures(study: Study): Figure[] {
+export function computingFigures(study: Study): Figure[] {
   const table = study.table('timings');
   if (!table) return [];
   const rows = rowsOf(table);
@@ -142,4 +142,3 @@ function computingFigures(study: Study): Figure[] {
   ];
 }
 
-export const timeFigures = (study: Study): Figure[] => [...teachingFigures(study), ...computingFigures(study)];

@@ -1,6 +1,7 @@
 // The sections that hold figures, in the order of the page; figures are numbered through.
 import { abilityFigures, completionFigures, correctFigures, knowledgeFigures } from '../figures/progress';
 import { areaFigures } from '../figures/area';
+import { differencesFigures } from '../figures/differences';
 import type { Figure } from '../figures/figure';
 import { estimateFigures } from '../figures/estimates';
 import { examCurveFigures } from '../figures/exam';
@@ -18,7 +19,11 @@ const kSections: { id: string; title: string; figures(study: Study): Figure[] }[
   {
     id: 'outcomes',
     title: 'Periods and knowledge',
-    figures: (study) => [...outcomeFigures(study), ...interactionFigures(study)],
+    figures: (study) => [
+      ...differencesFigures(study).slice(1),
+      ...outcomeFigures(study),
+      ...interactionFigures(study),
+    ],
   },
   {
     id: 'exam',
@@ -48,17 +53,24 @@ function inOrder(study: Study): typeof kSections {
   return [...kSections.filter(({ id }) => leads(id)), ...kSections.filter(({ id }) => !leads(id))];
 }
 
-export function figureSections(study: Study): Section[] {
-  let number = 0;
+// Figures are numbered in the order of the page.
+export class FigureNumbers {
+  private last = 0;
+  next(): number {
+    return ++this.last;
+  }
+}
+
+export function figureSections(study: Study, numbers: FigureNumbers): Section[] {
   const sections: Section[] = [];
   for (const { id, title, figures } of inOrder(study)) {
     const views = figures(study)
       .map((figure) => ({ ...figure, ...study.report.labels?.figures?.[figure.id] }))
-      .map((figure) => figureView(figure, ++number, study.report.study, study.words));
+      .map((figure) => figureView(figure, numbers.next(), study.report.study, study.words));
     if (views.length > 0) sections.push({ id, title, content: views });
   }
   const { beliefs } = study.report;
-  const spheres = beliefs ? spheresFigure(beliefs, number + 1, study.report.study, study.words) : null;
+  const spheres = beliefs ? spheresFigure(beliefs, numbers, study.report.study, study.words) : null;
   if (spheres) sections.push({ id: 'beliefs', title: 'Belief spheres', content: [spheres] });
   return sections;
 }

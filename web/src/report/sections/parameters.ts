@@ -1,4 +1,4 @@
-import { el } from '../../shared/dom';
+import { el, lazyDetails } from '../../shared/dom';
 import type { Study } from '../study';
 import { tableView } from '../table_view';
 import type { Table } from '../document';
@@ -23,8 +23,15 @@ export function parametersSection(study: Study): Section | null {
     id: 'parameters',
     title: 'Parameters',
     content: [
-      el('p', {}, 'Every parameter of the study as it was used.'),
-      ...byGroup(table).map(([group, part]) => el('div', { class: 'parameters' }, tableView(part, group, study.words))),
+      lazyDetails('Every parameter of the study as it was used', () =>
+        el(
+          'div',
+          {},
+          ...byGroup(table).map(([group, part]) =>
+            el('div', { class: 'parameters' }, tableView(part, group, study.words)),
+          ),
+        ),
+      ),
     ],
   };
 }

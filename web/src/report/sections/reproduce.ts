@@ -1,16 +1,51 @@
 import { copyButton } from '../copy';
+import { computingFigures } from '../figures/time';
+import { figureView } from '../figure_view';
 import { el } from '../../shared/dom';
 import type { Study } from '../study';
 import { tableView } from '../table_view';
+import { listOf } from '../words';
+import type { FigureNumbers } from './figures';
 import type { Section } from './section';
+
+// What the study is.
+function factsList(study: Study): HTMLElement {
+  const { overview, domain, version, created } = study.report;
+  const count = (value: number | undefined): string => (value === undefined ? '' : String(value));
+  const list: [string, string][] = [
+    ['Domain', domain],
+    ['Strategies', listOf(overview.strategies.map((code) => study.words.strategy(code)))],
+    ['Compositions', listOf(overview.compositions)],
+    [
+      'Teams',
+      overview.completed === undefined
+        ? count(overview.teams)
+        : `${count(overview.teams)}, of which ${overview.completed} passed all tests (mastery rule)` +
+          (overview.skipped ? ` and ${overview.skipped} left components out` : ''),
+    ],
+    ['People', count(overview.people)],
+    ['Replicates per cell', count(overview.replicates)],
+    ['Seed', String(overview.seed ?? '')],
+    [
+      'Made',
+      [created?.replace('T', ' ').replace('Z', ' UTC'), version ? `by kith ${version}` : ''].filter(Boolean).join(' '),
+    ],
+  ];
+  const shown = list.filter(([, value]) => value !== '');
+  return el(
+    'dl',
+    { class: 'facts' },
+    ...shown.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value))),
+  );
+}
 
 const file = (name: string, text: string): HTMLElement =>
   el('details', {}, el('summary', {}, name), el('pre', { tabindex: 0 }, text), copyButton(name, text));
 
-export function reproduceSection(study: Study): Section | null {
+export function reproduceSection(study: Study, numbers: FigureNumbers): Section | null {
   const about = study.report.reproduce;
   if (!about) return null;
-  const content: HTMLElement[] = [];
+  const content: HTMLElement[] = [factsList(study)];
   if (about.command) {
     content.push(
       el('p', {}, 'The same files and command give the same tables, byte for byte:'),
@@ -32,5 +67,7 @@ export function reproduceSection(study: Study): Section | null {
       ),
     );
   }
+  const { study: name } = study.report;
+  content.push(...computingFigures(study).map((figure) => figureView(figure, numbers.next(), name, study.words)));
   return { id: 'reproduce', title: 'How to reproduce', content };
 }

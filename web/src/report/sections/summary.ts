@@ -1,69 +1,100 @@
-import type { Headline } from '../document';
+// The first screen: what was found, how large it is, and what the study cannot say.
+import type { Answer } from '../document';
 import { el } from '../../shared/dom';
+import { differencesFigures } from '../figures/differences';
+import { figureView } from '../figure_view';
 import type { Study } from '../study';
-import { formatFixed, listOf, plural } from '../words';
+import { formatFixed, formatP, listOf } from '../words';
+import type { FigureNumbers } from './figures';
 import type { Section } from './section';
 
-// Shares need a digit more than counts.
-const digitsOf = ({ value }: Headline): number => (value !== null && Math.abs(value) < 2 ? 3 : 2);
+// A bound is rounded away from 0, so that it stays one.
+function roundedUp(value: number, digits: number): string {
+  const scale = 10 ** digits;
+  return formatFixed(Math.ceil(value * scale - 1e-9) / scale, digits);
+}
 
-function card(headline: Headline): HTMLElement {
-  const { label, value, sd, low, high, n } = headline;
-  const digits = digitsOf(headline);
-  const details = [
-    typeof sd === 'number' ? `sd ${formatFixed(sd, digits)}` : '',
-    typeof low === 'number' && typeof high === 'number'
-      ? `95\u00a0% interval ${formatFixed(low, digits)} to ${formatFixed(high, digits)}`
-      : '',
-    typeof n === 'number' ? plural(n, 'team') : '',
-  ].filter(Boolean);
+function effect({ estimate, low, high, bound, ratio, digits }: Answer): string {
+  const size = ratio ? 2 : digits;
+  if (bound !== null) {
+    return ratio
+      ? `any two differ by less than a factor of ${roundedUp(bound, 2)}`
+      : `any two differ by less than ${roundedUp(bound, digits)}`;
+  }
+  if (estimate === null) return '\u2013';
+  const value = `${ratio ? '\u00d7\u00a0' : ''}${formatFixed(estimate, size)}`;
+  return low === null || high === null ? value : `${value} [${formatFixed(low, size)}, ${formatFixed(high, size)}]`;
+}
+
+function answersTable(answers: Answer[]): HTMLElement {
+  const isTested = answers.some(({ p }) => p !== null);
+  const heads = isTested
+    ? ['Question', 'Means', 'Difference [95\u00a0% interval]', 'p', 'Answer']
+    : ['Outcome', 'Mean [95\u00a0% interval]'];
+  const row = (answer: Answer): HTMLElement => {
+    const { outcome, finding, p } = answer;
+    const name = finding ? el('a', { href: `#finding-${finding}` }, outcome) : outcome;
+    const compared = answer.compared ? ` ${answer.compared.replaceAll(' - ', ' \u2212 ')}` : '';
+    const size = el('td', {}, effect(answer), compared ? el('small', {}, compared) : null);
+    return el(
+      'tr',
+      { class: p !== null && p < 0.05 ? 'shown' : undefined },
+      el('th', { scope: 'row' }, name),
+      ...(isTested
+        ? [
+            el('td', {}, answer.means ?? ''),
+            size,
+            el('td', {}, p === null ? '\u2013' : formatP(p)),
+            el('td', {}, answer.answer),
+          ]
+        : [size]),
+    );
+  };
+  const questions = [...new Set(answers.map(({ question }) => question))];
+  const groups = questions.map((question) =>
+    el(
+      'tbody',
+      {},
+      el('tr', { class: 'group' }, el('th', { scope: 'rowgroup', colspan: heads.length }, question)),
+      ...answers.filter((one) => one.question === question).map(row),
+    ),
+  );
+  const caption = 'Answers';
   return el(
     'div',
-    { class: 'card' },
-    el('dt', {}, label),
-    el('dd', { class: 'value' }, formatFixed(value, digits)),
-    ...details.map((text) => el('dd', {}, text)),
+    { class: 'scroll answers', tabindex: 0, role: 'region', 'aria-label': `Table: ${caption}` },
+    el(
+      'table',
+      {},
+      el('caption', { class: 'visually-hidden' }, caption),
+      el('thead', {}, el('tr', {}, ...heads.map((head) => el('th', { scope: 'col' }, head)))),
+      ...groups,
+    ),
   );
 }
 
-function facts(study: Study): [string, string][] {
-  const { overview, domain, version, created } = study.report;
-  const count = (value: number | undefined): string => (value === undefined ? '' : String(value));
-  const list: [string, string][] = [
-    ['Domain', domain],
-    ['Strategies', listOf(overview.strategies.map((code) => study.words.strategy(code)))],
-    ['Compositions', listOf(overview.compositions)],
-    [
-      'Teams',
-      overview.completed === undefined
-        ? count(overview.teams)
-        : `${count(overview.teams)}, of which ${overview.completed} learned everything` +
-          (overview.skipped ? ` and ${overview.skipped} left components out` : ''),
-    ],
-    ['People', count(overview.people)],
-    ['Replicates per cell', count(overview.replicates)],
-    ['Seed', String(overview.seed ?? '')],
-    [
-      'Made',
-      [created?.replace('T', ' ').replace('Z', ' UTC'), version ? `by kith ${version}` : ''].filter(Boolean).join(' '),
-    ],
-  ];
-  return list.filter(([, value]) => value !== '');
+function limitsBox(limits: string[]): HTMLElement {
+  return el(
+    'div',
+    { class: 'limits' },
+    el('h3', {}, 'What this study cannot say'),
+    el('ul', {}, ...limits.map((text) => el('li', {}, text))),
+  );
 }
 
-export function summarySection(study: Study): Section {
-  const headlines = study.report.overview.headlines ?? [];
+export function summarySection(study: Study, numbers: FigureNumbers): Section {
+  const { overview, study: name } = study.report;
+  const { answers = [], limits = [] } = overview;
   return {
     id: 'summary',
     title: 'Summary',
     content: [
-      ...(study.report.overview.summary ?? []).map((sentence) => el('p', { class: 'lead' }, sentence)),
-      ...(headlines.length > 0 ? [el('dl', { class: 'cards' }, ...headlines.map(card))] : []),
-      el(
-        'dl',
-        { class: 'facts' },
-        ...facts(study).map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value))),
-      ),
+      ...(overview.summary ?? []).map((sentence) => el('p', { class: 'lead' }, sentence)),
+      ...differencesFigures(study)
+        .slice(0, 1)
+        .map((figure) => figureView(figure, numbers.next(), name, study.words)),
+      ...(answers.length > 0 ? [answersTable(answers)] : []),
+      ...(limits.length > 0 ? [limitsBox(limits)] : []),
     ],
   };
 }

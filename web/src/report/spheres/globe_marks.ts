@@ -22,7 +22,7 @@ export function globeMarks(): Spec[] {
         dy: { value: -6 },
         text: { field: 'label' },
         align: { value: 'center' },
-        fontSize: { value: 9 },
+        fontSize: { value: 11 },
         opacity: { signal: 'datum.front > 0.05 ? 1 : 0' },
         ...extra,
       },

@@ -27,7 +27,7 @@ export class GlobeView {
   private drawing: Drawing | null = null;
   private width = 0;
   private queue: Promise<void> = Promise.resolve();
-  frame = 0;
+  frame: number; // the last one, until somebody chooses another
   turn: Turn;
 
   constructor(
@@ -36,6 +36,7 @@ export class GlobeView {
     public team: BeliefTeam,
   ) {
     this.particles = new Particles(team);
+    this.frame = team.mass.length - 1;
     this.turn = turnFor(beliefs, 1);
   }
 
@@ -61,7 +62,7 @@ export class GlobeView {
   show(team: BeliefTeam): void {
     this.team = team;
     this.particles = new Particles(team);
-    this.frame = 0;
+    this.frame = team.mass.length - 1;
     this.redraw(this.width);
   }
 
@@ -76,7 +77,7 @@ export class GlobeView {
             .remove(everything)
             .insert(particleRows(this.particles, this.team, this.frame)),
         )
-        .change('beliefs', changeset().remove(everything).insert(beliefRows(this.team, this.frame)))
+        .change('beliefs', changeset().remove(everything).insert(beliefRows(this.beliefs, this.team, this.particles, this.frame)))
         .runAsync();
     });
   }

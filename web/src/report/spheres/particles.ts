@@ -1,6 +1,6 @@
 // Unpacks the particles of a team: int16, little endian, in the order frame, belief, particle, xyz.
 import type { BeliefTeam } from '../document';
-import { type LonLat, toLonLat } from '../../shared/sphere';
+import type { Vector } from '../../shared/sphere';
 
 export class Particles {
   private readonly bytes: DataView;
@@ -19,12 +19,12 @@ export class Particles {
     if (this.frames < team.mass.length) throw new Error('the document has fewer particles than it says');
   }
 
-  at(frame: number, belief: number): LonLat[] {
+  at(frame: number, belief: number): Vector[] {
     const first = (frame * this.beliefs + belief) * this.count * 6;
     const read = (place: number): number => this.bytes.getInt16(place, true) / 32767;
     return Array.from({ length: this.count }, (_, i) => {
       const place = first + 6 * i;
-      return toLonLat([read(place), read(place + 2), read(place + 4)]);
+      return [read(place), read(place + 2), read(place + 4)];
     });
   }
 }

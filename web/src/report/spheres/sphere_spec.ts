@@ -10,6 +10,7 @@ import { closedLine, polygon } from './geometry';
 import { globeMarks } from './globe_marks';
 import type { Particles } from './particles';
 import { kRegionDashes, keys, placedKeys } from './sphere_legend';
+import { thinks, typicalOutside } from './thinks';
 
 export interface Turn {
   lambda: number;
@@ -19,7 +20,7 @@ export interface Turn {
 
 const kKinds = ['own', 'teacher', 'common', 'joint'];
 const kTop = 22; // name above a globe, px
-const kBottom = 26; // mass below it, px
+const kBottom = 54; // what is said below it, px
 
 export interface Layout {
   columns: number;
@@ -38,16 +39,22 @@ export function layoutOf(count: number, width: number): Layout {
 
 export function particleRows(particles: Particles, team: BeliefTeam, frame: number): Json[] {
   return team.beliefs.flatMap(({ kind }, belief) =>
-    particles.at(frame, belief).map((coordinates) => ({ type: 'Point', coordinates, belief, kind })),
+    particles.at(frame, belief).map((vector) => ({ type: 'Point', coordinates: toLonLat(vector), belief, kind })),
   );
 }
 
-export function beliefRows(team: BeliefTeam, frame: number): Json[] {
-  return team.beliefs.map(({ name }, belief) => ({
-    belief,
-    name,
-    mass: `p = ${formatFixed(team.mass[frame]?.[belief], 2)}`,
-  }));
+// What is written about a globe. One particle that is outside the policy's region is put into words.
+export function beliefRows(beliefs: Beliefs, team: BeliefTeam, particles: Particles, frame: number): Json[] {
+  return team.beliefs.map(({ name }, belief) => {
+    const typical = typicalOutside(particles.at(frame, belief), beliefs.regions[0]?.outline ?? []);
+    return {
+      belief,
+      name,
+      mass: `knowledge ${formatFixed(team.mass[frame]?.[belief], 2)}`,
+      thinks: typical ? thinks(typical, beliefs.truth, beliefs.features) : null,
+      ...(typical ? inRadians(typical) : { lon: 0, lat: 0 }),
+    };
+  });
 }
 
 function inRadians(v: Vector): { lon: number; lat: number } {
@@ -144,7 +151,7 @@ export function sphereSpec(
       },
       { name: 'truth', values: [inRadians(beliefs.truth)], transform: onGlobe(radius) },
       { name: 'particles', values: particleRows(particles, team, frame) },
-      { name: 'beliefs', values: beliefRows(team, frame) },
+      { name: 'beliefs', values: beliefRows(beliefs, team, particles, frame), transform: onGlobe(radius) },
       {
         name: 'axes',
         values: axisRows(beliefs.features),
@@ -153,7 +160,7 @@ export function sphereSpec(
       { name: 'keys', values: legend.rows },
     ],
     marks: [
-      caption('name', 12, { fontSize: { value: 11.5 }, fontWeight: { value: 600 }, fill: { value: color('text') } }),
+      caption('name', 12, { fontSize: { value: 12 }, fontWeight: { value: 600 }, fill: { value: color('text') } }),
       {
         type: 'group',
         from: { facet: { name: 'cloud', data: 'particles', groupby: ['belief'] } },
@@ -171,6 +178,27 @@ export function sphereSpec(
         marks: globeMarks(),
       },
       caption('mass', kTop + 2 * radius + 17, { fontSize: { value: 12 }, fill: { value: color('text') } }),
+      {
+        type: 'symbol',
+        from: { data: 'beliefs' },
+        encode: {
+          update: {
+            x: { signal: `${x} + datum.px` },
+            y: { signal: `${y} + ${kTop} + datum.py` },
+            shape: { value: 'circle' },
+            size: { value: 110 },
+            fill: { value: 'transparent' },
+            stroke: { value: color('text') },
+            strokeWidth: { value: 1.6 },
+            opacity: { signal: `datum.thinks && datum.front > 0 && pow(datum.px - ${radius}, 2) + pow(datum.py - ${radius}, 2) < ${radius * radius} ? 1 : 0` },
+          },
+        },
+      },
+      caption('thinks', kTop + 2 * radius + 32, {
+        fontSize: { value: 11 },
+        lineHeight: { value: 13 },
+        fill: { value: color('muted') },
+      }),
       {
         type: 'symbol',
         from: { data: 'keys' },

@@ -1,10 +1,10 @@
 // The section's figure: what the members and the team believed, period by period.
-import { toPng, toSvg } from '../chart';
 import type { Beliefs, BeliefTeam, Cell, Table } from '../document';
 import { el, lazyDetails } from '../../shared/dom';
-import { kPaperWidth, saveButtons } from '../figure_view';
+import { saveButtons } from '../figure_view';
 import { tableView } from '../table_view';
 import { formatFixed, type Words } from '../words';
+import type { FigureNumbers } from '../sections/figures';
 import { select, slider } from './controls';
 import { GlobeView } from './globe_view';
 import { playButton } from './play';
@@ -34,9 +34,10 @@ function gist(team: BeliefTeam, frame: number): string {
   return `Belief spheres of ${team.title}, ${moment(team, frame)}. Share of belief in the policy\u2019s region: ${masses.join(', ')}.`;
 }
 
-export function spheresFigure(beliefs: Beliefs, number: number, study: string, words: Words): HTMLElement | null {
+export function spheresFigure(beliefs: Beliefs, numbers: FigureNumbers, study: string, words: Words): HTMLElement | null {
   const first = beliefs.teams[0];
   if (!first) return null;
+  const number = numbers.next();
   const what = `figure ${number}`;
   const drawing = el('div', { class: 'drawing globes', 'aria-hidden': 'true' });
   const chart = el('div', { class: 'chart', role: 'img' }, drawing);
@@ -52,7 +53,7 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     label: 'Period',
     min: 0,
     max: lastFrame(first),
-    value: 0,
+    value: view.frame,
     say: (frame) => moment(view.team, frame),
     onInput: (frame) => goTo(frame),
   });
@@ -64,8 +65,7 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     const save = saveButtons({
       file: `${study}-beliefs`,
       what,
-      svg: () => toSvg(view.spec(kPaperWidth)),
-      png: () => toPng(view.spec(kPaperWidth)),
+      spec: (width) => view.spec(width),
       table: massTable(view.team),
     });
     data.replaceChildren(
@@ -80,7 +80,7 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
     if (!team) return;
     view.show(team);
     period.input.max = String(lastFrame(team));
-    period.set(0);
+    period.set(view.frame);
     tell();
     makeTables();
   };
@@ -117,7 +117,7 @@ export function spheresFigure(beliefs: Beliefs, number: number, study: string, w
       'figcaption',
       { id: captionId },
       el('strong', {}, `Figure ${number}. Beliefs about the reward, period by period.`),
-      ' Every point of a sphere is a direction of reward weights; dots are particles of equal weight, and p is the share of belief within the region (BEC) whose rewards all give the robot\u2019s policy.',
+      ' Every point of a sphere is a direction of reward weights; dots are particles of equal weight, and knowledge is the share of belief within the region (BEC) whose rewards all give the robot\u2019s policy. Of the particles outside, the ringed one is in the middle; below is what somebody who believes in it would think.',
     ),
     data,
   );
