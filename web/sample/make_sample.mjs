@@ -315,6 +315,47 @@ const report = {
     },
     limits: ['These numbers are synthetic and say nothing.', 'Passing all tests is not knowing everything.'],
   },
+  lessons: {
+    domain: {
+      id: 'item-delivery',
+      features: [
+        { name: 'rubble', weight: -3 },
+        { name: 'step', weight: -1 },
+      ],
+      legend: [
+        { symbol: '#', kind: 'wall', name: 'wall', parts: [{ kind: 'wall', name: 'wall' }] },
+        { symbol: 'r', kind: 'terrain', name: 'rubble', parts: [{ kind: 'terrain', name: 'rubble' }] },
+      ],
+      surfaces: [{ name: 'rubble', tint: 'brown', pattern: 'dots' }],
+      width: 3,
+      height: 2,
+    },
+    features: ['rubble', 'step'],
+    boards: [['right', [2, 1]], ['down', [1, 2]]].map(([action, cell], world) => ({
+      world,
+      map: ['.r.', '..#'],
+      start: { robot: [1, 1] },
+      frames: [
+        { robot: [1, 1], action },
+        { robot: cell, action: null },
+      ],
+      text: action,
+    })),
+    sentences: [
+      { normal: [-1, 2], text: 'crossing rubble costs more than 2 steps' },
+      { normal: [1, -4], text: '4 steps cost more than crossing rubble' },
+    ],
+    teams: teams.map(({ strategy, composition, replicate, team }) => ({
+      team,
+      strategy,
+      composition,
+      replicate,
+      periods: [
+        [1, 1, 0, [0], [0], [[1, '10-']], [20, 30, 40]],
+        [2, 1, 0, [1], [1], [[0, '111']], [50, 60, 70]],
+      ],
+    })),
+  },
   notes: [
     'These numbers are synthetic: they come from formulas, not from a study.',
     'One team of 300 reached the limit of 50 periods and is censored.',

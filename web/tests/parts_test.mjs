@@ -67,7 +67,7 @@ describe('a document', () => {
 
   it('a document with nothing but its overview is a page', async () => {
     const bare = (document) => {
-      for (const key of ['notes', 'findings', 'methods', 'reproduce', 'beliefs', 'labels']) delete document[key];
+      for (const key of ['notes', 'findings', 'methods', 'reproduce', 'beliefs', 'lessons', 'labels']) delete document[key];
       document.tables = {};
       document.overview = { strategies: [], compositions: [] };
     };
@@ -117,6 +117,8 @@ describe('a document', () => {
       document.labels.strategies.joint = attack;
       document.findings[0].sentence = attack;
       document.beliefs.teams[0].title = attack;
+      document.lessons.sentences[0].text = attack;
+      document.lessons.boards[0].text = attack;
     };
     await withDocument(hostile, async ({ page }) => {
       assert.equal(await page.textContent('h1'), `${attack}.`);

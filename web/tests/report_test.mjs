@@ -142,6 +142,7 @@ describe('a report', () => {
           page: document.documentElement.scrollWidth,
           view: document.documentElement.clientWidth,
         }));
+        assert.ok(readFileSync(report).length <= 2_500_000, 'the page has more than 2.5 MB');
         assert.ok(body <= view, `the page is ${body} px wide in a window of ${view} px`);
       });
     });
@@ -149,7 +150,7 @@ describe('a report', () => {
 
   it('every figure saves for print as SVG, PDF, PNG and CSV, drawn in light whatever the theme is', async () => {
     await withReport({ width: 1280, dark: true }, async ({ page }) => {
-      const figures = await page.$$('figure');
+      const figures = await page.$$('figure[id]');
       for (const figure of figures) {
         const id = await figure.getAttribute('id');
         const svg = await saved(page, await figure.$('[data-save=svg]'));
@@ -188,7 +189,7 @@ describe('a report', () => {
       const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));
       assert.equal(levels.filter((level) => level === 1).length, 1);
       levels.forEach((level, i) => assert.ok(i === 0 || level <= levels[i - 1] + 1, `heading ${i} skips a level`));
-      const captions = await page.$$eval('figcaption', (all) => all.map((caption) => caption.textContent));
+      const captions = await page.$$eval('figure[id] figcaption', (all) => all.map((caption) => caption.textContent));
       captions.forEach((caption, i) => assert.ok(caption.startsWith(`Figure ${i + 1}. `), caption));
       const ids = await page.$$eval('[id]', (all) => all.map(({ id }) => id));
       assert.deepEqual(ids.filter((id, i) => ids.indexOf(id) !== i), [], 'ids that occur twice');
@@ -266,6 +267,23 @@ describe('a report', () => {
         }
       });
     }
+  });
+
+  it('a dot of a figure, and the list, open a team with its boards and answers', async () => {
+    await withReport({ width: 1280, dark: false }, async ({ page }) => {
+      const title = () => page.textContent('#team h3');
+      const before = await title();
+      await page.click('#figure-periods svg path[opacity="0.38"] >> nth=-1', { force: true });
+      assert.notEqual(await title(), before);
+      assert.match(await title(), /^Team \d+: .+, [NP]+, replicate \d+$/);
+      assert.equal(await page.evaluate(() => document.activeElement.id), 'team-choice');
+      assert.ok((await page.$$('#team .thumb svg')).length > 1, 'boards');
+      assert.match(await page.textContent('#team .ticks'), /member \d .*: (right|wrong)/);
+      assert.match(await page.textContent('#team .smalls'), /(costs|is worth) /);
+      const opened = await title();
+      await page.click('#team button[aria-label="Next team"]');
+      assert.notEqual(await title(), opened);
+    });
   });
 
   it('belief spheres follow the slider, the arrow keys and the choice of team', async () => {

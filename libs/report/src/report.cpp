@@ -9,6 +9,7 @@
 #include "first_screen.hpp"
 #include "kith/analysis/analysis.hpp"
 #include "kith/belief/particle_belief.hpp"
+#include "lessons.hpp"
 #include "methods.hpp"
 #include "parameters.hpp"
 #include "people_tables.hpp"
@@ -358,6 +359,8 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   const auto analysis = analyse(run, notes);
   step("rerunning three teams");
   auto beliefs = belief_spheres(run, design, data, atlas, options.sphere_particles, notes);
+  step("reading the lessons of single teams");
+  auto lessons = team_lessons(run, design, data, atlas, notes);
   const auto& spec = run.spec();
   Json document{{"schema", "kith.report/1"},
                 {"title", spec.title.empty() ? spec.id : spec.title},
@@ -373,6 +376,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
                 {"methods", methods_of(run, design, data, analysis)},
                 {"reproduce", reproduction_of(run)}};
   if (beliefs) document["beliefs"] = *std::move(beliefs);
+  if (lessons) document["lessons"] = *std::move(lessons);
   return document;
 }
 

@@ -246,6 +246,35 @@ TEST_F(RealReport, ShowsTheBeliefsOfTeamsThatWereTaughtAgain) {
   }
 }
 
+TEST_F(RealReport, TellsTheLessonsOfEveryTeam) {
+  const auto& lessons = document_->at("lessons");
+  EXPECT_EQ(lessons.at("features"), Json::parse(R"(["rubble", "recharge", "step"])"));
+  ASSERT_EQ(lessons.at("teams").size(), 4u);
+  const auto boards = lessons.at("boards").size(), sentences = lessons.at("sentences").size();
+  for (const auto& team : lessons.at("teams")) {
+    const bool alone = team.at("strategy") == "baseline";
+    for (const auto& period : team.at("periods")) {
+      EXPECT_EQ(period.at(2) == 0, !alone) << "members of the baseline have lessons of their own";
+      EXPECT_FALSE(period.at(3).empty()) << "something was shown";
+      for (const auto& board : period.at(3)) EXPECT_LT(board.get<std::size_t>(), boards);
+      for (const auto& sentence : period.at(4)) EXPECT_LT(sentence.get<std::size_t>(), sentences);
+      for (const auto& test : period.at(5)) {
+        EXPECT_LT(test.at(0).get<std::size_t>(), boards);
+        EXPECT_EQ(test.at(1).get<std::string>().size(), alone ? 1u : 2u);
+      }
+      for (const auto& knowledge : period.at(6)) EXPECT_LE(knowledge.get<int>(), 100);
+    }
+    // As many periods as the table of teams says.
+    const auto rows = rows_of(*document_, "teams", {team.at("strategy"), team.at("composition"), team.at("replicate")});
+    EXPECT_EQ(team.at("periods").size(), rows.at(0).at(4).get<std::size_t>());
+  }
+  // Every board has its world's map and the robot's whole path.
+  for (const auto& board : lessons.at("boards")) {
+    EXPECT_FALSE(board.at("map").empty());
+    EXPECT_TRUE(board.at("frames").back().at("action").is_null());
+  }
+}
+
 TEST_F(RealReport, RefusesTablesThatWereChanged) {
   std::filesystem::copy(*scratch_ / "run", *scratch_ / "changed", std::filesystem::copy_options::recursive);
   edit(*scratch_ / "changed/tables/responses.csv", ",true,", ",false,");

@@ -1,5 +1,6 @@
 // The document that kith writes (schema kith.report/1), as far as the page uses it.
 import type { Vector } from '../shared/sphere';
+import type { Lessons } from './team/lessons';
 
 export type Cell = string | number | boolean | null;
 export type Row = Record<string, Cell>;
@@ -133,6 +134,7 @@ export interface Report {
     hashes?: Record<string, string>;
   };
   beliefs?: Beliefs;
+  lessons?: Lessons;
 }
 
 export const kSchema = 'kith.report/1';

@@ -1,11 +1,12 @@
 // A figure on the page: drawing, caption, save buttons and its data as a table.
 import { type Drawing, type Spec, draw } from './chart';
-import type { Table } from './document';
+import type { Cell, Table } from './document';
 import { announce, button, el, lazyDetails } from '../shared/dom';
 import type { Figure } from './figures/figure';
 import { download } from '../shared/download';
 import { type Format, kWidths, paperFile } from './paper';
 import { toCsv } from './save';
+import { kOpenTeam } from './sections/team';
 import { tableView } from './table_view';
 import type { Words } from './words';
 
@@ -50,6 +51,12 @@ export function saveButtons(saves: Saves): HTMLElement {
   );
 }
 
+// A dot that is a team leads to it.
+function openTeam(datum: { team?: Cell } | undefined): void {
+  if (typeof datum?.team !== 'number') return;
+  document.dispatchEvent(new CustomEvent(kOpenTeam, { detail: datum.team }));
+}
+
 // Draws now and again whenever the width has changed for good.
 function keepDrawn(box: HTMLElement, figure: Figure): void {
   let drawing: Drawing | null = null;
@@ -62,6 +69,7 @@ function keepDrawn(box: HTMLElement, figure: Figure): void {
     drawnWidth = width;
     drawing?.finish();
     drawing = await draw(box, figure.spec(Math.min(width, 980)));
+    drawing.view.addEventListener('click', (_, item) => openTeam(item?.datum as { team?: Cell } | undefined));
     box.dataset.drawn = String(width);
   };
   const schedule = (): void => {

@@ -9,6 +9,7 @@ import { parametersSection } from './sections/parameters';
 import { reproduceSection } from './sections/reproduce';
 import type { Section } from './sections/section';
 import { notesSection, summarySection } from './sections/summary';
+import { teamSection } from './sections/team';
 import { Study } from './study';
 import { installTheme, themeToggle } from '../shared/theme';
 
@@ -48,6 +49,7 @@ function show(page: HTMLElement): void {
     summarySection(study, numbers),
     notesSection(study),
     ...figureSections(study, numbers),
+    teamSection(study),
     findingsSection(study),
     parametersSection(study),
     methodsSection(study),

@@ -16,6 +16,7 @@ export interface DotsOptions {
   interval?: string; // what low and high are; '95 %' unless said otherwise
   zero: boolean;
   log?: boolean;
+  opensTeams?: boolean; // a click on a point shows the team
   ownScales?: boolean; // panels that are not compared with each other
   left?: number; // room for the names, px; '|' breaks a line
   first?: number; // panels before these in the same figure
@@ -94,12 +95,17 @@ function layers(
   ];
   const raw: Spec = {
     data: { values: points },
-    mark: { type: 'circle', size: 18, opacity: points.length > 600 ? 0.18 : 0.38, cursor: 'pointer' },
+    mark: { type: 'circle', size: 18, opacity: points.length > 600 ? 0.18 : 0.38, ...(options.opensTeams ? { cursor: 'pointer' } : {}) },
     encoding: {
       y,
       x: { ...x, field: 'value' },
       yOffset: { field: 'spread', type: 'quantitative', scale: { domain: [-1.05, 1.05] }, axis: null },
       color: hue,
+      tooltip: [
+        { field: 'team', title: options.opensTeams ? 'Click for team' : 'Team' },
+        { field: 'strategy', title: 'Strategy' },
+        { field: 'value', title: options.xTitle, format: '.3~r' },
+      ],
     },
   };
   const known = means.filter((row) => row.low !== null && row.high !== null);

@@ -76,7 +76,7 @@ function figuresOf(study: Study, outcomes: Outcome[]): Figure[] {
   return present.map(({ id, column, title, xTitle, reading }) => ({
     id,
     title,
-    reading: `${reading}${column === 'periods' && hasTwoScales(means) ? kTwoScales : ''} ${n} ${study.words.letters()}`,
+    reading: `${reading}${study.report.lessons && teams ? ' A click on a dot shows the team.' : ''}${column === 'periods' && hasTwoScales(means) ? kTwoScales : ''} ${n} ${study.words.letters()}`,
     gist: `${title}. Means: ${range(means, `${column}_mean`, name)}`,
     table: cells,
     raw: teams ? { what: 'teams', table: teams } : undefined,
@@ -104,6 +104,7 @@ function spec(
     high: `${column}_high`,
     point: column,
     xTitle,
+    opensTeams: study.report.lessons !== undefined,
     zero: !column.includes('share_right'),
   };
   const part = (rows: Row[], raw: Row[], first: number): DotsOptions => ({
