@@ -84,6 +84,7 @@ Domain::~Domain() = default;
 
 const std::string& Domain::id() const noexcept { return data_->id; }
 const std::string& Domain::title() const noexcept { return data_->title; }
+const std::string& Domain::goal() const noexcept { return data_->goal; }
 std::size_t Domain::num_features() const noexcept { return data_->feature_names.size(); }
 const std::vector<std::string>& Domain::feature_names() const noexcept { return data_->feature_names; }
 const std::vector<std::string>& Domain::action_names() const noexcept { return data_->action_names; }

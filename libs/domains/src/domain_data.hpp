@@ -47,6 +47,7 @@ struct GridFamily {
 struct Domain::Data {
   std::string id;
   std::string title;
+  std::string goal{};
   std::vector<std::string> feature_names;
   std::vector<std::string> action_names;
   std::vector<Wording> wordings;

@@ -145,6 +145,7 @@ std::optional<Domain> read_document(const TomlDocument& document, const DomainLi
   const auto id = file.string("id", Presence::kRequired);
   if (id) check_id(file, *id);
   const auto title = file.string("title", Presence::kOptional);
+  const auto goal = file.string("goal", Presence::kOptional);
   const TomlEntry* model = document.root.find_entry("model");
   const bool is_drawn = model != nullptr && model->value.table() != nullptr && model->value.table()->find("drawing");
   if (model != nullptr && !is_drawn && document.root.find("map") != nullptr) {
@@ -160,6 +161,7 @@ std::optional<Domain> read_document(const TomlDocument& document, const DomainLi
   if (!data || report.has_errors()) return std::nullopt;
   data->id = *id;
   data->title = title.value_or(*id);
+  data->goal = goal.value_or("");
   data->sum_up();
   return Domain{*std::move(data)};
 }

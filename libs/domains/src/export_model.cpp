@@ -115,6 +115,7 @@ std::string domain_text(const ExportView& view, const std::vector<std::string>& 
   std::string names;
   for (const std::string& action : actions) names += (names.empty() ? "" : ", ") + quoted(action);
   std::string text = "schema = \"kith.domain/1\"\nid = " + quoted(domain.id()) + "\ntitle = " + quoted(domain.title()) +
+                     (domain.goal().empty() ? "" : "\ngoal = " + quoted(domain.goal())) +
                      "\n\n[mdp]\ndiscount = " + decimal_text(view.mdp().discount()) +
                      "\nmax_steps = " + std::to_string(domain.max_steps()) + "\nactions = [" + names + "]\n\n" + model;
   std::string weights;

@@ -135,6 +135,30 @@ std::string in_general(const Wording& wording) {
   return text;
 }
 
+CountedAs counted_as(const Wording& wording) {
+  const auto without_start = [](std::string text) {
+    for (bool goes_on = true; goes_on;) {
+      goes_on = false;
+      const auto word = text.substr(0, text.find(' '));
+      const bool is_last = word.size() == text.size();
+      const bool is_doing = word.size() > 5 && word.ends_with("ing");
+      for (const char* small : {"{n}", "a", "an", "the", "at", "on", "in", "into", "to", "through", "over", "once"}) {
+        if (!is_last && (is_doing || word == small)) {
+          text.erase(0, word.size() + 1);
+          goes_on = true;
+          break;
+        }
+      }
+    }
+    return text;
+  };
+  const auto one = without_start(wording.one);
+  auto many = without_start(wording.many);
+  const auto at = many.find("{n}");
+  if (at != std::string::npos) many = wording.many.find("{n} times") == std::string::npos ? in_general(wording) : one;
+  return {one, without_start(many)};
+}
+
 namespace {
 
 // The sentence of a constraint with short numbers.
@@ -440,6 +464,29 @@ std::string end_in_words(const Domain& domain, MdpIndex world) {
 }
 
 }  // namespace
+
+std::string job_in_words(const Domain& domain) {
+  if (!domain.goal().empty()) return domain.goal();
+  const auto map = domain.drawing();
+  if (!map) return "";
+  std::vector<std::string> items, goals;
+  for (const auto& entry : map->legend()) {
+    const auto& item = entry.content.destination_of;
+    if (!item.empty() && std::ranges::find(items, item) == items.end()) items.push_back(item);
+    if (entry.content.goal) goals.push_back(entry.goal_name.empty() ? "goal" : entry.goal_name + " goal");
+  }
+  const auto& actions = domain.action_names();
+  const bool leaves = std::ranges::find(actions, "exit") != actions.end();
+  if (items.size() == 1 && goals.empty()) {
+    return "The robot fetches the " + items.front() + " and takes it to where it belongs.";
+  }
+  if (items.size() > 1 && goals.empty()) return "The robot takes everything to where it belongs.";
+  if (goals.size() == 1 && items.empty()) {
+    return "The robot is on its way to the " + goals.front() + (leaves ? ", unless it leaves before." : ".");
+  }
+  if (goals.size() > 1 && items.empty()) return "The robot is on its way to one of the goals.";
+  return "";
+}
 
 std::string never_in_words(const Domain& domain, MdpIndex world, const Trajectory& path) {
   if (!path.repeats_from) return "";

@@ -341,5 +341,28 @@ TEST(InWords, NeedsNoWordsToSayThatThereAreNone) {
   EXPECT_EQ(doing(none, 2, false), "");
 }
 
+TEST(Words, SayTheJobByWhatEndsAnEpisodeUnlessTheFileSaysIt) {
+  const auto job = [](const std::string& name) { return job_in_words(load_domain(name)); };
+  EXPECT_EQ(job("item-delivery"), "The robot fetches the parcel and takes it to where it belongs.");
+  EXPECT_EQ(job("colored-tiles"), "The robot is on its way to the goal.");
+  EXPECT_EQ(job("two-goals"), "The robot is on its way to one of the goals.");
+  EXPECT_EQ(job("rescue-floor"), "The robot takes everything to where it belongs.");
+  auto text = testing::kOneRoad;
+  text.insert(text.find("[map]"), "goal = \"The robot walks home.\"\n");
+  EXPECT_EQ(job_in_words(parse_domain(text, "road.toml").domain.value()), "The robot walks home.");
+}
+
+TEST(Words, CountThingsInFewWords) {
+  const auto said = [](const std::string& one, const std::string& many) {
+    const auto [once, often] = counted_as({one, many, "", ""});
+    return once + "/" + often;
+  };
+  EXPECT_EQ(said("crossing rubble", "crossing rubble {n} times"), "rubble/rubble");
+  EXPECT_EQ(said("stopping at the charger", "stopping at the charger {n} times"), "charger/charger");
+  EXPECT_EQ(said("a step", "{n} steps"), "step/steps");
+  EXPECT_EQ(said("crossing an orange tile", "crossing {n} orange tiles"), "orange tile/orange tiles");
+  EXPECT_EQ(said("rubble", "rubble {n} times"), "rubble/rubble");
+}
+
 }  // namespace
 }  // namespace kith

@@ -72,6 +72,8 @@ class Domain {
 
   [[nodiscard]] const std::string& id() const noexcept;
   [[nodiscard]] const std::string& title() const noexcept;
+  /// The robot's job in one sentence, for people who are taught; empty if the file does not say.
+  [[nodiscard]] const std::string& goal() const noexcept;
   [[nodiscard]] std::size_t num_features() const noexcept;
   [[nodiscard]] const std::vector<std::string>& feature_names() const noexcept;
   [[nodiscard]] const std::vector<std::string>& action_names() const noexcept;

@@ -60,6 +60,15 @@ namespace kith {
 [[nodiscard]] std::string doing(const Wording& wording, std::int64_t n, bool more);
 /// A feature in general: "steps", "crossing rubble".
 [[nodiscard]] std::string in_general(const Wording& wording);
+/// How often a feature counts, in few words behind a number: "step" and "steps", "rubble" and "rubble", "charger" and
+/// "charger"; of a feature that is called "crossing rubble" what is crossed.
+struct CountedAs {
+  std::string one, many;
+};
+[[nodiscard]] CountedAs counted_as(const Wording& wording);
+/// The robot's job in one sentence: Domain::goal() or, if the file does not say, by what ends an episode: "The robot
+/// fetches the parcel and takes it to where it belongs." Empty where neither tells.
+[[nodiscard]] std::string job_in_words(const Domain& domain);
 /// Feature counts: "rubble 1, step 7"; "nothing" if all are zero.
 [[nodiscard]] std::string counts_text(const Domain& domain, const IntegerVector& counts);
 /// The return of counts in units of 1 / Domain::count_scale(), weights at length 1.
