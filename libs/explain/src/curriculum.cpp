@@ -1,6 +1,7 @@
 #include "kith/explain/curriculum.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -79,6 +80,7 @@ class CurriculumMaker {
       require_something_to_teach(atlas_);
       throw nothing_to_teach(atlas_, kUntold);
     }
+    add_fresh_tests();
     return std::move(curriculum_);
   }
 
@@ -102,6 +104,7 @@ class CurriculumMaker {
     for (const auto& shown : lesson.demonstrations) {
       result.demonstrations.push_back(demonstration(shown, known));
       known = together(known, shown.half_spaces);
+      result.demonstrations.back().brackets = brackets(atlas_.domain(), known, taught.features, reference_);
     }
     const auto points = beliefs(before);
     for (const auto& test : lesson.tests) result.tests.push_back(graded(test, points));
@@ -118,8 +121,8 @@ class CurriculumMaker {
     KITH_ASSERT(contrast.has_value());  // what is conveyed is a comparison with an expected path
     auto sentence = reason(atlas_, *contrast, conveys);
     auto flip = nearest_flip(atlas_, *contrast);
-    return {shown.demo,      std::move(conveys),   main, *std::move(contrast), std::move(sentence),
-            std::move(flip), runs_from(shown.demo)};
+    return {shown.demo,      std::move(conveys),    main, *std::move(contrast), std::move(sentence),
+            std::move(flip), runs_from(shown.demo), {}};
   }
 
   [[nodiscard]] std::vector<PolicyRun> runs_from(DemoIndex demo) const {
@@ -175,6 +178,34 @@ class CurriculumMaker {
     return {test.demo, test.covered, share, difficulty, runs_from(test.demo)};
   }
 
+  // Of some starts in worlds that were neither shown nor tested, those about which most can be wrong; each in a world
+  // of its own.
+  void add_fresh_tests() {
+    constexpr std::size_t kTried = 60, kTriedWithoutTables = 6;
+    std::vector<bool> is_seen(atlas_.domain().num_mdps(), false);
+    for (const auto& component : curriculum_.components) {
+      for (const auto& shown : component.demonstrations) is_seen[atlas_.id(shown.demo).mdp.value()] = true;
+      for (const auto& test : component.tests) is_seen[atlas_.id(test.demo).mdp.value()] = true;
+    }
+    std::vector<DemoIndex> starts;
+    for (DemoIndex demo{0}; demo.value() < atlas_.num_demos(); ++demo) {
+      if (atlas_.is_candidate(demo) && !is_seen[atlas_.id(demo).mdp.value()]) starts.push_back(demo);
+    }
+    auto random = RandomStream{options_.seed}.split("fresh");
+    const auto n = std::min(starts.size(), atlas_.is_tabulated() ? kTried : kTriedWithoutTables);
+    for (std::size_t i = 0; i < n; ++i) std::swap(starts[i], starts[i + uniform_index(starts.size() - i, random)]);
+    const auto points = beliefs(atlas_.domain().prior());
+    std::vector<CurriculumTest> tried;
+    for (std::size_t i = 0; i < n; ++i) tried.push_back(graded({starts[i], {}}, points));
+    std::ranges::stable_sort(tried, {}, [](const CurriculumTest& test) { return std::abs(test.share_right - 0.5); });
+    for (auto& test : tried) {
+      const auto world = atlas_.id(test.demo).mdp.value();
+      if (curriculum_.fresh.size() == options_.fresh || is_seen[world] || test.share_right == 1.0) continue;
+      is_seen[world] = true;
+      curriculum_.fresh.push_back(std::move(test));
+    }
+  }
+
   void skip(std::size_t component) {
     curriculum_.skipped.push_back({component_in_words(atlas_, component), why_skipped(component)});
   }
@@ -194,6 +225,7 @@ class CurriculumMaker {
   TeachingCache cache_;
   Curriculum curriculum_;
   std::vector<HalfSpace> known_ = atlas_.domain().prior();
+  std::size_t reference_ = reference_feature(atlas_.domain(), atlas_.knowledge_components());
 };
 
 }  // namespace

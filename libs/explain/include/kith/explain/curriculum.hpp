@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kith/explain/bracket.hpp"
 #include "kith/explain/contrast.hpp"
 #include "kith/explain/runs.hpp"
 #include "kith/teaching/session.hpp"
@@ -20,6 +21,7 @@ struct CurriculumDemonstration {
   std::string reason;              ///< One sentence; see reason().
   std::optional<Flip> flip;        ///< Nothing if the robot decides alike in all worlds.
   std::vector<PolicyRun> runs;     ///< As outcomes fell; nothing if chance has no part in what the robot does.
+  std::vector<Bracket> brackets;   ///< Of the component's features, by the prior and all that was shown up to here.
 };
 
 enum class Difficulty { kEasy, kMedium, kHard };
@@ -56,12 +58,16 @@ struct SkippedComponent {
 struct Curriculum {
   std::vector<CurriculumComponent> components;
   std::vector<SkippedComponent> skipped;
+  /// For those who have learned everything: tests in worlds that they have not seen, which about half of the beliefs
+  /// of the prior answer right.
+  std::vector<CurriculumTest> fresh;
 };
 
 struct CurriculumOptions {
   TeachingOptions teaching{};
   std::uint64_t seed = 1;      ///< Root of all that the teacher draws.
   std::size_t runs = 10;       ///< How many runs are drawn where chance has a part.
+  std::size_t fresh = 3;       ///< How many fresh tests there are at most.
   std::size_t beliefs = 4000;  ///< Points of the regular cover by which share_right is measured, >= 1.
 };
 

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kith/bec/knowledge_component.hpp"
+#include "kith/domains/domain.hpp"
+#include "kith/geometry/half_space.hpp"
+
+namespace kith {
+
+/// A rational number in lowest terms.
+struct Ratio {
+  std::int64_t numerator = 0;
+  std::int64_t denominator = 1;  ///< > 0
+  [[nodiscard]] double value() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
+  friend bool operator==(const Ratio&, const Ratio&) = default;
+};
+
+/// Between which bounds a feature's weight lies, in units of what the reference feature weighs, w_feature /
+/// |w_reference|: costs are negative.
+struct Bracket {
+  std::size_t feature = 0;
+  std::size_t reference = 0;
+  std::optional<Ratio> low;   ///< The greatest lower bound; nothing: there is none.
+  std::optional<Ratio> high;  ///< The least upper bound; nothing: there is none.
+  friend bool operator==(const Bracket&, const Bracket&) = default;
+};
+
+/// The feature that every component weighs the others against: the one that the last component does not name.
+[[nodiscard]] std::size_t reference_feature(const Domain& domain, std::span<const KnowledgeComponent> components);
+
+/// What half-spaces together say about each of some features. The ends are exact: those of the projection of the region
+/// { w : every half-space holds }, by its generators. Nothing about features of which neither end is known, nor about
+/// any of them unless the region tells whether the reference is a cost or a gain.
+/// @param features  none of them the reference.
+/// @throws std::invalid_argument if the region has no interior.
+[[nodiscard]] std::vector<Bracket> brackets(const Domain& domain, std::span<const HalfSpace> known,
+                                            std::span<const std::size_t> features, std::size_t reference);
+
+/// "crossing rubble costs 2 to 4 steps", "stopping at the charger is worth more than 2 steps", "crossing rubble costs
+/// less than 4 steps". Ends that are no whole numbers have two decimals at most.
+[[nodiscard]] std::string bracket_in_words(const Domain& domain, const Bracket& bracket);
+
+}  // namespace kith

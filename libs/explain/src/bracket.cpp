@@ -1,0 +1,115 @@
+#include "kith/explain/bracket.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <stdexcept>
+
+#include "kith/geometry/cone.hpp"
+
+namespace kith {
+namespace {
+
+Ratio in_lowest_terms(std::int64_t numerator, std::int64_t denominator) {
+  const auto divisor = std::gcd(numerator, denominator);
+  return {numerator / divisor, denominator / divisor};
+}
+
+// Exactly, whatever the size of the entries.
+bool is_less(const Ratio& a, const Ratio& b) {
+  return Int128{a.numerator} * b.denominator < Int128{b.numerator} * a.denominator;
+}
+
+// w_k / |w_r| of a cone is between those of its generators; where one has no w_r, there is no end on its side.
+Bracket bracket_of(std::size_t k, std::size_t r, std::span<const IntegerVector> generators) {
+  Bracket bracket{k, r, {}, {}};
+  bool is_open_below = false, is_open_above = false;
+  for (const auto& ray : generators) {
+    if (ray[r] == 0) {
+      is_open_below = is_open_below || ray[k] < 0;
+      is_open_above = is_open_above || ray[k] > 0;
+      continue;
+    }
+    const auto ratio = in_lowest_terms(ray[k], std::abs(ray[r]));
+    if (!bracket.low || is_less(ratio, *bracket.low)) bracket.low = ratio;
+    if (!bracket.high || is_less(*bracket.high, ratio)) bracket.high = ratio;
+  }
+  if (is_open_below) bracket.low.reset();
+  if (is_open_above) bracket.high.reset();
+  return bracket;
+}
+
+std::string number_text(double x) {
+  auto text = std::to_string(std::round(x * 100.0) / 100.0);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+// "4 steps", "2 to 4 steps".
+std::string amount(const Wording& wording, const std::string& number) {
+  if (number == "1") return wording.one;
+  auto text = wording.many;
+  const std::string mark = "{n}";
+  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + number.size())) {
+    text.replace(at, mark.size(), number);
+  }
+  return text;
+}
+
+// What is at least `least` and at most `most`, if there are such; both are 0 or more.
+std::string range_in_words(const Wording& unit, const std::optional<double>& least, const std::optional<double>& most) {
+  const bool has_least = least && *least > 0.0;
+  if (has_least && most && *least == *most) return amount(unit, number_text(*least));
+  if (has_least && most) return amount(unit, number_text(*least) + " to " + number_text(*most));
+  if (has_least) return "more than " + amount(unit, number_text(*least));
+  if (most && *most == 0.0) return "nothing";
+  return most ? "less than " + amount(unit, number_text(*most)) : "something";
+}
+
+}  // namespace
+
+std::size_t reference_feature(const Domain& domain, std::span<const KnowledgeComponent> components) {
+  const auto& weighed = components.back().features;
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    if (std::ranges::find(weighed, k) == weighed.end()) return k;
+  }
+  return domain.num_features() - 1;
+}
+
+std::vector<Bracket> brackets(const Domain& domain, std::span<const HalfSpace> known,
+                              std::span<const std::size_t> features, std::size_t reference) {
+  Cone region{domain.num_features()};
+  if (!region.clip(known)) throw std::invalid_argument{"brackets: the region has no interior"};
+  const auto generators = region.generators();
+  const auto is_on = [&](int sign) {
+    return std::ranges::all_of(generators, [&](const IntegerVector& ray) { return sign * ray[reference] >= 0; });
+  };
+  std::vector<Bracket> all;
+  if (!is_on(1) && !is_on(-1)) return all;
+  for (const auto k : features) {
+    auto bracket = bracket_of(k, reference, generators);
+    if (bracket.low || bracket.high) all.push_back(bracket);
+  }
+  return all;
+}
+
+std::string bracket_in_words(const Domain& domain, const Bracket& bracket) {
+  const auto& thing = domain.wording(bracket.feature).one;
+  const auto& unit = domain.wording(bracket.reference);
+  const auto end = [](const std::optional<Ratio>& ratio, double sign) {
+    return ratio ? std::optional{sign * ratio->value()} : std::nullopt;
+  };
+  const bool is_cost = bracket.high && bracket.high->numerator <= 0;
+  const bool is_gain = bracket.low && bracket.low->numerator >= 0;
+  if (is_cost) return thing + " costs " + range_in_words(unit, end(bracket.high, -1.0), end(bracket.low, -1.0));
+  if (is_gain) return thing + " is worth " + range_in_words(unit, end(bracket.low, 1.0), end(bracket.high, 1.0));
+  std::string text = thing;
+  if (bracket.low) text += " costs " + range_in_words(unit, {}, end(bracket.low, -1.0));
+  if (bracket.high)
+    text += std::string{bracket.low ? " and" : ""} + " is worth " + range_in_words(unit, {}, end(bracket.high, 1.0));
+  return text;
+}
+
+}  // namespace kith

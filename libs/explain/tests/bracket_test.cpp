@@ -1,0 +1,96 @@
+#include "kith/explain/bracket.hpp"
+
+#include <gtest/gtest.h>
+
+#include "atlases.hpp"
+#include "kith/explain/curriculum.hpp"
+#include "kith/geometry/cone.hpp"
+#include "kith/random/distributions.hpp"
+
+namespace kith {
+namespace {
+
+using testing::atlas_of;
+
+// { w : denominator * sign * w_k <= numerator * sign * |w_r| }, the reference being of a known sign.
+HalfSpace beyond(const Domain& domain, const Bracket& bracket, const Ratio& end, int side, int sign_of_reference) {
+  IntegerVector normal(domain.num_features());
+  normal[bracket.feature] = side * end.denominator;
+  normal[bracket.reference] = -side * end.numerator * sign_of_reference;
+  return HalfSpace{normal};
+}
+
+// `scale` times finer and one step further in.
+Ratio inside(const Ratio& end, int side, std::int64_t scale) {
+  return {end.numerator * scale + side, end.denominator * scale};
+}
+
+// An end follows from the region, and nothing beyond it does; where there is no end, no number is one.
+void expect_exact(const Domain& domain, const Cone& region, const Bracket& bracket) {
+  const int sign = domain.weights().integer[bracket.reference] < 0 ? -1 : 1;
+  constexpr std::int64_t kFine = 1000;
+  for (const int side : {1, -1}) {  // 1: the low end
+    const auto& end = side > 0 ? bracket.low : bracket.high;
+    if (end) {
+      EXPECT_TRUE(region.implies(beyond(domain, bracket, *end, side, sign)));
+      EXPECT_FALSE(region.implies(beyond(domain, bracket, inside(*end, side, kFine), side, sign)));
+    } else {
+      EXPECT_FALSE(region.implies(beyond(domain, bracket, {-side * kFine, 1}, side, sign)));
+    }
+  }
+}
+
+TEST(Bracket, EndsAreThoseOfTheRegion) {
+  RandomStream random{38};
+  std::size_t closed = 0;
+  for (const std::string name : {"item-delivery", "skateboard", "cookie-crumb", "navigation", "warehouse"}) {
+    const auto& atlas = atlas_of(name);
+    const auto& domain = atlas.domain();
+    const auto& components = atlas.knowledge_components();
+    const auto reference = reference_feature(domain, components);
+    const auto& features = components.back().features;
+    const auto all = atlas.policy_bec_half_spaces();
+    for (int round = 0; round < 40; ++round) {
+      auto known = domain.prior();
+      for (const auto& half_space : all) {
+        if (uniform_index(2, random) == 0) known.push_back(half_space);
+      }
+      Cone region{domain.num_features()};
+      ASSERT_TRUE(region.clip(known));
+      const auto found = brackets(domain, known, features, reference);
+      for (const auto& bracket : found) {
+        expect_exact(domain, region, bracket);
+        closed += bracket.low && bracket.high ? 1u : 0u;
+        EXPECT_FALSE(bracket_in_words(domain, bracket).empty());
+        const double truth = domain.weights().raw[bracket.feature] / std::abs(domain.weights().raw[reference]);
+        EXPECT_LE(bracket.low ? bracket.low->value() : truth, truth + 1e-9);
+        EXPECT_GE(bracket.high ? bracket.high->value() : truth, truth - 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(closed, 50u);
+}
+
+TEST(Bracket, ClosesAsALessonGoesOn) {
+  const auto& atlas = atlas_of("item-delivery");
+  const auto curriculum = make_curriculum(atlas);
+  std::vector<std::string> said;
+  for (const auto& component : curriculum.components) {
+    for (const auto& shown : component.demonstrations) {
+      for (const auto& bracket : shown.brackets) said.push_back(bracket_in_words(atlas.domain(), bracket));
+    }
+  }
+  EXPECT_EQ(said,
+            (std::vector<std::string>{
+                "crossing rubble costs more than 2 steps", "crossing rubble costs 2 to 4 steps",
+                "stopping at the charger is worth more than 2 steps", "stopping at the charger is worth 2 to 4 steps",
+                "crossing rubble costs 2 to 4 steps", "stopping at the charger is worth 2 to 4 steps"}));
+}
+
+TEST(Bracket, SaysNothingWhereTheReferenceIsUnknown) {
+  const auto& domain = atlas_of("item-delivery").domain();
+  EXPECT_TRUE(brackets(domain, {}, std::vector<std::size_t>{0, 1}, 2).empty());
+}
+
+}  // namespace
+}  // namespace kith
