@@ -49,6 +49,11 @@ class GroupReader {
                       "write tests = 6, or remove 'high'");
       }
     }
+    if (auto screens = group_.table("screens", Presence::kOptional)) {
+      take(options_.screens.predict_first, screens->boolean("predict_first", Presence::kOptional));
+      take(options_.screens.brackets, screens->boolean("brackets", Presence::kOptional));
+      screens->finish();
+    }
     read_questions();
     if (auto completion = group_.table("completion", Presence::kOptional)) read_completion(*completion);
     take(options_.ask_name, group_.boolean("ask_name", Presence::kOptional));

@@ -79,6 +79,12 @@ TomlTable group_table(const GroupOptions& group) {
   time.add("leave_after_s", group.time.leave_after_s);
   time.add("max_minutes", group.time.max_minutes);
   table.add("time", time.take());
+  if (group.screens != GroupScreens{}) {
+    GroupTable screens;
+    screens.add("predict_first", group.screens.predict_first);
+    screens.add("brackets", group.screens.brackets);
+    table.add("screens", screens.take());
+  }
   screening.count("tests", group.screening.tests);
   screening.add("cut", group.screening.cut);
   screening.text("high", group.high_types);

@@ -349,6 +349,7 @@ people = [3, 1]
 dropout = { policy = "replace-from-pool", grace_s = 5, min_active = 2, reserves = 1, otherwise = "end-group" }
 time = { watch_s = 1, predict_s = 2, feedback_s = 3, lobby_s = 4, leave_after_s = 5, max_minutes = 6 }
 screening = { tests = 3, cut = 0.25, high = "N" }
+screens = { predict_first = true, brackets = true }
 completion = { prefix = "X", redirect = "https://example.org/?cc={code}", pay_full = false }
 ask_name = true
 collect_query = ["PROLIFIC_PID"]
@@ -378,6 +379,7 @@ TEST(StudyFile, ReadsAndWritesHowGroupsOfPeopleAreTaught) {
   EXPECT_EQ(group.dropout, (GroupDropout{DropoutPolicy::kReplaceFromPool, 5, 2, 1, DropoutPolicy::kEndGroup}));
   EXPECT_EQ(group.time, (GroupTime{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(group.screening, (GroupScreening{3, 0.25}));
+  EXPECT_EQ(group.screens, (GroupScreens{true, true}));
   EXPECT_EQ(group.high_types, "N");
   ASSERT_EQ(group.questions.size(), 2u);
   EXPECT_EQ(group.questions[1].kind, GroupQuestion::Kind::kChoice);

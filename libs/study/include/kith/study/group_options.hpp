@@ -55,6 +55,14 @@ struct GroupScreening {
   friend bool operator==(const GroupScreening&, const GroupScreening&) = default;
 };
 
+/// `group.screens`: what the pages of participants do beyond the paper's method. It changes what people learn, not what
+/// they are taught.
+struct GroupScreens {
+  bool predict_first = false;  ///< People sketch the robot's path before they watch it.
+  bool brackets = false;       ///< Feedback shows between which bounds each cost lies, by what was shown so far.
+  friend bool operator==(const GroupScreens&, const GroupScreens&) = default;
+};
+
 /// One of `group.questions`, asked at the end.
 struct GroupQuestion {
   enum class Kind { kLikert, kText, kChoice };
@@ -95,6 +103,7 @@ struct GroupOptions {
   GroupDropout dropout{};
   GroupTime time{};
   GroupScreening screening{};
+  GroupScreens screens{};
   /// `group.screening.high`, letters of learner types: their places are for people with high estimates, the others for
   /// people with low ones. Empty: the estimates are shown to the facilitator and decide nothing.
   std::string high_types{};
