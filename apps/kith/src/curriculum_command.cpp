@@ -142,7 +142,7 @@ int run(const CurriculumCommandOptions& options, Console& console) {
   }
   const auto document = curriculum_json(atlas, curriculum, options.seed, program_name());
   if (!options.out.empty())
-    write_page("lesson", page_with(document.dump(-1, ' ', true), detail::kLessonPage), options.out, console);
+    write_page("lesson", page_with(for_page(document).dump(-1, ' ', true), detail::kLessonPage), options.out, console);
   if (console.json()) console.print_json(document);
   return 0;
 }

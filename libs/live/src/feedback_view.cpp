@@ -59,6 +59,17 @@ void add_path(Json& entry, const std::string& key, const Domain& domain, MdpInde
   }
 }
 
+// What everybody can know of the features of the lesson's component who has seen all demonstrations and all feedback.
+std::vector<Bracket> shown_so_far(const RoomParts& room) {
+  const auto& atlas = *room.study.atlas;
+  const auto& components = atlas.knowledge_components();
+  auto known = atlas.domain().prior();
+  const auto& history = room.state.session->history();
+  for (const auto& past : history) known.insert(known.end(), past.lesson.taught.begin(), past.lesson.taught.end());
+  return brackets(atlas.domain(), known, components[history.back().lesson.component].features,
+                  reference_feature(atlas.domain(), components));
+}
+
 }  // namespace
 
 std::string cost_in_words(const Domain& domain, MdpIndex world, const IntegerVector& robot_counts,
@@ -130,10 +141,12 @@ Json feedback_json(const RoomParts& room, const LiveSeat& seat) {
   }
   const bool all_right = all_correct[*seat.member];
   const bool learned = past.feedback.component_learned;
-  return {{"tests", tests},
-          {"all_right", all_right},
-          {"learned", learned},
-          {"others_unsure", all_right && !learned && others_unsure}};
+  Json feedback{{"tests", tests},
+                {"all_right", all_right},
+                {"learned", learned},
+                {"others_unsure", all_right && !learned && others_unsure}};
+  if (room.study.group().screens.brackets) feedback["brackets"] = brackets_json(domain, shown_so_far(room));
+  return feedback;
 }
 
 }  // namespace kith

@@ -103,6 +103,8 @@ class ParticipantPage {
     return {
         {"part", part(over, components.size())},
         {"round", rounds + (between && rounds > 0 && state_.phase == RoomPhase::kFeedback ? 0u : 1u)},
+        {"most", state_.session->options().max_periods},
+        {"parts", components.size()},
         {"done",
          components.empty() ? 0.0 : static_cast<double>(shown_over(over)) / static_cast<double>(components.size())}};
   }
@@ -132,6 +134,8 @@ class ParticipantPage {
       view["check"] = {{"board", live_board(room_.study, room_.study.sandbox)},
                        {"world", world_key(room_.study, room_.study.atlas->id(room_.study.sandbox).mdp)},
                        {"start", start_number(room_.study.sandbox)},
+                       {"parts", room_.study.atlas->knowledge_components().size()},
+                       {"most", room_.study.spec.teaching.max_periods},
                        {"ask_name", room_.study.group().ask_name}};
     } else if (stage == "screening") {
       view["predict"] =
@@ -181,6 +185,10 @@ class ParticipantPage {
     const auto demo = demonstrations[seat_.watched].demo;
     Json watch{{"index", seat_.watched}, {"of", demonstrations.size()}, {"board", live_board(room_.study, demo)}};
     watch.update(robot_path(room_.study, demo));
+    if (room_.study.group().screens.predict_first) {
+      watch["world"] = world_key(room_.study, room_.study.atlas->id(demo).mdp);
+      watch["state"] = start_number(demo);
+    }
     if (auto runs = robot_runs(room_.study, demo); !runs.is_null()) watch["runs"] = std::move(runs);
     return watch;
   }
@@ -297,7 +305,7 @@ Json live_board(const LiveStudy& study, DemoIndex demo) {
   const auto& domain = study.atlas->domain();
   const auto all = board_domain_json(domain);
   Json legend{{"id", all["id"]}};
-  for (const char* key : {"legend", "surfaces", "width", "height"}) {
+  for (const char* key : {"legend", "surfaces", "width", "height", "counted", "job"}) {
     if (all.contains(key)) legend[key] = all[key];
   }
   Json board{{"domain", legend}};

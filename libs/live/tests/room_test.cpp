@@ -322,6 +322,32 @@ TEST(Room, ShowsThePartThatFeedbackIsAbout) {
   EXPECT_GT(parts, 1u);
 }
 
+// What a study switches on is sent, and nothing else; events are the same.
+TEST(Room, SendsScreensThatAStudySwitchesOn) {
+  const std::string group = "[group.screens]\npredict_first = true\nbrackets = true\n";
+  Play with{live_study(group), "NN"}, without{live_study(), "NN"};
+  std::size_t brackets = 0;
+  with.start(2);
+  without.start(2);
+  for (std::size_t i = 0; i < 30; ++i) {
+    for (const std::size_t number : {1u, 2u}) {
+      const auto on = page(with, number), off = page(without, number);
+      ASSERT_EQ(on["stage"], off["stage"]);
+      if (on["stage"] == "watch") {
+        EXPECT_TRUE(on["watch"].contains("world") && on["watch"].contains("state"));
+        EXPECT_FALSE(off["watch"].contains("world"));
+      }
+      if (on["stage"] == "feedback") {
+        EXPECT_FALSE(off["feedback"].contains("brackets"));
+        brackets += on["feedback"]["brackets"].size();
+      }
+      with.act(number);
+      without.act(number);
+    }
+  }
+  EXPECT_GT(brackets, 0u);
+}
+
 TEST(Room, KeepsTimeLimits) {
   Play play{live_study("[group]\ntime = { watch_s = 10, predict_s = 20, feedback_s = 30 }\n"), "NN"};
   play.start(2);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kith/explain/words.hpp"
+#include "kith/present/move_table.hpp"
 #include "kith/present/surfaces.hpp"
 
 namespace kith {
@@ -47,15 +48,45 @@ Json frame_json(const Domain& domain, MdpIndex world, StateIndex s) {
   return {{"robot", cell_json(*map, state.robot)}, {"items", items}, {"stations", stations}};
 }
 
+Json ratio_json(const std::optional<Ratio>& ratio) {
+  return ratio ? Json::array({ratio->numerator, ratio->denominator}) : Json{};
+}
+
+// What a step of a path counts.
+Json step_counts(const Mdp& mdp, const Trajectory& path, std::size_t t) {
+  for (const auto& choice : mdp.choices(path.states[t])) {
+    if (choice.action != path.actions[t]) continue;
+    for (const auto& outcome : mdp.outcomes(choice)) {
+      if (outcome.next == path.states[t + 1]) return counts_json(mdp, outcome);
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 Json board_domain_json(const Domain& domain) {
   Json features = Json::array();
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    features.push_back(
-        {{"name", domain.feature_names()[k]}, {"words", domain.feature_words(k)}, {"weight", domain.weights().raw[k]}});
+    const auto& wording = domain.wording(k);
+    features.push_back({{"name", domain.feature_names()[k]},
+                        {"words", domain.feature_words(k)},
+                        {"weight", domain.weights().raw[k]},
+                        {"many", wording.many},
+                        {"do", wording.do_one},
+                        {"do_many", wording.do_many}});
   }
-  Json json{{"id", domain.id()}, {"title", domain.title()}, {"features", features}};
+  Json counted = Json::array();
+  for (std::size_t k = 0; k < domain.num_features(); ++k) {
+    const auto& wording = domain.wording(k);
+    const auto words = counted_as(wording);
+    counted.push_back({{"name", domain.feature_names()[k]},
+                       {"label", in_general(wording)},
+                       {"one", words.one},
+                       {"many", words.many}});
+  }
+  Json json{{"id", domain.id()}, {"title", domain.title()}, {"features", features}, {"counted", counted}};
+  if (auto job = job_in_words(domain); !job.empty()) json["job"] = std::move(job);
   const auto map = domain.drawing();
   if (!map) return json;
   Json legend = Json::array();
@@ -96,7 +127,11 @@ Json frames_json(const Domain& domain, MdpIndex world, const Trajectory& path) {
   Json frames = Json::array();
   for (std::size_t t = 0; t < path.states.size(); ++t) {
     auto frame = frame_json(domain, world, path.states[t]);
-    frame["action"] = t < path.actions.size() ? Json(domain.action_names()[path.actions[t].value()]) : Json{};
+    frame["action"] = nullptr;
+    if (t < path.actions.size()) {
+      frame["action"] = domain.action_names()[path.actions[t].value()];
+      frame["counts"] = step_counts(domain.mdp(world), path, t);
+    }
     frames.push_back(std::move(frame));
   }
   return frames;
@@ -126,6 +161,18 @@ Json sentences_json(const Domain& domain, std::span<const HalfSpace> half_spaces
     sentences.push_back({{"normal", normal}, {"text", texts[i]}});
   }
   return sentences;
+}
+
+Json brackets_json(const Domain& domain, std::span<const Bracket> brackets) {
+  Json all = Json::array();
+  for (const auto& bracket : brackets) {
+    all.push_back({{"feature", bracket.feature},
+                   {"reference", bracket.reference},
+                   {"low", ratio_json(bracket.low)},
+                   {"high", ratio_json(bracket.high)},
+                   {"text", bracket_in_words(domain, bracket)}});
+  }
+  return all;
 }
 
 Json runs_json(const Domain& domain, MdpIndex world, const std::vector<PolicyRun>& runs) {

@@ -83,6 +83,7 @@ TEST(BoardJson, GivesAFrameForEveryStateOfAPath) {
     actions.push_back(frame.at("action"));
   }
   EXPECT_EQ(Json(robots), parsed("[[1, 1], [2, 1], [2, 2], [3, 2]]"));
+  for (std::size_t t = 0; t + 1 < frames.size(); ++t) EXPECT_EQ(frames.at(t).at("counts"), parsed("[0, 1]"));
   EXPECT_EQ(Json(actions), parsed(R"(["right", "down", "right", null])"));
   EXPECT_EQ(step_json(atlas.domain(), world, path, 2), parsed(R"({"frame": 2, "cell": [2, 2]})"));
 }
@@ -132,6 +133,7 @@ TEST(BoardJson, PutsConstraintsIntoSentences) {
 // A frame without what is done in it.
 Json look_of(Json frame) {
   frame.erase("action");
+  frame.erase("counts");
   return frame;
 }
 
@@ -177,6 +179,31 @@ TEST(CurriculumJson, HasAllThatThePageShows) {
       EXPECT_FALSE(test.at("covers").empty());
       EXPECT_TRUE(test.at("runs").is_null());
     }
+  }
+}
+
+TEST(CurriculumJson, HasActionsInPlaceOfFramesForPages) {
+  const auto& atlas = item_delivery();
+  const auto whole = curriculum_json(atlas, make_curriculum(atlas), 7, "kith test");
+  const auto page = for_page(whole);
+  EXPECT_LT(2 * page.at("components").dump().size(), whole.at("components").dump().size());
+  const auto& moves = page.at("tables").at("moves");
+  for (std::size_t i = 0; i < page.at("components").size(); ++i) {
+    const auto& shown = page.at("components").at(i).at("demonstrations").at(0);
+    const auto& frames = whole.at("components").at(i).at("demonstrations").at(0).at("frames");
+    const auto& world = page.at("tables").at("worlds").at(std::to_string(shown.at("world").get<int>()));
+    const auto& table = moves.at(world.at("moves").get<std::size_t>());
+    auto state = shown.at("state").get<std::size_t>();
+    ASSERT_EQ(shown.at("actions").size() + 1, frames.size());
+    for (std::size_t t = 0; t < shown.at("actions").size(); ++t) {
+      const auto& robot = frames.at(t).at("robot");
+      EXPECT_EQ(table.at("frames").at(state).at(0), robot.at(0));
+      EXPECT_EQ(table.at("frames").at(state).at(1), robot.at(1));
+      std::size_t a = 0;
+      while (table.at("actions").at(a).at("name") != shown.at("actions").at(t)) ++a;
+      state = table.at("next").at(state).at(a).get<std::size_t>();
+    }
+    EXPECT_TRUE(table.at("end").at(state).get<bool>());
   }
 }
 

@@ -8,15 +8,13 @@
 
 #include "kith/live/live_study.hpp"
 #include "kith/mdp/planner.hpp"
+#include "kith/present/move_table.hpp"
 #include "kith/teaching/lesson.hpp"
 
 namespace kith {
 
 /// The most states of a world that people can be asked about: its table of moves is sent to browsers.
 inline constexpr std::size_t kMaxLiveStates = 20'000;
-/// The most actions of an answer: what the domain allows for a path, Domain::max_steps(), and at most 500, whatever it
-/// allows. The table of moves tells pages, which say so before somebody gets there.
-[[nodiscard]] std::size_t max_answer_actions(const Domain& domain);
 
 /// Names a world in GET /api/world/KEY: "<study's key>-<number>". Equal keys mean equal tables, so answers can be
 /// cached.
@@ -24,15 +22,7 @@ inline constexpr std::size_t kMaxLiveStates = 20'000;
 /// The world of a key; nothing if there is none.
 [[nodiscard]] std::optional<MdpIndex> world_of_key(const LiveStudy& study, std::string_view key);
 
-/// The table of moves of a world:
-///   {"key", "actions": [{"name", "label", "dx", "dy"}], "items": [name], "stations": [[column, row]],
-///    "frames": [FRAME], "next": [[state | -1 per action]], "end": [bool], "chance": bool, "may_repeat": bool,
-///    "max_actions": max_answer_actions()}
-/// States are numbers of this table. Frames are [robotColumn, robotRow, [[column, row, carried 0|1], ...],
-/// [index into stations, ...]], without a map {"state": name}. -1: nothing happens. Where chance has a part, next is
-/// the likeliest outcome that changes the state. dx and dy are how the action moves the robot, row numbers growing
-/// downward; null for actions that do not move it. may_repeat: an answer may be a path that never ends. Nothing in it
-/// tells anything about the reward.
+/// The table of moves of a world: move_table_json() with "key" and "max_actions", max_answer_actions().
 [[nodiscard]] Json world_json(const LiveStudy& study, MdpIndex world);
 /// The number of a state in that table; states that nothing leads to have none.
 [[nodiscard]] std::optional<std::size_t> world_state(const LiveStudy& study, MdpIndex world, StateIndex state);
