@@ -67,10 +67,24 @@ function fill(template, name, value) {
   return parts[0] + value + parts[1];
 }
 
+// Texts of screens that only live sessions have.
+const kOnlyLive =
+  /^(page|status|notice|refused|landing|connecting|consent|intro|screening|lobby|person|wait|questions|debrief|end|bye|pause|trouble|progress)\./;
+const withoutLiveTexts = {
+  name: 'texts',
+  setup({ onLoad }) {
+    onLoad({ filter: /shared.texts.en\.json$/ }, ({ path }) => {
+      const texts = Object.entries(JSON.parse(readFileSync(path, 'utf8'))).filter(([key]) => !kOnlyLive.test(key));
+      return { contents: JSON.stringify(Object.fromEntries(texts)), loader: 'json' };
+    });
+  },
+};
+
 const script = await bundle(existsSync(join(here, source, 'main.tsx')) ? `${source}/main.tsx` : `${source}/main.ts`, {
   jsx: 'automatic',
   jsxImportSource: 'preact',
   platform: 'browser',
+  plugins: [withoutLiveTexts],
   format: 'iife',
   target: ['chrome100', 'firefox100', 'safari15.4'],
 });

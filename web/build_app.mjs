@@ -78,6 +78,6 @@ if (existsSync(join(here, worker))) {
   const { text } = await bundle(worker, { platform: 'browser', format: 'iife', target: kTarget });
   writeFileSync(join(values.out, 'worker.js'), text);
 }
-const texts = join(here, source, 'texts');
-if (existsSync(texts)) cpSync(texts, join(values.out, 'texts'), { recursive: true });
+const texts = join(here, 'src/shared/texts'); // of pages for participants
+if (values.page === 'live') cpSync(texts, join(values.out, 'texts'), { recursive: true });
 console.log(`${values.out}: app.js ${(script.text.length / 1e3).toFixed(0)} kB, ${(gzipped / 1e3).toFixed(0)} kB gzipped`);

@@ -1,4 +1,14 @@
-// Lessons that no small domain has: a large map with many things, and explicit models with and without a drawing.
+// Lessons that no small domain has: a large map with many things, and explicit models with and without a drawing. Their
+// worlds cannot be driven in: there are no tables of moves.
+
+const kUndriven = {
+  judge: { exact: true, weights: ['-1'], unit: [-1], scale: 1, discount: 1 },
+  tables: { moves: [], worlds: {} },
+  max_actions: 60,
+  fresh: [],
+};
+const kUnjudged = { state: 0, counts: [], brackets: [] };
+const countedAs = (name) => ({ name, label: name, one: name, many: name });
 
 const sentence = { normal: [-1, 0, 2, 0, 0, 0, 0, 1], text: 'crossing rubble costs more than 2 steps' };
 
@@ -27,17 +37,20 @@ export function largeLesson() {
   const frames = robotAlong(across, Array.from({ length: 19 }, () => 'right'));
   const other = [...frames.slice(0, 4), ...frames.slice(4).map((frame) => ({ ...frame, robot: [frame.robot[0] - 1, 9] }))];
   other[3] = { ...other[3], action: 'down' };
-  const board = { world: 4711, map, start: frames[0], frames };
+  const board = { world: 4711, map, start: frames[0], frames, ...kUnjudged };
   return {
     schema: 'kith.curriculum/1',
     title: 'Search and rescue',
     program: 'kith',
+    ...kUndriven,
     domain: {
       id: 'rescue',
+      job: 'The robot brings the medicine to where it belongs.',
+      counted: Array.from({ length: 8 }, (_, k) => countedAs(`thing ${k}`)),
       title: 'Search and rescue on a large floor',
       width: 24,
       height: 16,
-      features: Array.from({ length: 8 }, (_, k) => ({ name: `f${k}`, words: `thing ${k}`, weight: -k })),
+      features: Array.from({ length: 8 }, (_, k) => ({ name: `f${k}`, words: `thing ${k}`, many: `{n} things ${k}`, do: '', do_many: '', weight: -k })),
       legend: [
         { symbol: '#', kind: 'wall', name: 'wall' },
         { symbol: 'r', kind: 'terrain', name: 'rubble' },
@@ -65,7 +78,7 @@ export function largeLesson() {
             flip: { ...board, world: 4710, text: 'without the rubble at (7,8) it goes down at (6,8) rather than going right' },
           },
         ],
-        tests: [{ ...board, difficulty: 'hard', share_right: 0.214, covers: [sentence] }],
+        tests: [{ ...board, covers: [sentence] }],
       },
     ],
     skipped: [],
@@ -81,7 +94,7 @@ export function hugeLesson() {
   );
   const along = Array.from({ length: 50 }, (_, i) => [i + 3, 36]);
   const frames = robotAlong(along, Array.from({ length: 49 }, () => 'right'));
-  const board = { world: 1, map, start: frames[0], frames };
+  const board = { world: 1, map, start: frames[0], frames, ...kUnjudged };
   Object.assign(lesson.domain, { width: columns, height: rows });
   const [component] = lesson.components;
   component.demonstrations = component.demonstrations.map((shown) => ({ ...shown, ...board, alternative: null, decisive: null, flip: null }));
@@ -93,12 +106,13 @@ export function mapless() {
   const frames = (...steps) => steps.map(([state, action]) => ({ state, action: action ?? null }));
   const own = frames(['dock', 'wait'], ['dock, charged', 'leave'], ['hall', 'forward'], ['done']);
   const other = frames(['dock', 'leave'], ['hall, nearly empty', 'forward'], ['done']);
-  const board = { world: 0, world_name: 'weekday', start: { state: 'dock' }, frames: own };
+  const board = { world: 0, world_name: 'weekday', start: { state: 'dock' }, frames: own, ...kUnjudged };
   return {
     schema: 'kith.curriculum/1',
     title: 'A model without a map',
     program: 'kith',
-    domain: { id: 'model', title: 'A model without a map', features: [{ name: 'time', words: 'a minute', weight: -1 }] },
+    ...kUndriven,
+    domain: { id: 'model', counted: [countedAs('minutes')], title: 'A model without a map', features: [{ name: 'time', words: 'a minute', many: '{n} minutes', do: '', do_many: '', weight: -1 }] },
     components: [
       {
         number: 1,
@@ -114,7 +128,7 @@ export function mapless() {
             flip: null,
           },
         ],
-        tests: [{ ...board, difficulty: 'easy', share_right: 0.9, covers: [sentence] }],
+        tests: [{ ...board, covers: [sentence] }],
       },
     ],
     skipped: [{ name: 'something', why: 'all of it is known beforehand' }],

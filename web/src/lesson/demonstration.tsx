@@ -1,9 +1,18 @@
+// An example: the reader says first what the robot will do, then both paths are there, and why the robot takes its own.
 import type { ComponentChildren, JSX } from 'preact';
 import { useState } from 'preact/hooks';
+import type { Path } from '../shared/board/types';
+import { BoardPane, WorldName } from '../shared/play/board_pane';
+import { Brackets } from '../shared/play/brackets';
+import { Compare } from '../shared/play/compare';
+import { t, withoutCells } from '../shared/texts';
+import { actionLabel } from '../shared/texts';
+import { choiceText } from './choice';
+import { partingOf, playBoard, upperFirst, usePrinting, type Context } from './context';
 import type { Demonstration, Sentence } from './document';
+import { Guessing, type Guess } from './guess';
+import { Fan } from './fan';
 import { RunsView } from './runs';
-import { Scene, Start, WorldName, type Context } from './scene';
-import { actionsText, upperFirst, withoutCells } from './words';
 
 // Sentences that can be said, each once: of some constraints nothing short is true.
 export const textsOf = (sentences: Sentence[]): string[] =>
@@ -19,83 +28,154 @@ export function Sentences({ sentences }: { sentences: Sentence[] }): JSX.Element
   );
 }
 
-// First the robot moves; why it does so, and what it would do elsewhere, is there when the reader asks.
-export function DemonstrationView({ shown, number, ...context }: Context & { shown: Demonstration; number: number }) {
-  const [open, setOpen] = useState(false);
-  const [watching, setWatching] = useState(false);
-  const { alternative, decisive, flip } = shown;
-  // Where chance has a part, the most likely paths can be the same although the decisions differ.
-  const isSame = Boolean(shown.runs && alternative && actionsText(shown) === actionsText(alternative));
-  // A list, and what happened in how many runs, would tell before the reader has decided.
-  const tells = !shown.map || Boolean(shown.runs);
-  // The board of the other world marks the same place: there the robot decides differently.
-  const there = flip && decisive ? { frame: decisive.frame, ...cellThere(flip.frames[decisive.frame]?.robot) } : null;
+const kNothing: Guess = { mine: null, verdict: null };
+
+export function DemonstrationView({ shown, number, name, ...context }: Context & { shown: Demonstration; number: number; name: string }) {
+  const [guess, setGuess] = useState<Guess | null>(null);
+  const isPrinting = usePrinting();
+  const seen = guess ?? (isPrinting ? kNothing : null);
+  const done = (made: Guess): void => {
+    setGuess(made);
+    context.tell(name, { shown, mine: made.mine, isRight: made.verdict?.isRight ?? false });
+  };
   return (
-    <article class="demonstration">
+    <article class="demonstration card">
       <h3>Example {number}</h3>
-      <p class="question">{shown.runs ? 'What will the robot do?' : 'Where will the robot go?'} Decide first, then watch.</p>
-      <WorldName board={shown} />
-      {(!shown.map || (tells && !watching)) && <Start {...context} board={shown} />}
-      <Watched isHidden={tells} watching={watching} setWatching={setWatching}>
-        {shown.runs && <RunsView {...context} board={shown} shown={shown.runs} />}
-        {(!shown.runs || open) && (
-          <Scene
-            {...context}
-            board={shown}
-            title={shown.runs ? 'The most likely path' : 'The robot'}
-            name={shown.runs ? "the robot's most likely path" : "the robot's path"}
-            {...(open && alternative && !isSame ? { other: alternative } : {})}
-            decisive={open && !isSame ? decisive : null}
-          >
-            {open && alternative && decisive && !isSame
-              ? `${shown.map ? 'The dashed path' : 'The other list'} is one that you might have expected. They differ from step ${decisive.frame + 1}.`
-              : null}
-            {open && isSame
-              ? 'On this path the robot does what you might have expected. The difference shows when things turn out otherwise.'
-              : null}
-          </Scene>
-        )}
-      </Watched>
-      <details
-        class="why"
-        open={open}
-        onToggle={(event) => {
-          setOpen(event.currentTarget.open);
-          if (event.currentTarget.open) setWatching(true); // the reason is about what the robot does
-        }}
-      >
-        <summary>{open ? 'Hide the reason' : 'Why does it do this?'}</summary>
-        {open && (
-          <>
-            <p class="reason">{upperFirst(shown.reason)}.</p>
-            {textsOf(shown.conveys).length > 1 && (
-              <div class="conveys">
-                <p>From this you can conclude:</p>
-                <Sentences sentences={shown.conveys} />
-              </div>
-            )}
-            {flip && (
-              <Scene {...context} board={flip} title="On another map" name="the robot's path there" decisive={there}>
-                {`${upperFirst(withoutCells(flip.text))}.`}
-              </Scene>
-            )}
-          </>
-        )}
-      </details>
+      {!seen && (
+        <p class="question">
+          {shown.map ? 'Where will the robot go?' : 'What will the robot do?'} Show it first, then watch.
+          {shown.runs && ` ${t('predict.chance')}`}
+        </p>
+      )}
+      <WorldName board={playBoard(context.domain, shown)} />
+      {seen ? (
+        <Seen {...context} shown={shown} guess={seen} isStill={isPrinting} />
+      ) : (
+        <Guessing {...context} shown={shown} submit={t('watch.sketched')} skip={t('watch.skip')} onGuess={done} />
+      )}
     </article>
   );
 }
 
-// A board shows the robot only as far as it has gone; whatever tells more waits until the reader has decided.
-function Watched(props: { isHidden: boolean; watching: boolean; setWatching: (open: boolean) => void; children: ComponentChildren }) {
-  const { isHidden, watching, setWatching, children } = props;
-  if (!isHidden) return <>{children}</>;
+// Both halves of "it would rather take 2 more steps than cross rubble: crossing rubble costs more than 2 steps".
+function halvesOf(reason: string): [string, string] {
+  const at = reason.indexOf(': ');
+  return at < 0 ? [reason, ''] : [reason.slice(0, at), reason.slice(at + 2)];
+}
+
+function Seen({ shown, guess, isStill, ...context }: Context & { shown: Demonstration; guess: Guess; isStill: boolean }): JSX.Element {
+  const { domain, legend } = context;
+  const { mine, verdict } = guess;
+  const board = playBoard(domain, shown);
+  const isMine = mine !== null && verdict !== null && !verdict.isRight;
+  const other = isMine ? mine : shown.alternative;
+  const at = isMine ? partingOf(shown, mine) : (shown.decisive?.frame ?? null);
+  const reason = (
+    <>
+      {mine && <p class={verdict?.isRight ? 'told right' : 'told wrong'}>{verdict?.isRight ? 'That is what it does.' : 'The robot takes another path.'}</p>}
+      <Reason {...context} shown={shown} own={isMine && verdict.counts ? choiceText(domain, shown.counts, verdict.counts) : ''} />
+    </>
+  );
+  const rest = (
+    <>
+      <Brackets brackets={shown.brackets} />
+      <More {...context} shown={shown} isOpen={isStill} />
+    </>
+  );
+  if (shown.runs) {
+    return (
+      <RunsView {...context} board={shown} shown={shown.runs} isStill={isStill} reason={<>{reason}<Fan {...context} shown={shown} /></>}>
+        {rest}
+      </RunsView>
+    );
+  }
   return (
-    <details class="watch" open={watching} onToggle={(event) => setWatching(event.currentTarget.open)}>
-      <summary>{watching ? 'Hide what the robot does' : 'Show what the robot does'}</summary>
-      {watching && children}
+    <Compare
+      board={board}
+      legend={legend}
+      robot={shown}
+      other={other}
+      otherName={isMine ? t('ledger.you') : 'Expected'}
+      otherLine={isMine ? t('feedback.mine') : 'A path that one might have expected'}
+      at={at}
+      isStill={isStill}
+      reason={reason}
+    >
+      {rest}
+    </Compare>
+  );
+}
+
+// What somebody's own path overlooks comes first, if it is something else than what the board was chosen for.
+function Reason({ shown, own }: Context & { shown: Demonstration; own: string }): JSX.Element {
+  const [choice, conveyed] = halvesOf(shown.reason);
+  const isOther = own !== '' && own !== choice;
+  return (
+    <div class="reasons">
+      {isOther && <p class="cost">{upperFirst(own)}.</p>}
+      {(!isOther || conveyed === '') && <p class="cost reason">{upperFirst(choice)}.</p>}
+      {conveyed !== '' && (
+        <p>
+          {isOther && 'What this board shows: '}
+          {isOther ? conveyed : upperFirst(conveyed)}.
+        </p>
+      )}
+    </div>
+  );
+}
+
+function More({ shown, isOpen, ...context }: Context & { shown: Demonstration; isOpen: boolean }): JSX.Element | null {
+  const { flip } = shown;
+  const hasMore = textsOf(shown.conveys).length > 1;
+  if (!flip && !hasMore) return null;
+  return (
+    <Folded summary={t('feedback.why')} isOpen={isOpen}>
+      {hasMore && <Sentences sentences={shown.conveys} />}
+      {flip && (
+        <figure class="small">
+          <Whole {...context} board={flip} />
+          <figcaption>On another map: {withoutCells(flip.text)}.</figcaption>
+        </figure>
+      )}
+    </Folded>
+  );
+}
+
+// Closed, its content is not there.
+export function Folded({ summary, isOpen, children }: { summary: string; isOpen?: boolean; children: ComponentChildren }): JSX.Element {
+  const [open, setOpen] = useState(false);
+  const isShown = open || (isOpen ?? false);
+  return (
+    <details open={isShown} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>{summary}</summary>
+      {isShown && children}
     </details>
   );
 }
 
-const cellThere = (cell: [number, number] | undefined): { cell?: [number, number] } => (cell ? { cell } : {});
+interface WholeProps extends Context {
+  board: Demonstration['flip'] & object | Path & { world: number };
+  other?: Path | null;
+  at?: number | null;
+}
+
+// A small board with whole paths on it, at the end of the robot's.
+export function Whole({ board, other, at, domain, legend }: WholeProps): JSX.Element {
+  const path = board as Demonstration;
+  const placed = playBoard(domain, path);
+  if (!placed.map) return <p>{path.frames.flatMap(({ action }) => (action ? [actionLabel(action)] : [])).join(', ')}</p>;
+  return (
+    <BoardPane
+      board={placed}
+      legend={legend}
+      frames={path.frames}
+      step={0}
+      walked={0}
+      trail="own"
+      whole
+      isSmall
+      closedAt={path.repeats_from === undefined ? undefined : path.frames.length - 1}
+      {...(other && at !== undefined && at !== null ? { other: other.frames, decisive: { frame: at } } : {})}
+    />
+  );
+}

@@ -1,20 +1,25 @@
-// The lesson: what the map's things are, then every component with its demonstrations and tests.
+// The lesson: every component with its examples and tests, and what the robot is like.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { kFew, Tried } from '../shared/board/board';
-import { Patterns, PartGlyph, Robot } from '../shared/board/glyphs';
+import { Patterns } from '../shared/board/glyphs';
 import { Legend } from '../shared/board/legend';
 import { themeToggle } from '../shared/theme';
-import { DemonstrationView, Sentences, textsOf } from './demonstration';
+import { counted, usePrinting, Worlds, type Context, type Prediction } from './context';
+import { DemonstrationView, Whole } from './demonstration';
 import type { Component, Lesson } from './document';
-import type { Context } from './scene';
+import { End } from './portrait';
 import { TestView } from './test_card';
-import { counted, upperFirst } from './words';
 
 export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
   const { domain } = lesson;
   const legend = useMemo(() => new Legend(domain), [domain]);
-  const context = { domain, legend };
+  const worlds = useMemo(() => new Worlds(lesson), [lesson]);
+  const isPrinting = usePrinting();
+  const [predictions, setPredictions] = useState<Map<string, Prediction>>(new Map());
+  // What counts is what somebody thought before they had seen the answer.
+  const tell = (key: string, prediction: Prediction): void =>
+    setPredictions((known) => (known.has(key) ? known : new Map(known).set(key, prediction)));
+  const context = { lesson, domain, legend, worlds, tell };
   return (
     <>
       <Patterns surfaces={legend.surfaces} />
@@ -26,12 +31,14 @@ export function Page({ lesson }: { lesson: Lesson }): JSX.Element {
         <h1>What will the robot do?</h1>
       </header>
       <div class="columns">
-        <Contents lesson={lesson} />
+        <Contents lesson={lesson} predictions={predictions} />
         <main id="main" tabIndex={-1}>
-          <Introduction lesson={lesson} {...context} />
+          <Introduction lesson={lesson} />
           {lesson.components.map((component) => (
             <ComponentView component={component} {...context} />
           ))}
+          <End {...context} predictions={predictions} />
+          {isPrinting && <Answers {...context} />}
           <Notices lesson={lesson} />
         </main>
       </div>
@@ -46,123 +53,94 @@ function Adopted({ make }: { make: () => HTMLElement }): JSX.Element {
   return <span ref={place} />;
 }
 
-function Contents({ lesson }: { lesson: Lesson }): JSX.Element {
+// A segment for every board, filled when it has been predicted.
+function Contents({ lesson, predictions }: { lesson: Lesson; predictions: Map<string, Prediction> }): JSX.Element {
   return (
     <nav class="contents" aria-label="Contents">
       <ol>
         <li>
           <a href="#introduction">How it works</a>
         </li>
-        {lesson.components.map(({ number }) => (
-          <li>
-            <a href={`#component-${number}`}>
-              Part {number}
-            </a>
-          </li>
-        ))}
+        {lesson.components.map(({ number, demonstrations, tests }) => {
+          const names = [...demonstrations.map((_, i) => `example.${number}.${i}`), ...tests.map((_, i) => `test.${number}.${i}`)];
+          return (
+            <li>
+              <a href={`#component-${number}`}>Part {number}</a>
+              <span class="segments" aria-hidden="true">
+                {names.map((name) => (
+                  <i class={predictions.has(name) ? 'done' : undefined} />
+                ))}
+              </span>
+            </li>
+          );
+        })}
+        <li>
+          <a href="#end">What it is like</a>
+        </li>
       </ol>
     </nav>
   );
 }
 
-function Introduction({ lesson, legend }: Context & { lesson: Lesson }): JSX.Element {
-  const things = legend.things();
-  const hasMap = lesson.components.some(({ demonstrations }) => demonstrations.some(({ map }) => map));
-  const hasChance = lesson.components.some(({ demonstrations }) => demonstrations.some(({ runs }) => runs));
+// About how long somebody looks at a board that they predict.
+const kMinutes = { least: 0.75, most: 1.5 };
+
+function Introduction({ lesson }: { lesson: Lesson }): JSX.Element {
   const n = lesson.components.length;
+  const boards = lesson.components.reduce((sum, { demonstrations, tests }) => sum + demonstrations.length + tests.length, 0);
+  const [least, most] = [Math.ceil(boards * kMinutes.least), Math.ceil(boards * kMinutes.most)];
   return (
     <section id="introduction" aria-labelledby="introduction-title">
       <h2 id="introduction-title">How it works</h2>
+      {lesson.domain.job && <p class="job">{lesson.domain.job}</p>}
       <p>
-        This robot always takes the path that is best for it. Your task is to find out what it likes and dislikes. The lesson has{' '}
-        {counted(n, 'part')}. In each part you watch examples, and then you predict what the robot will do.
+        It always takes the path that is best for it. Your task is to find out what it likes and dislikes. The lesson has{' '}
+        {counted(n, 'part')} with {counted(boards, 'board')} in all, and takes about {least} to {most} minutes. On every board you show
+        first what you think the robot will do. In the tests you are told whether you were right.
       </p>
-      {hasMap && (
-        <ul class="legend" aria-label="What the symbols mean">
-          <LegendItem name="the robot">
-            <Robot />
-          </LegendItem>
-          {things.map((part) => (
-            <LegendItem name={part.name} isSurface={part.kind === 'terrain' || part.kind === 'wall'}>
-              <PartGlyph part={part} legend={legend} />
-            </LegendItem>
-          ))}
-          <LegendItem name="the robot's path">
-            <g class="way own">
-              <path class="line" d="M-20 0H20" />
-              <path class="arrow" d="M5 0-4 -4.6V4.6Z" />
-            </g>
-          </LegendItem>
-          {hasChance && (
-            <LegendItem name="where the robot tried to go, if it slips">
-              <g class="way own">
-                <Tried from={{ x: -14, y: 0 }} x={14} y={0} angle={0} />
-              </g>
-            </LegendItem>
-          )}
-          <LegendItem name="a path you might have expected">
-            <g class="way other">
-              <path class="line" d="M-20 0H20" />
-              <path class="arrow" d="M5 0-4 -4.6V4.6Z" />
-            </g>
-          </LegendItem>
-          <LegendItem name="where the paths separate">
-            <rect class="decisive" x={-17} y={-17} width={34} height={34} rx={4} />
-          </LegendItem>
-        </ul>
-      )}
     </section>
-  );
-}
-
-function LegendItem({ name, isSurface, children }: { name: string; isSurface?: boolean; children: preact.ComponentChildren }) {
-  return (
-    <li>
-      <svg viewBox="-22 -22 44 44" aria-hidden="true" focusable="false">
-        {children}
-        {isSurface && <rect class="frame" x={-20} y={-20} width={40} height={40} />}
-      </svg>
-      {upperFirst(name)}
-    </li>
   );
 }
 
 function ComponentView({ component, ...context }: Context & { component: Component }): JSX.Element {
-  const id = `component-${component.number}`;
-  const tests = component.tests;
+  const { number, demonstrations, tests } = component;
+  const id = `component-${number}`;
   return (
     <section id={id} aria-labelledby={`${id}-title`}>
-      <h2 id={`${id}-title`}>
-        Part {component.number}
-      </h2>
-      {component.demonstrations.map((shown, i) => (
-        <DemonstrationView shown={shown} number={i + 1} {...context} />
+      <h2 id={`${id}-title`}>Part {number}</h2>
+      {demonstrations.map((shown, i) => (
+        <DemonstrationView shown={shown} number={i + 1} name={`example.${number}.${i}`} {...context} />
       ))}
       {tests.length > 0 && (
         <>
           <h3>{tests.length === 1 ? 'A test' : 'Tests'}</h3>
-          <div class={(context.domain.width ?? 0) > kFew ? 'tests wide' : 'tests'}>
-            {tests.map((test, i) => (
-              <TestView test={test} number={i + 1} {...context} />
-            ))}
-          </div>
+          {tests.map((test, i) => (
+            <TestView test={test} title={`Test ${i + 1}`} name={`test.${number}.${i}`} {...context} />
+          ))}
         </>
       )}
-      <Summary component={component} />
     </section>
   );
 }
 
-function Summary({ component }: { component: Component }): JSX.Element | null {
-  const [open, setOpen] = useState(false);
-  if (textsOf(component.sentences).length === 0) return null;
+// On paper the answers are on the last page.
+function Answers({ ...context }: Context): JSX.Element {
   return (
-    <details class="goals" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
-      <summary>
-        {open ? 'Hide' : 'Show'} the summary of part {component.number}
-      </summary>
-      {open && <Sentences sentences={component.sentences} />}
-    </details>
+    <section class="answers" aria-labelledby="answers-title">
+      <h2 id="answers-title">Answers</h2>
+      <div class="pair">
+        {context.lesson.components.flatMap(({ number, tests }) =>
+          tests.map((test, i) => (
+            <figure>
+              <Whole {...context} board={test} />
+              <figcaption>
+                Part {number}, test {i + 1}
+              </figcaption>
+            </figure>
+          )),
+        )}
+      </div>
+    </section>
   );
 }
 

@@ -1,41 +1,95 @@
+// A test: the reader drives the robot, and the page says whether it is right.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import { Sentences, textsOf } from './demonstration';
+import { Button } from '../shared/play/button';
+import { WorldName } from '../shared/play/board_pane';
+import { Compare } from '../shared/play/compare';
+import { Mark } from '../shared/play/mark';
+import { t } from '../shared/texts';
+import { choiceText } from './choice';
+import { partingOf, playBoard, upperFirst, usePrinting, type Context } from './context';
+import { Sentences, textsOf, Whole } from './demonstration';
 import type { Test } from './document';
+import { Guessing, type Guess } from './guess';
 import { RunsView } from './runs';
-import { Scene, Start, WorldName, type Context } from './scene';
 
-export function TestView({ test, number, ...context }: Context & { test: Test; number: number }): JSX.Element {
-  const [open, setOpen] = useState(false);
+export function TestView({ test, title, name, ...context }: Context & { test: Test; title: string; name: string }): JSX.Element {
+  const [guess, setGuess] = useState<Guess | null>(null);
+  const isPrinting = usePrinting();
+  const done = (made: Guess): void => {
+    setGuess(made);
+    context.tell(name, { shown: test, mine: made.mine, isRight: made.verdict?.isRight ?? false });
+  };
   return (
-    <article class="test">
-      <h4>
-        Test {number} <span class={`badge ${test.difficulty}`}>{test.difficulty}</span>
-      </h4>
-      <p class="question">
-        {test.runs ? 'What will the robot do, here and wherever it may end up?' : 'Which path will the robot take?'}
-      </p>
-      <WorldName board={test} />
-      {!open && <Start {...context} board={test} />}
-      <details open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
-        <summary>{open ? 'Hide the answer' : 'Show the answer'}</summary>
-        {open && (
-          <div class="answer">
-            {test.runs ? (
-              <RunsView {...context} board={test} shown={test.runs} />
-            ) : (
-              <Scene {...context} board={test} title="The robot's answer" name="the robot's path" />
-            )}
-            {textsOf(test.covers).length > 0 && (
-              <>
-                <p>A correct answer shows that you know:</p>
-                <Sentences sentences={test.covers} />
-              </>
-            )}
-            <p class="share">Before this lesson, about {Math.round(100 * test.share_right)} % would answer correctly.</p>
-          </div>
-        )}
-      </details>
+    <article class="test card">
+      <h4>{title}</h4>
+      {!guess && (
+        <p class="question">
+          {test.map ? t('predict.question') : t('predict.question_plain')}
+          {test.runs && ` ${t('predict.chance')}`}
+        </p>
+      )}
+      <WorldName board={playBoard(context.domain, test)} />
+      {isPrinting ? (
+        <Whole {...context} board={{ ...test, frames: test.frames.slice(0, 1) }} />
+      ) : guess ? (
+        <Answered {...context} test={test} guess={guess} onAgain={() => setGuess(null)} />
+      ) : (
+        <Guessing {...context} shown={test} submit={t('predict.submit')} skip="Show the answer" onGuess={done} />
+      )}
     </article>
+  );
+}
+
+function Answered({ test, guess, onAgain, ...context }: Context & { test: Test; guess: Guess; onAgain: () => void }): JSX.Element {
+  const { domain, legend } = context;
+  const { mine, verdict } = guess;
+  const isRight = verdict?.isRight ?? false;
+  const at = mine && !isRight ? partingOf(test, mine) : null;
+  const word = !mine ? 'none' : isRight ? 'right' : 'wrong';
+  const why = verdict?.counts && !isRight ? choiceText(domain, test.counts, verdict.counts) : '';
+  const reason = (
+    <>
+      <div class={`verdict ${word}`} role="status">
+        <Mark verdict={word} />
+        <p>{t(`feedback.title.${word}`)}</p>
+      </div>
+      <div class="reasons">
+        {isRight && mine && partingOf(test, mine) !== null && <p>{t('feedback.right_other')}</p>}
+        {why !== '' && <p class="cost">{upperFirst(why)}.</p>}
+        {textsOf(test.covers).length > 0 && (
+          <>
+            <p>{isRight ? t('feedback.showed') : 'What a right answer shows:'}</p>
+            <Sentences sentences={test.covers} />
+          </>
+        )}
+      </div>
+    </>
+  );
+  const again = (
+    <div class="submit">
+      <Button onClick={onAgain}>Try again</Button>
+    </div>
+  );
+  if (test.runs) {
+    return (
+      <RunsView {...context} board={test} shown={test.runs} isStill={false} reason={reason}>
+        {again}
+      </RunsView>
+    );
+  }
+  return (
+    <Compare
+      board={playBoard(domain, test)}
+      legend={legend}
+      robot={test}
+      other={isRight ? null : mine}
+      otherName={t('ledger.you')}
+      otherLine={t('feedback.mine')}
+      at={at}
+      reason={reason}
+    >
+      {again}
+    </Compare>
   );
 }

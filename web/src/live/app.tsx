@@ -21,7 +21,7 @@ import { Questions } from './screens/questions';
 import { Wait } from './screens/wait';
 import { Watch } from './screens/watch';
 import { becomeParticipant, codeOfLink, forgetParticipant, knownToken } from './session';
-import { currentLanguage, loadTexts, t } from './texts';
+import { currentLanguage, loadTexts, t } from '../shared/texts';
 
 export function App(): JSX.Element {
   const [known] = useState(knownToken);

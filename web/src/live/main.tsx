@@ -1,7 +1,7 @@
 // The page of somebody who takes part.
 import { render } from 'preact';
 import { App } from './app';
-import { loadTexts, t } from './texts';
+import { loadTexts, t } from '../shared/texts';
 
 const kPatience = 800; // milliseconds that the first screen waits for its language
 const page = document.getElementById('page');

@@ -1,17 +1,9 @@
 // What the server sends to participants and what they send to it.
-import type { Frame, MapDomain, Path, Place } from '../shared/board/types';
+import type { Frame, Path, PlayBoard } from '../shared/board/types';
+import type { KeyPress } from '../shared/play/drive';
+import type { Bracket } from '../shared/play/brackets';
 
 export type { Frame } from '../shared/board/types';
-
-// A world before anybody has moved. Nothing in it tells of the reward.
-export interface LiveBoard {
-  domain: MapDomain;
-  world: number;
-  map?: string[];
-  fences?: [Place, Place][];
-  world_name?: string;
-  start: Frame;
-}
 
 export type Stage =
   | 'consent'
@@ -33,7 +25,7 @@ export type Stage =
 export interface Task {
   index: number;
   of: number;
-  board: LiveBoard;
+  board: PlayBoard;
   world: string;
   start: number;
   draft: number[];
@@ -46,7 +38,7 @@ export interface Runs {
 }
 
 export interface Judged {
-  board: LiveBoard;
+  board: PlayBoard;
   right: boolean;
   mine: Frame[] | null;
   mine_repeats_from?: number; // as in a Path
@@ -88,7 +80,7 @@ export interface ParticipantView {
   notices: { text: string; at_ms: number }[];
   pause?: Pause;
   consent?: { version: string; paragraphs: string[] };
-  check?: { board: LiveBoard; world?: string; start?: number; ask_name?: boolean };
+  check?: { board: PlayBoard; world?: string; start?: number; parts?: number; most?: number; ask_name?: boolean };
   screening?: Task; // or `predict` in the stage screening
   lobby?: {
     present: number;
@@ -98,8 +90,9 @@ export interface ParticipantView {
     reserve?: boolean; // the seats are taken; who waits gets one that becomes free
     until_ms?: number;
   };
-  progress?: { part: number; round: number; done: number };
-  watch?: { index: number; of: number; board: LiveBoard; runs?: Runs } & Path;
+  progress?: { part: number; parts: number; round: number; most: number; done: number };
+  // world and state: the table of moves and the start in it, if people sketch the path first
+  watch?: { index: number; of: number; board: PlayBoard; runs?: Runs; world?: string; state?: number } & Path;
   predict?: Task;
   wait?: {
     for: 'answers' | 'others-watching' | 'teacher' | 'feedback' | 'joining' | 'rejoining';
@@ -107,7 +100,8 @@ export interface ParticipantView {
     since_ms: number;
   };
   // others_unsure: somebody else was not right, which is why the group goes on
-  feedback?: { tests: Judged[]; all_right: boolean; learned: boolean; others_unsure: boolean };
+  // brackets: where the study shows them
+  feedback?: { tests: Judged[]; all_right: boolean; learned: boolean; others_unsure: boolean; brackets?: Bracket[] };
   questions?: { items: Question[] };
   // what the robot is like: of the parts that the group had lessons about, and of the others
   debrief?: { summary: string[]; not_reached: string[]; code: string; redirect?: string; rounds: number; right: number; tests: number };
@@ -115,9 +109,6 @@ export interface ParticipantView {
   limit_ms?: number; // when a time limit ends this stage
   server_ms: number;
 }
-
-// A key press, as researchers see it: an action's number or what was done to the path, and milliseconds.
-export type KeyPress = [number | 'undo' | 'reset', number];
 
 export interface Commands {
   consent: { accept: boolean; version: string };
@@ -138,27 +129,4 @@ export interface Message<T extends CommandType = CommandType> {
   t: T;
   id: string;
   body: Commands[T];
-}
-
-// GET /api/world/KEY. A compact frame is [column, row, [[column, row, carried], ...], [index into stations, ...]],
-// or {state} where the domain has no map.
-export type CompactFrame = [number, number, [number, number, number | boolean][], number[]] | { state: string };
-
-export interface WorldDocument {
-  key: string;
-  actions: { name: string; label: string; dx: number | null; dy: number | null }[];
-  items?: string[];
-  stations?: [number, number][];
-  frames: CompactFrame[];
-  next: number[][]; // per state and action; -1: nothing happens
-  end: boolean[];
-  chance: boolean;
-  may_repeat?: boolean; // an answer may be a path that never ends
-  max_actions: number; // of an answer
-}
-
-export interface TextsDocument {
-  lang: string;
-  dir: 'ltr' | 'rtl';
-  strings: Record<string, string>;
 }

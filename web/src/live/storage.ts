@@ -1,4 +1,6 @@
 // What this tab keeps across a reload. A browser that refuses storage loses nothing but that.
+import type { DriveStore, Kept } from '../shared/play/drive';
+
 const kPrefix = 'kith.';
 
 export function recall<T>(key: string): T | null {
@@ -17,6 +19,9 @@ export function keep(key: string, value: unknown): void {
     // full or not allowed
   }
 }
+
+// What somebody was driving, for `useDrive`.
+export const driveStore: DriveStore = { recall: () => recall<Kept>('drive'), keep: (kept) => keep('drive', kept) };
 
 export function forget(key: string): void {
   try {

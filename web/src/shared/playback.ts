@@ -10,12 +10,20 @@ export interface Playback {
 }
 
 const kLongest = 14000; // milliseconds for a whole path
-const kPace = { slowest: 750, fastest: 160 };
+const kPace = { slowest: 750, fastest: 40 };
+
+// Where it begins, and whether it does so by itself; for those who ask for less motion it is at its end.
+export interface Beginning {
+  from: number;
+  isAuto: boolean;
+  isAtEnd?: boolean; // already played
+}
 
 // `speed` divides the time between steps.
-export function usePlayback(last: number, speed = 1): Playback {
-  const [step, setStep] = useState(0);
-  const [isStarted, setStarted] = useState(false);
+export function usePlayback(last: number, speed = 1, { from, isAuto, isAtEnd }: Beginning = { from: 0, isAuto: false }): Playback {
+  const calm = useCalm();
+  const [step, setStep] = useState(isAtEnd || (isAuto && calm) ? last : from);
+  const [isStarted, setStarted] = useState(isAuto && !calm);
   const playing = isStarted && step < last;
   useEffect(() => {
     if (!playing) return;
@@ -32,7 +40,7 @@ export function usePlayback(last: number, speed = 1): Playback {
       setStep(Math.max(0, Math.min(to, last)));
     },
     toggle: () => {
-      if (step === last) setStep(0);
+      if (step === last) setStep(from);
       setStarted(!playing);
     },
   };

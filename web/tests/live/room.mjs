@@ -1,7 +1,7 @@
 // A room of the mock server: a group that is taught item delivery with the sample lesson, as the protocol says.
 import { bestPath, framesOf, judge, makeWorld } from './delivery.mjs';
 
-const legendOnly = ({ id, legend, surfaces, width, height }) => ({ id, legend, surfaces, width, height });
+const legendOnly = ({ id, legend, surfaces, width, height, counted, job }) => ({ id, legend, surfaces, width, height, counted, job });
 const boardOf = (domain, { world, map, start }) => ({ domain: legendOnly(domain), world, map, start });
 
 export class Room {
@@ -197,7 +197,7 @@ export class Room {
   stageView(person) {
     const part = this.parts[Math.min(this.part, this.parts.length - 1)];
     const done = (this.part + (this.round - 1) / 2) / this.parts.length;
-    const progress = { progress: { part: this.part + 1, round: this.round, done } };
+    const progress = { progress: { part: this.part + 1, parts: this.parts.length, round: this.round, most: 12, done } };
     const drive = ({ board, key }, index, of, draft) => ({ index, of, board, world: key, start: 0, draft });
     const waiting = (what) => this.active().filter(({ stage, waitsFor }) => !(stage === 'wait' && waitsFor === what)).length;
     switch (person.stage) {

@@ -51,7 +51,7 @@ async function withViews(setting, body, look = {}) {
 // A view that is new to the page, also if the screen before it was of the same kind.
 async function show({ mock, page }, view) {
   await page.evaluate(() => {
-    for (const name of ['drive', 'seen', 'feedback', 'dismissed', 'introduced']) sessionStorage.removeItem(`kith.${name}`);
+    for (const name of ['drive', 'seen', 'sketch', 'feedback', 'dismissed', 'introduced']) sessionStorage.removeItem(`kith.${name}`);
   });
   const { progress } = view;
   show.count = (show.count ?? 0) + 1;
@@ -330,7 +330,7 @@ export function screenTests(setting) {
               return svg.innerHTML.replace(/url\([^)]+\)/, '') + texture;
             }),
           );
-          if (name === 'patchwork') assert.equal(drawn.length, 14, 'the robot, 12 terrains and the path');
+          if (name === 'patchwork') assert.equal(drawn.length, 13, 'the robot and 12 terrains');
           assert.equal(new Set(drawn).size, drawn.length, name);
         }
       });

@@ -25,8 +25,7 @@ export function sessionTests(setting) {
         await people[2].answer();
         await people[0].at('Not quite');
         await people[1].at('Correct');
-        await people[0].button('Play').click();
-        await people[0].page.waitForSelector('.mover.ghost');
+        await people[0].page.waitForSelector('.mover.ghost'); // both set out by themselves
         for (const person of people) await person.feedback();
         for (const [period, tests] of [[1, 1], [2, 2]]) {
           for (const person of people) {
@@ -84,7 +83,6 @@ export function sessionTests(setting) {
         }
         await person.answer(['right', 'down', 'right', 'pickup', 'left', 'left', 'left', 'dropoff']);
         await person.at('Not quite');
-        await person.button('Play').click();
         await page.waitForSelector('.reasons');
         await look();
         for (const text of seen) assert.doesNotMatch(text, /\(\d+,\d+\)|\bworld \d|\bMDP\b|half-space|knowledge component/i);

@@ -5,8 +5,8 @@ import { dirname, join } from 'node:path';
 import { describe, it } from 'node:test';
 import { fileURLToPath } from 'node:url';
 
-const source = join(dirname(fileURLToPath(import.meta.url)), '../../src/live');
-const textOf = (name) => readFileSync(join(source, 'texts', name), 'utf8');
+const source = join(dirname(fileURLToPath(import.meta.url)), '../../src');
+const textOf = (name) => readFileSync(join(source, 'shared/texts', name), 'utf8');
 const read = (name) => JSON.parse(textOf(name));
 const placeholders = (text) => [...text.matchAll(/\{(\w+)\}/g)].map(([, name]) => name).sort();
 const isNamed = (key) => key.startsWith('name.'); // what the domain names: English has only names that do not read well
@@ -21,7 +21,7 @@ function sources(folder) {
 export function textTests() {
   describe('texts', () => {
     const english = read('en.json');
-    const code = sources(source).join('\n');
+    const code = ['shared', 'live', 'lesson'].flatMap((folder) => sources(join(source, folder))).join('\n');
 
     it('are there for every key that a screen uses', () => {
       const has = (key) => key in english || `${key}.other` in english;
@@ -45,7 +45,7 @@ export function textTests() {
       assert.deepEqual(Object.values(english).filter((text) => terms.test(text)), []);
     });
 
-    const files = readdirSync(join(source, 'texts'));
+    const files = readdirSync(join(source, 'shared/texts'));
     for (const name of files) {
       it(`of ${name} have one text for every key`, () => {
         const keys = [...textOf(name).matchAll(/^ {2}"([^"]+)": /gm)].map(([, key]) => key);

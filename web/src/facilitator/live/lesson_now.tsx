@@ -1,8 +1,8 @@
 // The lesson that is being taught: its boards, animated, why it was chosen, and what came next.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useMemo, useState } from 'preact/hooks';
-import { Player } from '../../lesson/player';
-import { actionsText, endText, placedStepText } from '../../lesson/words';
+import { Player } from './steps_player';
+import { actionsText, endText, placedStepText } from './placed_words';
 import { BoardView as BoardDrawing } from '../../shared/board/board';
 import { Patterns } from '../../shared/board/glyphs';
 import { closedAt, played } from '../../shared/board/repeats';

@@ -1,12 +1,13 @@
 // What is around every screen: the title, whether everything is saved, how far the session is, messages and pauses.
 import type { ComponentChildren, JSX } from 'preact';
 import { useState } from 'preact/hooks';
+import { Patterns } from '../../shared/board/glyphs';
 import { duration } from '../../shared/duration';
 import { serverNow, useTick } from '../clock';
 import type { Connection, Snapshot } from '../connection';
 import type { ParticipantView, Pause, Stage } from '../protocol';
 import { keep, recall } from '../storage';
-import { sentence, t } from '../texts';
+import { sentence, t } from '../../shared/texts';
 import { Button } from './ui';
 
 interface Props {
@@ -17,8 +18,11 @@ interface Props {
 }
 
 export function Shell({ connection, snapshot, view, children }: Props): JSX.Element {
+  const { check, watch, predict, feedback } = view;
+  const board = (check ?? watch ?? predict ?? view.screening ?? feedback?.tests[0])?.board;
   return (
     <>
+      {board && <Patterns surfaces={board.domain.surfaces ?? []} />}
       <header class="top">
         <p class="study-title">{view.study.title}</p>
         <Status snapshot={snapshot} stage={view.stage} />
@@ -55,16 +59,24 @@ function Status({ snapshot, stage }: { snapshot: Snapshot; stage: Stage }): JSX.
   );
 }
 
-function Progress({ part, round, done }: { part: number; round: number; done: number }): JSX.Element {
-  const percent = Math.round(100 * Math.max(0, Math.min(1, done)));
+// A segment for every round that there may be, as the group may be done sooner; of many rounds, one for every part.
+function Progress({ part, parts, round, most }: NonNullable<ParticipantView['progress']>): JSX.Element {
+  const isByRound = most <= kMostSegments;
+  const text = t(isByRound ? 'progress.rounds' : 'progress.part', { part, parts, round, most });
+  const [now, all] = isByRound ? [round, most] : [part, parts];
   return (
     <div class="progress">
-      <span>{t('progress.part', { part, round })}</span>
-      <progress max={100} value={percent} aria-label={t('progress.done')} />
+      <span>{text}</span>
+      <span class="segments" aria-hidden="true">
+        {Array.from({ length: all }, (_, i) => (
+          <i class={i + 1 < now ? 'done' : i + 1 === now ? 'now' : undefined} />
+        ))}
+      </span>
     </div>
   );
 }
 
+const kMostSegments = 20;
 const kPatience = 2000; // a short break needs no banner
 
 function Lost({ connection, snapshot }: { connection: Connection; snapshot: Snapshot }): JSX.Element | null {

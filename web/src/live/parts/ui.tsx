@@ -3,7 +3,9 @@ import type { ComponentChildren, JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { duration } from '../../shared/duration';
 import { serverNow, useTick } from '../clock';
-import { t } from '../texts';
+import { Button } from '../../shared/play/button';
+import { t } from '../../shared/texts';
+export { Button } from '../../shared/play/button';
 import { setHeading } from './title';
 
 // The heading of a screen. It gets the focus when the screen appears, so that a screen reader starts there.
@@ -18,33 +20,6 @@ export function Heading({ children, quiet }: { children: ComponentChildren; quie
     <h1 tabIndex={-1} ref={heading}>
       {children}
     </h1>
-  );
-}
-
-interface ButtonProps {
-  onClick: () => void;
-  children: ComponentChildren;
-  primary?: boolean;
-  pressed?: boolean; // of a button that switches something on and off
-  off?: boolean; // cannot be used now; still reachable by keyboard, so that the focus is not lost
-  describedBy?: string | undefined;
-  class?: string;
-}
-
-export function Button({ onClick, children, primary, pressed, off, describedBy, class: name }: ButtonProps): JSX.Element {
-  return (
-    <button
-      type="button"
-      class={`${primary ? 'primary' : 'plain'} ${name ?? ''}`}
-      aria-pressed={pressed}
-      aria-disabled={off ? 'true' : undefined}
-      aria-describedby={describedBy}
-      onClick={() => {
-        if (!off) onClick();
-      }}
-    >
-      {children}
-    </button>
   );
 }
 

@@ -1,14 +1,15 @@
 // A board to try the keys and buttons on. Nothing here counts.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import { useDrive } from '../drive';
-import { Driver } from '../parts/driver';
-import { useLegend } from '../parts/live_board';
+import { useDrive } from '../../shared/play/drive';
+import { Driver } from '../../shared/play/driver';
+import { Job, useLegend } from '../../shared/play/board_pane';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
-import { keep, recall } from '../storage';
-import { t } from '../texts';
-import { plainWorld, useWorld, type World } from '../world';
+import { driveStore, keep, recall } from '../storage';
+import { t } from '../../shared/texts';
+import { plainWorld, type World } from '../../shared/play/world';
+import { useWorld } from '../world';
 
 const kLongestName = 80; // bytes, as the server counts
 const kEnough = 4; // steps after which somebody knows how to drive
@@ -32,8 +33,10 @@ export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
     <form class="intro" onSubmit={go}>
       <Heading>{t('intro.title')}</Heading>
       <Paragraphs texts={story} />
+      <Job board={check.board} />
       {goal && <p class="goal">{goal}</p>}
       <p>{t('intro.how')}</p>
+      {check.parts !== undefined && <p>{t('intro.duration', minutesOf(check.parts, check.most ?? Infinity))}</p>}
       {view.group.size > 1 && <p>{t('intro.group', { size: view.group.size })}</p>}
       {check.ask_name && (
         <div class="name">
@@ -61,6 +64,12 @@ export function Check(props: ScreenProps & { check: Shown }): JSX.Element {
     </form>
   );
 }
+
+// A round takes about two minutes, and most parts take one to four of them.
+const minutesOf = (parts: number, most: number): { least: number; most: number } => ({
+  least: 2 * parts,
+  most: 2 * Math.max(parts, Math.min(most, 4 * parts)),
+});
 
 function shortened(name: string): string {
   let text = name;
@@ -106,7 +115,7 @@ interface TryingProps extends ScreenProps {
 }
 
 function Trying({ check, world, start, legend, connection }: TryingProps): JSX.Element {
-  const drive = useDrive({ world, start, draft: [], key: `check.${check.world ?? ''}.${start}` });
+  const drive = useDrive({ world, start, draft: [], key: `check.${check.world ?? ''}.${start}`, store: driveStore });
   const [wasReady, setReady] = useState(false);
   const isReady = wasReady || drive.isAtEnd || drive.actions.length >= kEnough;
   if (isReady && !wasReady) setReady(true);

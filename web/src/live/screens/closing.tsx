@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { CompletionCode, GoOn, Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
-import { hasText, isEnglish, sentence, t } from '../texts';
+import { hasText, isEnglish, sentence, t } from '../../shared/texts';
 
 export function Debrief({ debrief, isSaved }: { debrief: NonNullable<ParticipantView['debrief']>; isSaved: boolean }): JSX.Element {
   const { code, redirect, rounds, right, tests, summary, not_reached } = debrief;

@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { download } from '../../shared/download';
 import { Button, Heading, Paragraphs } from '../parts/ui';
 import type { ScreenProps } from '../screen';
-import { t } from '../texts';
+import { t } from '../../shared/texts';
 
 type Shown = NonNullable<ScreenProps['view']['consent']>;
 

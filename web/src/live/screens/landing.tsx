@@ -4,7 +4,7 @@ import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { Heading } from '../parts/ui';
 import type { ParticipantView } from '../protocol';
 import { codeOfLink } from '../session';
-import { t } from '../texts';
+import { t } from '../../shared/texts';
 
 interface Reply {
   token?: string;

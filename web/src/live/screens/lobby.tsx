@@ -5,7 +5,7 @@ import { duration } from '../../shared/duration';
 import { serverNow, useTick } from '../clock';
 import { Button, Heading, NextStep, Paragraphs, Since } from '../parts/ui';
 import type { ScreenProps } from '../screen';
-import { t } from '../texts';
+import { t } from '../../shared/texts';
 
 type Shown = NonNullable<ScreenProps['view']['lobby']>;
 

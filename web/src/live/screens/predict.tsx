@@ -1,14 +1,16 @@
 // Where somebody shows what the robot will do.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useState } from 'preact/hooks';
-import { useDrive, type Drive } from '../drive';
-import { Driver } from '../parts/driver';
-import { useLegend, WorldName } from '../parts/live_board';
+import { useDrive, type Drive } from '../../shared/play/drive';
+import { Driver } from '../../shared/play/driver';
+import { Job, useLegend, WorldName } from '../../shared/play/board_pane';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import type { Task } from '../protocol';
 import type { ScreenProps } from '../screen';
-import { t } from '../texts';
-import { useWorld, type World } from '../world';
+import { driveStore } from '../storage';
+import { t } from '../../shared/texts';
+import type { World } from '../../shared/play/world';
+import { useWorld } from '../world';
 
 interface Props extends ScreenProps {
   task: Task;
@@ -25,6 +27,7 @@ export function Predict(props: Props): JSX.Element {
       <p class="kicker">{t('predict.count', { index: task.index + 1, of: task.of })}</p>
       <Heading>{t(isScreening ? 'screening.title' : 'predict.title')}</Heading>
       <p class="lead">{t(question)}</p>
+      <Job board={task.board} />
       <WorldName board={task.board} />
       {world?.hasChance && <p>{t('predict.chance')}</p>}
       <TimeLeft until={view.limit_ms} />
@@ -54,6 +57,7 @@ function Answering({ task, isScreening, view, connection, world, legend }: Props
     world,
     start: task.start,
     draft: task.draft,
+    store: driveStore,
     key: [view.stage, part, round, task.index, task.world, task.start].join('.'),
     ...(isScreening ? {} : { onDraft: (actions: number[]) => connection.sendDraft({ test: task.index, actions }) }),
   });

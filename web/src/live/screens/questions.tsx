@@ -5,7 +5,7 @@ import { Button, Heading } from '../parts/ui';
 import type { Question } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
-import { t } from '../texts';
+import { t } from '../../shared/texts';
 
 type Answers = Record<string, string | number>;
 const kLongestText = { one: 2000, all: 4000 }; // characters; a message has at most 16 KiB

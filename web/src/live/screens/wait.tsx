@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { Heading, NextStep, Since, TimeLeft } from '../parts/ui';
 import type { ScreenProps } from '../screen';
-import { t } from '../texts';
+import { t } from '../../shared/texts';
 
 type Shown = NonNullable<ScreenProps['view']['wait']>;
 

@@ -1,22 +1,91 @@
 // One demonstration: the robot moves when asked to, and its path is drawn only as far as it has gone.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-import { BoardInWords, LiveBoardView, Things, useLegend, WorldName } from '../parts/live_board';
-import { LogView, useLog } from '../parts/log';
-import { Player, usePacedPlayback } from '../parts/player';
-import { StateCard, StepList } from '../parts/steps';
+import { BoardInWords, BoardPane, Job, Things, useLegend, WorldName } from '../../shared/play/board_pane';
+import { countsOf, Ledger } from '../../shared/play/ledger';
+import { LogView, useLog } from '../../shared/play/log';
+import { Player, usePacedPlayback } from '../../shared/play/player';
+import { StateCard, StepList } from '../../shared/play/steps';
 import { Button, Heading, TimeLeft } from '../parts/ui';
 import { closedAt, played } from '../../shared/board/repeats';
-import type { Path } from '../../shared/board/types';
+import type { Frame, Path } from '../../shared/board/types';
+import { useDrive } from '../../shared/play/drive';
+import { Driver } from '../../shared/play/driver';
+import type { World } from '../../shared/play/world';
+import { useWorld } from '../world';
 import type { Runs } from '../protocol';
 import type { ScreenProps } from '../screen';
-import { keep, recall } from '../storage';
-import { isEnglish, t } from '../texts';
-import { isJobDone, onAndOn, playedText } from '../words';
+import { driveStore, keep, recall } from '../storage';
+import { isEnglish, t } from '../../shared/texts';
+import { isJobDone, onAndOn, playedText } from '../../shared/play/words';
 
 type Shown = NonNullable<ScreenProps['view']['watch']>;
 
-export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown }): JSX.Element {
+// Where the study asks for it, people sketch the path before they see it.
+export function Watch(props: ScreenProps & { watch: Shown }): JSX.Element {
+  const { watch, view, token } = props;
+  const { part = 0, round = 0 } = view.progress ?? {};
+  const key = `${part}.${round}.${watch.index}`;
+  const [sketch, setSketch] = useState(() => {
+    const kept = recall<{ key: string; frames: Frame[] }>('sketch');
+    return kept?.key === key ? kept.frames : null;
+  });
+  const { world } = useWorld(watch.world, token);
+  if (watch.world === undefined || sketch) return <Watching {...props} sketch={sketch ?? []} />;
+  const done = (frames: Frame[]): void => {
+    keep('sketch', { key, frames });
+    setSketch(frames);
+  };
+  return (
+    <>
+      <p class="kicker">{t('watch.count', { index: watch.index + 1, of: watch.of })}</p>
+      <Heading>{t('watch.title')}</Heading>
+      <p class="lead">{t(watch.board.map ? 'watch.sketch' : 'watch.sketch_plain')}</p>
+      {world?.hasChance && <p>{t('predict.chance')}</p>}
+      <Job board={watch.board} />
+      <WorldName board={watch.board} />
+      <TimeLeft until={view.limit_ms} />
+      {world ? <Sketching world={world} watch={watch} name={key} onDone={done} /> : <p role="status">{t('common.loading')}</p>}
+    </>
+  );
+}
+
+interface SketchingProps {
+  world: World;
+  watch: Shown;
+  name: string;
+  onDone: (frames: Frame[]) => void;
+}
+
+function Sketching({ world, watch, name, onDone }: SketchingProps): JSX.Element {
+  const legend = useLegend(watch.board.domain);
+  const drive = useDrive({ world, start: watch.state ?? 0, draft: [], key: `sketch.${name}`, store: driveStore });
+  return (
+    <Driver
+      board={watch.board}
+      legend={legend}
+      world={world}
+      drive={drive}
+      off={false}
+      waiting={null}
+      end={t('check.end')}
+      stopped={t('check.stopped')}
+    >
+      <div class="submit">
+        <div class="buttons">
+          <Button primary off={drive.actions.length === 0} onClick={() => onDone(drive.frames)}>
+            {t('watch.sketched')}
+          </Button>
+          <Button onClick={() => onDone([])}>{t('watch.skip')}</Button>
+        </div>
+        <p class="muted">{t('predict.steps', { n: drive.actions.length })}</p>
+      </div>
+    </Driver>
+  );
+}
+
+// `sketch` is empty where there is none.
+function Watching({ watch, view, connection, sketch }: ScreenProps & { watch: Shown; sketch: Frame[] }): JSX.Element {
   const { board, runs } = watch;
   const [run, setRun] = useState(0);
   const path = runs?.runs[run] ?? watch;
@@ -40,25 +109,37 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
     keep('seen', key);
   }, [step, last]);
   const off = connection.isPending('watched');
+  const hasSketch = sketch.length > 1 && !runs;
   return (
     <>
       <p class="kicker">{t('watch.count', { index: watch.index + 1, of: watch.of })}</p>
       <Heading>{t('watch.title')}</Heading>
       <p class="lead">{t(leadKey(watch, wasSeen))}</p>
-      {view.study.goal && <p class="muted">{view.study.goal}</p>}
+      {hasSketch && <p>{t('watch.compare')}</p>}
+      <Job board={board} />
       <WorldName board={board} />
       {runs && <p>{t('watch.runs', { n: runs.runs.length })}</p>}
       <TimeLeft until={view.limit_ms} />
       <div class="board-screen">
         <div class="board-column">
           {board.map ? (
-            <LiveBoardView board={board} legend={legend} frames={frames} step={step} trail="own" closedAt={closedAt(path)} />
+            <BoardPane
+              board={board}
+              legend={legend}
+              frames={frames}
+              step={step}
+              trail="own"
+              closedAt={closedAt(path)}
+              {...(hasSketch ? { other: sketch, decisive: { frame: 0 }, walked: Math.max(1, step) } : {})}
+            />
           ) : (
             <StateCard frame={frames[step] ?? board.start} />
           )}
           <LogView log={log} />
+          {board.map && <Things board={board} legend={legend} lines={hasSketch ? ['own', 'other'] : ['own']} walked={frames.slice(0, step + 1)} />}
         </div>
         <div class="side">
+          <Ledger domain={board.domain} columns={[{ name: t('ledger.robot'), kind: 'own', counts: countsOf(frames, step) }]} />
           <Player playback={playback} primary={!wasSeen} />
           {runs && (
             <RunChoice
@@ -85,10 +166,7 @@ export function Watch({ watch, view, connection }: ScreenProps & { watch: Shown 
             </p>
           </div>
           {board.map ? (
-            <>
-              <Things board={board} legend={legend} lines={['own']} walked={frames.slice(0, step + 1)} />
-              <BoardInWords board={board} legend={legend} frame={frames[step] ?? board.start} />
-            </>
+            <BoardInWords board={board} legend={legend} frame={frames[step] ?? board.start} />
           ) : (
             <StepList title={t('feedback.robot')} frames={walked(frames, step)} />
           )}

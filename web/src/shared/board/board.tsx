@@ -1,8 +1,10 @@
 // A map with what is on it, the paths, and the robot at one step.
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
+import { Chips, type Chip } from './chips';
 import { centre, kMargin, kUnit, lineOf, type Attempt, type Point } from './geometry';
-import { At, PartGlyph, Robot, Station, Thing } from './glyphs';
+import { At, Destination, fillOf, PartGlyph, Robot, Station, Thing } from './glyphs';
+import { isRidden } from './icons';
 import type { Legend } from './legend';
 import { OverviewMap } from './overview';
 import type { Board, Frame, Item, MapDomain, Place } from './types';
@@ -21,6 +23,9 @@ export interface BoardProps {
   path?: boolean; // whether the path is drawn, as far as it has been walked
   kind?: 'own' | 'other'; // how it is drawn, 'own' unless said otherwise
   fill?: boolean; // as large as its place allows
+  whole?: boolean; // both paths are drawn to their ends, wherever the robots are
+  chips?: Chip[];
+  tail?: number; // only so many of the last steps are drawn
   walked?: number; // steps of the longer path that have been walked; the robot's step if absent
   closedAt?: number | undefined; // the step with which the path closes a cycle; it is drawn as far as that
   other?: Frame[]; // the path that somebody might expect
@@ -40,19 +45,22 @@ export function BoardView(props: BoardProps): JSX.Element {
   const frame = board.frames[step] ?? board.start;
   const size = props.fill ? {} : { style: { maxWidth: `${isLarge ? width : width * 1.45}px` } };
   const kind = props.kind ?? 'own';
-  const own = path && step > 0 ? board.frames.slice(0, Math.min(step, props.closedAt ?? step) + 1) : [];
+  const drawn = props.whole ? Math.max(board.frames.length, other?.length ?? 0) - 1 : walked;
+  const ownDrawn = props.whole ? board.frames.length - 1 : step;
+  const own = path && ownDrawn > 0 ? board.frames.slice(0, Math.min(ownDrawn, props.closedAt ?? ownDrawn) + 1) : [];
   const first = decisive?.frame ?? 0;
   const ground = useMemo(() => <Ground domain={domain} legend={props.legend} board={board} />, [domain, props.legend, board.map, board.fences]);
-  const others = other && walked > first ? other.slice(0, Math.min(walked, props.otherClosedAt ?? walked) + 1) : [];
+  const others = other && drawn > first ? other.slice(0, Math.min(drawn, props.otherClosedAt ?? drawn) + 1) : [];
   const drawing = (
-    <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} role="img" aria-label={label}>
+    <svg viewBox={`${-kMargin} ${-kMargin} ${width} ${height}`} {...(label === '' ? { 'aria-hidden': true } : { role: 'img', 'aria-label': label })}>
       {ground}
-      {decisive?.cell && walked > decisive.frame && <Decisive cell={decisive.cell} />}
+      {decisive?.cell && drawn > decisive.frame && <Decisive cell={decisive.cell} />}
       {others.length > 0 && <Way frames={others} first={first} lane={kOtherLane} kind="other" closedAt={props.otherClosedAt} />}
-      {own.length > 0 && <Way frames={own} first={0} lane={kRobotLane} kind={kind} closedAt={props.closedAt} />}
+      {own.length > 0 && <Way frames={own} first={props.tail === undefined ? 0 : Math.max(0, own.length - 1 - props.tail)} lane={kRobotLane} kind={kind} closedAt={props.closedAt} />}
       <Things {...props} frame={frame} />
-      {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} />}
+      {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} legend={props.legend} />}
       <Mover frame={frame} legend={props.legend} />
+      {props.chips && <Chips chips={props.chips} frames={board.frames} other={other ?? []} first={first} width={width} height={height} />}
     </svg>
   );
   const overview = { domain, legend: props.legend, board, frame, own, other: others.slice(first), kind };
@@ -86,11 +94,40 @@ function Ground({ domain, legend, board }: { domain: MapDomain; legend: Legend; 
   return (
     <g>
       <rect class="floor" width={width} height={height} />
-      <Parts board={board} legend={legend} kinds={['terrain']} />
+      <Covered board={board} legend={legend} kind="terrain" />
       <path class="grid" d={lines.join('')} />
-      <Parts board={board} legend={legend} kinds={['wall']} />
+      <Covered board={board} legend={legend} kind="wall" />
       <path class="fence" d={(board.fences ?? []).map(fenceLine).join('')} />
       <rect class="frame" width={width} height={height} />
+    </g>
+  );
+}
+
+// One shape for each kind of ground: neighbouring cells of a row are one bar.
+function Covered({ board, legend, kind }: { board: Board; legend: Legend; kind: 'terrain' | 'wall' }): JSX.Element {
+  const shapes = new Map<string, string>();
+  (board.map ?? []).forEach((row, y) => {
+    let x = 0;
+    while (x < row.length) {
+      const symbol = row.charAt(x);
+      let end = x + 1;
+      while (row.charAt(end) === symbol) end += 1;
+      const bar = `M${x * kUnit} ${y * kUnit}h${(end - x) * kUnit}v${kUnit}h${(x - end) * kUnit}z`;
+      for (const part of legend.parts(symbol)) {
+        if (part.kind !== kind) continue;
+        const fills = kind === 'wall' ? ['var(--board-wall)'] : legend.layers(part.name).map((layer, i) => fillOf(layer, i > 0));
+        for (const fill of fills) shapes.set(fill, (shapes.get(fill) ?? '') + bar);
+      }
+      x = end;
+    }
+  });
+  // what is drawn over other ground comes last
+  const all = [...shapes].sort(([a], [b]) => Number(a.includes('-over')) - Number(b.includes('-over')));
+  return (
+    <g class={kind === 'wall' ? 'walls' : 'terrains'}>
+      {all.map(([fill, d]) => (
+        <path d={d} fill={fill} />
+      ))}
     </g>
   );
 }
@@ -118,36 +155,60 @@ function Parts({ board, legend, kinds }: { board: Board; legend: Legend; kinds: 
 }
 
 // What stands on cells, may be used up, or be carried away. A station that is used up stays visible, so that the path
-// to it can be understood. An item on the robot's cell is drawn beside the robot.
+// to it can be understood. An item on the robot's cell is drawn at its feet; where it belongs, the place is filled.
 function Things({ legend, board, frame }: BoardProps & { frame: Frame }): JSX.Element {
   const isSame = (a: Place, b: Place | undefined): boolean => a[0] === b?.[0] && a[1] === b[1];
   const isBelow = (cell: Place): boolean => isSame(cell, frame.robot);
   const isUsedUp = (station: Place): boolean => !(frame.stations ?? []).some((cell) => isSame(cell, station));
   const lying = (frame.items ?? []).filter(({ carried }) => !carried);
   const isDestination = ({ name }: Item): boolean => legend.placed(name).kind === 'destination';
+  const places = [
+    ...destinationsOn(board.map ?? [], legend),
+    ...lying.filter(isDestination).map(({ name, cell }) => ({ name: name.replace(/^destination of /, ''), cell })),
+  ];
+  const isDelivered = (name: string, cell: Place): boolean =>
+    lying.some((item) => item.name === name && isSame(item.cell, cell)) &&
+    places.some((place) => place.name === name && isSame(place.cell, cell));
   return (
     <g>
-      <Parts board={board} legend={legend} kinds={['goal', 'destination']} />
-      {(board.start.stations ?? []).map((cell) => (
-        <At at={centre(cell)} class={isUsedUp(cell) ? 'used-up' : ''}>
-          <Station letter={legend.letter(legend.stationAt(board.map ?? [], cell))} />
+      <Parts board={board} legend={legend} kinds={['goal']} />
+      {places.map(({ name, cell }) => (
+        <At at={centre(cell)}>
+          <Destination name={name} letter={legend.letter(name)} isFilled={isDelivered(name, cell)} />
         </At>
       ))}
-      {lying.filter(isDestination).map(({ name, cell }) => (
-        <At at={centre(cell)}>
-          <PartGlyph part={legend.placed(name)} legend={legend} />
+      {(board.start.stations ?? []).map((cell) => (
+        <At at={centre(cell)} class={isUsedUp(cell) ? 'used-up' : ''}>
+          <StationAt legend={legend} map={board.map ?? []} cell={cell} />
         </At>
       ))}
       {lying
-        .filter((item) => !isDestination(item))
+        .filter((item) => !isDestination(item) && !isDelivered(item.name, item.cell))
         .map(({ name, cell }) => (
           <At at={centre(cell)}>
-            <g transform={isBelow(cell) ? 'translate(-13 13)' : undefined}>
-              <Thing letter={legend.letter(name)} small={isBelow(cell)} />
+            <g transform={isBelow(cell) ? 'translate(12.5 12)' : undefined}>
+              <Thing name={name} letter={legend.letter(name)} small={isBelow(cell)} />
             </g>
           </At>
         ))}
     </g>
+  );
+}
+
+function StationAt({ legend, map, cell }: { legend: Legend; map: string[]; cell: Place }): JSX.Element {
+  const name = legend.stationAt(map, cell);
+  return <Station name={name} letter={legend.letter(name)} />;
+}
+
+// Where things belong, as far as the map says so.
+function destinationsOn(map: string[], legend: Legend): { name: string; cell: Place }[] {
+  return map.flatMap((row, y) =>
+    [...row].flatMap((symbol, x) =>
+      legend
+        .parts(symbol)
+        .filter(({ kind }) => kind === 'destination')
+        .map(({ name }) => ({ name: name.replace(/^destination of /, ''), cell: [x + 1, y + 1] as Place })),
+    ),
   );
 }
 
@@ -215,24 +276,41 @@ const moved = (cell: Place): { transform: string } => {
 
 function Mover({ frame, legend }: { frame: Frame; legend: Legend }): JSX.Element | null {
   if (!frame.robot) return null;
-  const carried = (frame.items ?? []).filter((item) => item.carried);
   return (
     <g class="mover" style={moved(frame.robot)}>
-      <Robot />
-      {carried.map(({ name }) => (
-        <g transform="translate(11 9)">
-          <Thing letter={legend.letter(name)} small />
-        </g>
-      ))}
+      <Loaded frame={frame} legend={legend} />
     </g>
   );
 }
 
-function Ghost({ frame }: { frame: Frame | undefined }): JSX.Element | null {
+// What it carries is on its head; what it rides, below it.
+function Loaded({ frame, legend }: { frame: Frame; legend: Legend }): JSX.Element {
+  const carried = (frame.items ?? []).filter((item) => item.carried);
+  const onHead = carried.filter(({ name }) => !isRidden(name));
+  return (
+    <>
+      <Robot isLoaded={onHead.length > 0} />
+      {onHead.map(({ name }, i) => (
+        <g transform={`translate(0 ${-16.5 - 13 * i}) scale(.9)`}>
+          <Thing name={name} letter={legend.letter(name)} small />
+        </g>
+      ))}
+      {carried
+        .filter(({ name }) => isRidden(name))
+        .map(({ name }) => (
+          <g transform="translate(0 14)">
+            <Thing name={name} letter={legend.letter(name)} small />
+          </g>
+        ))}
+    </>
+  );
+}
+
+function Ghost({ frame, legend }: { frame: Frame | undefined; legend: Legend }): JSX.Element | null {
   if (!frame?.robot) return null;
   return (
     <g class="mover ghost" style={moved(frame.robot)}>
-      <Robot />
+      <Loaded frame={frame} legend={legend} />
     </g>
   );
 }

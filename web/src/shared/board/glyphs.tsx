@@ -1,12 +1,14 @@
 // Drawings of what is on a cell. All are drawn around (0,0), the middle of the cell.
 import type { JSX } from 'preact';
 import { kUnit, type Point } from './geometry';
+import { iconOf } from './icons';
 import type { Legend } from './legend';
 import type { Part, Surface } from './types';
 
 const kHalf = kUnit / 2;
 
-const idOf = ({ tint, pattern }: Surface): string => `surface-${tint}-${pattern}`;
+// Over another terrain only the marks of a texture are drawn.
+export const fillOf = ({ tint, pattern }: Surface, isOver = false): string => `url(#surface-${tint}-${pattern}${isOver ? '-over' : ''})`;
 
 // Textures of terrains, once per page.
 export function Patterns({ surfaces }: { surfaces: Surface[] }): JSX.Element {
@@ -26,25 +28,33 @@ export function Patterns({ surfaces }: { surfaces: Surface[] }): JSX.Element {
   return (
     <svg class="patterns" width="0" height="0" aria-hidden="true" focusable="false">
       <defs>
-        {surfaces.map((surface) => {
-          const { tint, pattern } = surface;
-          const isFilled = pattern === 'dots';
-          return (
-            <pattern id={idOf(surface)} width={10} height={10} patternUnits="userSpaceOnUse">
-              <rect width={10} height={10} fill={`var(--tint-${tint})`} />
-              <g stroke={`var(--mark-${tint})`} fill={isFilled ? `var(--mark-${tint})` : 'none'} stroke-width={isFilled ? 0 : 1}>
-                {mark(pattern)}
-              </g>
-            </pattern>
-          );
-        })}
+        {surfaces.flatMap(({ tint, pattern }) =>
+          [false, true].map((isOver) => {
+            const isFilled = pattern === 'dots';
+            return (
+              <pattern id={`surface-${tint}-${pattern}${isOver ? '-over' : ''}`} width={10} height={10} patternUnits="userSpaceOnUse">
+                {!isOver && <rect width={10} height={10} fill={`var(--tint-${tint})`} />}
+                <g stroke={`var(--mark-${tint})`} fill={isFilled ? `var(--mark-${tint})` : 'none'} stroke-width={isFilled ? 0 : 1}>
+                  {mark(pattern)}
+                </g>
+              </pattern>
+            );
+          }),
+        )}
       </defs>
     </svg>
   );
 }
 
-export function Surfacing({ surface }: { surface: Surface }): JSX.Element {
-  return <rect x={-kHalf} y={-kHalf} width={kUnit} height={kUnit} fill={`url(#${idOf(surface)})`} />;
+// A cell of ground: one texture, or two over each other where two kinds of ground meet.
+export function Surfacing({ layers }: { layers: Surface[] }): JSX.Element {
+  return (
+    <g>
+      {layers.map((surface, i) => (
+        <rect x={-kHalf} y={-kHalf} width={kUnit} height={kUnit} fill={fillOf(surface, i > 0)} />
+      ))}
+    </g>
+  );
 }
 
 export function Wall(): JSX.Element {
@@ -59,30 +69,45 @@ function Letter({ text, size = 13, y = 0 }: { text: string; size?: number; y?: n
   );
 }
 
-export function Station({ letter }: { letter: string }): JSX.Element {
+// A picture of a thing or, if there is none, its letter.
+function Sign({ name, letter, size = 13 }: { name: string; letter: string; size?: number }): JSX.Element {
+  const icon = iconOf(name);
+  if (!icon) return <Letter text={letter} size={size} />;
+  return <path class={icon.fill ? 'icon-fill' : 'icon-line'} d={icon.fill ?? icon.line ?? ''} transform={`scale(${size / 16})`} />;
+}
+
+export function Station({ name, letter }: { name: string; letter: string }): JSX.Element {
   return (
     <g class="station">
       <rect x={-12} y={-12} width={24} height={24} rx={4} />
-      <Letter text={letter} />
+      <Sign name={name} letter={letter} size={17} />
     </g>
   );
 }
 
-export function Thing({ letter, small }: { letter: string; small?: boolean | undefined }): JSX.Element {
+export function Thing({ name, letter, small }: { name: string; letter: string; small?: boolean | undefined }): JSX.Element {
   return (
-    <g class="thing" transform={small ? 'scale(.72)' : undefined}>
-      <circle r={10.5} />
-      <Letter text={letter} />
+    <g class="thing" transform={small ? 'scale(.68)' : undefined}>
+      <rect x={-11} y={-11} width={22} height={22} rx={5} />
+      <Sign name={name} letter={letter} size={16} />
     </g>
   );
 }
 
-export function Destination({ letter }: { letter: string }): JSX.Element {
+// Where a thing belongs: its empty outline, and with a tick once the thing is there.
+export function Destination({ name, letter, isFilled }: { name: string; letter: string; isFilled?: boolean }): JSX.Element {
   return (
-    <g class="destination">
-      <circle r={14.5} />
-      <circle r={10.5} />
-      <Letter text={letter} size={12} />
+    <g class={isFilled ? 'destination filled' : 'destination'}>
+      <rect x={-15} y={-15} width={30} height={30} rx={6} />
+      <g class="wanted">
+        <Sign name={name} letter={letter} size={18} />
+      </g>
+      {isFilled && (
+        <g class="tick" transform="translate(12 -12)">
+          <circle r={7} />
+          <path d="M-3.3 0-.9 2.6 3.4-2.6" />
+        </g>
+      )}
     </g>
   );
 }
@@ -99,11 +124,12 @@ export function Goal({ letter }: { letter: string }): JSX.Element {
   );
 }
 
-export function Robot(): JSX.Element {
+// With something on its head there is no antenna.
+export function Robot({ isLoaded }: { isLoaded?: boolean }): JSX.Element {
   return (
     <g class="robot">
-      <path class="antenna" d="M0 -10V-15" />
-      <circle class="tip" cy={-15.5} r={2.4} />
+      {!isLoaded && <path class="antenna" d="M0 -10V-15" />}
+      {!isLoaded && <circle class="tip" cy={-15.5} r={2.4} />}
       <rect x={-11} y={-10} width={22} height={21} rx={6} />
       <circle class="eye" cx={-4.6} cy={-2} r={2.6} />
       <circle class="eye" cx={4.6} cy={-2} r={2.6} />
@@ -116,12 +142,15 @@ export function PartGlyph({ part, legend }: { part: Part; legend: Legend }): JSX
   const { kind, name } = part;
   if (kind === 'wall') return <Wall />;
   if (kind === 'terrain') {
-    const surface = legend.surface(name);
-    return surface ? <Surfacing surface={surface} /> : null;
+    const layers = legend.layers(name);
+    return layers.length > 0 ? <Surfacing layers={layers} /> : null;
   }
-  if (kind === 'station') return <Station letter={legend.letter(name)} />;
-  if (kind === 'item') return <Thing letter={legend.letter(name)} />;
-  if (kind === 'destination') return <Destination letter={legend.letter(name.replace(/^destination of /, ''))} />;
+  if (kind === 'station') return <Station name={name} letter={legend.letter(name)} />;
+  if (kind === 'item') return <Thing name={name} letter={legend.letter(name)} />;
+  if (kind === 'destination') {
+    const thing = name.replace(/^destination of /, '');
+    return <Destination name={thing} letter={legend.letter(thing)} />;
+  }
   if (kind === 'goal') return <Goal letter={legend.hasPlainName(name) ? '' : legend.letter(name)} />;
   return null;
 }

@@ -1,6 +1,8 @@
 // What the symbols of maps mean, and how each kind of thing is drawn.
 import type { LegendEntry, MapDomain, Part, Place, Surface } from './types';
 
+const kBoth = ' and ';
+
 export class Legend {
   private readonly entries = new Map<string, LegendEntry>();
   readonly surfaces: Surface[];
@@ -33,6 +35,18 @@ export class Legend {
     return this.surfaces.find((surface) => surface.name === name);
   }
 
+  // How the ground of a cell is drawn: "lane and wet" is both, one over the other.
+  layers(name: string): Surface[] {
+    const parts = this.isMixed(name) ? name.split(kBoth) : [name];
+    return parts.flatMap((part) => this.surface(part) ?? []);
+  }
+
+  // Whether a terrain is nothing but two others on one cell.
+  isMixed(name: string): boolean {
+    const parts = name.split(kBoth);
+    return parts.length > 1 && parts.every((part) => this.surface(part) !== undefined);
+  }
+
   letter(name: string): string {
     return this.letters.get(name) ?? name.charAt(0).toUpperCase();
   }
@@ -57,7 +71,9 @@ export class Legend {
     const seen = new Map<string, Part>();
     for (const entry of this.entries.values()) {
       for (const part of entry.parts ?? [entry]) {
-        if (part.kind !== 'start') seen.set(`${part.kind} ${part.name}`, part);
+        if (part.kind === 'start') continue;
+        const parts = part.kind === 'terrain' && this.isMixed(part.name) ? part.name.split(kBoth).map((name) => ({ ...part, name })) : [part];
+        for (const one of parts) seen.set(`${one.kind} ${one.name}`, one);
       }
     }
     return [...seen.values()];

@@ -61,7 +61,7 @@ function Ground({ map, legend }: { map: string[]; legend: Legend }): JSX.Element
       let end = x + 1;
       while (row.charAt(end) === symbol) end += 1;
       for (const { kind, name } of legend.parts(symbol)) {
-        const surface = kind === 'terrain' ? legend.surface(name) : undefined;
+        const surface = kind === 'terrain' ? legend.layers(name)[0] : undefined;
         const fill = kind === 'wall' ? 'var(--board-wall)' : surface && `var(--tint-${surface.tint})`;
         const bar = `M${x * kUnit} ${y * kUnit}h${(end - x) * kUnit}v${kUnit}h${(x - end) * kUnit}z`;
         if (fill) shapes.set(fill, (shapes.get(fill) ?? '') + bar);

@@ -26,6 +26,7 @@ export interface Frame {
   stations?: Place[];
   state?: string;
   action?: string | null; // that follows; null in the last frame
+  counts?: number[] | null; // what that action counts of each of MapDomain.counted
 }
 
 // Where a robot goes. A path that never ends is a way in and a cycle, once: its last frame shows frame `repeats_from`
@@ -44,6 +45,24 @@ export interface Board extends Path {
   start: Frame;
 }
 
+// A world before anybody has moved. Nothing in it tells of the reward.
+export interface PlayBoard {
+  domain: MapDomain;
+  world: number;
+  map?: string[];
+  fences?: [Place, Place][];
+  world_name?: string;
+  start: Frame;
+}
+
+// Something that steps are counted in: "crossing rubble", and behind a number "rubble".
+export interface Counted {
+  name: string;
+  label: string;
+  one: string;
+  many: string;
+}
+
 // How a terrain is drawn: no two are drawn alike.
 export interface Surface {
   name: string;
@@ -58,4 +77,6 @@ export interface MapDomain {
   surfaces?: Surface[];
   width?: number;
   height?: number;
+  counted?: Counted[];
+  job?: string; // what the robot has to do, one sentence in English
 }

@@ -5,8 +5,8 @@ import { useCalm } from '../playback';
 import { centre, kMargin, kUnit, type Point } from './geometry';
 import type { MapDomain, Place } from './types';
 
-const kReadable = 12; // pixels: smaller cells are enlarged
-const kEnlarged = 20; // pixels of an enlarged cell
+const kReadable = 28; // pixels: smaller cells are enlarged
+const kEnlarged = 28; // pixels of an enlarged cell
 const kScale = kEnlarged / kUnit;
 const kDragged = 5; // pixels after which a press is a drag and no click
 const kShifts: Record<string, [number, number]> = {
@@ -148,6 +148,8 @@ function useShiftKeys(pan: { current: HTMLElement | null }, isOn: boolean): void
     if (!isOn) return;
     const pressed = (event: KeyboardEvent): void => {
       const shift = kShifts[event.key];
+      const isAlone = document.querySelectorAll('.pan.enlarged').length === 1; // else the one that has the focus
+      if (!isAlone && !pan.current?.contains(event.target as Node)) return;
       if (!shift || !event.shiftKey || (event.target instanceof HTMLElement && event.target.matches('input, textarea, select'))) return;
       event.preventDefault();
       event.stopImmediatePropagation();

@@ -1,8 +1,8 @@
 // Buttons for the robot's actions: arrows where they lie on a board, all others with their names.
 import type { JSX } from 'preact';
 import { actionLabel, capitalised, t } from '../texts';
-import type { Action } from '../world';
-import { Button } from './ui';
+import type { Action } from './world';
+import { Button } from './button';
 
 interface Props {
   actions: Action[];

@@ -1,9 +1,8 @@
 // What happens on a board, in words without coordinates.
-import type { Legend } from '../shared/board/legend';
-import { closedAt, played } from '../shared/board/repeats';
-import type { Frame, Part, Path, Place } from '../shared/board/types';
-import type { LiveBoard } from './protocol';
-import { actionLabel, hasText, isEnglish, listed, named, sentence, t } from './texts';
+import type { Legend } from '../board/legend';
+import { closedAt, played } from '../board/repeats';
+import type { Frame, Part, Path, Place, PlayBoard } from '../board/types';
+import { actionLabel, hasText, isEnglish, listed, named, sentence, t } from '../texts';
 
 const kDirections: Record<string, [number, number]> = { up: [0, -1], down: [0, 1], left: [-1, 0], right: [1, 0] };
 
@@ -23,7 +22,7 @@ function phrase({ kind, name }: Part): string {
 }
 
 // Whether the robot has done what the map says is to be done. Elsewhere it can only have come to an end.
-export function isJobDone(board: LiveBoard, legend: Legend, frame: Frame | undefined): boolean {
+export function isJobDone(board: PlayBoard, legend: Legend, frame: Frame | undefined): boolean {
   const isAim = ({ kind }: Part): boolean => kind === 'goal' || kind === 'destination';
   const { robot } = frame ?? {};
   if (!frame || !robot || !legend.things().some(isAim)) return true;
@@ -31,7 +30,7 @@ export function isJobDone(board: LiveBoard, legend: Legend, frame: Frame | undef
 }
 
 // What is on a cell while the board is as in the frame.
-function partsAt(board: LiveBoard, legend: Legend, frame: Frame, cell: Place): Part[] {
+function partsAt(board: PlayBoard, legend: Legend, frame: Frame, cell: Place): Part[] {
   const symbol = board.map?.[cell[1] - 1]?.charAt(cell[0] - 1) ?? '';
   const fixed = legend.parts(symbol).filter(({ kind }) => ['wall', 'terrain', 'destination', 'goal'].includes(kind));
   const stations = (frame.stations ?? [])
@@ -53,7 +52,7 @@ const isUnchanged = (before: Frame, after: Frame): boolean =>
   JSON.stringify([before.items, before.stations]) === JSON.stringify([after.items, after.stations]);
 
 // The step from a frame to the next: "The robot moves left onto rubble."
-export function stepText(board: LiveBoard, legend: Legend, before: Frame, after: Frame): string {
+export function stepText(board: PlayBoard, legend: Legend, before: Frame, after: Frame): string {
   const action = before.action ?? '';
   const said = actionLabel(action);
   if (!before.robot || !after.robot) {
@@ -83,7 +82,7 @@ export function stepText(board: LiveBoard, legend: Legend, before: Frame, after:
 }
 
 // What is around the robot and what it carries: for people who do not see the board.
-export function aroundText(board: LiveBoard, legend: Legend, frame: Frame): string {
+export function aroundText(board: PlayBoard, legend: Legend, frame: Frame): string {
   if (!frame.robot) return t('around.state', { state: named(frame.state ?? '') });
   const [column, row] = frame.robot;
   const { width = 0, height = 0 } = board.domain;
@@ -106,7 +105,7 @@ export function aroundText(board: LiveBoard, legend: Legend, frame: Frame): stri
 }
 
 // The cells of the board as texts, row by row from the top.
-export function cellTexts(board: LiveBoard, legend: Legend, frame: Frame): string[][] {
+export function cellTexts(board: PlayBoard, legend: Legend, frame: Frame): string[][] {
   return (board.map ?? []).map((line, y) =>
     [...line].map((_, x) => {
       const cell: Place = [x + 1, y + 1];
@@ -118,7 +117,7 @@ export function cellTexts(board: LiveBoard, legend: Legend, frame: Frame): strin
 }
 
 // What the map is made of, to read as its label: "A map with the robot, rubble and the charger".
-export function boardText(board: LiveBoard, legend: Legend, frame: Frame): string {
+export function boardText(board: PlayBoard, legend: Legend, frame: Frame): string {
   if (!board.map) return t('board.state', { state: named(frame.state ?? '') });
   const things = new Set<string>();
   board.map.forEach((line, y) => [...line].forEach((_, x) => {
@@ -133,7 +132,7 @@ export function onAndOn({ repeats_text: what }: Path): string {
 }
 
 // The step of a path, as it is played, that has just been made.
-export function playedText(board: LiveBoard, legend: Legend, path: Path, step: number): string {
+export function playedText(board: PlayBoard, legend: Legend, path: Path, step: number): string {
   const frames = played(path);
   const [before, after] = [frames[step - 1], frames[step]];
   if (!before || !after) return t('watch.start');

@@ -1,6 +1,6 @@
 // Paths in models without a map: states and actions as lists.
 import type { JSX } from 'preact';
-import type { Frame } from '../../shared/board/types';
+import type { Frame } from '../board/types';
 import { actionLabel, named, t } from '../texts';
 
 export function StateCard({ frame }: { frame: Frame }): JSX.Element {

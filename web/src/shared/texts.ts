@@ -1,6 +1,11 @@
 // All strings of the page, in the study's language. English is built in; what another language lacks is English.
-import type { TextsDocument } from './protocol';
 import english from './texts/en.json';
+
+export interface TextsDocument {
+  lang: string;
+  dir: 'ltr' | 'rtl';
+  strings: Record<string, string>;
+}
 
 const kBuiltIn: Record<string, string> = english;
 const kAvailable = ['de']; // languages with a file beside this script

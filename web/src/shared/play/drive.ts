@@ -1,16 +1,17 @@
 // Driving the robot through a world: the path so far, what was pressed and when.
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-import type { Frame, Place } from '../shared/board/types';
-import type { KeyPress } from './protocol';
-import { keep, recall } from './storage';
+import type { Frame, Place } from '../board/types';
 import type { World } from './world';
+
+// A key press, as researchers see it: an action's number or what was done to the path, and milliseconds.
+export type KeyPress = [number | 'undo' | 'reset', number];
 
 const kDraftMs = 2000; // at most one draft per
 const kMostKeys = 800; // a message has at most 16 KiB
 
 export type Outcome = 'done' | 'undone' | 'blocked' | 'end' | 'full';
 
-interface Kept {
+export interface Kept {
   key: string;
   actions: number[];
   keys: KeyPress[];
@@ -24,6 +25,13 @@ interface Options {
   draft: number[];
   key: string; // names this task; what was done here survives a reload
   onDraft?: (actions: number[]) => void;
+  store?: DriveStore;
+}
+
+// Where a page keeps what was done; without one, a reload forgets it.
+export interface DriveStore {
+  recall: () => Kept | null;
+  keep: (kept: Kept) => void;
 }
 
 export interface Drive {
@@ -41,9 +49,9 @@ export interface Drive {
   ms: () => number;
 }
 
-export function useDrive({ world, start, draft, key, onDraft }: Options): Drive {
+export function useDrive({ world, start, draft, key, onDraft, store }: Options): Drive {
   const first = useRef<Kept | null>(null);
-  first.current ??= beginning(key, draft);
+  first.current ??= beginning(key, draft, store);
   const kept = first.current;
   const [actions, setActions] = useState(() => kept.actions.slice(0, world.walk(start, kept.actions).length - 1));
   const clock = useRef({ begun: performance.now() - kept.ms });
@@ -56,7 +64,7 @@ export function useDrive({ world, start, draft, key, onDraft }: Options): Drive 
   const change = (next: number[], pressed: KeyPress[0][]): void => {
     latest.current = next;
     for (const press of pressed) if (keys.current.length < kMostKeys) keys.current.push([press, ms()]);
-    keep('drive', { key, actions: next, keys: keys.current, ms: ms(), told: told.current } satisfies Kept);
+    store?.keep({ key, actions: next, keys: keys.current, ms: ms(), told: told.current });
     setActions(next);
   };
   const states = world.walk(start, actions);
@@ -120,8 +128,8 @@ function earlier(states: number[]): number | null {
 
 // What this tab remembers of the task. The server's draft counts if it comes from another tab or computer, where
 // somebody has driven on.
-function beginning(key: string, draft: number[]): Kept {
-  const kept = recall<Kept>('drive');
+function beginning(key: string, draft: number[], store: DriveStore | undefined): Kept {
+  const kept = store?.recall();
   if (kept?.key !== key || !Array.isArray(kept.actions) || !Array.isArray(kept.keys)) {
     return { key, actions: draft, keys: [], ms: 0, told: draft };
   }

@@ -1,9 +1,9 @@
 // Steps through a path: by a button, step by step, or with a slider that the arrow keys move.
 import type { JSX } from 'preact';
 import { useId } from 'preact/hooks';
-import type { Frame } from '../shared/board/types';
-import { useCalm, type Playback } from '../shared/playback';
-import { stepText } from './words';
+import type { Frame } from '../../shared/board/types';
+import { useCalm, type Playback } from '../../shared/playback';
+import { stepText } from './placed_words';
 
 interface PlayerProps {
   frames: Frame[];

@@ -1,14 +1,15 @@
 // A board as large as the window allows, which says where somebody clicks.
 import type { JSX } from 'preact';
-import { useMemo } from 'preact/hooks';
-import { BoardView, Tried } from '../../shared/board/board';
-import { hasSlipped, kUnit } from '../../shared/board/geometry';
-import { PartGlyph, Patterns, Robot } from '../../shared/board/glyphs';
-import { Legend } from '../../shared/board/legend';
-import type { Frame, MapDomain, Part, Place } from '../../shared/board/types';
-import type { LiveBoard } from '../protocol';
-import { capitalised, named, t } from '../texts';
-import { boardText, cellTexts } from '../words';
+import { useMemo, useState } from 'preact/hooks';
+import { BoardView, Tried } from '../board/board';
+import type { Chip } from '../board/chips';
+import { hasSlipped, kUnit, lineOf } from '../board/geometry';
+import { PartGlyph, Robot } from '../board/glyphs';
+import { Legend } from '../board/legend';
+import type { WindowTexts } from '../board/window';
+import type { Frame, MapDomain, Part, Place, PlayBoard } from '../board/types';
+import { capitalised, isEnglish, named, t } from '../texts';
+import { boardText, cellTexts } from './words';
 
 // Views are new objects each time, and a legend is the same for a whole session.
 export function useLegend(domain: MapDomain): Legend {
@@ -17,9 +18,21 @@ export function useLegend(domain: MapDomain): Legend {
 }
 
 const kLargestCell = 150; // pixels
+const kFewCells = 200;
+
+const windowTexts = (): WindowTexts => ({
+  part: (
+    <>
+      {t('board.part')} <span class="for-keys">{t('board.part_keys')}</span>
+    </>
+  ),
+  label: t('board.part_label'),
+  whole: t('board.whole'),
+  enlarge: t('board.enlarge'),
+});
 
 interface Props {
-  board: LiveBoard;
+  board: PlayBoard;
   legend: Legend;
   frames: Frame[]; // the path
   step: number;
@@ -29,10 +42,15 @@ interface Props {
   other?: Frame[];
   otherClosedAt?: number | undefined;
   decisive?: { frame: number; cell?: Place } | null;
+  whole?: boolean;
+  chips?: Chip[];
+  tail?: number; // only so many of the last steps are drawn
+  isSmall?: boolean; // a picture of the whole board beside others
+  isBare?: boolean; // part of something that says what it is
   onCell?: (cell: Place) => void;
 }
 
-export function LiveBoardView({ board, legend, frames, step, trail, onCell, ...rest }: Props): JSX.Element {
+export function BoardPane({ board, legend, frames, step, trail, onCell, isSmall, isBare, ...rest }: Props): JSX.Element {
   const clicked = (event: MouseEvent): void => {
     if (event.target instanceof Element && event.target.closest('.pan-bar')) return; // what is below the board
     const cell = cellUnder(event);
@@ -40,28 +58,18 @@ export function LiveBoardView({ board, legend, frames, step, trail, onCell, ...r
   };
   const most = { maxWidth: `${(board.domain.width ?? 1) * kLargestCell}px` };
   return (
-    <div class={`live-board ${onCell ? 'clickable' : ''}`} style={most} onClick={onCell && clicked}>
-      <Patterns surfaces={legend.surfaces} />
+    <div class={`live-board ${isSmall ? 'small ' : ''}${onCell ? 'clickable' : ''}`} style={most} onClick={onCell && clicked}>
       <BoardView
         domain={board.domain}
         legend={legend}
         board={{ ...board, frames }}
         step={step}
-        label={boardText(board, legend, frames[step] ?? board.start)}
+        label={isBare ? '' : boardText(board, legend, frames[step] ?? board.start)}
         path
         kind={trail}
         fill
         hasArrows
-        texts={{
-          part: (
-            <>
-              {t('board.part')} <span class="for-keys">{t('board.part_keys')}</span>
-            </>
-          ),
-          label: t('board.part_label'),
-          whole: t('board.whole'),
-          enlarge: t('board.enlarge'),
-        }}
+        {...(isSmall ? {} : { texts: windowTexts() })}
         {...rest}
       />
     </div>
@@ -82,24 +90,38 @@ function legendName({ kind, name }: Part): string {
   return capitalised(named(name));
 }
 
+// What the robot has to do; kith's own words are English.
+export function Job({ board }: { board: PlayBoard }): JSX.Element | null {
+  const { job } = board.domain;
+  return job !== undefined && isEnglish() ? <p class="job">{job}</p> : null;
+}
+
 // What the world is called, where a picture does not tell all of it.
-export function WorldName({ board }: { board: LiveBoard }): JSX.Element | null {
+export function WorldName({ board }: { board: PlayBoard }): JSX.Element | null {
   return board.world_name ? <p>{t('board.world', { name: named(board.world_name) })}</p> : null;
 }
 
 interface ThingsProps {
-  board: LiveBoard;
+  board: PlayBoard;
   legend: Legend;
   lines: ('own' | 'other')[];
   walked: Frame[]; // the path as far as it is drawn
+  decisive?: boolean; // whether the place where paths separate is marked
+  otherLine?: string; // what a line of the other kind is
 }
 
 // What is on this board, and nothing else.
-export function Things({ board, legend, lines, walked }: ThingsProps): JSX.Element {
+export function Things({ board, legend, lines, walked, decisive, otherLine }: ThingsProps): JSX.Element {
   const symbols = new Set((board.map ?? []).flatMap((row) => [...row]));
-  const onMap = new Set([...symbols].flatMap((symbol) => legend.parts(symbol)).map(({ kind, name }) => `${kind} ${name}`));
+  const onMap = new Set<string>();
+  for (const { kind, name } of [...symbols].flatMap((symbol) => legend.parts(symbol))) {
+    const names = kind === 'terrain' ? legend.layers(name).map((layer) => layer.name) : [name];
+    if (kind !== 'station') for (const one of names) onMap.add(`${kind} ${one}`);
+  }
+  for (const cell of board.start.stations ?? []) onMap.add(`station ${legend.stationAt(board.map ?? [], cell)}`);
   for (const { name } of board.start.items ?? []) onMap.add(`${legend.placed(name).kind} ${name}`);
   const parts = legend.things().filter(({ kind, name }) => onMap.has(`${kind} ${name}`));
+  const kind = lines[0] ?? 'own';
   return (
     <ul class="legend" aria-label={t('legend.title')}>
       <Entry name={t('legend.robot')}>
@@ -110,17 +132,30 @@ export function Things({ board, legend, lines, walked }: ThingsProps): JSX.Eleme
           <PartGlyph part={part} legend={legend} />
         </Entry>
       ))}
-      {lines.map((kind) => (
-        <Entry name={t(kind === 'own' ? 'legend.path' : 'legend.trail')}>
+      {walked.length > 1 &&
+        lines.map((line) => (
+          <Entry name={line === 'own' ? t('legend.path') : (otherLine ?? t('legend.trail'))}>
+            <g class={`way ${line}`}>
+              <path class="line" d="M-20 0H20" />
+              <path class="arrow" d="M5 0-4 -4.6V4.6Z" />
+            </g>
+          </Entry>
+        ))}
+      {lineOf(walked, 0, 0).stops.length > 0 && (
+        <Entry name={t('legend.stop')}>
           <g class={`way ${kind}`}>
-            <path class="line" d="M-20 0H20" />
-            <path class="arrow" d="M5 0-4 -4.6V4.6Z" />
+            <circle class="stop" r={17} />
           </g>
         </Entry>
-      ))}
+      )}
+      {decisive && (
+        <Entry name={t('legend.decisive')}>
+          <rect class="decisive" x={-17} y={-17} width={34} height={34} rx={4} />
+        </Entry>
+      )}
       {walked.some((frame, i) => hasSlipped(frame, walked[i + 1]?.robot)) && (
         <Entry name={t('legend.tried')}>
-          <g class={`way ${lines[0] ?? 'own'}`}>
+          <g class={`way ${kind}`}>
             <Tried from={{ x: -14, y: 0 }} x={14} y={0} angle={0} />
           </g>
         </Entry>
@@ -142,16 +177,18 @@ function Entry({ name, isSurface, children }: { name: string; isSurface?: boolea
 }
 
 // The board as a table of words: it can be read cell by cell.
-export function BoardInWords({ board, legend, frame }: { board: LiveBoard; legend: Legend; frame: Frame }): JSX.Element | null {
+export function BoardInWords({ board, legend, frame }: { board: PlayBoard; legend: Legend; frame: Frame }): JSX.Element | null {
+  const [open, setOpen] = useState(false);
+  const isFew = (board.domain.width ?? 0) * (board.domain.height ?? 0) <= kFewCells; // a large board has thousands
   if (!board.map) return null;
   return (
-    <details class="in-words">
+    <details class="in-words" open={open} onToggle={(event) => setOpen(event.currentTarget.open)}>
       <summary>{t('common.words')}</summary>
       <div class="scroll" tabIndex={0} role="region" aria-label={t('board.rows')}>
         <table>
           <caption class="visually-hidden">{t('board.rows')}</caption>
           <tbody>
-            {cellTexts(board, legend, frame).map((row) => (
+            {(open || isFew ? cellTexts(board, legend, frame) : []).map((row) => (
               <tr>
                 {row.map((text) => (
                   <td>{text}</td>

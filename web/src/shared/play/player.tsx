@@ -1,10 +1,10 @@
 // Plays a path: play or pause, one step back or forward, and how fast.
 import type { JSX } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-import { usePlayback, type Playback } from '../../shared/playback';
-import { isElsewhere } from '../keys';
+import { usePlayback, type Beginning, type Playback } from '../playback';
+import { isElsewhere } from './keys';
 import { t } from '../texts';
-import { Button } from './ui';
+import { Button } from './button';
 
 const kSpeeds = [
   { key: 'slow', value: 0.6 },
@@ -17,9 +17,9 @@ export interface Paced extends Playback {
   setSpeed: (speed: number) => void;
 }
 
-export function usePacedPlayback(last: number): Paced {
+export function usePacedPlayback(last: number, beginning?: Beginning): Paced {
   const [speed, setSpeed] = useState(1);
-  return { ...usePlayback(last, speed), speed, setSpeed };
+  return { ...usePlayback(last, speed, beginning), speed, setSpeed };
 }
 
 function Icon({ path }: { path: string }): JSX.Element {
@@ -40,10 +40,13 @@ const kIcons = {
 export function Player({ playback, primary }: { playback: Paced; primary: boolean }): JSX.Element {
   const { step, last, playing, show, toggle, speed, setSpeed } = playback;
   const current = useRef(playback);
+  const own = useRef<HTMLDivElement>(null);
   current.current = playback; // keys may come faster than effects
   useLayoutEffect(() => {
     const pressed = (event: KeyboardEvent): void => {
       if (isElsewhere(event) || event.altKey || event.ctrlKey || event.metaKey) return;
+      const isAlone = document.querySelectorAll('.player').length === 1; // else keys are for the board that they are pressed on
+      if (!isAlone && !own.current?.closest('.board-screen')?.contains(event.target as Node)) return;
       const now = current.current;
       if (event.key === 'ArrowRight') now.show(now.step + 1);
       else if (event.key === 'ArrowLeft') now.show(now.step - 1);
@@ -55,7 +58,7 @@ export function Player({ playback, primary }: { playback: Paced; primary: boolea
   }, []);
   const what = playing ? 'pause' : step === last ? 'again' : 'play';
   return (
-    <div class="player" role="group" aria-label={t('player.group')}>
+    <div class="player" role="group" aria-label={t('player.group')} ref={own}>
       <div class="buttons">
         <Button primary={primary} class="play" onClick={toggle}>
           <Icon path={kIcons[what]} />

@@ -1,25 +1,25 @@
 // A robot that somebody drives: board, keys, clicks, pad, undo and reset. Used for predictions and for practice.
 import type { ComponentChildren, JSX } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
-import type { Legend } from '../../shared/board/legend';
-import type { Frame, Place } from '../../shared/board/types';
-import type { Drive, Outcome } from '../drive';
-import { isPressing, isElsewhere } from '../keys';
-import type { LiveBoard } from '../protocol';
+import type { Legend } from '../board/legend';
+import type { Frame, Place, PlayBoard } from '../board/types';
+import type { Drive, Outcome } from './drive';
+import { isPressing, isElsewhere } from './keys';
 import { t } from '../texts';
-import { aroundText, isJobDone, stepText } from '../words';
-import type { World } from '../world';
-import { BoardInWords, LiveBoardView, Things } from './live_board';
+import { aroundText, isJobDone, stepText } from './words';
+import type { World } from './world';
+import { BoardInWords, BoardPane, Things } from './board_pane';
+import { countsOf, Ledger } from './ledger';
 import { LogView, useLog, type Log } from './log';
 import { Pad } from './pad';
 import { StateCard, StepList } from './steps';
-import { Button } from './ui';
+import { Button } from './button';
 
 const kSoon = 5; // moves that are left when the page begins to say so
 const kRepeatMs = 140; // between steps while a key is held down
 
 interface Props {
-  board: LiveBoard;
+  board: PlayBoard;
   legend: Legend;
   world: World | null; // while it is being fetched, only the board is there
   drive: Drive | null;
@@ -29,6 +29,7 @@ interface Props {
   isForEver?: boolean; // the path is said to go on like this for ever
   children: ComponentChildren; // below the pad
   waiting: ComponentChildren; // there until the world has loaded
+  isOneOfMany?: boolean; // other boards on the page want keys, too: those pressed on the board are for it
 }
 
 export function Driver(props: Props): JSX.Element {
@@ -39,7 +40,7 @@ export function Driver(props: Props): JSX.Element {
       <div class="board-screen">
         <div class="board-column">
           {board.map ? (
-            <LiveBoardView board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
+            <BoardPane board={board} legend={legend} frames={[board.start]} step={0} trail="other" />
           ) : (
             <StateCard frame={board.start} />
           )}
@@ -51,20 +52,20 @@ export function Driver(props: Props): JSX.Element {
   return <Driving {...props} world={world} drive={drive} />;
 }
 
-function Driving({ board, legend, world, drive, off, isForEver, children, ...said }: Props & { world: World; drive: Drive }): JSX.Element {
+function Driving({ board, legend, world, drive, off, isForEver, isOneOfMany, children, ...said }: Props & { world: World; drive: Drive }): JSX.Element {
   const log = useLog(drive.actions.length === 0 ? t('predict.start') : lastStep(board, legend, drive.frames));
   const end = isJobDone(board, legend, drive.frames.at(-1)) ? said.end : said.stopped;
   const tell = useTelling({ board, legend, drive, log, end });
   const handles = world.actions.some(({ index }) => world.isHandling(index));
   const area = useRef<HTMLDivElement>(null);
-  useKeys({ world, drive, off, tell, area });
+  useKeys({ world, drive, off, tell, area, isOneOfMany: isOneOfMany ?? false });
   const frame = drive.frames.at(-1) ?? board.start;
   return (
     <div class="board-screen">
       <div class="board-column">
         {board.map ? (
           <div class="drive-area" role="application" aria-label={t('predict.board')} tabIndex={0} ref={area}>
-            <LiveBoardView
+            <BoardPane
               board={board}
               legend={legend}
               frames={drive.frames}
@@ -80,41 +81,45 @@ function Driving({ board, legend, world, drive, off, isForEver, children, ...sai
           <StateCard frame={frame} />
         )}
         <LogView log={log} />
+        {board.map && <Things board={board} legend={legend} lines={['other']} walked={drive.frames} />}
       </div>
       <div class="side">
+        <Ledger domain={board.domain} columns={[{ name: t('ledger.you'), kind: 'other', counts: countsOf(drive.frames) }]} />
         <Pad
           actions={world.actions}
           off={off}
           canDo={(action) => world.after(drive.state, action) !== null}
           onAction={(action) => tell(drive.act(action))}
         />
-        <div class="buttons">
-          <Button
-            off={off || drive.actions.length === 0}
-            onClick={() => {
-              drive.undo();
-              log.say(t('predict.undone'));
-            }}
-          >
-            {t('predict.undo')}
-          </Button>
-          <Button
-            off={off || drive.actions.length === 0}
-            onClick={() => {
-              drive.reset();
-              log.say(t('predict.was_reset'));
-            }}
-          >
-            {t('predict.reset')}
-          </Button>
+        <div class="act-bar">
+          <div class="buttons">
+            <Button
+              off={off || drive.actions.length === 0}
+              onClick={() => {
+                drive.undo();
+                log.say(t('predict.undone'));
+              }}
+            >
+              {t('predict.undo')}
+            </Button>
+            <Button
+              off={off || drive.actions.length === 0}
+              class="reset"
+              onClick={() => {
+                drive.reset();
+                log.say(t('predict.was_reset'));
+              }}
+            >
+              {t('predict.reset')}
+            </Button>
+          </div>
+          <p class="limit" role="status">
+            {drive.left > kSoon ? '' : t(drive.left > 0 ? 'predict.left' : 'predict.longest', { n: drive.left })}
+          </p>
+          {children}
         </div>
-        <p class="limit" role="status">
-          {drive.left > kSoon ? '' : t(drive.left > 0 ? 'predict.left' : 'predict.longest', { n: drive.left })}
-        </p>
-        {children}
         {board.map ? (
           <>
-            <Things board={board} legend={legend} lines={['other']} walked={drive.frames} />
             <p class="muted hint for-keys">{t(handles ? 'predict.keys_things' : 'predict.keys')}</p>
             <p class="muted hint for-touch">{t(handles ? 'predict.touch_things' : 'predict.touch')}</p>
             <p class="visually-hidden">{aroundText(board, legend, frame)}</p>
@@ -128,7 +133,7 @@ function Driving({ board, legend, world, drive, off, isForEver, children, ...sai
   );
 }
 
-function lastStep(board: LiveBoard, legend: Legend, frames: Frame[]): string {
+function lastStep(board: PlayBoard, legend: Legend, frames: Frame[]): string {
   const [before, after] = frames.slice(-2);
   if (!before || !after) return t('predict.start');
   return stepText(board, legend, before, after);
@@ -137,7 +142,7 @@ function lastStep(board: LiveBoard, legend: Legend, frames: Frame[]): string {
 type Told = Outcome | 'none';
 
 interface TellingOptions {
-  board: LiveBoard;
+  board: PlayBoard;
   legend: Legend;
   drive: Drive;
   log: Log;
@@ -184,6 +189,7 @@ interface KeyOptions {
   off: boolean;
   tell: (outcome: Told) => void;
   area: { current: HTMLElement | null };
+  isOneOfMany: boolean;
 }
 
 const kArrows: Record<string, [number, number]> = {
@@ -201,7 +207,8 @@ function useKeys(options: KeyOptions): void {
     let last = -Infinity;
     const pressed = (event: KeyboardEvent): void => {
       if (isElsewhere(event) || event.altKey || event.metaKey) return;
-      const { world, drive, off, tell, area } = current.current;
+      const { world, drive, off, tell, area, isOneOfMany } = current.current;
+      if (isOneOfMany && !area.current?.contains(event.target as Node)) return;
       const isUndo = event.key === 'Backspace' || (event.ctrlKey && event.key.toLowerCase() === 'z');
       if (event.ctrlKey && !isUndo) return;
       const shift = kArrows[event.key];

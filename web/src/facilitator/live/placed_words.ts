@@ -1,30 +1,22 @@
-// What boards show, in words: for captions and for those who do not see them.
-import { hasSlipped, kMoves } from '../shared/board/geometry';
-import type { Legend } from '../shared/board/legend';
-import type { Board, Frame, Path, Place } from '../shared/board/types';
-import type { Domain } from './document';
+// What boards show, in words with places.
+import { hasSlipped, kMoves } from '../../shared/board/geometry';
+import type { Frame, Path, Place } from '../../shared/board/types';
 
-export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
-export const cellText = ([column, row]: Place): string => `column ${column}, row ${row}`;
+const cellText = ([column, row]: Place): string => `column ${column}, row ${row}`;
 
-// Sentences for people name things, not cells: "without the rubble at (3,1) it goes left" -> "without the rubble it goes left".
-export const withoutCells = (text: string): string =>
-  text
-    .replace(/ from \(\d+,\d+\) to \(\d+,\d+\)/g, '')
-    .replace(/ at \(\d+,\d+\)(?:(?:, | and )\(\d+,\d+\))*/g, '');
-
-export function listed(things: string[]): string {
+function listed(things: string[]): string {
   if (things.length < 2) return things.join('');
   return `${things.slice(0, -1).join(', ')} and ${things[things.length - 1]}`;
 }
 
 const withArticle = (names: string[]): string => listed(names.map((name) => `the ${name}`));
 
-export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
+const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
 
 // "goes up": what the robot does with an action.
-export function actionWords(action: string): string {
+function actionWords(action: string): string {
   if (['up', 'down', 'left', 'right'].includes(action)) return `goes ${action}`;
   if (action === 'pickup') return 'picks it up';
   if (action === 'dropoff') return 'puts it down';
@@ -32,7 +24,7 @@ export function actionWords(action: string): string {
   return `does '${action}'`;
 }
 
-export function placeOf(frame: Frame): string {
+function placeOf(frame: Frame): string {
   return frame.robot ? `at ${cellText(frame.robot)}` : stateText(frame.state ?? 'a state');
 }
 
@@ -95,30 +87,4 @@ function namesText(frames: Frame[]): string {
   }
   const times = (n: number): string => (n === 1 ? '' : n === 2 ? ' twice' : ` ${n} times`);
   return runs.map(({ action, n }) => `${action}${times(n)}`).join(', ') || 'nothing';
-}
-
-// Sentences about what is on the map and where, while the board is at its start.
-export function mapText(domain: Domain, legend: Legend, board: Board): string[] {
-  if (!board.map) return [`The robot starts here: ${board.start.state ?? 'a state'}.`];
-  const places = new Map<string, string[]>();
-  const add = (name: string, cell: Place): void => void places.set(name, [...(places.get(name) ?? []), cellText(cell)]);
-  board.map.forEach((row, y) => {
-    [...row].forEach((symbol, x) => {
-      for (const part of legend.parts(symbol)) {
-        if (['wall', 'terrain', 'goal', 'destination'].includes(part.kind)) add(part.name, [x + 1, y + 1]);
-      }
-    });
-  });
-  for (const cell of board.start.stations ?? []) add(legend.stationAt(board.map, cell), cell);
-  for (const item of board.start.items ?? []) {
-    if (!item.carried) add(item.name, item.cell);
-  }
-  const carried = (board.start.items ?? []).filter((item) => item.carried).map((item) => item.name);
-  const robot = board.start.robot ? ` at ${cellText(board.start.robot)}` : '';
-  return [
-    `The map has ${counted(domain.width ?? 0, 'column')} and ${counted(domain.height ?? 0, 'row')}; columns are counted from the left, rows from the top.`,
-    `The robot starts${robot}${carried.length > 0 ? `, carrying ${withArticle(carried)}` : ''}.`,
-    ...(board.fences?.length ? [`Walls stand between ${listed(board.fences.map(([a, b]) => `${cellText(a)} and ${cellText(b)}`))}.`] : []),
-    ...[...places].map(([name, cells]) => `${upperFirst(name)}: ${cells.join('; ')}.`),
-  ];
 }

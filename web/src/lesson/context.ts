@@ -1,0 +1,105 @@
+// What all parts of the lesson share: the robot's world, and what the reader has predicted so far.
+import { useLayoutEffect, useState } from 'preact/hooks';
+import type { Legend } from '../shared/board/legend';
+import type { Board, Path, PlayBoard } from '../shared/board/types';
+import { World } from '../shared/play/world';
+import { tableOf, type Domain, type Driven, type Lesson } from './document';
+import { judgePath, type JudgedWorld, type Verdict } from './judge';
+
+export interface Prediction {
+  shown: Driven;
+  mine: Path | null; // nothing: the reader wanted to see it at once
+  isRight: boolean;
+}
+
+export interface Context {
+  lesson: Lesson;
+  domain: Domain;
+  legend: Legend;
+  worlds: Worlds;
+  tell: (key: string, prediction: Prediction) => void;
+}
+
+// Worlds to drive in, made when they are first needed.
+export class Worlds {
+  private readonly known = new Map<number, { table: JudgedWorld; world: World } | null>();
+
+  constructor(private readonly lesson: Lesson) {}
+
+  private of(number: number): { table: JudgedWorld; world: World } | null {
+    if (!this.known.has(number)) {
+      const table = tableOf(this.lesson, number);
+      this.known.set(number, table && { table, world: new World(table) });
+    }
+    return this.known.get(number) ?? null;
+  }
+
+  world(number: number): World | null {
+    return this.of(number)?.world ?? null;
+  }
+
+  table(number: number): JudgedWorld | null {
+    return this.of(number)?.table ?? null;
+  }
+
+  judge(shown: Driven, actions: number[], repeatsFrom: number | null): Verdict {
+    const table = this.table(shown.world);
+    if (!table) return { isFinished: false, counts: null, isRight: false };
+    return judgePath(this.lesson.judge, table, shown.counts, shown.state, actions, repeatsFrom);
+  }
+
+  // Whether the robot's own way can be entered: the likeliest steps may lead round in a circle.
+  canBeAnswered(shown: Driven): boolean {
+    const table = this.table(shown.world);
+    if (!table) return false;
+    if (!table.robot) return shown.frames.length - 1 <= table.max_actions;
+    let state = shown.state;
+    for (let t = 0; t < table.max_actions; t += 1) {
+      if (table.end[state]) return true;
+      state = table.next[state]?.[table.robot[state] ?? -1] ?? -1;
+      if (state < 0) return false;
+    }
+    return table.end[state] ?? false;
+  }
+}
+
+// A board with what its domain says about drawing it.
+export function playBoard(domain: Domain, { world, map, fences, world_name, start }: Board): PlayBoard {
+  return {
+    domain,
+    world,
+    start,
+    ...(map ? { map } : {}),
+    ...(fences ? { fences } : {}),
+    ...(world_name ? { world_name } : {}),
+  };
+}
+
+export const upperFirst = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
+
+// The first step that two paths do not have in common.
+export function partingOf(a: Path, b: Path): number | null {
+  const at = a.frames.findIndex((frame, i) => frame.action !== b.frames[i]?.action);
+  return at < 0 ? null : at;
+}
+
+// Whether the page is on its way to paper, where there is nothing to press.
+export function usePrinting(): boolean {
+  const [isPrinting, setPrinting] = useState(() => window.matchMedia('print').matches);
+  useLayoutEffect(() => {
+    const query = window.matchMedia('print');
+    const changed = (): void => setPrinting(query.matches);
+    const begins = (): void => setPrinting(true);
+    const ends = (): void => setPrinting(false);
+    query.addEventListener('change', changed);
+    window.addEventListener('beforeprint', begins);
+    window.addEventListener('afterprint', ends);
+    return () => {
+      query.removeEventListener('change', changed);
+      window.removeEventListener('beforeprint', begins);
+      window.removeEventListener('afterprint', ends);
+    };
+  }, []);
+  return isPrinting;
+}

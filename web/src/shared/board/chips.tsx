@@ -1,0 +1,66 @@
+// What one path has more of than the other, written on it: "+1 rubble".
+import type { JSX } from 'preact';
+import { centre, kMargin, type Point } from './geometry';
+import type { Frame } from './types';
+
+export interface Chip {
+  kind: 'own' | 'other';
+  text: string;
+}
+
+const kSeen = 520; // pixels that a board is about wide, and
+const kText = 15; // pixels of the letters on it
+
+interface Props {
+  chips: Chip[];
+  frames: Frame[];
+  other: Frame[];
+  first: number; // the frame at which the paths separate
+  width: number;
+  height: number;
+}
+
+export function Chips({ chips, frames, other, first, width, height }: Props): JSX.Element {
+  const size = Math.max(5.5, Math.min(21, (kText * width) / kSeen));
+  const taken: Point[] = [];
+  return (
+    <g class="chips" aria-hidden="true">
+      {chips.map(({ kind, text }) => {
+        const [way, away] = kind === 'own' ? [frames, other] : [other, frames];
+        const half = { x: (text.length * size * 0.56 + size * 1.2) / 2, y: size * 0.85 };
+        const at = freeOf(farthest(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
+        const x = Math.max(half.x - kMargin, Math.min(width - 2 * kMargin - half.x + kMargin, at.x));
+        const y = Math.max(half.y - kMargin, Math.min(height - 2 * kMargin - half.y + kMargin, at.y));
+        taken.push({ x, y });
+        return (
+          <g class={`chip ${kind}`} transform={`translate(${x.toFixed(1)} ${y.toFixed(1)})`}>
+            <rect x={-half.x} y={-half.y} width={2 * half.x} height={2 * half.y} rx={half.y} />
+            <text text-anchor="middle" dominant-baseline="central" font-size={size.toFixed(1)}>
+              {text}
+            </text>
+          </g>
+        );
+      })}
+    </g>
+  );
+}
+
+// The place of a way that is farthest from the other one; the earliest of several.
+function farthest(way: Frame[], away: Frame[]): Point {
+  const points = (frames: Frame[]): Point[] => frames.flatMap(({ robot }) => (robot ? [centre(robot)] : []));
+  const others = points(away);
+  let best: Point = points(way)[0] ?? { x: 0, y: 0 };
+  let most = -1;
+  for (const point of points(way)) {
+    const least = Math.min(...others.map(({ x, y }) => Math.hypot(x - point.x, y - point.y)), 1e6);
+    if (least > most) [best, most] = [point, least];
+  }
+  return best;
+}
+
+// Below what is there already.
+function freeOf(at: Point, taken: Point[], step: number): Point {
+  let free = at;
+  while (taken.some(({ x, y }) => Math.abs(x - free.x) < 60 && Math.abs(y - free.y) < step * 0.98)) free = { x: free.x, y: free.y + step };
+  return free;
+}

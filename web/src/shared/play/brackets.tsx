@@ -1,0 +1,62 @@
+// What is known so far: between which bounds each cost lies, on one scale per feature, in units of the reference.
+import type { JSX } from 'preact';
+import { isEnglish, sentence, t } from '../texts';
+
+type Ratio = [number, number];
+
+export interface Bracket {
+  feature: number;
+  reference: number;
+  low: Ratio | null; // of the weight, in units of what the reference weighs: costs are negative
+  high: Ratio | null;
+  text: string; // in English
+}
+
+const valueOf = (ratio: Ratio | null): number | null => (ratio ? ratio[0] / ratio[1] : null);
+
+export function Brackets({ brackets }: { brackets: Bracket[] }): JSX.Element | null {
+  if (brackets.length === 0) return null;
+  return (
+    <div class="brackets">
+      <p class="brackets-title">{t('brackets.title')}</p>
+      {brackets.map((bracket) => (
+        <Scale bracket={bracket} />
+      ))}
+    </div>
+  );
+}
+
+const kWidth = 320;
+const kSide = 14;
+
+// Costs and gains alike grow to the right; where neither is known, costs are to the left of nought.
+function Scale({ bracket }: { bracket: Bracket }): JSX.Element {
+  const [low, high] = [valueOf(bracket.low), valueOf(bracket.high)];
+  const isCost = high !== null && high <= 0;
+  const [from, to] = isCost ? [-high, low === null ? null : -low] : [low, high];
+  const ends = [from, to].flatMap((end) => (end === null ? [] : [end]));
+  const most = Math.max(2, ...ends.map((end) => Math.ceil(Math.abs(end) * 1.5)));
+  const least = from === null || from < 0 ? -most : 0;
+  const place = (x: number): number => kSide + ((x - least) / (most - least)) * (kWidth - 2 * kSide);
+  const [left, right] = [from === null ? kSide : place(from), to === null ? kWidth - kSide : place(to)];
+  const step = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].find((one) => (most - least) / one <= 8) ?? 2000;
+  const ticks: number[] = [];
+  for (let x = Math.ceil(least / step) * step; x <= most; x += step) ticks.push(x);
+  return (
+    <div class="bracket">
+      {isEnglish() && <p>{sentence(bracket.text)}</p>}
+      <svg viewBox={`0 0 ${kWidth} 40`} aria-hidden="true" focusable="false">
+        <path class="axis" d={`M${kSide} 13H${kWidth - kSide}`} />
+        <rect class="known" x={left} y={7} width={Math.max(4, right - left)} height={12} rx={6} />
+        {from !== null && from !== 0 && <path class="end" d={`M${left} 3V23`} />}
+        {to !== null && <path class="end" d={`M${right} 3V23`} />}
+        {to === null && <path class="on" d={`M${right - 3} 7l6 6-6 6`} />}
+        {ticks.map((x) => (
+          <text x={place(x)} y={36} text-anchor="middle" font-size={12}>
+            {Math.abs(x)}
+          </text>
+        ))}
+      </svg>
+    </div>
+  );
+}

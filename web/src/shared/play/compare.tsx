@@ -1,0 +1,95 @@
+// The robot's path and another one from the same start: both drawn, with the place where they separate and what each
+// has more of; both robots go from there by themselves.
+import type { ComponentChildren, JSX } from 'preact';
+import { useLayoutEffect, useRef } from 'preact/hooks';
+import type { Legend } from '../board/legend';
+import { closedAt, played } from '../board/repeats';
+import type { Frame, Path, PlayBoard } from '../board/types';
+import { t } from '../texts';
+import { BoardInWords, BoardPane, Things } from './board_pane';
+import { chipsOf, countsOf, Ledger } from './ledger';
+import { LogView, useLog } from './log';
+import { Player, usePacedPlayback } from './player';
+import { StateCard, StepList } from './steps';
+import { playedText } from './words';
+
+interface Props {
+  board: PlayBoard;
+  legend: Legend;
+  robot: Path;
+  other: Path | null;
+  otherName: string; // "You"
+  otherLine: string; // what its line is called in the legend: "Your path"
+  at: number | null; // where they separate
+  isStill?: boolean; // for paper: nothing to press
+  title?: string; // of the robot's steps where there is no map
+  reason: ComponentChildren; // beside the board
+  children?: ComponentChildren; // below the player
+}
+
+export function Compare(props: Props): JSX.Element {
+  const { board, legend, at, isStill } = props;
+  const robot = played(props.robot);
+  const other = props.other && played(props.other);
+  const last = Math.max(robot.length, other?.length ?? 0, 1) - 1;
+  const playback = usePacedPlayback(last, other && at !== null ? { from: at, isAuto: !isStill } : { from: 0, isAuto: false, isAtEnd: true });
+  const { step } = playback;
+  const log = useLog(t('watch.start'));
+  const shown = useRef(0);
+  useLayoutEffect(() => {
+    if (step === shown.current) return;
+    shown.current = step;
+    if (step < robot.length) log.say(playedText(board, legend, props.robot, step));
+  }, [step]);
+  const decisive = at === null || !other ? null : { frame: at, ...cellOf(robot[at]) };
+  const robotStep = Math.min(step, robot.length - 1);
+  const isOver = step === last;
+  const counts = [countsOf(robot, isOver || isStill ? robot.length - 1 : robotStep)];
+  if (other) counts.push(countsOf(other, isOver || isStill ? other.length - 1 : step));
+  const names = [t('ledger.robot'), props.otherName];
+  const frame = robot[robotStep] ?? board.start;
+  return (
+    <div class="board-screen">
+      <div class="board-column">
+        {board.map ? (
+          <BoardPane
+            board={board}
+            legend={legend}
+            frames={robot}
+            step={robotStep}
+            walked={step}
+            trail="own"
+            whole
+            decisive={decisive}
+            closedAt={closedAt(props.robot)}
+            {...(other && props.other ? { other, otherClosedAt: closedAt(props.other) } : {})}
+            {...(other ? { chips: chipsOf(board.domain, countsOf(robot), countsOf(other)) } : {})}
+          />
+        ) : (
+          <StateCard frame={frame} />
+        )}
+        {!isStill && <LogView log={log} />}
+        {board.map && <Things board={board} legend={legend} lines={other ? ['own', 'other'] : ['own']} walked={robot} decisive={decisive !== null} otherLine={props.otherLine} />}
+      </div>
+      <div class="side">
+        {props.reason}
+        <Ledger
+          domain={board.domain}
+          columns={counts.map((one, i) => ({ name: names[i] ?? '', kind: i === 0 ? 'own' : 'other', counts: one }))}
+        />
+        {!isStill && <Player playback={playback} primary={false} />}
+        {props.children}
+        {board.map ? (
+          !isStill && <BoardInWords board={board} legend={legend} frame={frame} />
+        ) : (
+          <div class="step-lists">
+            <StepList title={t('feedback.robot')} frames={robot} differs={at} />
+            {other && <StepList title={props.otherLine} frames={other} differs={at} />}
+          </div>
+        )}
+      </div>
+    </div>
+  );
+}
+
+const cellOf = (frame: Frame | undefined): { cell?: [number, number] } => (frame?.robot ? { cell: frame.robot } : {});

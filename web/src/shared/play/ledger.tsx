@@ -1,0 +1,70 @@
+// What decides, counted: "Steps 7, Crossing rubble 1, Stopping at the charger 0". Counts, never what they are worth.
+import type { JSX } from 'preact';
+import type { Chip } from '../board/chips';
+import type { Counted, Frame, MapDomain } from '../board/types';
+import { capitalised, hasText, t } from '../texts';
+
+const kMost = 4; // so many are all shown from the beginning
+
+// What has been counted up to a frame.
+export function countsOf(frames: Frame[], upTo = frames.length - 1): number[] {
+  const sums: number[] = [];
+  for (const { counts } of frames.slice(0, upTo)) counts?.forEach((n, k) => (sums[k] = (sums[k] ?? 0) + n));
+  return sums;
+}
+
+const labelOf = ({ name, label }: Counted): string => capitalised(hasText(`count.${name}`) ? t(`count.${name}`) : label);
+
+export const rounded = (n: number): string => String(Math.round(100 * n) / 100);
+
+export interface Column {
+  name: string; // "Robot"
+  kind: 'own' | 'other';
+  counts: number[];
+}
+
+// While somebody moves there is one column, afterwards the robot's beside the prediction.
+export function Ledger({ domain, columns }: { domain: MapDomain; columns: Column[] }): JSX.Element | null {
+  const counted = domain.counted ?? [];
+  const rows = counted
+    .map((one, k) => ({ one, values: columns.map(({ counts }) => counts[k] ?? 0) }))
+    .filter(({ values }, k) => counted.length <= kMost || k === counted.length - 1 || values.some((n) => n !== 0));
+  if (rows.length === 0) return null;
+  return (
+    <table class={columns.length > 1 ? 'ledger' : 'ledger single'}>
+      <caption class="visually-hidden">{t('ledger.title')}</caption>
+      {columns.length > 1 && (
+        <thead>
+          <tr>
+            <td />
+            {columns.map(({ name, kind }) => (
+              <th scope="col" class={kind}>
+                {name}
+              </th>
+            ))}
+          </tr>
+        </thead>
+      )}
+      <tbody>
+        {rows.map(({ one, values }) => (
+          <tr class={new Set(values).size > 1 ? 'differs' : undefined}>
+            <th scope="row">{labelOf(one)}</th>
+            {values.map((n) => (
+              <td class="number">{rounded(n)}</td>
+            ))}
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+// What each of two paths has more of: "+1 rubble" on one, "+2 steps" on the other.
+export function chipsOf(domain: MapDomain, robot: number[], other: number[]): Chip[] {
+  return (domain.counted ?? []).flatMap((one, k): Chip[] => {
+    const more = (robot[k] ?? 0) - (other[k] ?? 0);
+    const n = Math.abs(more);
+    if (n < 0.005) return [];
+    return [{ kind: more > 0 ? 'own' : 'other', text: `+${rounded(n)} ${n === 1 ? one.one : one.many}` }];
+  });
+}
