@@ -63,14 +63,13 @@ export function calibrationQuotes(runs, here) {
   const [alone, periods, spread] = ['knowledge, baseline', 'periods, baseline', 'sd of knowledge, group'];
   const before = (name) => candidates.find((one) => one.label === 'the study as it is').targets[at(name)].model;
   const undecided = parameters.filter((one) => one.open_low && one.low <= one.min && one.open_high && one.high >= one.max);
-  const extreme = undecided.filter((one) => one.value === one.min || one.value === one.max);
   const parameter = (name) => parameters.find((one) => one.name === name);
   const range = (name) => `${short(parameter(name).min)} to ${short(parameter(name).max)}`;
   return [
     `: ${parameters.map((one) => `${one.name} ${short(one.value)}`).join(', ')}. `,
     `taught alone end with a knowledge of ${fixed(best.targets[at(alone)].model, 2)}, where ${asked(alone).value} within ` +
       `${asked(alone).tolerance} is asked for`,
-    ` ${listed(extreme.map((one) => one.name))} are at an end of their ranges, although their intervals are the whole ranges.`,
+    `the intervals of ${listed(undecided.map((one) => one.name))} are their whole ranges.`,
     `taught alone take ${fixed(before(periods), 1)} periods (at least ${fixed(least(periods), 2)} are asked for), and the standard ` +
       `deviation of the groups' knowledge is ${fixed(before(spread), 3)} (at least ${fixed(least(spread), 3)}).`,
     `Here they are ${fixed(here(periods), 1)} and ${fixed(here(spread), 3)}, and the groups take ${fixed(here('periods, group'), 2)} ` +

@@ -269,7 +269,7 @@ export function makeContent(runs) {
     'types-apart': () =>
       Object.keys(CREWS).every((crew) => {
         const [all, apart] = [`${crew} together`, `${crew} by-type`];
-        return value(apart, 'joint', 'person periods') < value(all, 'joint', 'person periods') && value(apart, 'joint', 'periods') > 1.4 * value(all, 'joint', 'periods');
+        return value(apart, 'joint', 'person periods') < value(all, 'joint', 'person periods') && value(apart, 'joint', 'periods') > 1.3 * value(all, 'joint', 'periods');
       }),
     'plan-beats-rivals': () =>
       DOMAINS.every((domain) =>

@@ -427,7 +427,7 @@ export function makeContent(runs, source) {
       }),
     'common-teaches-less-elsewhere': () =>
       DOMAINS.every((domain) => common(domain, 'knowledge').value < 0) &&
-      DOMAINS.filter((domain) => common(domain, 'knowledge').p_value < 0.05).join() === 'two-goals,cookie-crumb',
+      DOMAINS.filter((domain) => common(domain, 'knowledge').p_value < 0.05).join() === 'two-goals,cookie-crumb,skateboard',
     'periods-agree-elsewhere': () =>
       DOMAINS.every((domain) => common(domain, 'periods').p_value > 0.05 && belief('periods', 'all', domain).p_value > 0.05),
     'prior-matters-little': () =>
