@@ -42,8 +42,12 @@ TEST(CurriculumCommand, PrintsBoardsReasonsAndTestsAsJson) {
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto document = Json::parse(ran.out);
   EXPECT_EQ(document.at("schema"), "kith.curriculum/1");
-  EXPECT_EQ(document["domain"]["features"][0],
-            (Json{{"name", "rubble"}, {"words", "crossing rubble"}, {"weight", -3.0}}));
+  EXPECT_EQ(document["domain"]["features"][0], (Json{{"name", "rubble"},
+                                                     {"words", "crossing rubble"},
+                                                     {"many", "crossing rubble {n} times"},
+                                                     {"do", "cross rubble"},
+                                                     {"do_many", "cross rubble {n} times"},
+                                                     {"weight", -3.0}}));
   ASSERT_FALSE(document.at("components").empty());
   for (const auto& component : document["components"]) {
     for (const auto& shown : component.at("demonstrations")) {
