@@ -258,7 +258,7 @@ describe('a report', () => {
     for (const dark of [false, true]) {
       await withReport({ width: 320, dark }, async ({ page }) => {
         const colors = await page.evaluate(() =>
-          [0, 1, 2, 3, 4].map((i) => getComputedStyle(document.documentElement).getPropertyValue(`--s${i}`)),
+          [0, 1, 2, 3, 4].map((i) => getComputedStyle(document.documentElement).getPropertyValue(`--t${i}`)),
         );
         for (const [kind, least] of [['grey', 10], ['protanopia', 20], ['deuteranopia', 20], ['tritanopia', 20], ['all', 20]]) {
           const seen = colors.map((hex) => seenAs(hex, kind));

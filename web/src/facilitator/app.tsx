@@ -95,8 +95,10 @@ function Shell({ view, socket, send, onRetry }: ShellProps): JSX.Element {
     void send('room-select', { room, reason: '' }).catch(() => undefined);
   };
   useEffect(() => {
-    const only = view.rooms[0];
-    if (view.rooms.length === 1 && only && selected !== only.id) select(only.id);
+    // Of several rooms the one that is being taught, if it is the only one.
+    const running = view.rooms.filter(({ stage }) => stage === 'running' || stage === 'paused');
+    const only = view.rooms.length === 1 ? view.rooms[0] : running.length === 1 && selected === null ? running[0] : undefined;
+    if (only && selected !== only.id) select(only.id);
   }, [view.rooms]);
   useEffect(() => {
     document.title = `${kTabs.find(({ id }) => id === tab)?.label} - ${view.study.title}`;

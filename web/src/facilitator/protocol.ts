@@ -125,6 +125,14 @@ export interface Timer {
   until_ms?: number;
 }
 
+// What the teacher believes of a member while the group is taught.
+export interface MemberBelief {
+  member: number;
+  knows: number; // probability of predicting the current component rightly
+  thinks?: string; // the misconception that is most probable
+  probability?: number; // of it
+}
+
 export interface Truth {
   weights: number[];
   bec: number[][];
@@ -143,6 +151,7 @@ export interface RoomDetail {
   lesson?: LessonNow;
   answers: Answer[];
   curves: CurvePoint[];
+  members?: MemberBelief[];
   beliefs: Belief[];
   truth?: Truth;
   timers: Timer[];

@@ -112,13 +112,13 @@ export const kTerms = {
   regret: 'Regret: by how much the answer\u2019s return is below that of the robot\u2019s own path. 0: as good as the robot\u2019s.',
   component: 'Knowledge component: a part of the reward that is taught and tested separately, for example one feature against the cost of a step.',
   forecast: 'Forecast: if the study has imagined sessions (record.forecast), from those that had got as far, at the pace of this session so far, with the central 80\u00a0%. Otherwise it assumes that each open component takes as many periods as the earlier ones did on average; the range is then based on the shortest and the longest period so far.',
-  latency: 'Latency: round-trip time of a message to the browser.',
   composition: 'Composition: the type of learner that the teacher assumes for each member, one letter per member. Set-up lists the types.',
-  estimate: 'Screening: the share of tests that this person is expected to answer correctly, estimated from the tests before the lobby.',
   grace: 'Grace period: how long a person may be away before the dropout policy applies.',
   simulated: 'A simulated learner: a program that learns and answers like a learner of the given type. The consent form informs participants about it.',
   interactions: 'Period: one round of demonstrations, tests and feedback.',
-  runners_up: 'Runners-up: the demonstrations with the next largest gains. They were not shown.',
+  runners_up: 'Runners-up: the demonstrations with the next largest gains. They were not shown. A gain of 2\u00d7 means that half of the rewards that were still possible would be ruled out.',
+  knows: 'Knows this part: the probability, by the teacher\u2019s belief about this person, that they predict all of the current component rightly.',
+  thinks: 'Likely thinks: the misconception about what was taught so far that is most probable by the teacher\u2019s belief about this person. Nothing is named below 10\u00a0%.',
   unsaved: 'Unsaved: events that have been accepted but not yet written to disk. The browser gets an acknowledgement only after the write.',
 };
 export type Term = keyof typeof kTerms;
@@ -141,6 +141,10 @@ export function estimateText(estimate: Estimate | undefined): string {
 }
 
 export const counted = (n: number, noun: string): string => `${n} ${noun}${n === 1 ? '' : 's'}`;
+
+// Whether somebody who is not there any more stayed until the end.
+export const isFinished = ({ stage, why }: SeatRow): boolean =>
+  stage === 'debrief' || (stage === 'ended' && why !== undefined && why !== 'left');
 
 // What of a room needs a person's attention, or nothing.
 export function attention(room: RoomRow): string | null {

@@ -41,7 +41,7 @@ export class Palette {
       const at = place % kShapes.length;
       this.looks.set(code, {
         label: words.strategy(code),
-        color: color(`s${at}`),
+        color: color(`t${at}`),
         shape: kShapes[at] ?? 'circle',
         dash: kDashes[at] ?? [1, 0],
       });

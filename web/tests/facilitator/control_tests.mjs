@@ -12,7 +12,11 @@ export function controlTests({ withPage, shoot }) {
       await page.waitForSelector('dialog[open]');
       await page.keyboard.press('Enter');
       assert.match(await page.textContent('dialog .problem'), /give a reason/);
+      await page.keyboard.type('go');
+      await page.keyboard.press('Enter');
+      assert.match(await page.textContent('dialog .problem'), /"go" is too short: a reason has at least 3 letters/);
       assert.deepEqual(received(mock, 'pause'), []);
+      await page.keyboard.press('ControlOrMeta+A');
       await page.keyboard.type('Fire alarm');
       await page.keyboard.press('Enter');
       await page.waitForSelector('dialog', { state: 'detached' });
@@ -48,7 +52,10 @@ export function controlTests({ withPage, shoot }) {
         await page.waitForSelector('dialog', { state: 'detached' });
       };
       await act('Extend', () => page.fill('dialog input[type=number]', '90'));
-      await act('Message', () => page.fill('dialog textarea', 'Five more minutes'), 'Send');
+      await act('Message', async () => {
+        assert.equal(await page.evaluate(() => document.activeElement.tagName), 'TEXTAREA', 'the focus is in the message');
+        await page.fill('dialog textarea', 'Five more minutes');
+      }, 'Send');
       await act('Strategy', () => page.selectOption('dialog select', 'individual-low'), 'Switch');
       assert.equal(received(mock, 'extend')[0].seconds, 90);
       assert.equal(received(mock, 'message')[0].text, 'Five more minutes');

@@ -165,6 +165,14 @@ export function roomDetail(random, now, row) {
     ...(stage === 'lobby' ? {} : { lesson: lessonOf(1) }),
     answers,
     curves: stage === 'lobby' ? [] : curves,
+    members:
+      stage === 'running' || stage === 'paused'
+        ? seats.map((_, i) => ({
+            member: i + 1,
+            knows: share(pullAt(period, i)),
+            ...(i % 3 === 2 ? {} : { thinks: `crossing rubble costs at most ${1 + (i % 4)} steps`, probability: 0.42 }),
+          }))
+        : [],
     beliefs: named.map((name, i) => ({ name, points: cloud(random, pullAt(period, Math.min(i, seats.length - 1))) })),
     truth: { weights: truth, bec, prior, features: ['rubble', 'recharge', 'step'] },
     timers: [

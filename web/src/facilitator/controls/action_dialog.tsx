@@ -25,7 +25,12 @@ export function ActionDialog({ action, send, onClose }: ActionDialogProps): JSX.
     event.preventDefault();
     if (isSent) return;
     if (reason.trim().length < kShortest) {
-      setProblem('Please give a reason. It is recorded in the log.');
+      const length = reason.trim().length;
+      setProblem(
+        length === 0
+          ? 'Please give a reason, or choose one below. It is recorded in the log.'
+          : `"${reason.trim()}" is too short: a reason has at least ${kShortest} letters.`,
+      );
       first.current?.focus();
       return;
     }
@@ -43,10 +48,10 @@ export function ActionDialog({ action, send, onClose }: ActionDialogProps): JSX.
     <Dialog title={action.title} onClose={() => onClose(null)}>
       <form onSubmit={submit} noValidate>
         <p>{action.explains}</p>
-        {action.fields.map((field) => (
-          <FieldView field={field} value={values[field.name] ?? ''} onInput={(value) => setValues({ ...values, [field.name]: value })} />
+        {action.fields.map((field, i) => (
+          <FieldView field={field} isFirst={i === 0} value={values[field.name] ?? ''} onInput={(value) => setValues({ ...values, [field.name]: value })} />
         ))}
-        <label for={id}>Reason (recorded in the log)</label>
+        <label for={id}>{`Reason (at least ${kShortest} letters; recorded in the log)`}</label>
         <input
           id={id}
           ref={first}
@@ -82,13 +87,20 @@ export function ActionDialog({ action, send, onClose }: ActionDialogProps): JSX.
   );
 }
 
-function FieldView({ field, value, onInput }: { field: Field; value: string; onInput: (value: string) => void }): JSX.Element {
+interface FieldViewProps {
+  field: Field;
+  isFirst: boolean; // has the focus when the dialog opens
+  value: string;
+  onInput: (value: string) => void;
+}
+
+function FieldView({ field, isFirst, value, onInput }: FieldViewProps): JSX.Element {
   const id = useId();
   return (
     <>
       <label for={id}>{field.label}</label>
       {field.kind === 'select' && (
-        <select id={id} value={value} onChange={(event) => onInput(event.currentTarget.value)}>
+        <select id={id} autofocus={isFirst} value={value} onChange={(event) => onInput(event.currentTarget.value)}>
           {(field.options ?? []).map((option) => (
             <option value={option.value}>{option.label}</option>
           ))}
@@ -97,6 +109,7 @@ function FieldView({ field, value, onInput }: { field: Field; value: string; onI
       {field.kind === 'number' && (
         <input
           id={id}
+          autofocus={isFirst}
           type="number"
           min={field.min}
           max={field.max}
@@ -105,7 +118,7 @@ function FieldView({ field, value, onInput }: { field: Field; value: string; onI
         />
       )}
       {field.kind === 'text' && (
-        <textarea id={id} rows={3} maxLength={kLongestText} value={value} onInput={(event) => onInput(event.currentTarget.value)} />
+        <textarea id={id} autofocus={isFirst} rows={3} maxLength={kLongestText} value={value} onInput={(event) => onInput(event.currentTarget.value)} />
       )}
     </>
   );

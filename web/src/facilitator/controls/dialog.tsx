@@ -16,6 +16,7 @@ export function Dialog({ title, onClose, children, wide }: DialogProps): JSX.Ele
     const opener = document.activeElement;
     const dialog = box.current;
     dialog?.showModal();
+    dialog?.querySelector<HTMLElement>('[autofocus]')?.focus(); // browsers look at the close button first
     return () => {
       dialog?.close(); // until then nothing outside of it can have the focus
       if (opener instanceof HTMLElement && opener.isConnected) opener.focus();

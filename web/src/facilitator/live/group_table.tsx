@@ -3,10 +3,10 @@ import type { JSX } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { duration } from '../../shared/duration';
 import { secondsText, useNow } from '../clock';
-import type { Answer, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
+import type { Answer, MemberBelief, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
 import { Explained } from '../tip';
 import { memberOfSeat } from './beliefs';
-import { estimateText, kPresence, personStage, seatTitle, typeLabel } from '../words';
+import { isFinished, kPresence, personStage, seatTitle, typeLabel } from '../words';
 
 interface Column {
   period: number;
@@ -38,13 +38,12 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   const columns = columnsOf(detail.answers);
   const byPlace = new Map(detail.answers.map((answer) => [`${answer.seat}/${answer.period}/${answer.test}`, answer]));
   const hasStageTimes = room.seats.some(({ stage_since_ms }) => stage_since_ms !== undefined);
-  const hasLatency = room.seats.some(({ latency_ms }) => latency_ms !== undefined);
-  const hasEstimate = room.seats.some(({ estimate }) => estimate !== undefined);
+  const beliefs = new Map((detail.members ?? []).map((one) => [one.member, one]));
   const longest = Math.max(1, ...detail.answers.map(({ ms }) => ms));
   // The latest answers are at the right end, which has to be seen.
   const box = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => {
-    if (box.current) box.current.scrollLeft = box.current.scrollWidth;
+    if (box.current && box.current.clientWidth > kWide) box.current.scrollLeft = box.current.scrollWidth;
   }, [columns.length]);
   const periods = [...new Set(columns.map(({ period }) => period))];
   return (
@@ -57,14 +56,17 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
             <th scope="col" class="number">
               {hasStageTimes ? 'Since' : 'Present'}
             </th>
-            {hasLatency && (
+            <th scope="col" class="number">
+              Right
+            </th>
+            {beliefs.size > 0 && (
               <th scope="col" class="number">
-                <Explained term="latency">ms</Explained>
+                <Explained term="knows">Knows</Explained>
               </th>
             )}
-            {hasEstimate && (
-              <th scope="col" class="number">
-                <Explained term="estimate">Screening</Explained>
+            {beliefs.size > 0 && (
+              <th scope="col">
+                <Explained term="thinks">Likely thinks</Explained>
               </th>
             )}
             {periods.map((period) => (
@@ -73,7 +75,7 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
                 {period}
               </th>
             ))}
-            <th class="rest">{columns.length === 0 && 'No answers yet'}</th>
+            <td class="rest">{columns.length === 0 && 'No answers yet'}</td>
           </tr>
         </thead>
         <tbody>
@@ -100,8 +102,8 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
                 {seat.presence === 'away' ? kPresence.away : stateText(seat)}
               </td>
               <td class="number">{timeText(seat, now)}</td>
-              {hasLatency && <td class="number">{seat.latency_ms === undefined ? '' : Math.round(seat.latency_ms)}</td>}
-              {hasEstimate && <td class="number">{shortEstimate(seat)}</td>}
+              <td class="number">{rightText(detail.answers, seat)}</td>
+              {beliefs.size > 0 && <Thought belief={beliefs.get(memberOfSeat(seat))} isOut={seat.presence === 'left'} />}
               {columns.map(({ period, test, isFirst }) => (
                 <Cell answer={byPlace.get(`${seat.seat}/${period}/${test}`)} where={`period ${period}, test ${test}`} longest={longest} isFirst={isFirst} />
               ))}
@@ -114,10 +116,32 @@ export function GroupTable({ study, room, detail, marked, onMark, onOpen }: Grou
   );
 }
 
+const kWide = 640; // px; below, what stands beside the names would be out of sight
+
+function rightText(answers: Answer[], { seat }: SeatRow): string {
+  const own = answers.filter((answer) => answer.seat === seat);
+  return own.length === 0 ? '' : `${own.filter(({ right }) => right).length}/${own.length}`;
+}
+
+// What the teacher believes of somebody: two cells.
+function Thought({ belief, isOut }: { belief: MemberBelief | undefined; isOut: boolean }): JSX.Element {
+  const share = (value: number): string => `${Math.round(100 * value)} %`;
+  const thinks = isOut ? undefined : belief?.thinks;
+  return (
+    <>
+      <td class="number">{belief && !isOut ? share(belief.knows) : ''}</td>
+      <td class="thinks" data-tip={thinks && `Thinks that ${thinks} (${share(belief?.probability ?? 0)})`}>
+        {thinks ?? ''}
+      </td>
+    </>
+  );
+}
+
 export function stateText(seat: SeatRow): string {
   if (seat.kind === 'simulated') return 'simulated';
   if (seat.dropped) return 'dropped out';
-  if (seat.presence === 'empty' || seat.presence === 'left') return kPresence[seat.presence];
+  if (seat.presence === 'left') return isFinished(seat) ? 'finished' : kPresence.left;
+  if (seat.presence === 'empty') return kPresence.empty;
   return seat.presence === 'away' ? `away (${personStage(seat.stage)})` : personStage(seat.stage);
 }
 
@@ -126,6 +150,7 @@ export function whereabouts(seat: SeatRow, now: number): string {
   if (seat.kind === 'simulated') return 'simulated learner';
   if (seat.presence === 'empty' || seat.since_ms === 0) return stateText(seat);
   const doing = seat.dropped ? 'dropped out' : personStage(seat.stage);
+  if (seat.presence === 'left' && isFinished(seat)) return `finished; gone for ${duration(now - seat.since_ms)}`;
   const presence = `${kPresence[seat.presence]} for ${duration(now - seat.since_ms)}`;
   return seat.presence === 'left' ? presence : `${doing}; ${presence}`;
 }
@@ -137,20 +162,17 @@ function timeText(seat: SeatRow, now: number): string {
   return since === 0 || seat.presence === 'empty' ? '' : duration(now - since);
 }
 
-const shortEstimate = ({ estimate }: SeatRow): string =>
-  estimateText(typeof estimate === 'object' ? estimate.value : estimate);
-
 // Shape and colour: a full circle is connected, a half one away, a ring empty, a cross left, a square a program.
 export function PresenceMark({ seat }: { seat: SeatRow }): JSX.Element {
   const state = seat.kind === 'simulated' ? 'simulated' : seat.presence;
   return (
-    <svg class={`presence ${state}`} width="11" height="11" viewBox="-6 -6 12 12" role="img" aria-label={seat.kind === 'simulated' ? 'simulated' : kPresence[seat.presence]}>
+    <svg class={`presence ${state}`} width="11" height="11" viewBox="-6 -6 12 12" role="img" aria-label={seat.kind === 'simulated' ? 'simulated' : state === 'left' && isFinished(seat) ? 'finished' : kPresence[seat.presence]}>
       {state === 'simulated' && <rect x={-4} y={-4} width={8} height={8} />}
       {state === 'here' && <circle r={4.5} />}
       {state === 'away' && <circle class="ring" r={4} />}
       {state === 'away' && <path d="M0 -4A4 4 0 0 1 0 4Z" />}
       {state === 'empty' && <circle class="ring" r={4} />}
-      {state === 'left' && <path class="ring" d="M-4 -4 4 4M4 -4-4 4" />}
+      {state === 'left' && <path class="ring" d={isFinished(seat) ? 'M-4 .5-1 3.5 4.5 -3.5' : 'M-4 -4 4 4M4 -4-4 4'} />}
     </svg>
   );
 }

@@ -113,7 +113,7 @@ function Shown({ choice }: { choice: Choice }): JSX.Element {
       <div class="shown-facts">
         {shown.gain !== undefined && !isTest && (
           <p>
-            <Explained term="gain">Gain</Explained> <b>{shown.gain.toFixed(2)}</b>
+            <Explained term="gain">Gain</Explained> <b>{`${shown.gain.toFixed(2)}\u00d7`}</b>
           </p>
         )}
         <p class="list-title">{isTest ? 'It tests that' : 'It shows that'}</p>
@@ -134,7 +134,7 @@ function RunnersUp({ lesson }: { lesson: LessonNow }): JSX.Element | null {
   return (
     <div class="runners">
       <h4>
-        <Explained term="runners_up">Runners-up</Explained>
+        <Explained term="runners_up">Runners-up</Explained> <span class="hint">{`gain, times; shown: ${chosen.toFixed(2)}\u00d7`}</span>
       </h4>
       <ol>
         {lesson.runners_up.slice(0, 5).map((runner) => (
@@ -161,7 +161,7 @@ function Runner({ runner, most, chosen }: { runner: RunnerUp; most: number; chos
       )}
       <span class="gain">
         <meter min={0} max={most} value={runner.gain} aria-hidden="true" />
-        {runner.gain.toFixed(2)}
+        {`${runner.gain.toFixed(2)}\u00d7`}
       </span>
     </li>
   );

@@ -1,4 +1,5 @@
-// One room as it happens: beliefs, people and answers on the left, the lesson and the progress on the right.
+// One room as it happens: who needs help, people and answers, and beliefs on the left, the lesson and the progress on
+// the right.
 import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { duration } from '../../shared/duration';
@@ -6,12 +7,14 @@ import { useNow } from '../clock';
 import { type Action, roomActions } from '../controls/actions';
 import { SeatDialog } from '../controls/seat_dialog';
 import { LogTable } from '../log';
+import { Rooms } from '../rooms';
 import type { FacilitatorView, RoomRow } from '../protocol';
 import { Explained } from '../tip';
 import { attention, endText, kStages, roomTitle } from '../words';
 import { memberOfSeat, seatOf } from './beliefs';
 import { Curves } from './curves';
 import { GroupTable } from './group_table';
+import { Now } from './now';
 import { LessonPanel } from './lesson_now';
 import { Progress } from './progress';
 import { Spheres } from './spheres';
@@ -28,7 +31,7 @@ interface LiveProps {
 export function Live({ view, selected, mayAct, onSelect, onAct }: LiveProps): JSX.Element {
   const room = view.rooms.find(({ id }) => id === selected);
   if (view.rooms.length === 0) return <Nothing text="There are no rooms yet. Create one under Set-up." />;
-  if (!room) return <Nothing text="Choose a room under Rooms." />;
+  if (!room) return <Rooms view={view} selected={null} onOpen={onSelect} />;
   return (
     <>
       <RoomBar view={view} room={room} mayAct={mayAct} onSelect={onSelect} onAct={onAct} />
@@ -117,9 +120,9 @@ interface RoomViewProps {
 // Pixels, as in live.css. What the table leaves of the window is for spheres and charts, so that everything is
 // visible without scrolling.
 const kTableRow = 22;
-const kAround = 196; // bars, heads and gaps
+const kAround = 230; // bars, heads and gaps
 const kSpheres = { share: 0.68, least: 150, most: 330 };
-const kChart = { least: 104, most: 190 };
+const kChart = { least: 80, most: 190 };
 
 function heightsFor(window_px: number, seats: number): { spheres: number; chart: number } {
   const rest = window_px - kAround - seats * kTableRow;
@@ -144,7 +147,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
     <>
       <div class="live">
         <div class="live-main">
-          <Spheres detail={detail} height={heights.spheres} nameOf={nameOf} marked={marked} onMark={setMarked} />
+          <Now room={room} detail={detail} study={view.study} />
           <GroupTable
             study={view.study}
             room={room}
@@ -153,6 +156,7 @@ function RoomView({ view, room, mayAct, onAct }: RoomViewProps): JSX.Element {
             onMark={setMarked}
             onOpen={({ seat: number }) => setOpened(number)}
           />
+          <Spheres detail={detail} height={heights.spheres} nameOf={nameOf} marked={marked} onMark={setMarked} />
           {detail.curves.length > 0 && <Curves detail={detail} height={heights.chart} marked={marked} nameOf={nameOf} memberOfSeat={memberOf} />}
         </div>
         <div class="live-side">

@@ -1,8 +1,8 @@
-// Where the session is: components, forecast and timers.
+// Where the session is: components and timers.
 import type { JSX } from 'preact';
 import { duration } from '../../shared/duration';
-import { minutesText, useNow } from '../clock';
-import type { Forecast, RoomDetail, RoomRow, Timer } from '../protocol';
+import { useNow } from '../clock';
+import type { RoomDetail, RoomRow, Timer } from '../protocol';
 import { Explained } from '../tip';
 import { upperFirst } from '../words';
 
@@ -11,7 +11,6 @@ const kStatus = { open: 'not learned yet', learned: 'learned', skipped: 'skipped
 export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }): JSX.Element {
   const now = useNow();
   const { components, component } = detail.session;
-  const { forecast } = room;
   return (
     <section class="progress" aria-labelledby="progress-title">
       <h3 id="progress-title">
@@ -33,14 +32,6 @@ export function Progress({ room, detail }: { room: RoomRow; detail: RoomDetail }
         })}
       </ol>
       <dl class="timers">
-        {(room.stage === 'running' || room.stage === 'paused') && (
-          <div>
-            <dt>
-              <Explained term="forecast">Time left</Explained>
-            </dt>
-            <dd>{forecast ? forecastText(forecast) : 'unknown'}</dd>
-          </div>
-        )}
         {detail.timers.filter(isShown).map((timer) => (
           <div>
             <dt>{timerName(timer, detail.session.phase)}</dt>
@@ -67,17 +58,6 @@ const isShown = ({ name, until_ms }: Timer): boolean => name !== 'session' || un
 
 const timerName = ({ name }: Timer, phase: string): string =>
   name === 'phase' ? (kPhases[phase] ?? upperFirst(phase)) : (kTimers[name] ?? upperFirst(name));
-
-function forecastText({ minutes_low, minutes_high, periods, done_within }: Forecast): string {
-  const next = done_within?.[0];
-  const done = next === undefined ? '' : `; done after the next period: ${Math.round(100 * next)} %`;
-  return `${minutesText(minutes_low, minutes_high)}, about ${periodsText(periods)}${done}`;
-}
-
-function periodsText(periods: number): string {
-  const n = Math.round(periods);
-  return `${n} ${n === 1 ? 'period' : 'periods'}`;
-}
 
 const isLate = ({ until_ms }: Timer, now: number): boolean => until_ms !== undefined && until_ms - now < 15_000;
 

@@ -83,7 +83,7 @@ export function KnowledgeChart({ rows, names, periods }: { rows: (number | null)
         {names.map((_, m) => {
           const points = rows.flatMap((row, i) => (row[m] === null || row[m] === undefined ? [] : [[x(i), y(row[m])] as const]));
           return (
-            <g class="member" style={{ color: `var(--s${1 + (m % 4)})` }}>
+            <g class="member" style={{ color: `var(--t${1 + (m % 4)})` }}>
               <polyline points={points.map((point) => point.join(',')).join(' ')} stroke-dasharray={m === 0 ? undefined : `${2 + 2 * m} 2`} />
               {points.map(([px, py]) => (
                 <path transform={`translate(${px} ${py}) scale(0.8)`} d={shapes[m % shapes.length]} />

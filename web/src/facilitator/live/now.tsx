@@ -1,0 +1,67 @@
+// What a facilitator wants to know first: who is away, who is stuck, and how long it will still take.
+import type { JSX } from 'preact';
+import { duration } from '../../shared/duration';
+import { minutesText, useNow } from '../clock';
+import type { Answer, Forecast, RoomDetail, RoomRow, SeatRow, StudyInfo } from '../protocol';
+import { Explained } from '../tip';
+import { counted, seatTitle } from '../words';
+
+const kSlowest = 45_000; // ms; nobody is stuck before
+const kTimes = 3; // so many times as long as the group usually takes for an answer
+const kWrong = 3; // answers in a row
+
+function usualMs(answers: Answer[]): number {
+  const times = answers.map(({ ms }) => ms).sort((a, b) => a - b);
+  return times[times.length >> 1] ?? 0;
+}
+
+// Why somebody may need help, or nothing.
+function trouble(seat: SeatRow, answers: Answer[], now: number): string | null {
+  if (seat.kind !== 'person' || seat.presence !== 'here' || seat.dropped) return null;
+  const limit = Math.max(kSlowest, kTimes * usualMs(answers));
+  const since = now - (seat.stage_since_ms ?? now);
+  if ((seat.stage === 'predict' || seat.stage === 'watch') && since > limit) {
+    return `${seat.stage === 'predict' ? 'answering' : 'watching'} for ${duration(since)}`;
+  }
+  const own = answers.filter((answer) => answer.seat === seat.seat).slice(-kWrong);
+  return own.length === kWrong && own.every(({ right }) => !right) ? `the last ${kWrong} answers were wrong` : null;
+}
+
+function forecastText({ minutes_low, minutes_high, periods, done_within }: Forecast): string {
+  const next = done_within?.[0];
+  const done = next === undefined ? '' : `; done after the next period: ${Math.round(100 * next)} %`;
+  return `${minutesText(minutes_low, minutes_high)}, about ${counted(Math.round(periods), 'period')}${done}`;
+}
+
+export function Now({ room, detail, study }: { room: RoomRow; detail: RoomDetail; study: StudyInfo }): JSX.Element | null {
+  const now = useNow();
+  if (room.stage === 'ended' || room.stage === 'lobby') return null;
+  const away = room.seats.filter(({ presence }) => presence === 'away');
+  const stuck = room.seats.flatMap((seat) => {
+    const why = trouble(seat, detail.answers, now);
+    return why ? [`${seatTitle(seat)}: ${why}`] : [];
+  });
+  const { forecast } = room;
+  return (
+    <dl class="now-facts">
+      <div class={away.length > 0 ? 'alarm' : undefined}>
+        <dt>Away</dt>
+        <dd>
+          {away.length === 0
+            ? 'nobody'
+            : away.map((seat) => `${seatTitle(seat)} for ${duration(now - seat.since_ms)} (of ${study.grace_s} s)`).join('; ')}
+        </dd>
+      </div>
+      <div class={stuck.length > 0 ? 'alarm' : undefined}>
+        <dt>Needs help</dt>
+        <dd>{stuck.length === 0 ? 'nobody' : stuck.join('; ')}</dd>
+      </div>
+      <div>
+        <dt>
+          <Explained term="forecast">Time left</Explained>
+        </dt>
+        <dd>{forecast ? forecastText(forecast) : 'not known yet'}</dd>
+      </div>
+    </dl>
+  );
+}
