@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kith/explain/curriculum.hpp"
 #include "kith/explain/words.hpp"
@@ -27,13 +31,16 @@ p{margin:0 0 10px;max-width:74ch}
 table{border-collapse:collapse;margin:8px 0 20px}
 th,td{text-align:left;padding:5px 14px 5px 0;border-bottom:1px solid var(--line);vertical-align:top}
 td.n,th.n{text-align:right}
+tbody th{font-weight:600}
+.scroll:focus-visible{outline:2px solid var(--bar);outline-offset:2px}
 .verdict{font-weight:650}
 .understands{color:var(--good)}.misconception{color:var(--bad)}.cannot-tell,.not-taught{color:var(--open)}
 article{border:1px solid var(--line);border-radius:8px;padding:12px 16px;margin:10px 0;break-inside:avoid}
 article h4{font-size:16px;margin:0 0 4px}
 .boards{display:flex;flex-wrap:wrap;gap:20px;margin:8px 0 0}
 figure{margin:0;max-width:100%}
-figure svg{max-width:100%;height:auto;border:1px solid var(--line)}
+svg{max-width:100%;height:auto}
+figure svg{border:1px solid var(--line)}
 figcaption{font-size:14px;max-width:44ch}
 ul{margin:0 0 10px;padding-left:22px}
 summary{cursor:pointer}
@@ -57,6 +64,7 @@ class Page {
 
   std::string text() {
     head();
+    who_needs_what();
     summary();
     misconceptions();
     std::string group;
@@ -85,19 +93,118 @@ class Page {
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Who understands what: "
         "{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-        svg_escaped(report_.source), kStyle);
+        svg_escaped(source()), kStyle);
     out_ += tag("h1", "Who understands what");
-    out_ += tag("p",
-                fmt::format("{} of {}, judged by their answers. {}", counted_people(report_.people.size()),
-                            report_.source, program_),
+    out_ += tag(
+        "p",
+        fmt::format("{} of {}, judged by their answers. {}", counted_people(report_.people.size()), source(), program_),
+        "class=\"muted\"");
+  }
+
+  // The name of the folder, without where it is on this machine.
+  [[nodiscard]] std::string source() const {
+    auto path = std::filesystem::path{report_.source}.lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    const auto name = path.filename().string();
+    return name.empty() || name == "." || name == ".." ? "this study" : name;
+  }
+
+  void begin_table(const std::string& name) {
+    out_ += fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n",
+                        svg_escaped(name));
+  }
+
+  // How soon something has to be done about it.
+  static int urgency(const ComponentAudit& audit) {
+    switch (audit.understanding) {
+      case Understanding::kMisconception:
+        return 0;
+      case Understanding::kCannotTell:
+        return 1;
+      case Understanding::kNotTaught:
+        return 2;
+      case Understanding::kUnderstands:
+        break;
+    }
+    return 3;
+  }
+
+  // The component about which to do something first: the most urgent one that is understood least.
+  static const ComponentAudit& first_need(const PersonAudit& person) {
+    return *std::min_element(person.components.begin(), person.components.end(), [](const auto& a, const auto& b) {
+      return std::pair{urgency(a), a.level.mean} < std::pair{urgency(b), b.level.mean};
+    });
+  }
+
+  [[nodiscard]] std::string need_in_words(const ComponentAudit& audit) const {
+    const auto component = component_in_words(atlas_, audit.component);
+    switch (audit.understanding) {
+      case Understanding::kMisconception:
+        return fmt::format("Show that {}. Probably thinks that {}.", audit.misconception->fact,
+                           audit.misconception->thinks);
+      case Understanding::kCannotTell:
+        return fmt::format("Test {}.{}", component,
+                           audit.misconception ? " Might think that " + audit.misconception->thinks + "." : "");
+      case Understanding::kNotTaught:
+        return fmt::format("Teach {}.", component);
+      case Understanding::kUnderstands:
+        break;
+    }
+    return sentence(advice_in_words(audit)) + ".";
+  }
+
+  // One row per person, those who need something first at the top.
+  void who_needs_what() {
+    std::vector<const AuditedPerson*> order;
+    for (const auto& person : report_.people) {
+      if (!person.audit.components.empty()) order.push_back(&person);
+    }
+    if (order.empty()) return;
+    std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+      const auto &x = first_need(a->audit), &y = first_need(b->audit);
+      return std::pair{urgency(x), x.level.mean} < std::pair{urgency(y), y.level.mean};
+    });
+    const bool has_groups =
+        order.front()->group != order.back()->group ||
+        std::any_of(order.begin(), order.end(), [&](const auto* one) { return one->group != order.front()->group; });
+    out_ += tag("h2", "Who needs what first");
+    begin_table("Who needs what first");
+    out_ += "<thead><tr><th>Person</th>";
+    for (std::size_t k = 0; k < atlas_.knowledge_components().size(); ++k) out_ += fmt::format("<th>{}</th>", k + 1);
+    out_ += "<th>First</th></tr></thead>\n<tbody>\n";
+    for (const auto* person : order) {
+      const auto name = title_of(*person) + (has_groups ? ", " + person->group : "");
+      out_ += fmt::format("<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>", anchor(*person), svg_escaped(name));
+      for (const auto& audit : person->audit.components) {
+        out_ += fmt::format("<td class=\"{}\">{}</td>", name_of(audit.understanding), svg_escaped(verdict(audit)));
+      }
+      out_ += fmt::format("<td>{}</td></tr>\n", svg_escaped(need_in_words(first_need(person->audit))));
+    }
+    out_ += "</tbody></table></div>\n";
+    std::string components;
+    for (std::size_t k = 0; k < atlas_.knowledge_components().size(); ++k) {
+      components += fmt::format("{}{}: {}", k == 0 ? "" : "; ", k + 1, component_in_words(atlas_, k));
+    }
+    out_ += tag("p", components + ". Percentages: how often the person is expected to get all of it right.",
                 "class=\"muted\"");
+  }
+
+  static std::string verdict(const ComponentAudit& audit) {
+    if (audit.understanding == Understanding::kNotTaught) return in_words(audit.understanding);
+    return in_words(audit.understanding) + ", " + percent(audit.level.mean);
+  }
+
+  [[nodiscard]] std::string anchor(const AuditedPerson& person) const {
+    return fmt::format("person-{}", &person - report_.people.data() + 1);
   }
 
   static std::string counted_people(std::size_t n) { return n == 1 ? "1 person" : std::to_string(n) + " people"; }
 
   void summary() {
+    out_ += tag("h2", "By component");
+    begin_table("By component");
     out_ +=
-        "<div class=\"scroll\"><table>\n<tr><th>Component</th><th class=\"n\">understand</th>"
+        "<tr><th>Component</th><th class=\"n\">understand</th>"
         "<th class=\"n\">cannot tell yet</th><th class=\"n\">misconception</th><th class=\"n\">not taught</th></tr>\n";
     for (std::size_t k = 0; k < atlas_.knowledge_components().size(); ++k) {
       const auto counts = counts_of(report_, k);
@@ -117,8 +224,9 @@ class Page {
       out_ += tag("p", "Nobody shows a misconception.");
       return;
     }
+    begin_table("Misconceptions");
     out_ +=
-        "<div class=\"scroll\"><table>\n<tr><th class=\"n\">People</th><th>think that</th><th>in fact</th>"
+        "<tr><th class=\"n\">People</th><th>think that</th><th>in fact</th>"
         "<th>Component</th></tr>\n";
     for (const auto& one : shared) {
       out_ += fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", one.people,
@@ -128,7 +236,7 @@ class Page {
   }
 
   void person(const AuditedPerson& person) {
-    out_ += tag("h3", title_of(person));
+    out_ += tag("h3", title_of(person), fmt::format("id=\"{}\"", anchor(person)));
     const auto caution = caution_in_words(person.audit);
     if (!caution.empty()) out_ += tag("p", caution, "class=\"caution\"");
     for (const auto& audit : person.audit.components) component(audit);
@@ -161,16 +269,25 @@ class Page {
 
   // The interval on a line from 0 to 100 %, the expectation as a dot, and what counts as enough.
   void bar(const CredibleLevel& level) {
-    constexpr double kWidth = 320.0, kHeight = 22.0, kEdge = 8.0, kMiddle = 11.0;
+    constexpr double kWidth = 320.0, kHeight = 38.0, kEdge = 16.0, kMiddle = 11.0, kText = 34.0;
     const auto at = [&](double share) { return kEdge + share * (kWidth - 2.0 * kEdge); };
     Svg svg;
     svg.line(at(0.0), kMiddle, at(1.0), kMiddle, {{"stroke", "#d5dade"}, {"stroke-width", "2"}});
     const auto enough = at(report_.options.level.enough);
-    svg.line(enough, 2.0, enough, kHeight - 2.0,
+    svg.line(enough, 2.0, enough, 2.0 * kMiddle - 2.0,
              {{"stroke", "#57606a"}, {"stroke-width", "1"}, {"stroke-dasharray", "3 2"}});
     svg.line(at(level.low), kMiddle, at(level.high), kMiddle, {{"stroke", "#3b6ea5"}, {"stroke-width", "6"}});
     svg.add("circle",
             {{"cx", svg_number(at(level.mean))}, {"cy", svg_number(kMiddle)}, {"r", "5"}, {"fill", "#1c2127"}});
+    for (const double share : {0.0, report_.options.level.enough, 1.0}) {
+      svg.add("text",
+              {{"x", svg_number(at(share))},
+               {"y", svg_number(kText)},
+               {"font-size", "11"},
+               {"text-anchor", "middle"},
+               {"fill", "#57606a"}},
+              percent(share));
+    }
     out_ += svg.file(kWidth, kHeight,
                      fmt::format("{}, between {} and {}; {} is enough", percent(level.mean), percent(level.low),
                                  percent(level.high), percent(report_.options.level.enough)));
@@ -197,7 +314,11 @@ class Page {
       figures += figure(*audit.misconception->show, "Show", audit.misconception->reason);
     }
     if (audit.test) figures += figure(*audit.test, "Test", "ask what the robot does from here");
-    if (!figures.empty()) out_ += "<div class=\"boards\">\n" + figures + "</div>\n";
+    if (figures.empty()) return;
+    figures = "<div class=\"boards\">\n" + figures + "</div>\n";
+    // What is not urgent opens on demand.
+    const bool is_urgent = audit.understanding == Understanding::kMisconception;
+    out_ += is_urgent ? figures : "<details><summary>Board to test this</summary>\n" + figures + "</details>\n";
   }
 
   [[nodiscard]] std::string figure(DemoIndex demo, const std::string& purpose, const std::string& text) const {

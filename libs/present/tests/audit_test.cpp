@@ -314,8 +314,30 @@ TEST_F(AuditOfOneTeam, CanBeReadByProgramsAndPeople) {
   const auto page = audit_page(item_delivery(), report_, "kith test");
   EXPECT_NE(page.find("The answers fit what the model expects: " + std::to_string(right) + " of"), std::string::npos);
   EXPECT_NE(page.find("crossing rubble costs more than 2 steps"), std::string::npos);
-  EXPECT_NE(page.find("results/&lt;planted&gt;"), std::string::npos);
-  EXPECT_EQ(page.find("results/<planted>"), std::string::npos);
+  EXPECT_NE(page.find(" of &lt;planted&gt;, judged"), std::string::npos);
+  EXPECT_EQ(page.find("<planted>"), std::string::npos);
+  EXPECT_EQ(page.find("results/"), std::string::npos) << "where the folder is on this machine";
+  // Who needs what comes first, a row per person that leads to the person, the most urgent on top.
+  const auto first = page.find("Who needs what first");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_LT(first, page.find("By component"));
+  std::size_t links = 0;
+  for (auto at = page.find("<a href=\"#person-"); at != std::string::npos;
+       at = page.find("<a href=\"#person-", at + 1)) {
+    const auto number = page.substr(at + 17, page.find('"', at + 17) - at - 17);
+    EXPECT_NE(page.find("id=\"person-" + number + "\""), std::string::npos);
+    ++links;
+  }
+  EXPECT_EQ(links, report_.people.size());
+  const auto table = page.substr(first, page.find("</table>", first) - first);
+  EXPECT_LT(table.find("has a misconception"), table.rfind("cannot tell yet"));
+  // Tables that scroll can be reached by keyboard; the scale says what its ends are.
+  for (auto at = page.find("class=\"scroll\""); at != std::string::npos; at = page.find("class=\"scroll\"", at + 1)) {
+    EXPECT_EQ(page.substr(at + 15, 13), "tabindex=\"0\" ");
+  }
+  for (const char* end : {">0 %</text>", ">80 %</text>", ">100 %</text>"}) {
+    EXPECT_NE(page.find(end), std::string::npos) << end;
+  }
   for (const char* external : {"<script", "src=", "@import", "url("}) EXPECT_EQ(page.find(external), std::string::npos);
 }
 
