@@ -40,7 +40,10 @@ Bracket bracket_of(std::size_t k, std::size_t r, std::span<const IntegerVector> 
   return bracket;
 }
 
-std::string number_text(double x) {
+// An end with two decimals, or from 10 on as a whole number; what is said is never more than what is known.
+std::string number_text(double x, bool is_least) {
+  constexpr double kLarge = 10.0;
+  if (x >= kLarge && x != std::round(x)) x = is_least ? std::floor(x) : std::ceil(x);
   auto text = std::to_string(std::round(x * 100.0) / 100.0);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
@@ -61,11 +64,11 @@ std::string amount(const Wording& wording, const std::string& number) {
 // What is at least `least` and at most `most`, if there are such; both are 0 or more.
 std::string range_in_words(const Wording& unit, const std::optional<double>& least, const std::optional<double>& most) {
   const bool has_least = least && *least > 0.0;
-  if (has_least && most && *least == *most) return amount(unit, number_text(*least));
-  if (has_least && most) return amount(unit, number_text(*least) + " to " + number_text(*most));
-  if (has_least) return "more than " + amount(unit, number_text(*least));
+  if (has_least && most && *least == *most) return amount(unit, number_text(*least, true));
+  if (has_least && most) return amount(unit, number_text(*least, true) + " to " + number_text(*most, false));
+  if (has_least) return "more than " + amount(unit, number_text(*least, true));
   if (most && *most == 0.0) return "nothing";
-  return most ? "less than " + amount(unit, number_text(*most)) : "something";
+  return most ? "less than " + amount(unit, number_text(*most, false)) : "something";
 }
 
 }  // namespace

@@ -281,13 +281,16 @@ RoundedDifference in_tries(const Domain& domain, const IntegerVector& difference
   RoundedDifference result;
   std::vector<std::string> less, more;
   for (std::size_t k = 0; k < domain.num_features(); ++k) {
-    const double n = tries * per_try(domain, difference[k]);
-    const auto rounded = about(std::abs(n));
+    constexpr double kMany = 10.0;  // from so many on nobody adds them up
+    const double once = per_try(domain, difference[k]);
+    const bool is_each_time = std::abs(once) >= kMany;
+    const auto rounded = about(std::abs(once) * (is_each_time ? 1.0 : tries));
     if (rounded == 0) continue;
-    result.value +=
-        domain.weights().unit[static_cast<Eigen::Index>(k)] * (n < 0.0 ? -1.0 : 1.0) * static_cast<double>(rounded);
-    const bool is_good = (domain.weights().integer[k] < 0) == (n < 0.0);
-    (is_good ? less : more).push_back(more_or_fewer(domain.wording(k), rounded, n > 0.0));
+    result.value += domain.weights().unit[static_cast<Eigen::Index>(k)] * (once < 0.0 ? -1.0 : 1.0) *
+                    static_cast<double>(rounded) * (is_each_time ? tries : 1.0);
+    const bool is_good = (domain.weights().integer[k] < 0) == (once < 0.0);
+    auto text = more_or_fewer(domain.wording(k), rounded, once > 0.0);
+    (is_good ? less : more).push_back(text + (is_each_time ? " per try" : ""));
   }
   result.parts = std::move(less);  // what speaks for the choice first
   result.parts.insert(result.parts.end(), more.begin(), more.end());
@@ -314,12 +317,14 @@ bool is_by_chance(const Mdp& mdp, std::size_t feature) {
   return has_chance && 2 * usual < all;
 }
 
-// In how many tries a difference can be told: in 1000 if in 100 what decides would be rounded away; nothing if it makes
-// almost no difference in either.
+// In how many tries a difference can be told: in 10 if 100 would not tell of more things, in 1000 if in 100 what
+// decides would be rounded away; nothing if it makes almost no difference in either.
 std::optional<int> tries_to_tell(const Domain& domain, const IntegerVector& difference) {
-  for (const int tries : {100, 1000}) {
+  const auto in_100 = in_tries(domain, difference, 100).parts.size();
+  for (const int tries : {10, 100, 1000}) {
     const auto told = in_tries(domain, difference, tries);
-    if (!told.parts.empty() && told.value > 0.0) return tries;
+    if (told.parts.empty() || told.value <= 0.0) continue;
+    if (tries > 10 || told.parts.size() == in_100) return tries;
   }
   return std::nullopt;
 }
@@ -330,7 +335,7 @@ std::string on_average_in_words(const Domain& domain, const IntegerVector& diffe
   const bool is_discounted = domain.mdp(MdpIndex{0}).discount() < 1.0;
   const std::string later = is_discounted ? ", with later steps counting less," : "";
   const auto tries = tries_to_tell(domain, difference);
-  if (!tries) return "in 100 tries the robot's choice makes almost no difference";
+  if (!tries) return "in 1000 tries the robot's choice makes almost no difference";
   return "in " + std::to_string(*tries) + " tries" + later + " the robot's choice means " +
          listed(in_tries(domain, difference, *tries).parts);
 }

@@ -111,22 +111,24 @@ IntegerVector thousandths(const Domain& domain, const IntegerVector& n) {
   return counts;
 }
 
-TEST(OnAverage, CountsInAHundredTries) {
+TEST(OnAverage, CountsInAFewTries) {
   const auto& domain = mud_and_dock();  // its counts are whole
   EXPECT_EQ(on_average_in_words(domain, {-1, 0, 1}),
-            "in 100 tries the robot's choice means crossing mud about 100 fewer times and about 100 more steps");
+            "in 10 tries the robot's choice means crossing mud about 10 fewer times and about 10 more steps");
   EXPECT_EQ(on_average_in_words(domain, {0, 2, 5}),
-            "in 100 tries the robot's choice means stopping at the dock about 200 more times and about 500 more steps");
-  EXPECT_EQ(on_average_in_words(domain, {0, 0, 0}), "in 100 tries the robot's choice makes almost no difference");
+            "in 10 tries the robot's choice means stopping at the dock about 20 more times and about 50 more steps");
+  EXPECT_EQ(on_average_in_words(domain, {0, 12, 25}),
+            "in 10 tries the robot's choice means stopping at the dock about 12 more times per try and about 25 more "
+            "steps per try");
+  EXPECT_EQ(on_average_in_words(domain, {0, 0, 0}), "in 1000 tries the robot's choice makes almost no difference");
 }
 
 TEST(OnAverage, RoundsToTwoDigitsAndKeepsWhatDecides) {
   const auto icy = load_domain(std::string{KITH_SOURCE_DIR} + "/domains/icy_crossing.toml");
-  const std::string in_100 = "in 100 tries, with later steps counting less, the robot's choice means ";
+  const std::string means = " tries, with later steps counting less, the robot's choice means ";
+  const std::string in_10 = "in 10" + means, in_100 = "in 100" + means;
   EXPECT_EQ(on_average_in_words(icy, thousandths(icy, {-226, 94, 2714})),
-            in_100 +
-                "falling into the water about 23 fewer times, coming home about 9 more times and about 270 more "
-                "steps");
+            in_10 + "falling into the water about 2 fewer times, coming home about once more and about 27 more steps");
   EXPECT_EQ(on_average_in_words(icy, thousandths(icy, {10, 0, -1000})),
             in_100 + "about 100 fewer steps and falling into the water about once more");
   EXPECT_EQ(on_average_in_words(icy, thousandths(icy, {-10, 0, 10})),

@@ -42,7 +42,7 @@ struct Bracket {
                                             std::span<const std::size_t> features, std::size_t reference);
 
 /// "crossing rubble costs 2 to 4 steps", "stopping at the charger is worth more than 2 steps", "crossing rubble costs
-/// less than 4 steps". Ends that are no whole numbers have two decimals at most.
+/// less than 4 steps". Ends have two decimals at most, from 10 on none, rounded so that the sentence stays true.
 [[nodiscard]] std::string bracket_in_words(const Domain& domain, const Bracket& bracket);
 
 }  // namespace kith

@@ -30,9 +30,10 @@ namespace kith {
                                                      std::span<const HalfSpace> together = {});
 /// The same without empty and repeated ones.
 [[nodiscard]] std::vector<std::string> all_in_words(const Domain& domain, std::span<const HalfSpace> half_spaces);
-/// What a choice changes in expectation: "in 100 tries the robot's choice means falling into a hole about 80 fewer
-/// times and about 170 more steps". Numbers have two significant digits; what speaks for the choice comes first. In
-/// 1000 tries if rounding would leave out what decides. In discounted domains it says that later steps count less.
+/// What a choice changes in expectation: "in 10 tries the robot's choice means falling into a hole about 5 fewer times
+/// and about 28 more steps per try". Numbers have two significant digits; what speaks for the choice comes first. In
+/// 100 tries if 10 would not tell of everything, in 1000 if rounding would leave out what decides. In discounted
+/// domains it says that later steps count less.
 [[nodiscard]] std::string on_average_in_words(const Domain& domain, const IntegerVector& difference);
 /// What a choice risks: "it risks falling into a hole", "it avoids the risk of falling into a hole"; nothing if no cost
 /// that on_average_in_words() names is an accident: something that some action brings in less than half of the cases,
