@@ -19,7 +19,8 @@ constexpr const char* kInk = "#1c2127";
 struct Tint {
   std::string_view name, ground, mark;
 };
-constexpr std::array<Tint, 8> kTints{{{"brown", "#e9dcc9", "#8f6f45"},
+constexpr std::array<Tint, 9> kTints{{{"dark", "#4a525c", "#2b3138"},
+                                      {"brown", "#e9dcc9", "#8f6f45"},
                                       {"blue", "#d3e4f7", "#5b8db8"},
                                       {"green", "#d9ecd9", "#5d9a64"},
                                       {"purple", "#e6dcf3", "#8d6fb5"},

@@ -11,7 +11,10 @@ namespace {
 constexpr std::array<std::string_view, 8> kTintNames{"brown", "blue",   "green", "purple",
                                                      "grey",  "orange", "red",   "yellow"};
 constexpr std::array<std::string_view, 4> kPatternNames{"dots", "lines", "cross", "waves"};
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kTintsOfNames{{{"rubble", "brown"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kTintsOfNames{{{"hole", "dark"},
+                                                                                       {"pit", "dark"},
+                                                                                       {"cliff", "dark"},
+                                                                                       {"rubble", "brown"},
                                                                                        {"mud", "brown"},
                                                                                        {"fence", "brown"},
                                                                                        {"path", "yellow"},

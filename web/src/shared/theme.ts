@@ -71,6 +71,8 @@ const kLight: Scheme = {
   'mark-red': '#c25a50',
   'tint-yellow': '#f8edc0',
   'mark-yellow': '#b39a3a',
+  'tint-dark': '#4a525c',
+  'mark-dark': '#2b3138',
 };
 const kDark: Scheme = {
   ground: '#14171b',
@@ -137,6 +139,8 @@ const kDark: Scheme = {
   'mark-red': '#c0625a',
   'tint-yellow': '#48401d',
   'mark-yellow': '#a8923f',
+  'tint-dark': '#0a0c0f',
+  'mark-dark': '#3a424c',
 };
 
 export const color = (name: string): string => `var(--${name})`;

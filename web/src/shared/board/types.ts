@@ -66,7 +66,7 @@ export interface Counted {
 // How a terrain is drawn: no two are drawn alike.
 export interface Surface {
   name: string;
-  tint: 'brown' | 'blue' | 'green' | 'purple' | 'grey' | 'orange' | 'red' | 'yellow';
+  tint: 'brown' | 'blue' | 'green' | 'purple' | 'grey' | 'orange' | 'red' | 'yellow' | 'dark';
   pattern: 'dots' | 'lines' | 'cross' | 'waves';
 }
 

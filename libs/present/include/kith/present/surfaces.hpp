@@ -10,8 +10,9 @@ namespace kith {
 
 /// How a terrain is drawn, in pictures and on pages.
 struct Surface {
-  std::string name;          ///< Of the terrain.
-  std::string_view tint;     ///< "brown", "blue", "green", "purple", "grey", "orange", "red" or "yellow".
+  std::string name;  ///< Of the terrain.
+  /// "brown", "blue", "green", "purple", "grey", "orange", "red", "yellow" or, of holes, "dark".
+  std::string_view tint;
   std::string_view pattern;  ///< "dots", "lines", "cross" or "waves".
 };
 
