@@ -68,13 +68,14 @@ async function violations(page) {
     .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160))}`);
 }
 
-// All examples and answers, without a guess.
+// All examples and answers, without a guess, and the end.
 async function seeAll(page) {
   for (const name of ['Watch without a guess', 'Show the answer']) {
     const buttons = page.getByRole('button', { name });
     for (let n = await buttons.count(); n > 0; n -= 1) await buttons.first().click();
   }
-  await page.waitForSelector('.test .reasons, .test .runs', { state: 'attached' });
+  await page.getByRole('button', { name: 'Show the robot in one page' }).click();
+  await page.waitForSelector('.portrait');
 }
 
 const kKeys = { up: 'ArrowUp', down: 'ArrowDown', left: 'ArrowLeft', right: 'ArrowRight', pickup: ' ', dropoff: ' ' };
@@ -144,8 +145,6 @@ describe('a lesson', () => {
       assert.ok(!visible.includes(sample.domain.title) && !(await page.title()).includes(sample.domain.title));
       assert.ok(visible.includes(sample.domain.job));
       await seeAll(page);
-      await page.getByRole('button', { name: 'Show the robot in one page' }).click();
-      await page.waitForSelector('.portrait');
       const labels = await page.$$eval('.board svg[role=img]', (all) => all.map((svg) => svg.getAttribute('aria-label') ?? ''));
       assert.ok(labels.length > 0 && labels.every((label) => label.length > 20), `labels: ${labels}`);
       const levels = await page.$$eval('h1, h2, h3, h4', (all) => all.map((heading) => Number(heading.tagName[1])));

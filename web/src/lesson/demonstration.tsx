@@ -1,12 +1,12 @@
 // An example: the reader says first what the robot will do, then both paths are there, and why the robot takes its own.
 import type { ComponentChildren, JSX } from 'preact';
 import { useState } from 'preact/hooks';
-import type { Path } from '../shared/board/types';
-import { BoardPane, WorldName } from '../shared/play/board_pane';
+import type { Board, Path } from '../shared/board/types';
+import { WorldName } from '../shared/play/board_pane';
 import { Brackets } from '../shared/play/brackets';
 import { Compare } from '../shared/play/compare';
+import { SmallBoard } from '../shared/play/small_board';
 import { t, withoutCells } from '../shared/texts';
-import { actionLabel } from '../shared/texts';
 import { choiceText } from './choice';
 import { partingOf, playBoard, upperFirst, usePrinting, type Context } from './context';
 import type { Demonstration, Sentence } from './document';
@@ -84,7 +84,7 @@ function Seen({ shown, guess, isStill, ...context }: Context & { shown: Demonstr
   );
   if (shown.runs) {
     return (
-      <RunsView {...context} board={shown} shown={shown.runs} isStill={isStill} reason={<>{reason}<Fan {...context} shown={shown} /></>}>
+      <RunsView {...context} board={shown} shown={shown.runs} isStill={isStill} reason={reason} fan={<Fan {...context} shown={shown} />}>
         {rest}
       </RunsView>
     );
@@ -154,28 +154,11 @@ export function Folded({ summary, isOpen, children }: { summary: string; isOpen?
 }
 
 interface WholeProps extends Context {
-  board: Demonstration['flip'] & object | Path & { world: number };
+  board: Board;
   other?: Path | null;
   at?: number | null;
 }
 
-// A small board with whole paths on it, at the end of the robot's.
-export function Whole({ board, other, at, domain, legend }: WholeProps): JSX.Element {
-  const path = board as Demonstration;
-  const placed = playBoard(domain, path);
-  if (!placed.map) return <p>{path.frames.flatMap(({ action }) => (action ? [actionLabel(action)] : [])).join(', ')}</p>;
-  return (
-    <BoardPane
-      board={placed}
-      legend={legend}
-      frames={path.frames}
-      step={0}
-      walked={0}
-      trail="own"
-      whole
-      isSmall
-      closedAt={path.repeats_from === undefined ? undefined : path.frames.length - 1}
-      {...(other && at !== undefined && at !== null ? { other: other.frames, decisive: { frame: at } } : {})}
-    />
-  );
+export function Whole({ board, domain, legend, ...rest }: WholeProps): JSX.Element {
+  return <SmallBoard board={playBoard(domain, board)} legend={legend} path={board} {...(rest.other ? { other: rest.other, at: rest.at ?? null } : {})} />;
 }

@@ -1,7 +1,11 @@
 // Where chance has a part: what can follow from what the robot does at the decisive place, and from what one might have
 // expected there. What makes an action safe is found by comparing the two.
 import type { JSX } from 'preact';
+import type { Arm } from '../shared/board/fan';
+import { kMoves } from '../shared/board/geometry';
+import { BoardPane } from '../shared/play/board_pane';
 import { actionLabel, listed } from '../shared/texts';
+import { playBoard } from './context';
 import type { Context } from './context';
 import type { Demonstration } from './document';
 import type { JudgedWorld } from './judge';
@@ -37,7 +41,7 @@ function stateAt(shown: Demonstration, table: JudgedWorld, world: NonNullable<Re
   return state;
 }
 
-export function Fan({ shown, domain, worlds }: Context & { shown: Demonstration }): JSX.Element | null {
+export function Fan({ shown, domain, legend, worlds }: Context & { shown: Demonstration }): JSX.Element | null {
   const world = worlds.world(shown.world);
   const table = worlds.table(shown.world);
   const step = shown.decisive?.frame;
@@ -50,11 +54,17 @@ export function Fan({ shown, domain, worlds }: Context & { shown: Demonstration 
   const here = world.frame(state).robot;
   const whereTo = ({ next }: Branch): string => {
     const to = world.frame(next).robot;
-    if (!here || !to) return world.frame(next).state ?? 'elsewhere';
+    if (!here || !to) return `it gets to ${world.frame(next).state ?? 'elsewhere'}`;
     const [dx, dy] = [to[0] - here[0], to[1] - here[1]];
-    const direction = world.actions.find(({ shift }) => shift && shift[0] === dx && shift[1] === dy);
-    return next === state || (dx === 0 && dy === 0) ? 'stays where it is' : direction ? `goes ${actionLabel(direction.name)}` : 'ends up elsewhere';
+    if (dx === 0 && dy === 0) return 'it stays where it is';
+    const direction = Object.keys(kMoves).find((name) => kMoves[name]?.[0] === dx && kMoves[name]?.[1] === dy);
+    return direction ? `it goes ${actionLabel(direction)}` : 'it ends up elsewhere';
   };
+  const armsOf = (branches: Branch[], kind: Arm['kind']): Arm[] =>
+    branches.flatMap(({ next, probability }) => {
+      const to = world.frame(next).robot;
+      return here && to ? [{ from: here, to, kind, text: shareText(probability).replace(/ tries$/, '') }] : [];
+    });
   // What costs the robot something and happens after the one action but never, or less often, after the other.
   const chanceOf = (branches: Branch[], k: number): number =>
     branches.reduce((sum, { probability, counts }) => sum + ((counts[k] ?? 0) !== 0 ? probability : 0), 0);
@@ -62,24 +72,38 @@ export function Fan({ shown, domain, worlds }: Context & { shown: Demonstration 
     const [mine, theirs] = [chanceOf(ways[0]?.branches ?? [], k), chanceOf(ways[1]?.branches ?? [], k)];
     return feature.weight < 0 && mine + 1e-9 < theirs ? [{ feature, mine, theirs }] : [];
   });
-  const pushes = (ways[0]?.branches ?? []).some((branch) => whereTo(branch) === 'stays where it is');
+  const pushes = (ways[0]?.branches ?? []).some((branch) => whereTo(branch) === 'it stays where it is');
   return (
     <div class="fan">
-      <p>At the decisive place:</p>
-      <ul>
+      <p>What can happen at the decisive place:</p>
+      <div class="pair">
         {ways.map(({ action, branches }, i) => (
-          <li>
-            <strong>{i === 0 ? 'The robot' : 'Instead'}</strong> tries to go {actionLabel(world.actions[action]?.name ?? '')}:{' '}
-            {listed(branches.map((branch) => `${whereTo(branch)} in ${shareText(branch.probability)}`))}.
-          </li>
+          <figure>
+            {here && shown.map && (
+              <BoardPane
+                board={playBoard(domain, shown)}
+                legend={legend}
+                frames={[world.frame(state)]}
+                step={0}
+                trail="own"
+                isSmall
+                fan={armsOf(branches, i === 0 ? 'own' : 'other')}
+              />
+            )}
+            <figcaption>
+              <strong class={i === 0 ? 'own' : 'other'}>{i === 0 ? 'The robot' : 'Somebody might expect that it'}</strong>
+              {` tries to go ${actionLabel(world.actions[action]?.name ?? '')}: `}
+              {listed(branches.map((branch) => `${whereTo(branch)} in ${shareText(branch.probability)}`))}.
+            </figcaption>
+          </figure>
         ))}
-      </ul>
+      </div>
       {saved.map(({ feature, mine, theirs }) => (
         <p class="cost">
           {mine === 0
-            ? `So ${feature.words} cannot follow from it; from the other move it does in ${shareText(theirs)}.`
-            : `So ${feature.words} follows from it in ${shareText(mine)} only, from the other move in ${shareText(theirs)}.`}
-          {pushes && mine === 0 && ' It pushes against what it cannot enter: then it stays, or slips to a side that is safe.'}
+            ? `The robot's move cannot end in ${feature.words}. The other one does in ${shareText(theirs)}.`
+            : `The robot's move ends in ${feature.words} in ${shareText(mine)}, the other one in ${shareText(theirs)}.`}
+          {pushes && mine === 0 && ' It pushes against the edge or a wall on purpose: if it slips, it slips to where nothing happens.'}
         </p>
       ))}
     </div>

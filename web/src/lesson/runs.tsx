@@ -30,6 +30,7 @@ interface RunsProps extends Context {
   shown: Runs;
   isStill: boolean;
   reason: ComponentChildren;
+  fan?: ComponentChildren; // what can happen where it matters
   children?: ComponentChildren;
 }
 
@@ -63,7 +64,7 @@ function End({ board, run, domain, legend }: Omit<RunsProps, 'shown'> & { run: R
   return <BoardPane board={placed} legend={legend} frames={run.frames} step={run.frames.length - 1} trail="own" isSmall isBare />;
 }
 
-function OneRun({ board, run, title, isStill, reason, children, domain, legend }: Omit<RunsProps, 'shown'> & { run: Run; title: string }) {
+function OneRun({ board, run, title, isStill, reason, fan, children, domain, legend }: Omit<RunsProps, 'shown'> & { run: Run; title: string }) {
   const placed = playBoard(domain, board);
   const { frames } = run;
   const last = frames.length - 1;
@@ -88,6 +89,7 @@ function OneRun({ board, run, title, isStill, reason, children, domain, legend }
         )}
         {!isStill && <LogView log={log} />}
         {placed.map && <Things board={placed} legend={legend} lines={['own']} walked={frames.slice(0, step + 1)} />}
+        {fan}
       </div>
       <div class="side">
         {reason}

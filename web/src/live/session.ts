@@ -31,6 +31,6 @@ export function becomeParticipant(token: string): void {
 }
 
 export function forgetParticipant(): void {
-  for (const key of ['token', 'outbox', 'drive', 'seen', 'sketch', 'feedback', 'questions', 'dismissed', 'introduced', 'name']) forget(key);
+  for (const key of ['token', 'outbox', 'drive', 'seen', 'sketch', 'shown', 'feedback', 'questions', 'dismissed', 'introduced', 'name']) forget(key);
   history.replaceState(null, '', '/');
 }

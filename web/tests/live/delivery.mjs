@@ -34,11 +34,17 @@ function after(domain, map, state, action) {
   return state.carried && isPlace ? { ...state, carried: false, done: true } : null;
 }
 
-function costOf(domain, map, state, action) {
+// Rubble, charger, step.
+function countsOf(domain, map, state, action) {
   const isMove = kActions[action].dx !== null;
   const isRubble = partsAt(domain, map, state.robot).some(({ name }) => name === 'rubble');
   const isCharging = state.stations.some((cell) => cell.join() === state.robot.join());
-  return kCosts.step + (isMove && isRubble ? kCosts.rubble : 0) + (isMove && isCharging ? kCosts.charger : 0);
+  return [isMove && isRubble ? 1 : 0, isMove && isCharging ? 1 : 0, 1];
+}
+
+function costOf(domain, map, state, action) {
+  const [rubble, charger, step] = countsOf(domain, map, state, action);
+  return kCosts.step * step + kCosts.rubble * rubble + kCosts.charger * charger;
 }
 
 const stateOf = ({ robot, items, stations }) => ({
@@ -75,6 +81,12 @@ export function makeWorld(domain, board, key) {
     [[...state.item, state.carried ? 1 : 0]],
     stations.flatMap((cell, i) => (state.stations.some((one) => one.join() === cell.join()) ? [i] : [])),
   ];
+  // rubble, charger, step: what the sample lesson counts
+  const kinds = [];
+  const kindOf = (counts) => {
+    if (!kinds.some((one) => String(one) === String(counts))) kinds.push(counts);
+    return kinds.findIndex((one) => String(one) === String(counts));
+  };
   const table = {
     key,
     actions: kActions,
@@ -83,6 +95,10 @@ export function makeWorld(domain, board, key) {
     frames: states.map(compact),
     next,
     end: states.map(({ done }) => done),
+    counts: states.map((state, i) =>
+      kActions.map((_, action) => (next[i][action] < 0 ? '-' : kindOf(countsOf(domain, board.map, state, action)))).join(''),
+    ),
+    kinds,
     chance: false,
     may_repeat: false,
     max_actions: 60,
@@ -144,6 +160,7 @@ export function framesOf({ table }, states, actions) {
       items: items.map(([x, y, carried], k) => ({ name: table.items[k], cell: [x, y], carried: carried === 1 })),
       stations: stations.map((index) => table.stations[index]),
       action: i < actions.length ? table.actions[actions[i]].name : null,
+      ...(i < actions.length && table.kinds ? { counts: table.kinds[Number(table.counts[state][actions[i]])] } : {}),
     };
   });
 }

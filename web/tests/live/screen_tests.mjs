@@ -443,6 +443,31 @@ export function screenTests(setting) {
       });
     });
 
+    it('asks for a sketch before an example, and shows what can be known, where the study wants it', async () => {
+      await withViews(setting, async ({ views, mock, person, page }) => {
+        const [{ board, robot }] = views['feedback-wrong'].feedback.tests;
+        const { world } = views.predict.predict;
+        await show({ mock, page }, { ...views.watch, watch: { index: 0, of: 1, board, frames: robot, world, state: 0 } });
+        assert.match(await page.textContent('.lead'), /First sketch the path/);
+        await page.waitForSelector('.drive-area');
+        await page.keyboard.press('ArrowRight');
+        assert.match(await page.textContent('.ledger'), /Steps1/);
+        await person.button('This is my guess').click();
+        await person.button('Play').waitFor();
+        assert.match(await page.textContent('main'), /The solid line is the path of the robot, the dashed line your guess\./);
+        await page.keyboard.press('ArrowRight');
+        await page.waitForSelector('.way.own');
+        assert.equal(await person.drawn('other'), 2);
+        const { feedback } = views['feedback-wrong'];
+        const bracket = { feature: 0, reference: 2, low: [-4, 1], high: [-2, 1], text: 'crossing rubble costs 2 to 4 steps' };
+        await show({ mock, page }, { ...views['feedback-wrong'], feedback: { ...feedback, brackets: [bracket] } });
+        assert.match(await page.textContent('.bracket'), /Crossing rubble costs 2 to 4 steps\./);
+        assert.equal(await page.locator('.bracket .end').count(), 2);
+        assert.match(await page.textContent('.ledger'), /RobotYou/);
+        assert.ok((await page.locator('.chip').count()) > 0);
+      });
+    });
+
     it('says why the group goes on to those who were right', async () => {
       await withViews(setting, async ({ views, mock, page }) => {
         await show({ mock, page }, views['feedback-others']);

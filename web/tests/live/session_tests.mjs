@@ -42,6 +42,9 @@ export function sessionTests(setting) {
         for (const person of people) await fillIn(person);
         assert.match(await people[0].page.textContent('main'), /in 3 of 4 tasks, over 3 rounds.*MOCK-1X7Q/s);
         assert.match(await people[1].page.textContent('main'), /in 4 of 4 tasks/);
+        const last = await people[0].page.textContent('main');
+        assert.match(last, /Your first prediction: the dashed line is yours.*Your last prediction: right\./s);
+        assert.equal(await people[0].page.locator('.summary figure .live-board').count(), 2);
         await people[1].button('Copy the code').click();
         await people[1].page.waitForFunction(() => document.querySelector('.copied').textContent.includes('Copied'));
         assert.equal(await people[0].page.getAttribute('a.button', 'href'), 'https://example.org/done');

@@ -6,6 +6,7 @@ import { duration } from '../../shared/duration';
 import { serverNow, useTick } from '../clock';
 import type { Connection, Snapshot } from '../connection';
 import type { ParticipantView, Pause, Stage } from '../protocol';
+import { remembered } from '../memory';
 import { keep, recall } from '../storage';
 import { sentence, t } from '../../shared/texts';
 import { Button } from './ui';
@@ -19,7 +20,7 @@ interface Props {
 
 export function Shell({ connection, snapshot, view, children }: Props): JSX.Element {
   const { check, watch, predict, feedback } = view;
-  const board = (check ?? watch ?? predict ?? view.screening ?? feedback?.tests[0])?.board;
+  const board = (check ?? watch ?? predict ?? view.screening ?? feedback?.tests[0] ?? (view.debrief && remembered().first))?.board;
   return (
     <>
       {board && <Patterns surfaces={board.domain.surfaces ?? []} />}

@@ -1,11 +1,17 @@
 // Last pages: the debriefing, and the ends that come sooner.
 import type { JSX } from 'preact';
-import { CompletionCode, GoOn, Heading } from '../parts/ui';
-import type { ParticipantView } from '../protocol';
+import { useState } from 'preact/hooks';
+import { useLegend } from '../../shared/play/board_pane';
+import { SmallBoard } from '../../shared/play/small_board';
+import { remembered, type Memory } from '../memory';
+import { Button, CompletionCode, GoOn, Heading } from '../parts/ui';
+import type { Judged, ParticipantView } from '../protocol';
+import { pathOf } from './feedback';
 import { hasText, isEnglish, sentence, t } from '../../shared/texts';
 
 export function Debrief({ debrief, isSaved }: { debrief: NonNullable<ParticipantView['debrief']>; isSaved: boolean }): JSX.Element {
   const { code, redirect, rounds, right, tests, summary, not_reached } = debrief;
+  const [memory] = useState(remembered);
   return (
     <>
       <Heading>{t('debrief.title')}</Heading>
@@ -13,23 +19,69 @@ export function Debrief({ debrief, isSaved }: { debrief: NonNullable<Participant
       {tests > 0 && <p>{t('debrief.score', { right, tests, rounds })}</p>}
       {code && <CompletionCode code={code} />}
       <GoOn address={redirect} isSaved={isSaved} />
-      <Sentences name="summary" texts={summary} />
+      <Sentences name="summary" texts={summary} boards={memory.boards} />
       <Sentences name="not_reached" texts={not_reached} />
+      <FirstAndLast {...memory} />
+      {summary.length > 0 && (
+        <p class="no-print">
+          <Button onClick={() => window.print()}>{t('debrief.print')}</Button>
+        </p>
+      )}
     </>
   );
 }
 
+interface SentencesProps {
+  name: 'summary' | 'not_reached';
+  texts: string[];
+  boards?: Record<string, Judged>; // on which they were seen
+}
+
 // What the robot is like, as far as the group was taught it, or as far as it was not.
-function Sentences({ name, texts }: { name: 'summary' | 'not_reached'; texts: string[] }): JSX.Element | null {
+function Sentences({ name, texts, boards }: SentencesProps): JSX.Element | null {
   if (texts.length === 0) return null;
   return (
     <section class="summary" aria-labelledby={`${name}-title`}>
       <h2 id={`${name}-title`}>{t(`debrief.${name}`)}</h2>
-      <ul>
-        {texts.map((text) => (
-          <li>{sentence(text)}</li>
-        ))}
+      <ul class={boards ? 'lines' : undefined}>
+        {texts.map((text) => {
+          const test = boards?.[text];
+          return (
+            <li>
+              {sentence(text)}
+              {test && <Picture test={test} isAlone />}
+            </li>
+          );
+        })}
       </ul>
+    </section>
+  );
+}
+
+function Picture({ test, isAlone }: { test: Judged; isAlone?: boolean }): JSX.Element {
+  const { board, mine, right, differs_at } = test;
+  const legend = useLegend(board.domain);
+  const other = isAlone || right || !mine ? null : pathOf(mine, test.mine_repeats_from);
+  return <SmallBoard board={board} legend={legend} path={pathOf(test.robot, test.robot_repeats_from)} other={other} at={differs_at} />;
+}
+
+function FirstAndLast({ first, last }: Memory): JSX.Element | null {
+  if (!first || !last || JSON.stringify(first) === JSON.stringify(last)) return null;
+  const one = (test: Judged, key: string): JSX.Element => (
+    <figure>
+      <Picture test={test} />
+      <figcaption>
+        {t(key)} {t(test.right ? 'debrief.was_right' : 'debrief.was_wrong')}
+      </figcaption>
+    </figure>
+  );
+  return (
+    <section class="summary" aria-labelledby="far-title">
+      <h2 id="far-title">{t('debrief.far')}</h2>
+      <div class="lines">
+        {one(first, 'debrief.first')}
+        {one(last, 'debrief.last')}
+      </div>
     </section>
   );
 }

@@ -1,6 +1,6 @@
 // What the robot really does, beside what was predicted.
 import type { JSX } from 'preact';
-import { useState } from 'preact/hooks';
+import { useLayoutEffect, useState } from 'preact/hooks';
 import type { Path } from '../../shared/board/types';
 import { useLegend, WorldName } from '../../shared/play/board_pane';
 import { Mark } from '../../shared/play/mark';
@@ -8,6 +8,7 @@ import { Brackets, type Bracket } from '../../shared/play/brackets';
 import { Compare } from '../../shared/play/compare';
 import { sentence, t } from '../../shared/texts';
 import { Button, Heading, TimeLeft } from '../parts/ui';
+import { remember } from '../memory';
 import type { Frame, Judged } from '../protocol';
 import type { ScreenProps } from '../screen';
 import { keep, recall } from '../storage';
@@ -67,6 +68,7 @@ function OneTask({ test, brackets, next }: OneTaskProps): JSX.Element {
   const mine = right || !test.mine ? null : pathOf(test.mine, test.mine_repeats_from);
   const legend = useLegend(board.domain);
   const verdict = right ? 'right' : test.mine ? 'wrong' : 'none';
+  useLayoutEffect(() => remember(test), []);
   return (
     <>
       <div class={`verdict ${verdict}`}>
@@ -92,7 +94,7 @@ function OneTask({ test, brackets, next }: OneTaskProps): JSX.Element {
   );
 }
 
-const pathOf = (frames: Frame[], from?: number, text?: string): Path => ({
+export const pathOf = (frames: Frame[], from?: number, text?: string): Path => ({
   frames,
   ...(from === undefined ? {} : { repeats_from: from }),
   ...(text === undefined ? {} : { repeats_text: text }),

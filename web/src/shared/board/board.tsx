@@ -2,6 +2,7 @@
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { Chips, type Chip } from './chips';
+import { Fan, type Arm } from './fan';
 import { centre, kMargin, kUnit, lineOf, type Attempt, type Point } from './geometry';
 import { At, Destination, fillOf, PartGlyph, Robot, Station, Thing } from './glyphs';
 import { isRidden } from './icons';
@@ -25,6 +26,7 @@ export interface BoardProps {
   fill?: boolean; // as large as its place allows
   whole?: boolean; // both paths are drawn to their ends, wherever the robots are
   chips?: Chip[];
+  fan?: Arm[];
   tail?: number; // only so many of the last steps are drawn
   walked?: number; // steps of the longer path that have been walked; the robot's step if absent
   closedAt?: number | undefined; // the step with which the path closes a cycle; it is drawn as far as that
@@ -60,6 +62,7 @@ export function BoardView(props: BoardProps): JSX.Element {
       <Things {...props} frame={frame} />
       {other && decisive && walked > decisive.frame && <Ghost frame={other[Math.min(walked, other.length - 1)]} legend={props.legend} />}
       <Mover frame={frame} legend={props.legend} />
+      {props.fan && <Fan arms={props.fan} />}
       {props.chips && <Chips chips={props.chips} frames={board.frames} other={other ?? []} first={first} width={width} height={height} />}
     </svg>
   );
@@ -105,7 +108,7 @@ function Ground({ domain, legend, board }: { domain: MapDomain; legend: Legend; 
 
 // One shape for each kind of ground: neighbouring cells of a row are one bar.
 function Covered({ board, legend, kind }: { board: Board; legend: Legend; kind: 'terrain' | 'wall' }): JSX.Element {
-  const shapes = new Map<string, string>();
+  const shapes = new Map<string, { d: string; flat: string }>();
   (board.map ?? []).forEach((row, y) => {
     let x = 0;
     while (x < row.length) {
@@ -115,8 +118,9 @@ function Covered({ board, legend, kind }: { board: Board; legend: Legend; kind: 
       const bar = `M${x * kUnit} ${y * kUnit}h${(end - x) * kUnit}v${kUnit}h${(x - end) * kUnit}z`;
       for (const part of legend.parts(symbol)) {
         if (part.kind !== kind) continue;
-        const fills = kind === 'wall' ? ['var(--board-wall)'] : legend.layers(part.name).map((layer, i) => fillOf(layer, i > 0));
-        for (const fill of fills) shapes.set(fill, (shapes.get(fill) ?? '') + bar);
+        const wall = [{ fill: 'var(--board-wall)', flat: 'var(--board-wall)' }];
+        const layers = legend.layers(part.name).map((layer, i) => ({ fill: fillOf(layer, i > 0), flat: `var(--tint-${layer.tint})` }));
+        for (const { fill, flat } of kind === 'wall' ? wall : layers) shapes.set(fill, { d: (shapes.get(fill)?.d ?? '') + bar, flat });
       }
       x = end;
     }
@@ -125,8 +129,8 @@ function Covered({ board, legend, kind }: { board: Board; legend: Legend; kind: 
   const all = [...shapes].sort(([a], [b]) => Number(a.includes('-over')) - Number(b.includes('-over')));
   return (
     <g class={kind === 'wall' ? 'walls' : 'terrains'}>
-      {all.map(([fill, d]) => (
-        <path d={d} fill={fill} />
+      {all.map(([fill, { d, flat }]) => (
+        <path d={d} fill={fill} class={fill.includes('-over') ? 'over' : undefined} style={{ '--flat': flat }} />
       ))}
     </g>
   );

@@ -28,7 +28,7 @@ export function Chips({ chips, frames, other, first, width, height }: Props): JS
       {chips.map(({ kind, text }) => {
         const [way, away] = kind === 'own' ? [frames, other] : [other, frames];
         const half = { x: (text.length * size * 0.56 + size * 1.2) / 2, y: size * 0.85 };
-        const at = freeOf(farthest(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
+        const at = freeOf(middle(way.slice(first), away.slice(first)), taken, 2.1 * half.y);
         const x = Math.max(half.x - kMargin, Math.min(width - 2 * kMargin - half.x + kMargin, at.x));
         const y = Math.max(half.y - kMargin, Math.min(height - 2 * kMargin - half.y + kMargin, at.y));
         taken.push({ x, y });
@@ -45,17 +45,19 @@ export function Chips({ chips, frames, other, first, width, height }: Props): JS
   );
 }
 
-// The place of a way that is farthest from the other one; the earliest of several.
-function farthest(way: Frame[], away: Frame[]): Point {
+// The place in the middle of what a way has to itself: far from the other one, and not where a robot ends.
+function middle(way: Frame[], away: Frame[]): Point {
   const points = (frames: Frame[]): Point[] => frames.flatMap(({ robot }) => (robot ? [centre(robot)] : []));
-  const others = points(away);
-  let best: Point = points(way)[0] ?? { x: 0, y: 0 };
-  let most = -1;
-  for (const point of points(way)) {
-    const least = Math.min(...others.map(({ x, y }) => Math.hypot(x - point.x, y - point.y)), 1e6);
-    if (least > most) [best, most] = [point, least];
+  const [own, others] = [points(way), points(away)];
+  while (own.length > 2 && others.length > 2 && String(Object.values(own.at(-2) ?? {})) === String(Object.values(others.at(-2) ?? {}))) {
+    own.pop(); // the end that they have in common
+    others.pop();
   }
-  return best;
+  const far = own.map((point) => Math.min(...others.map(({ x, y }) => Math.hypot(x - point.x, y - point.y)), 1e6));
+  const most = Math.max(0, ...far.slice(1, -1));
+  const apart = own.filter((_, i) => i > 0 && i + 1 < own.length && (far[i] ?? 0) >= 0.7 * most);
+  const [first, second] = own;
+  return apart[Math.floor(apart.length / 2)] ?? (first && second ? { x: (first.x + second.x) / 2, y: (first.y + second.y) / 2 } : { x: 0, y: 0 });
 }
 
 // Below what is there already.

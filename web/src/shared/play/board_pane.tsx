@@ -3,6 +3,7 @@ import type { JSX } from 'preact';
 import { useMemo, useState } from 'preact/hooks';
 import { BoardView, Tried } from '../board/board';
 import type { Chip } from '../board/chips';
+import type { Arm } from '../board/fan';
 import { hasSlipped, kUnit, lineOf } from '../board/geometry';
 import { PartGlyph, Robot } from '../board/glyphs';
 import { Legend } from '../board/legend';
@@ -44,6 +45,7 @@ interface Props {
   decisive?: { frame: number; cell?: Place } | null;
   whole?: boolean;
   chips?: Chip[];
+  fan?: Arm[];
   tail?: number; // only so many of the last steps are drawn
   isSmall?: boolean; // a picture of the whole board beside others
   isBare?: boolean; // part of something that says what it is

@@ -45,7 +45,8 @@ export function Compare(props: Props): JSX.Element {
   const robotStep = Math.min(step, robot.length - 1);
   const isOver = step === last;
   const counts = [countsOf(robot, isOver || isStill ? robot.length - 1 : robotStep)];
-  if (other) counts.push(countsOf(other, isOver || isStill ? other.length - 1 : step));
+  // where a page is not told what steps count, it says nothing
+  if (other && other.some(({ counts: one }) => one)) counts.push(countsOf(other, isOver || isStill ? other.length - 1 : step));
   const names = [t('ledger.robot'), props.otherName];
   const frame = robot[robotStep] ?? board.start;
   return (
@@ -63,7 +64,7 @@ export function Compare(props: Props): JSX.Element {
             decisive={decisive}
             closedAt={closedAt(props.robot)}
             {...(other && props.other ? { other, otherClosedAt: closedAt(props.other) } : {})}
-            {...(other ? { chips: chipsOf(board.domain, countsOf(robot), countsOf(other)) } : {})}
+            {...(other && counts.length > 1 ? { chips: chipsOf(board.domain, countsOf(robot), countsOf(other)) } : {})}
           />
         ) : (
           <StateCard frame={frame} />

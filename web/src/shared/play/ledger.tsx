@@ -59,12 +59,15 @@ export function Ledger({ domain, columns }: { domain: MapDomain; columns: Column
   );
 }
 
+// What fits on a board: "+3 steps in view of a camera" is "+3 in view of a camera".
+const shortened = (text: string): string => (text.length > 18 ? text.replace(/ steps? /, ' ') : text);
+
 // What each of two paths has more of: "+1 rubble" on one, "+2 steps" on the other.
 export function chipsOf(domain: MapDomain, robot: number[], other: number[]): Chip[] {
   return (domain.counted ?? []).flatMap((one, k): Chip[] => {
     const more = (robot[k] ?? 0) - (other[k] ?? 0);
     const n = Math.abs(more);
     if (n < 0.005) return [];
-    return [{ kind: more > 0 ? 'own' : 'other', text: `+${rounded(n)} ${n === 1 ? one.one : one.many}` }];
+    return [{ kind: more > 0 ? 'own' : 'other', text: shortened(`+${rounded(n)} ${n === 1 ? one.one : one.many}`) }];
   });
 }
