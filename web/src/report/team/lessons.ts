@@ -42,7 +42,7 @@ export function bracketsOf(lessons: Lessons, periods: PeriodRow[]): Bracket[] {
         const [own, other] = [normal[k] ?? 0, normal[unit] ?? 0];
         if (own === 0 || normal.some((entry, j) => entry !== 0 && j !== k && j !== unit)) continue;
         // own c + sign other >= 0 for c, the weight in units; amounts are told without their sign.
-        const end = (isCost ? -1 : 1) * ((-sign * other) / own);
+        const end = Number(((isCost ? -1 : 1) * ((-sign * other) / own)).toFixed(2));
         const isLow = own > 0 !== isCost;
         if (isLow) low = Math.max(low ?? -Infinity, end);
         else high = Math.min(high ?? Infinity, end);

@@ -8,6 +8,8 @@ import type { Words } from '../words';
 import { BracketChart, KnowledgeChart } from './charts';
 import { bracketsOf, type Lessons, type PeriodRow, type TeamRow } from './lessons';
 
+const kWide = 16; // columns; larger maps get more room
+
 interface Props {
   lessons: Lessons;
   legend: Legend;
@@ -129,7 +131,7 @@ function Thumb(props: { lessons: Lessons; legend: Legend; board: number; caption
   const frames = played(board);
   const label = `World ${board.world}: ${board.text}`;
   return (
-    <figure class="thumb">
+    <figure class={(props.lessons.domain.width ?? 0) > kWide ? 'thumb wide' : 'thumb'}>
       <figcaption>
         {props.caption} {props.ticks}
       </figcaption>
