@@ -78,7 +78,8 @@ std::string table_notes(const StudySummary& summary, Figures figures, const Cons
         "worst member: the smallest share right of a member, averaged over teams";
   }
   if (has_skipped(summary)) {
-    text += "\nskipped: teams that did not learn all of a component, because nothing that could be shown conveys the rest";
+    text +=
+        "\nskipped: teams that did not learn all of a component, because nothing that could be shown conveys the rest";
   }
   if (summary.group) text += "\nall groups: the teams of every strategy but the baseline, together";
   return console.dim(text) + "\n";
