@@ -34,6 +34,7 @@ export function DemonstrationView({ shown, number, name, ...context }: Context &
   const [guess, setGuess] = useState<Guess | null>(null);
   const isPrinting = usePrinting();
   const seen = guess ?? (isPrinting ? kNothing : null);
+  const canGuess = context.worlds.canBeAnswered(shown);
   const done = (made: Guess): void => {
     setGuess(made);
     context.tell(name, { shown, mine: made.mine, isRight: made.verdict?.isRight ?? false });
@@ -43,15 +44,16 @@ export function DemonstrationView({ shown, number, name, ...context }: Context &
       <h3>Example {number}</h3>
       {!seen && (
         <p class="question">
-          {shown.map ? 'Where will the robot go?' : 'What will the robot do?'} Show it first, then watch.
-          {shown.runs && ` ${t('predict.chance')}`}
+          {shown.map ? 'Where will the robot go?' : 'What will the robot do?'}
+          {canGuess ? ' Show it first, then watch.' : ' Decide first, then watch.'}
+          {canGuess && shown.runs && ` ${t('predict.chance')}`}
         </p>
       )}
       <WorldName board={playBoard(context.domain, shown)} />
       {seen ? (
         <Seen {...context} shown={shown} guess={seen} isStill={isPrinting} />
       ) : (
-        <Guessing {...context} shown={shown} submit={t('watch.sketched')} skip={t('watch.skip')} onGuess={done} />
+        <Guessing {...context} shown={shown} submit={t('watch.sketched')} skip={canGuess ? t('watch.skip') : 'Watch'} onGuess={done} />
       )}
     </article>
   );

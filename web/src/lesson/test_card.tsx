@@ -26,7 +26,7 @@ export function TestView({ test, title, name, ...context }: Context & { test: Te
       {!guess && (
         <p class="question">
           {test.map ? t('predict.question') : t('predict.question_plain')}
-          {test.runs && ` ${t('predict.chance')}`}
+          {test.runs && context.worlds.canBeAnswered(test) && ` ${t('predict.chance')}`}
         </p>
       )}
       <WorldName board={playBoard(context.domain, test)} />
