@@ -45,7 +45,7 @@ TableDescription sessions_table() {
                   integer("last_ms", "When anything happened last; missing if nothing did.", false, "ms since 1970"),
                   text("stage", "How the room stood at the end of the export: lobby, running, questions or ended."),
                   text("ended", "Why the session ended before its time; missing if it did not.", false),
-                  boolean("completed", "Whether every component was learned, but for those left out by design."),
+                  boolean("completed", "Whether every component was learned, implied by others or left out by design."),
                   count("periods", "Completed interaction periods."),
                   count("demonstrations", "Demonstrations shown in completed periods."),
                   count("tests", "Tests asked in completed periods, per member."),
