@@ -9,8 +9,10 @@ find_program(KITH_NPM npm DOC "npm, which fetches what the pages are made of")
 find_program(KITH_CHROMIUM NAMES chromium DOC "Browser that tests the pages")
 mark_as_advanced(KITH_NODE KITH_NPM KITH_CHROMIUM)
 
-# Of tests in a browser: one at a time, and first, because they take longest and leave other cores to other tests.
-set(one_browser RESOURCE_LOCK browser COST 1000)
+# Of tests in a browser: one of files and one of pages that a server sends at a time, and first, because they take
+# longest.
+set(browser_of_files RESOURCE_LOCK browser_of_files COST 1000)
+set(browser_of_pages RESOURCE_LOCK browser_of_pages COST 2000)
 
 function(kith_add_web_pages)
   if(KITH_WEB STREQUAL AUTO AND NOT (KITH_NODE AND KITH_NPM))
@@ -82,17 +84,17 @@ function(kith_add_web_apps)
       set(name ${first}${rest})
       add_test(NAME web.${name} COMMAND ${KITH_NODE} ${source}/tests/${page}_test.mjs --app ${build}/${page}
         --modules ${build} --chromium ${KITH_CHROMIUM})
-      set_tests_properties(web.${name} PROPERTIES ${one_browser} TIMEOUT 1200 LABELS web)
+      set_tests_properties(web.${name} PROPERTIES ${browser_of_pages} TIMEOUT 1200 LABELS web)
       if(page STREQUAL live)  # people on the pages that the program serves
         add_test(NAME web.LiveOfKith COMMAND ${KITH_NODE} ${source}/tests/live_test.mjs --kith $<TARGET_FILE:kith>
           --modules ${build} --chromium ${KITH_CHROMIUM})
-        set_tests_properties(web.LiveOfKith PROPERTIES ${one_browser} TIMEOUT 1200 LABELS web)
+        set_tests_properties(web.LiveOfKith PROPERTIES ${browser_of_pages} TIMEOUT 1200 LABELS web)
       endif()
     endif()
   endforeach()
 endfunction()
 
-# Types, sample documents as a reader sees them, and documents that lack parts. One browser at a time.
+# Types, sample documents as a reader sees them, and documents that lack parts.
 function(kith_test_web_pages source build)
   add_test(NAME web.Types COMMAND ${KITH_NODE} ${source}/tests/types_test.mjs --modules ${build})
   set_tests_properties(web.Types PROPERTIES LABELS web)
@@ -109,7 +111,7 @@ function(kith_test_web_pages source build)
   add_test(NAME web.Lesson COMMAND ${KITH_NODE} ${source}/tests/lesson_test.mjs ${build}/lesson.html
     --document ${source}/sample/lesson.json ${tools})
   set_tests_properties(web.Report web.ReportOfKith web.ReportParts web.Lesson PROPERTIES
-    ${one_browser} TIMEOUT 600 LABELS web)
+    ${browser_of_files} TIMEOUT 900 LABELS web)
   set_property(TEST web.ReportParts PROPERTY LABELS slow)
 endfunction()
 

@@ -53,7 +53,7 @@ export function DemonstrationView({ shown, number, name, ...context }: Context &
       {seen ? (
         <Seen {...context} shown={shown} guess={seen} isStill={isPrinting} />
       ) : (
-        <Guessing {...context} shown={shown} submit={t('watch.sketched')} skip={canGuess ? t('watch.skip') : 'Watch'} onGuess={done} />
+        <Guessing {...context} shown={shown} submit={t('watch.sketched')} skip={t('watch.skip')} onGuess={done} />
       )}
     </article>
   );
