@@ -1,0 +1,253 @@
+#include "answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "kith/analysis/analysis.hpp"
+#include "kith/stats/effect_size.hpp"
+#include "kith/stats/moments.hpp"
+#include "kith/stats/tests.hpp"
+
+namespace kith::detail {
+namespace {
+
+const Finding* finding_of(const FirstScreen& screen, const std::string& id) {
+  const auto& all = screen.findings;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.id == id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// A row of a table of results by the names of its columns.
+class ResultRow {
+ public:
+  ResultRow(const ResultTable& table, const std::vector<TableCell>& cells) : table_{table}, cells_{cells} {}
+
+  [[nodiscard]] std::string label() const {
+    const auto* const text = std::get_if<std::string>(&cells_.front());
+    return text == nullptr ? std::string{} : *text;
+  }
+  [[nodiscard]] std::optional<double> number(std::string_view field) const {
+    const auto fields = field_names(table_);
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+      if (fields[c] == field) return value(c);
+    }
+    return std::nullopt;
+  }
+  // The last one is corrected for the others, if any is.
+  [[nodiscard]] std::optional<double> p() const {
+    std::optional<double> last;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (table_.columns[c].kind == ResultKind::kP && value(c)) last = value(c);
+    }
+    return last;
+  }
+
+ private:
+  [[nodiscard]] std::optional<double> value(std::size_t column) const {
+    const auto* const real = std::get_if<double>(&cells_[column]);
+    return real == nullptr ? std::nullopt : std::optional{*real};
+  }
+
+  const ResultTable& table_;
+  const std::vector<TableCell>& cells_;
+};
+
+std::vector<ResultRow> rows_of(const ResultTable& table) {
+  std::vector<ResultRow> rows;
+  for (const auto& cells : table.rows) rows.emplace_back(table, cells);
+  return rows;
+}
+
+const ResultTable* table_of(const Finding& finding, const std::string& caption) {
+  const auto& all = finding.tables;
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.caption.find(caption) == 0; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// The p-value of a term in the first table of a finding.
+std::optional<double> p_of_term(const Finding& finding, const std::string& term) {
+  if (finding.tables.empty()) return std::nullopt;
+  for (const auto& row : rows_of(finding.tables.front())) {
+    if (row.label() == term) return row.p();
+  }
+  return std::nullopt;
+}
+
+std::string two_means(const FirstScreen& screen, const Outcome& outcome) {
+  return fmt::format("{:.{}f}", mean(values_of(screen, outcome, false)), outcome.digits) + " and " +
+         fmt::format("{:.{}f}", mean(values_of(screen, outcome, true)), outcome.digits);
+}
+
+// The same people taught together, whatever the strategy, and alone, or other people.
+Estimable<MeanDifference> together_against_alone(const FirstScreen& screen, const Outcome& outcome) {
+  if (!screen.paired) return welch_t_test(values_of(screen, outcome, false), values_of(screen, outcome, true));
+  std::map<std::tuple<std::size_t, std::string, std::size_t>, std::pair<Values, Values>> people;
+  for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
+    auto& [together, alone] =
+        people[{series_of(screen, i).variant, composition_of(screen, i), screen.data.teams[i].replicate}];
+    (is_alone(screen, i) ? alone : together).push_back(screen.data.teams[i].*outcome.value);
+  }
+  Values together, alone;
+  for (const auto& [key, values] : people) {
+    if (values.first.empty() || values.second.empty()) continue;
+    together.push_back(mean(values.first));
+    alone.push_back(mean(values.second));
+  }
+  return paired_t_test(together, alone);
+}
+
+// The least and the greatest of the estimated means of a factor's levels.
+struct Extremes {
+  std::string means = "";      // "7.1 to 8.5"
+  std::string answer = "yes";  // "yes: lowest PPP, highest NNP"
+};
+
+Extremes extremes_of(const Finding& finding, const std::string& factor, int digits) {
+  const auto* table = table_of(finding, "Estimated marginal means of " + factor);
+  if (table == nullptr) return {};
+  std::string least_name, most_name;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const auto& row : rows_of(*table)) {
+    const auto value = row.number("mean");
+    if (!value) continue;
+    if (*value < least) {
+      least = *value;
+      least_name = row.label();
+    }
+    if (*value > most) {
+      most = *value;
+      most_name = row.label();
+    }
+  }
+  if (!(least <= most)) return {};
+  return {fmt::format("{:.{}f} to {:.{}f}", least, digits, most, digits),
+          "yes: lowest " + least_name + ", highest " + most_name};
+}
+
+// Means, where there is nothing to compare.
+std::vector<Answer> plain_means(const FirstScreen& screen) {
+  std::vector<Answer> list;
+  for (const bool alone : {false, true}) {
+    for (const auto& outcome : outcomes_of(screen)) {
+      const auto values = values_of(screen, outcome, alone);
+      if (values.empty()) continue;
+      Answer answer{alone ? "Taught one after the other" : "Taught together", outcome.name, outcome.digits};
+      answer.means = fmt::format("{:.{}f}", mean(values), outcome.digits);
+      const auto interval = mean_interval(values);
+      answer.estimate = mean(values);
+      if (interval) {
+        answer.low = interval->low;
+        answer.high = interval->high;
+      }
+      list.push_back(std::move(answer));
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+bool is_shown(const Answer& answer) { return answer.p && *answer.p < AnalysisOptions{}.alpha; }
+
+Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome) {
+  Answer answer{"Together compared with one after the other", outcome.name, outcome.digits};
+  answer.means = two_means(screen, outcome);
+  if (const auto* finding = finding_of(screen, outcome.id + "-baseline"); finding != nullptr) {
+    answer.finding = finding->id;
+    for (const auto& row : rows_of(finding->tables.front())) {
+      answer.estimate = row.number("difference");
+      answer.low = row.number("lower_limit");
+      answer.high = row.number("upper_limit");
+      answer.p = row.p();
+    }
+  } else if (const auto test = together_against_alone(screen, outcome)) {
+    answer.estimate = test->difference;
+    answer.low = test->low;
+    answer.high = test->high;
+    answer.p = test->test.p;
+  }
+  const double together = mean(values_of(screen, outcome, false)), alone = mean(values_of(screen, outcome, true));
+  answer.answer = "no difference found";
+  if (!answer.p) answer.answer = "not tested";
+  if (is_shown(answer)) {
+    answer.answer = together < alone ? "less together" : "more together";
+    if (outcome.digits == 1) answer.answer = together < alone ? "fewer together" : "more together";
+  }
+  return answer;
+}
+
+// A factor with many levels: the largest difference if there is one, else how large one may be.
+std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& outcome, const std::string& factor,
+                                   const std::string& question) {
+  const auto* finding = finding_of(screen, outcome.id);
+  if (finding == nullptr) return std::nullopt;
+  Answer answer{question, outcome.name, outcome.digits, finding->id};
+  answer.p = p_of_term(*finding, factor);
+  if (!answer.p) return std::nullopt;
+  const auto extremes = extremes_of(*finding, factor, outcome.digits);
+  answer.means = extremes.means;
+  answer.answer = is_shown(answer) ? extremes.answer : "no difference found";
+  const auto* pairs = table_of(*finding, "Pairs of " + factor);
+  if (pairs == nullptr) return answer;
+  double largest = -1.0, bound = 0.0;
+  for (const auto& row : rows_of(*pairs)) {
+    const auto ratio = row.number("ratio");
+    const auto estimate = ratio ? ratio : row.number("difference");
+    const auto low = row.number("lower_limit"), high = row.number("upper_limit");
+    if (!estimate || !low || !high || (ratio && *low <= 0.0)) continue;
+    answer.is_ratio = ratio.has_value();
+    const auto size = [&](double value) { return std::abs(ratio ? std::log(value) : value); };
+    bound = std::max({bound, size(*low), size(*high)});
+    if (size(*estimate) <= largest) continue;
+    largest = size(*estimate);
+    answer.compared = row.label();
+    answer.estimate = estimate;
+    answer.low = low;
+    answer.high = high;
+  }
+  if (is_shown(answer) || largest < 0.0) return answer;
+  answer.estimate = answer.low = answer.high = std::nullopt;
+  answer.bound = answer.is_ratio ? std::exp(bound) : bound;
+  answer.compared.clear();
+  return answer;
+}
+
+std::vector<Answer> planned(const FirstScreen& screen) {
+  std::vector<Answer> list;
+  const auto* finding = finding_of(screen, "primary");
+  if (finding == nullptr) return list;
+  for (const auto& row : rows_of(finding->tables.front())) {
+    Answer answer{finding->title, row.label(), row.label().find("periods") == 0 ? 1 : 2, finding->id};
+    answer.estimate = row.number("difference");
+    answer.low = row.number("lower_limit");
+    answer.high = row.number("upper_limit");
+    answer.p = row.p();
+    answer.answer = !answer.p ? "not tested" : is_shown(answer) ? "yes" : "no difference found";
+    list.push_back(std::move(answer));
+  }
+  return list;
+}
+
+std::vector<Answer> all_answers(const FirstScreen& screen) {
+  auto list = planned(screen);
+  const auto outcomes = outcomes_of(screen);
+  if (compares_with_alone(screen)) {
+    for (const auto& outcome : outcomes) list.push_back(answer_about_alone(screen, outcome));
+  }
+  const auto add = [&](const std::string& factor, const std::string& question) {
+    for (const auto& outcome : outcomes) {
+      if (auto answer = answer_about(screen, outcome, factor, question)) list.push_back(*std::move(answer));
+    }
+  };
+  add("strategy", "Among the " + std::to_string(num_together(screen)) + " strategies for a team");
+  add("composition", "Who is in the team");
+  return list.empty() ? plain_means(screen) : list;
+}
+
+}  // namespace kith::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "outcomes.hpp"
+
+namespace kith::detail {
+
+// What the study says about one question and one outcome.
+struct Answer {
+  std::string question;
+  std::string outcome;
+  int digits = 1;
+  std::string finding{};   // its id
+  std::string means{};     // what is compared, in numbers
+  std::string compared{};  // "joint - common"
+  std::optional<double> estimate{}, low{}, high{};
+  std::optional<double> bound{};  // any two levels differ by less
+  bool is_ratio = false;
+  std::optional<double> p{};
+  std::string answer{};
+};
+
+[[nodiscard]] bool is_shown(const Answer& answer);
+
+// Teams taught together compared with members taught one after the other. @pre compares_with_alone().
+[[nodiscard]] Answer answer_about_alone(const FirstScreen& screen, const Outcome& outcome);
+// A factor with several levels; nothing if it was not analysed.
+[[nodiscard]] std::optional<Answer> answer_about(const FirstScreen& screen, const Outcome& outcome,
+                                                 const std::string& factor, const std::string& question);
+// The differences that are marked as primary in the study.
+[[nodiscard]] std::vector<Answer> planned(const FirstScreen& screen);
+// All of them, or means where there is nothing to compare.
+[[nodiscard]] std::vector<Answer> all_answers(const FirstScreen& screen);
+
+}  // namespace kith::detail

@@ -1,0 +1,61 @@
+#include "outcomes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "kith/teaching/strategy.hpp"
+
+namespace kith::detail {
+
+const ReportDesign::Series& series_of(const FirstScreen& screen, std::size_t team) {
+  return screen.design.series[screen.design.cells[screen.design.cell_of_team[team]].series];
+}
+const std::string& composition_of(const FirstScreen& screen, std::size_t team) {
+  return screen.design.cells[screen.design.cell_of_team[team]].composition;
+}
+bool is_alone(const FirstScreen& screen, std::size_t team) { return series_of(screen, team).strategy == kBaseline; }
+
+Values values_of(const FirstScreen& screen, const Outcome& outcome, bool alone) {
+  Values values;
+  for (std::size_t i = 0; i < screen.data.teams.size(); ++i) {
+    const double value = screen.data.teams[i].*outcome.value;
+    if (is_alone(screen, i) == alone && std::isfinite(value)) values.push_back(value);
+  }
+  return values;
+}
+
+bool compares_with_alone(const FirstScreen& screen) {
+  const auto& series = screen.design.series;
+  const auto alone = std::count_if(series.begin(), series.end(), [](auto& one) { return one.strategy == kBaseline; });
+  return alone > 0 && static_cast<std::size_t>(alone) < series.size();
+}
+
+Outcome known(const FirstScreen& screen) {
+  if (screen.data.leads_with_exam) {
+    return {"exam_share_right", "share right in the exam", &TeamValues::exam_share_right, 2};
+  }
+  return {"knowledge", screen.simulated ? "knowledge at the end" : "estimated knowledge at the end",
+          &TeamValues::knowledge, 2};
+}
+
+// A period of a team takes the time of everybody in it, so that the comparison with teaching alone needs both counts.
+std::vector<Outcome> outcomes_of(const FirstScreen& screen) {
+  std::vector<Outcome> outcomes{kPeriods};
+  if (compares_with_alone(screen)) outcomes.push_back(kPersonPeriods);
+  outcomes.push_back(known(screen));
+  if (screen.data.has_exam && !screen.data.leads_with_exam) {
+    outcomes.push_back({"exam_share_right", "share right in the exam", &TeamValues::exam_share_right, 2});
+  }
+  return outcomes;
+}
+
+std::size_t num_together(const FirstScreen& screen) {
+  std::set<std::string> strategies;
+  for (const auto& series : screen.design.series) {
+    if (series.strategy != kBaseline) strategies.insert(series.strategy);
+  }
+  return strategies.size();
+}
+
+}  // namespace kith::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "first_screen.hpp"
+
+namespace kith::detail {
+
+using Values = std::vector<double>;
+
+// What teams are compared by.
+struct Outcome {
+  std::string id;    // as in the names of findings
+  std::string name;  // in a sentence
+  double TeamValues::*value;
+  int digits;
+};
+
+inline const Outcome kPeriods{"periods", "periods", &TeamValues::periods, 1};
+inline const Outcome kPersonPeriods{"person-periods", "person-periods", &TeamValues::person_periods, 1};
+
+// What says how much a team knows.
+[[nodiscard]] Outcome known(const FirstScreen& screen);
+[[nodiscard]] std::vector<Outcome> outcomes_of(const FirstScreen& screen);
+
+[[nodiscard]] const ReportDesign::Series& series_of(const FirstScreen& screen, std::size_t team);
+[[nodiscard]] const std::string& composition_of(const FirstScreen& screen, std::size_t team);
+// Whether the team's members were taught one after the other.
+[[nodiscard]] bool is_alone(const FirstScreen& screen, std::size_t team);
+[[nodiscard]] bool compares_with_alone(const FirstScreen& screen);
+// Strategies that teach a team together.
+[[nodiscard]] std::size_t num_together(const FirstScreen& screen);
+
+// The finite values of the teams that were taught together, or alone.
+[[nodiscard]] Values values_of(const FirstScreen& screen, const Outcome& outcome, bool alone);
+
+}  // namespace kith::detail
