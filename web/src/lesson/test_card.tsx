@@ -16,6 +16,7 @@ import { RunsView } from './runs';
 export function TestView({ test, title, name, ...context }: Context & { test: Test; title: string; name: string }): JSX.Element {
   const [guess, setGuess] = useState<Guess | null>(null);
   const isPrinting = usePrinting();
+  const canAnswer = context.worlds.canBeAnswered(test);
   const done = (made: Guess): void => {
     setGuess(made);
     context.tell(name, { shown: test, mine: made.mine, isRight: made.verdict?.isRight ?? false });
@@ -25,8 +26,9 @@ export function TestView({ test, title, name, ...context }: Context & { test: Te
       <h4>{title}</h4>
       {!guess && (
         <p class="question">
-          {test.map ? t('predict.question') : t('predict.question_plain')}
-          {test.runs && context.worlds.canBeAnswered(test) && ` ${t('predict.chance')}`}
+          {!canAnswer && 'What will the robot do? Decide first, then look at the answer.'}
+          {canAnswer && (test.map ? t('predict.question') : t('predict.question_plain'))}
+          {canAnswer && test.runs && ` ${t('predict.chance')}`}
         </p>
       )}
       <WorldName board={playBoard(context.domain, test)} />
