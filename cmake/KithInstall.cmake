@@ -24,6 +24,9 @@ install(FILES ${PROJECT_BINARY_DIR}/kithConfig.cmake ${PROJECT_BINARY_DIR}/kithC
 
 if(TARGET kith)
   install(TARGETS kith COMPONENT program)
+  if(TARGET kith_mpi)
+    install(TARGETS kith_mpi DESTINATION ${CMAKE_INSTALL_LIBDIR}/kith COMPONENT program)
+  endif()
   set(manual ${PROJECT_BINARY_DIR}/manual)
   set(pages ${manual}/kith.1 ${manual}/kith.bash)
   add_custom_command(OUTPUT ${pages}

@@ -179,13 +179,16 @@ int run(const StudyOptions& options, Console& console) {
   if (options.out.empty()) refuse("kith study needs -o DIR, the folder for the results");
 
   const auto ranks = mpi_ranks();
-  if (!is_first_rank()) console = Console{{.quiet = true}};
+  const bool speaks = !ranks || ranks->rank() == 0;
+  if (!speaks) console = Console{{.quiet = true}};
   watch_signals();
-  Progress progress{is_first_rank() ? options.progress : ProgressMode::kNone, console};
+  Progress progress{speaks ? options.progress : ProgressMode::kNone, console};
   std::size_t done = 0;
   auto how = run_options(options);
   how.ranks = ranks.get();
-  if (how.threads == 0) how.threads = threads_per_rank();
+  if (how.threads == 0 && ranks) {
+    how.threads = std::max<std::size_t>(1, std::thread::hardware_concurrency() / ranks->num_on_this_machine());
+  }
   const auto how_many_threads = how.threads > 0 ? how.threads : std::thread::hardware_concurrency();
   how.on_progress = [&](std::size_t finished, std::size_t total, std::size_t failed) {
     done = finished;

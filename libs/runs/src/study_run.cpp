@@ -79,6 +79,7 @@ struct StudyRun::State {
     [[nodiscard]] std::string broadcast(std::string bytes) override { return bytes; }
     [[nodiscard]] bool any(bool mine) override { return mine; }
     void wait_for_all() override {}
+    [[nodiscard]] std::size_t num_on_this_machine() override { return 1; }
 
    private:
     std::atomic<std::uint64_t> next_{0};

@@ -53,6 +53,7 @@ class ThreadRanks {
       return result;
     }
     void wait_for_all() override { all_.barrier_.arrive_and_wait(); }
+    [[nodiscard]] std::size_t num_on_this_machine() override { return all_.size_; }
 
    private:
     ThreadRanks& all_;

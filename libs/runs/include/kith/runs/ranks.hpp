@@ -19,6 +19,8 @@ class Ranks : public WorkCounter {
   [[nodiscard]] virtual bool any(bool mine) = 0;
   /// Returns once all have come here.
   virtual void wait_for_all() = 0;
+  /// How many of them share this machine, this one included.
+  [[nodiscard]] virtual std::size_t num_on_this_machine() = 0;
 };
 
 }  // namespace kith
