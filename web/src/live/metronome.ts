@@ -1,5 +1,7 @@
 // Calls something every second, also in a hidden tab: browsers slow the timers of such pages down to one a minute, but
 // not those of workers. Somebody who waits in another tab must not count as away.
+import { transport } from '../shared/transport';
+
 interface Policies {
   createPolicy: (name: string, rules: { createScriptURL: (text: string) => string }) => { createScriptURL: (text: string) => string };
 }
@@ -13,6 +15,7 @@ function makeWorker(): Worker {
 
 export function everySecond(call: () => void): void {
   const byTimer = (): void => void setInterval(call, 1000);
+  if (transport().isLocal) return byTimer(); // nobody waits for the person
   try {
     const worker = makeWorker();
     worker.onmessage = call;

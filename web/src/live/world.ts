@@ -1,13 +1,12 @@
 // Tables of moves, as the server has them.
 import { useLayoutEffect, useState } from 'preact/hooks';
 import { World, type WorldDocument } from '../shared/play/world';
+import { transport } from '../shared/transport';
 
 const worlds = new Map<string, World>();
 
 async function fetchWorld(key: string, token: string): Promise<World> {
-  const reply = await fetch(`/api/world/${encodeURIComponent(key)}`, { headers: { Authorization: `Bearer ${token}` } });
-  if (!reply.ok) throw new Error(`status ${reply.status}`);
-  return new World((await reply.json()) as WorldDocument);
+  return new World((await transport().get(`/api/world/${encodeURIComponent(key)}`, token)) as WorldDocument);
 }
 
 // The world of a key, as soon as it is there; tries until it succeeds.

@@ -1,4 +1,5 @@
 // A WebSocket to the server that authenticates, sends heartbeats, and reconnects with exponential backoff.
+import { transport, type Pipe } from './transport';
 import { uuid } from './uuid';
 
 const kVersion = 1; // of the protocol
@@ -24,7 +25,7 @@ interface Listener {
 }
 
 export class ReconnectingSocket {
-  private socket: WebSocket | null = null;
+  private socket: Pipe | null = null;
   private current: SocketState = { phase: 'connecting', since: performance.now(), bye: null };
   private readonly tab = uuid(); // of this page, not of the tab: a duplicated tab has the same storage
   private attempts = 0;
@@ -87,7 +88,7 @@ export class ReconnectingSocket {
   private connect(): void {
     clearTimeout(this.retryTimer);
     this.discard();
-    const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss:' : 'ws:'}//${location.host}/ws`);
+    const socket = transport().open();
     this.socket = socket;
     this.attemptedAt = this.replyDueSince = performance.now();
     socket.onopen = () => socket.send(JSON.stringify({ t: 'hello', v: kVersion, token: this.token, tab: this.tab }));

@@ -1,5 +1,6 @@
 // All strings of the page, in the study's language. English is built in; what another language lacks is English.
 import english from './texts/en.json';
+import { transport } from './transport';
 
 export interface TextsDocument {
   lang: string;
@@ -84,8 +85,7 @@ function use(lang: string, dir: 'ltr' | 'rtl', own: Record<string, string>): voi
 
 async function fetchJson<T>(address: string): Promise<T | null> {
   try {
-    const reply = await fetch(address);
-    return reply.ok ? ((await reply.json()) as T) : null;
+    return (await transport().get(address)) as T;
   } catch {
     return null;
   }

@@ -1,0 +1,35 @@
+// How a page reaches what teaches: a server on the network, or, in a lesson file, an engine in the page.
+
+// What of a WebSocket is used.
+export interface Pipe {
+  onopen: (() => void) | null;
+  onmessage: ((event: { data: unknown }) => void) | null;
+  onclose: (() => void) | null;
+  send: (text: string) => void;
+  close: () => void;
+}
+
+export interface Transport {
+  isLocal: boolean;
+  open: () => Pipe;
+  /** A document of the server; throws if it cannot be had. */
+  get: (path: string, token?: string) => Promise<unknown>;
+}
+
+const network: Transport = {
+  isLocal: false,
+  open: () => new WebSocket(`${location.protocol === 'https:' ? 'wss:' : 'ws:'}//${location.host}/ws`) as Pipe,
+  get: async (path, token) => {
+    const reply = await fetch(path, token === undefined ? {} : { headers: { Authorization: `Bearer ${token}` } });
+    if (!reply.ok) throw new Error(`status ${reply.status}`);
+    return reply.json();
+  },
+};
+
+let current = network;
+
+export const transport = (): Transport => current;
+
+export function useTransport(other: Transport): void {
+  current = other;
+}
