@@ -14,6 +14,7 @@ usage() {
 usage: ./run.sh            build kith, run the paper's study into results/paper, print its table and
                            what was found, and write results/paper/report.html
        ./run.sh --setup    install what is missing and build, no more
+       ./run.sh --lesson   the same, with the engine that `kith lesson` puts into pages; needs Emscripten
        ./run.sh ARGS...    the same, then `kith ARGS...` (./run.sh help: what kith can do)
 
 Installs missing Debian packages first, and says which and how large; that needs
@@ -28,15 +29,18 @@ case ${1:-} in
     ;;
 esac
 
-ensure_packages "${packages_to_build[@]}"
+packages=("${packages_to_build[@]}")
+[[ ${1:-} == --lesson ]] && packages+=("${packages_for_lesson[@]}")
+ensure_packages "${packages[@]}"
 tests=()
 # Without GoogleTest there is nothing to test with; a folder that test.sh has made stays as it is.
 [[ -e build/release/build.ninja ]] || tests=(-DKITH_BUILD_TESTS=OFF)
+[[ ${1:-} == --lesson ]] && tests+=(-DKITH_LESSON=ON)
 configure_and_build release "${tests[@]}" -- kith kith_manual  # all that cmake --install installs
 kith=$root/build/release/bin/kith
 
 case ${1:-} in
-  --setup)
+  --setup | --lesson)
     say "Ready: build/release/bin/kith"
     ;;
   '')

@@ -4,7 +4,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 . scripts/packages.sh
 
-night=(release ratios headers asan tsan fuzz slow tidy)
+night=(release ratios headers asan tsan fuzz slow lesson tidy)
 usage() {
   cat <<TEXT
 usage: ./test.sh             what has to pass before anything is merged:
@@ -20,6 +20,7 @@ usage: ./test.sh             what has to pass before anything is merged:
                                tsan     those that use threads, under TSan
                                fuzz     every fuzz target, MINUTES (12) in all
                                slow     the slow tests
+                               lesson   lessons in a file: the engine, and people in a browser
                                tidy     clang-tidy
 
 Every form ends with a table of how long each part took. Missing Debian packages
@@ -48,7 +49,7 @@ done
 ((${#chosen[@]})) || chosen=("${night[@]}")
 
 packages=("${packages_to_build[@]}" "${packages_to_test[@]}")
-if [[ $mode == nightly ]]; then packages+=("${packages_for_nightly[@]}"); fi
+if [[ $mode == nightly ]]; then packages+=("${packages_for_nightly[@]}" "${packages_for_lesson[@]}"); fi
 ensure_packages "${packages[@]}"
 
 jobs=$(nproc)
@@ -116,6 +117,10 @@ nightly() {  # PART
     fuzz) part "fuzzing: build" configure_and_build fuzz -- kith_fuzzers && part "fuzzing" fuzz ;;
     slow)
       part "slow tests: build" configure_and_build release -DKITH_BUILD_TESTS=ON -- all && part "slow tests" slow_tests
+      ;;
+    lesson)
+      part "lesson files: build" configure_and_build release -DKITH_BUILD_TESTS=ON -DKITH_LESSON=ON -- kith kith_web_packages &&
+        part "lesson files: tests" run_tests release -R '^web\.LessonFile$'
       ;;
     tidy) part "clang-tidy" configure_and_build tidy -- all ;;
   esac

@@ -12,6 +12,7 @@ packages_to_build=(
   nodejs npm
 )
 packages_to_test=(libgtest-dev libgmock-dev chromium libopenmpi-dev openmpi-bin)
+packages_for_lesson=(emscripten)  # LLVM for WebAssembly
 packages_for_nightly=(clang clang-tidy clang-format libclang-rt-14-dev llvm libbenchmark-dev
   slowhttptest
   r-base-core r-cran-car r-cran-emmeans r-cran-lme4 r-cran-lmertest r-cran-mass r-cran-survival)

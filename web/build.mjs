@@ -1,10 +1,11 @@
 // Makes a page's template: one HTML file which holds the script, the style and the licences of
 // everything that is in it, and needs no network.
 //
-//   node build.mjs --out FILE [--page report|lesson] [--modules DIR]
+//   node build.mjs --out FILE [--page report|lesson|file] [--modules DIR] [--engine DIR]
 //
 // DIR is a folder with node_modules (this one unless said otherwise), so that a build outside the
-// source tree leaves no file here. kith puts a document (schema kith.report/1 or
+// source tree leaves no file here. A lesson file (the page `file`) also holds the engine, which DIR of
+// --engine has as kith_engine.js and kith_engine.wasm. kith puts a document (schema kith.report/1 or
 // kith.curriculum/1) where DATA_PLACEHOLDER stands and the escaped title where TITLE_PLACEHOLDER
 // stands, each once.
 import { createHash } from 'node:crypto';
@@ -13,21 +14,27 @@ import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { gzipSync } from 'node:zlib';
 import { collectNotices, noticesHtml } from './notices.mjs';
 
 const DATA_PLACEHOLDER = '/*KITH_REPORT_JSON*/';
 const TITLE_PLACEHOLDER = '/*KITH_REPORT_TITLE*/';
 const MAX_BYTES = 2_000_000;
-// Per page what it draws, as people without scripts are told.
-const PICTURES = { report: 'figures', lesson: 'boards' };
+// Per page what it is and what it draws, as people without scripts are told.
+const PICTURES = { report: ['report', 'figures'], lesson: ['lesson', 'boards'], file: ['lesson', 'boards'] };
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
-  options: { out: { type: 'string' }, modules: { type: 'string' }, page: { type: 'string', default: 'report' } },
+  options: {
+    out: { type: 'string' },
+    modules: { type: 'string' },
+    page: { type: 'string', default: 'report' },
+    engine: { type: 'string' },
+  },
 });
 const source = join('src', values.page);
-if (!values.out || !Object.hasOwn(PICTURES, values.page)) {
-  console.error('usage: node build.mjs --out FILE [--page report|lesson] [--modules DIR]');
+if (!values.out || !Object.hasOwn(PICTURES, values.page) || (values.page === 'file') !== (values.engine !== undefined)) {
+  console.error('usage: node build.mjs --out FILE [--page report|lesson|file] [--modules DIR] [--engine DIR]');
   process.exit(2);
 }
 const modulesRoot = resolve(values.modules ?? here);
@@ -80,23 +87,35 @@ const withoutLiveTexts = {
   },
 };
 
+const kTarget = ['chrome100', 'firefox100', 'safari15.4'];
 const script = await bundle(existsSync(join(here, source, 'main.tsx')) ? `${source}/main.tsx` : `${source}/main.ts`, {
   jsx: 'automatic',
   jsxImportSource: 'preact',
   platform: 'browser',
-  plugins: [withoutLiveTexts],
+  plugins: values.page === 'file' ? [] : [withoutLiveTexts],
   format: 'iife',
-  target: ['chrome100', 'firefox100', 'safari15.4'],
+  target: kTarget,
 });
-const style = await bundle(`${source}/style.css`, { target: ['chrome100', 'firefox100', 'safari15.4'] });
+const style = await bundle(`${source}/style.css`, { target: kTarget });
 const code = script.text.trimEnd();
 checkInlineScript(code);
 if (/<\/style/i.test(style.text)) throw new Error('the style contains </style');
 
+// What the worker runs, and what it runs on, packed.
+async function packedEngine(folder) {
+  const packed = (id, bytes) =>
+    `<script type="application/gzip" id="${id}">${gzipSync(bytes, { level: 9 }).toString('base64')}</script>\n`;
+  const worker = await bundle(`${source}/worker.ts`, { platform: 'browser', format: 'iife', target: kTarget });
+  const script = `${readFileSync(join(folder, 'kith_engine.js'), 'utf8')}\n${worker.text}`;
+  return packed('kith-engine-script', script) + packed('kith-engine', readFileSync(join(folder, 'kith_engine.wasm')));
+}
+const engine = values.engine ? await packedEngine(values.engine) : '';
+
 const hash = createHash('sha256').update(code, 'utf8').digest('base64');
 const policy = [
   "default-src 'none'",
-  `script-src 'sha256-${hash}'`,
+  `script-src 'sha256-${hash}'${engine ? " 'wasm-unsafe-eval' blob:" : ''}`,
+  ...(engine ? ['worker-src blob:'] : []),
   "style-src 'unsafe-inline'",
   'img-src data: blob:',
   "base-uri 'none'",
@@ -104,10 +123,12 @@ const policy = [
 ].join('; ');
 
 let page = readFileSync(join(here, 'src/shared/template.html'), 'utf8');
-page = page.replaceAll('__PAGE__', values.page).replaceAll('__PICTURES__', PICTURES[values.page]);
+const [what, pictures] = PICTURES[values.page];
+page = page.replaceAll('__PAGE__', what).replaceAll('__PICTURES__', pictures);
 page = fill(page, '__POLICY__', policy);
 page = fill(page, '__STYLE__', style.text.trim());
 page = fill(page, '__NOTICES__', noticesHtml(collectNotices(script.metafile, modulesRoot)));
+page = fill(page, '__ENGINE__', engine);
 page = fill(page, '__SCRIPT__', code);
 for (const name of [DATA_PLACEHOLDER, TITLE_PLACEHOLDER]) {
   if (page.split(name).length !== 2) throw new Error(`${name} must occur once`);

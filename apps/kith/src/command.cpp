@@ -253,6 +253,7 @@ Commands all_commands() {
   add_validate(commands);
   add_inspect(commands);
   add_curriculum(commands);
+  add_lesson(commands);
   add_ask(commands);
   add_find(commands);
   add_teach(commands);

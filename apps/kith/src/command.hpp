@@ -220,6 +220,7 @@ void add_audit(Commands& commands);
 void add_calibrate(Commands& commands);
 void add_completion(Commands& commands);
 void add_curriculum(Commands& commands);
+void add_lesson(Commands& commands);
 void add_doctor(Commands& commands);
 void add_explain(Commands& commands);
 void add_export(Commands& commands);

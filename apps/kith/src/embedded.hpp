@@ -17,6 +17,9 @@ extern const std::string_view kConsentTemplate;
 // The pages that show a report and a curriculum, made from web/; empty if kith was built without pages.
 extern const std::string_view kReportPage;
 extern const std::string_view kLessonPage;
+// That of a lesson file, with its engine; empty without -DKITH_LESSON=ON.
+extern const std::string_view kLessonFilePage;
+extern const std::string_view kLessonStudy;
 
 // docs/errors.md.
 extern const std::string_view kErrorPage;

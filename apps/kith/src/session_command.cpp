@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "build_facts.hpp"
 #include "command.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
@@ -16,6 +17,7 @@
 #include "kith/files/file_set.hpp"
 #include "kith/files/folder_lock.hpp"
 #include "kith/hosting/event_file.hpp"
+#include "kith/hosting/lesson_log.hpp"
 #include "kith/hosting/session_export.hpp"
 #include "kith/hosting/session_review.hpp"
 #include "kith/hosting/session_study.hpp"
@@ -25,7 +27,7 @@ namespace {
 
 struct SessionOptions {
   std::string action;  ///< "list", "show" ...
-  std::string folder;
+  std::string folder;  ///< With import: the log.
   std::string room;    ///< Id or code; empty: all rooms.
   std::string out;     ///< Folder for tables or for the recovered session.
   bool names = false;  ///< Export what identifies people, too.
@@ -184,12 +186,24 @@ int salvage(const SessionOptions& options, Console& console) {
   return report.lost.empty() ? 0 : 6;
 }
 
+int import_log(const SessionOptions& options, Console& console) {
+  if (options.out.empty()) refuse("kith session import needs -o DIR, the folder for the session");
+  const auto imported =
+      import_lesson_log(options.out, read_file(options.folder), options.folder, program_name(), now_us());
+  console.print(imported.events == 0 ? fmt::format("{} has this log already\n", options.out)
+                                     : fmt::format("replayed {} and added them to {} as room {}\n",
+                                                   counted(imported.events, "event"), options.out, imported.room));
+  return 0;
+}
+
 void declare(OptionList& list, SessionOptions& options) {
-  list.word("action", options.action, "ACTION", {"list", "show", "export", "replay", "redact", "salvage"}, "What to do")
+  list.word("action", options.action, "ACTION", {"list", "show", "export", "replay", "redact", "salvage", "import"},
+            "What to do")
       .required();
-  list.text("folder", options.folder, "DIR", "Folder that kith serve was given").required();
+  list.text("folder", options.folder, "DIR", "Folder that kith serve was given; with import: a log of a lesson file")
+      .required();
   list.text("--room", options.room, "ID", "Only this room, by id or code");
-  list.text("-o,--out", options.out, "DIR", "Folder to write tables or the recovered session to");
+  list.text("-o,--out", options.out, "DIR", "Folder for tables, the recovered session or the imported one");
   list.flag("--names", options.names, "Export names, query parameters and completion codes, too");
   list.flag("--text", options.text, "Export what people wrote in their own words, too");
   list.flag("--yes", options.yes, "Replace an existing export; with redact: erase for good");
@@ -201,16 +215,18 @@ int run(const SessionOptions& options, Console& console) {
   if (options.action == "export") return write_tables(options, console);
   if (options.action == "replay") return replay_rooms(options, console);
   if (options.action == "redact") return erase_persons(options, console);
+  if (options.action == "import") return import_log(options, console);
   return salvage(options, console);
 }
 
 }  // namespace
 
 void add_session(Commands& commands) {
-  commands.add<SessionOptions>("session", "List, export, replay, redact or recover live sessions",
-                               {"kith session list results/live", "kith session export results/live -o tables",
-                                "kith session replay results/live --room r3"},
-                               declare, run);
+  commands.add<SessionOptions>(
+      "session", "List, export, replay, redact, recover or import live sessions",
+      {"kith session list results/live", "kith session export results/live -o tables",
+       "kith session replay results/live --room r3", "kith session import answers.json -o results/lesson"},
+      declare, run);
 }
 
 }  // namespace kith::cli

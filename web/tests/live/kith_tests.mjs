@@ -29,7 +29,7 @@ const kActs = {
   },
 };
 
-async function until(isSo) {
+export async function until(isSo) {
   const end = Date.now() + 120_000; // the machine may be busy; nothing here is about time
   while (!isSo()) {
     assert.ok(Date.now() < end, `waited in vain until ${isSo}`);
@@ -48,7 +48,7 @@ async function act(person, isRight) {
 }
 
 // Everybody does what their screen asks for until all are at one of the stages. Gives the stages in between.
-async function reach(people, stages, isRight = () => true) {
+export async function reach(people, stages, isRight = () => true) {
   const seen = new Set();
   const isThere = ({ view }) => stages.includes(view.stage);
   while (!people.every(isThere)) {

@@ -1,0 +1,132 @@
+// The room of one person, for a page: requests and replies are JSON texts.
+//
+//   {"do": "open", "inputs": {name: text}, "setup": RoomSetup, "events": [...], "now_us"}   a study and what happened
+//   {"do": "ask", "type", "body", "now_us"}                                                 a command of the person
+//   {"do": "tick", "now_us"}                                                                what is due by the clock
+//   {"do": "teach", "now_us"}                                                               the next lesson
+//   {"do": "world", "key"}, {"do": "texts"}, {"do": "digest"}                               see docs/lesson-files.md
+//
+// All but the last three reply {"events": those that happened, "view", "due_us" or null, "teaching": whether a lesson
+// is waited for, "refusal" or null}. Whatever goes wrong is {"error": text}.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "kith/core/error.hpp"
+#include "kith/live/room.hpp"
+#include "kith/live/world_json.hpp"
+#include "kith/study/study_file.hpp"
+
+namespace kith {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolder = "/study";
+const std::string kPerson = "seat:1";
+
+class Engine {
+ public:
+  Json answer(const Json& request) {
+    const auto what = request.at("do").get<std::string>();
+    if (what == "open") return open(request);
+    if (!room_) throw std::logic_error{"nothing is open"};
+    if (what == "world") return world(request.at("key").get<std::string>());
+    if (what == "texts") return language_json(*study_);
+    if (what == "digest") return {{"digest", room_->digest()}};
+    now_us_ = std::max(now_us_, request.at("now_us").get<std::int64_t>());
+    if (what == "ask") return ask(request.at("type").get<std::string>(), request.value("body", Json::object()));
+    if (what == "tick") return state();
+    if (what == "teach") return teach();
+    throw std::invalid_argument{"what is '" + what + "'?"};
+  }
+
+ private:
+  Json open(const Json& request) {
+    fs::create_directories(kFolder);
+    for (const auto& [name, text] : request.at("inputs").items()) {
+      fs::create_directories((fs::path{kFolder} / name).parent_path());
+      std::ofstream{fs::path{kFolder} / name, std::ios::binary} << text.get<std::string>();
+    }
+    const auto reading = load_study(std::string{kFolder} + "/study.toml");
+    if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
+    study_ = make_live_study(*reading.study, std::make_shared<const Atlas>(*reading.domain), kFolder);
+    cache_ = std::make_unique<TeachingCache>(study_->atlas);
+    room_.emplace(study_, room_setup(request.at("setup")), *cache_);
+    now_us_ = request.at("now_us").get<std::int64_t>();
+    for (const auto& event : request.value("events", Json::array())) room_->apply(room_event(event), *cache_);
+    if (room_->seq() == 0) decide({"server", "join", {{"seat", 1}}, {}});
+    decide({"server", "present", {{"seat", 1}}, {}});
+    return state();
+  }
+
+  Json ask(const std::string& type, Json body) {
+    const auto refusal = decide({kPerson, type, std::move(body), {}});
+    auto reply = state();
+    if (refusal) reply["refusal"] = {{"reason", refusal->reason}, {"text", refusal->text}};
+    return reply;
+  }
+
+  Json teach() {
+    if (const auto task = room_->teaching()) {
+      const auto lesson = task->run(*cache_);
+      happen(room_->taught(lesson, now_us_), &lesson);
+    }
+    return state();
+  }
+
+  std::optional<Refusal> decide(const RoomCommand& command) {
+    auto decision = room_->decide(command, now_us_);
+    for (const auto& event : decision.events) happen(event);
+    return decision.refusal;
+  }
+
+  void happen(const RoomEvent& event, const TaughtLesson* lesson = nullptr) {
+    room_->apply(event, *cache_, lesson);
+    happened_.push_back(to_json(event));
+  }
+
+  // After what is due by the clock.
+  Json state() {
+    for (auto due = room_->due(now_us_); !due.empty(); due = room_->due(now_us_)) {
+      for (const auto& event : due) happen(event);
+    }
+    const auto next = room_->next_due();
+    Json reply{{"events", std::exchange(happened_, Json::array())},
+               {"view", room_->view({Viewer::Role::kParticipant, 1}, now_us_)},
+               {"due_us", next ? Json{*next} : Json{}},
+               {"teaching", room_->teaching().has_value()},
+               {"refusal", Json{}}};
+    return reply;
+  }
+
+  Json world(const std::string& key) const {
+    const auto number = world_of_key(*study_, key);
+    if (!number) throw std::invalid_argument{"no world " + key};
+    return world_json(*study_, *number);
+  }
+
+  std::shared_ptr<const LiveStudy> study_;
+  std::unique_ptr<TeachingCache> cache_;
+  std::optional<Room> room_;
+  std::int64_t now_us_ = 0;
+  Json happened_ = Json::array();
+};
+
+}  // namespace
+}  // namespace kith
+
+extern "C" const char* kith_engine(const char* request) {
+  static kith::Engine engine;  // one per worker
+  static std::string reply;
+  try {
+    reply = engine.answer(kith::Json::parse(request)).dump(-1, ' ', true, kith::Json::error_handler_t::replace);
+  } catch (const std::exception& error) {
+    reply = kith::Json{{"error", error.what()}}.dump(-1, ' ', true, kith::Json::error_handler_t::replace);
+  }
+  return reply.c_str();
+}

@@ -1,0 +1,48 @@
+// What has happened in a lesson file. It survives a reload where the browser lets pages keep things.
+import { uuid } from '../shared/uuid';
+import type { LessonFile } from './document';
+
+export interface Log {
+  schema: 'kith.lesson-log/1';
+  kith: string; // the version that made the file
+  study: string; // digest of its inputs
+  setup: Record<string, unknown>;
+  events: unknown[];
+  messages: string[]; // of the page that were taken in
+}
+
+const place = (file: LessonFile): string => `kith.lesson.${file.digest}`;
+
+export function emptyLog(file: LessonFile): Log {
+  const setup = { ...file.setup, id: uuid() };
+  return { schema: 'kith.lesson-log/1', kith: file.kith, study: file.digest, setup, events: [], messages: [] };
+}
+
+// Nothing if there is none, or it is one that cannot be gone on with.
+export function recalledLog(file: LessonFile): Log | null {
+  try {
+    const log = JSON.parse(localStorage.getItem(place(file)) ?? 'null') as Log | null;
+    return log?.schema === 'kith.lesson-log/1' && log.study === file.digest && Array.isArray(log.events) ? log : null;
+  } catch {
+    return null;
+  }
+}
+
+/** Whether the browser has kept it. */
+export function keepLog(file: LessonFile, log: Log): boolean {
+  try {
+    localStorage.setItem(place(file), JSON.stringify(log));
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+export function eraseLog(file: LessonFile): void {
+  try {
+    localStorage.removeItem(place(file));
+    sessionStorage.clear();
+  } catch {
+    // nothing was kept
+  }
+}

@@ -1,0 +1,178 @@
+// Takes lessons in a file as people would, without a server, and hands their logs back to kith.
+//
+//   node tests/file_test.mjs --kith PROGRAM [--screenshots DIR] [--modules DIR] [--chromium FILE]
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
+import { launch, requireFrom } from './browser.mjs';
+import { reach, until } from './live/kith_tests.mjs';
+import { Person } from './live/person.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values } = parseArgs({
+  options: {
+    kith: { type: 'string' },
+    screenshots: { type: 'string' },
+    modules: { type: 'string', default: join(here, '..') },
+    chromium: { type: 'string', default: '/usr/bin/chromium' },
+  },
+});
+if (!values.kith) {
+  console.error('usage: node tests/file_test.mjs --kith PROGRAM [--screenshots DIR] [--modules DIR] [--chromium FILE]');
+  process.exit(2);
+}
+const folder = mkdtempSync(join(tmpdir(), 'kith-file-'));
+const axe = readFileSync(requireFrom(values.modules).resolve('axe-core/axe.min.js'), 'utf8');
+const kith = (...words) => execFileSync(values.kith, words, { encoding: 'utf8' });
+const refused = (...words) => {
+  try {
+    kith(...words);
+  } catch ({ stderr }) {
+    return stderr;
+  }
+  return assert.fail('accepted');
+};
+let browser;
+
+// Somebody at a lesson file: what they see is told by the page, since there are no frames to read.
+class Reader extends Person {
+  static async of(name, look = {}) {
+    const { width = 1280, dark = false, reducedMotion = true } = look;
+    const context = await browser.newContext({
+      viewport: { width, height: 900 },
+      colorScheme: dark ? 'dark' : 'light',
+      reducedMotion: reducedMotion ? 'reduce' : 'no-preference',
+      offline: true,
+      acceptDownloads: true,
+    });
+    const page = await context.newPage();
+    const reader = new Reader(context, page, pathToFileURL(join(folder, name)).href);
+    await page.exposeFunction('tellView', (view) => (reader.view = view));
+    await page.addInitScript(() => window.addEventListener('kith-view', ({ detail }) => window.tellView(detail)));
+    page.on('request', (request) => {
+      if (!/^(file|blob|data):/.test(request.url())) reader.trouble.push(`request: ${request.url()}`);
+    });
+    reader.origin = 'null';
+    return reader.open();
+  }
+
+  async open() {
+    await super.open();
+    await until(() => this.view !== null);
+    return this;
+  }
+
+  // Lessons in a file ask for a guess first.
+  async watch() {
+    const skip = this.button('Watch without a guess');
+    if (await skip.isVisible()) await skip.click();
+    await super.watch();
+  }
+
+  table(key) {
+    return this.page.evaluate((name) => window.kithLesson.world(name), key);
+  }
+
+  async reload() {
+    this.view = null;
+    await this.page.reload();
+    await this.page.waitForSelector('h1');
+    await until(() => this.view !== null);
+  }
+
+  async log() {
+    return this.page.evaluate(() => window.kithLesson.log());
+  }
+}
+
+async function withReader(name, look, body) {
+  const reader = await Reader.of(name, look);
+  try {
+    await body(reader);
+    assert.deepEqual(reader.trouble, [], 'requests, console messages or uncaught errors');
+  } finally {
+    await reader.close();
+  }
+}
+
+describe('a lesson in a file', () => {
+  before(async () => {
+    browser = await launch(values.modules, values.chromium);
+    kith('lesson', 'item-delivery', '-o', join(folder, 'delivery.html'));
+  });
+  after(async () => {
+    await browser?.close();
+    rmSync(folder, { recursive: true, force: true });
+  });
+
+  it('is a file that can be sent', () => {
+    assert.ok(statSync(join(folder, 'delivery.html')).size < 1_500_000);
+  });
+
+  it('teaches to the end, reloaded at every stage, and its log is that of a session', async () => {
+    await withReader('delivery.html', {}, async (reader) => {
+      for (const stage of ['check', 'watch', 'predict', 'feedback']) {
+        await reach([reader], [stage], () => false);
+        const { stage: before, progress } = reader.view;
+        await reader.reload();
+        assert.deepEqual([reader.view.stage, reader.view.progress], [before, progress]);
+      }
+      await reach([reader], ['debrief', 'ended']);
+      const log = join(folder, 'answers.json');
+      const saving = reader.page.waitForEvent('download');
+      await reader.button('Save my answers').click();
+      await (await saving).saveAs(log);
+
+      const session = join(folder, 'session');
+      assert.match(kith('session', 'import', log, '-o', session), /replayed \d+ events/);
+      assert.match(kith('session', 'import', log, '-o', session), /already/);
+      assert.match(kith('session', 'replay', session), /all identical/);
+      kith('session', 'export', session, '-o', join(folder, 'tables'));
+
+      // Whoever edits a log is found out.
+      const edited = JSON.parse(readFileSync(log, 'utf8'));
+      const answer = edited.events.find(({ type }) => type === 'answered');
+      answer.body.actions = answer.body.actions.slice(0, -1);
+      writeFileSync(join(folder, 'edited.json'), JSON.stringify(edited));
+      assert.match(refused('session', 'import', join(folder, 'edited.json'), '-o', session), /E1622/);
+      writeFileSync(join(folder, 'cut.json'), readFileSync(log, 'utf8').slice(0, -20));
+      assert.match(refused('session', 'import', join(folder, 'cut.json'), '-o', session), /E1621/);
+    });
+  });
+
+  for (const [width, dark] of [
+    [1280, false],
+    [320, true],
+  ]) {
+    it(`at ${width} px ${dark ? 'dark' : 'light'}: no overflow, nothing serious for axe`, async () => {
+      await withReader('delivery.html', { width, dark }, async (reader) => {
+        for (const stage of ['consent', 'check', 'watch', 'predict', 'feedback']) {
+          await reach([reader], [stage], () => false);
+          await reader.page.waitForSelector(`main.stage-${stage}`);
+          if (values.screenshots) {
+            await reader.page.screenshot({ path: join(values.screenshots, `${stage}-${width}.png`), fullPage: true });
+          }
+          assert.deepEqual(await reader.violations(axe), []);
+          const wide = await reader.page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+          assert.ok(wide <= 0, `${stage} is ${wide} px too wide`);
+        }
+      });
+    });
+  }
+
+  it('forgets everything when told to', async () => {
+    await withReader('delivery.html', {}, async (reader) => {
+      await reach([reader], ['watch']);
+      await reader.button('Start again').click();
+      reader.view = null;
+      await reader.button('Erase and start again').click();
+      await until(() => reader.view?.stage === 'consent');
+      assert.deepEqual((await reader.log()).events.filter(({ type }) => type === 'consented'), []);
+    });
+  });
+});
