@@ -102,7 +102,7 @@ std::string entry_text(const ErrorEntry& entry, const Console& console) {
 
 void declare(OptionList& list, ExplainOptions& options) {
   list.text("topic", options.id, "TOPIC",
-            "An id, such as E0207, or learners, strategies or beliefs; without one, all ids are listed");
+            "An id, such as E0207, or learners, strategies, beliefs or stop-rules; without one, all ids are listed");
 }
 
 int run(const ExplainOptions& options, Console& console) {
@@ -131,7 +131,7 @@ int run(const ExplainOptions& options, Console& console) {
     const auto by_id = nearest_word(id, known);
     const auto nearest = by_id.empty() ? nearest_word(options.id, known) : by_id;
     refuse("kith has no error or warning '" + options.id + "'",
-           nearest.empty() ? "`kith explain` lists all ids; learners, strategies and beliefs are topics"
+           nearest.empty() ? "`kith explain` lists all ids; learners, strategies, beliefs and stop-rules are topics"
                            : "did you mean '" + nearest + "'?");
   }
   console.print(entry_text(*found, console));

@@ -1,4 +1,4 @@
-// The registries of learner models, strategies and rules of aggregation, as `kith explain` and help show them.
+// The registries of learner models, strategies, rules of aggregation and stop rules, as `kith explain` and help show them.
 #include "kind_lists.hpp"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include "kith/belief/aggregation.hpp"
 #include "kith/learners/learner_model.hpp"
 #include "kith/present/wrapped.hpp"
+#include "kith/teaching/stop_rule.hpp"
 #include "kith/teaching/strategy.hpp"
 
 namespace kith::cli {
@@ -37,7 +38,9 @@ std::vector<KindList> kind_lists() {
   for (const auto& kind : strategy_kinds()) strategies.rows.push_back({kind.name, kind.description, kind.parameters});
   KindList beliefs{"beliefs", "teacher.beliefs", {}};
   for (const auto& rule : aggregation_rules()) beliefs.rows.push_back({rule.name, rule.description, {}});
-  return {std::move(learners), std::move(strategies), std::move(beliefs)};
+  KindList stop_rules{"stop-rules", "stop.mastery, and stop.release where a rule says who is done", {}};
+  for (const auto& kind : stop_rule_kinds()) stop_rules.rows.push_back({kind.name, kind.description, kind.parameters});
+  return {std::move(learners), std::move(strategies), std::move(beliefs), std::move(stop_rules)};
 }
 
 std::string to_text(const KindList& list, const Console& console) {

@@ -22,7 +22,7 @@ struct KindList {
   std::vector<Row> rows;
 };
 
-/// All registries whose rows study files name: learner models, strategies, beliefs about the team.
+/// All registries whose rows study files name: learner models, strategies, beliefs about the team, stop rules.
 [[nodiscard]] std::vector<KindList> kind_lists();
 
 /// Every row with its parameters: name, type, range, default, meaning, source.

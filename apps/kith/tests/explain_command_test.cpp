@@ -348,7 +348,7 @@ TEST(ExplainCommand, ListsKindsWithTheirParameters) {
     for (std::sregex_iterator it{text.begin(), text.end(), parameter}, end; it != end; ++it)
       EXPECT_THAT(help, HasSubstr((*it)[1].str()));
   }
-  EXPECT_THAT(run_kith({"explain", "strategy"}).err, HasSubstr("learners, strategies and beliefs are topics"));
+  EXPECT_THAT(run_kith({"explain", "strategy"}).err, HasSubstr("learners, strategies, beliefs and stop-rules are topics"));
 }
 
 // Every id that a source can report is explained, only once, and no other.

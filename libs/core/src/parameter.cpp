@@ -38,6 +38,8 @@ bool is_in_range(const Parameter& parameter, double value) {
   return above && below;
 }
 
+}  // namespace
+
 bool is_possible(const Parameter& parameter, const ParameterValue& value) {
   if (value.index() != parameter.default_value.index()) return false;
   if (const auto* real = std::get_if<double>(&value)) return is_in_range(parameter, *real);
@@ -54,8 +56,6 @@ bool is_possible(const Parameter& parameter, const ParameterValue& value) {
   }
   return true;
 }
-
-}  // namespace
 
 std::string type_of(const Parameter& parameter) {
   if (is<double>(parameter)) return "a number";

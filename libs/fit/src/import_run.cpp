@@ -113,7 +113,7 @@ class RunImport {
                                    "demonstration conveyed to them",
                                    study_file, 0, "set teacher.learner_counterfactuals = \"teacher\"")}};
       }
-      if (variant.teaching.release != ReleaseRule::kNone) {
+      if (variant.teaching.release) {
         throw Error{{detail::fault("E0713", "people were released from components, which the method does not describe",
                                    study_file, 0, "fit a run without stop.release")}};
       }

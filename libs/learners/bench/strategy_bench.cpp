@@ -30,7 +30,7 @@ void BM_Period(benchmark::State& state, const std::string& strategy) {
               .ability = 0.7 + 0.05 * static_cast<double>(person), .confirm_gain = 0.02, .correct_gain = 0.05},
           LikelihoodForm::kDiscontinuous, stream.split("learner")));
     }
-    Session session{cache, {.mastery = MasteryRule::kFixed}, choice, streams, RandomStream{1}.split(team++)};
+    Session session{cache, {.mastery = stop_rule_named("fixed")}, choice, streams, RandomStream{1}.split(team++)};
     while (choice.kind.needs_truth ? session.propose(cache, truth_about(session, learners)) : session.propose(cache)) {
       run_period(session, cache, learners);
       ++periods;

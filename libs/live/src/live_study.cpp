@@ -70,7 +70,7 @@ void require_teachable(const std::vector<StrategyChoice>& strategies) {
 // What sessions of people cannot do.
 void require_whole_group(const StudySpec& spec) {
   std::string key;
-  if (spec.teaching.release != ReleaseRule::kNone) key = "stop.release";
+  if (spec.teaching.release) key = "stop.release";
   if (spec.grouping != Grouping::kTogether) key = "teacher.grouping";
   if (key.empty()) return;
   throw Error{ErrorKind::kInvalidInput, "'" + key + "' works in simulated studies only: remove it to teach people"};

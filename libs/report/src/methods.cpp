@@ -243,25 +243,6 @@ class Paragraph {
         (options.reduce_before_update ? ", reduced to the minimal set of their half-spaces." : "."));
   }
 
-  [[nodiscard]] std::string until() const {
-    const auto& options = spec_.teaching;
-    switch (options.mastery) {
-      case MasteryRule::kFixed:
-        return "for " + counted(options.periods_per_component, "period");
-      case MasteryRule::kPosterior:
-        return "until the estimated probability that all members answer a random test correctly was " +
-               shortest(options.probability);
-      case MasteryRule::kExam:
-        return "until every member was expected to predict the robot from at least " + shortest(options.share_right) +
-               " of the component's start states";
-      case MasteryRule::kAllRight:
-        break;
-    }
-    return "until every member answered all tests correctly in " +
-           (options.consecutive_correct == 1 ? "a period"
-                                             : std::to_string(options.consecutive_correct) + " periods in a row");
-  }
-
   void teaching() {
     const auto& options = spec_.teaching;
     say("Demonstrations were chosen by the information that they convey" + cite_("brown2019machine") + " to " +
@@ -270,16 +251,12 @@ class Paragraph {
         " from the belief of the strategy" +
         (spec_.learner_counterfactuals_self ? "; learners interpreted them with counterfactuals from their own beliefs."
                                             : "."));
-    say("A knowledge component was taught " + until() +
+    say("A knowledge component was taught " + options.mastery.kind.until(options, options.mastery.parameters) +
         (options.duplicate_sets == 1 ? ""
                                      : ", with " + std::to_string(options.duplicate_sets) + " sets of tests each") +
         "; teaching ended after at most " + counted(options.max_periods, "period") + ".");
-    if (options.release != ReleaseRule::kNone) {
-      say(std::string{"Members who "} +
-          (options.release == ReleaseRule::kAllRight
-               ? "had answered all tests correctly"
-               : "were estimated to answer a random test correctly with a probability of at least " +
-                     shortest(options.probability)) +
+    if (options.release) {
+      say("Members who " + options.release->kind.released(options, options.release->parameters) +
           " had no part in the remaining periods of a component.");
     }
     if (spec_.grouping == Grouping::kByType) say("The members of each learner type had a session of their own.");

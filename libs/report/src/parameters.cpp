@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "kith/study/study_keys.hpp"
 #include "kith/toml/document.hpp"
 
 namespace kith::detail {
@@ -30,50 +31,6 @@ constexpr std::array kMeanings{
     Meaning{"learner.*.label", "what people of this type are called"},
     Meaning{"learner.*.kind", "learner model: how people of this type learn and answer"},
     Meaning{"learner.*.prior", "half-spaces that people of this type know from the start"},
-    Meaning{"teacher.particles", "particles of each of the teacher's beliefs"},
-    Meaning{"teacher.counterfactuals", "weights drawn from the belief to simulate what people expect (N)"},
-    Meaning{"teacher.counterfactual_sampling",
-            "how they are drawn: 'systematic' by mass, 'spread' far from each other"},
-    Meaning{"teacher.assumed_ability", "ability (beta) that the teacher assumes for everybody"},
-    Meaning{"teacher.likelihood", "form of the likelihood of a half-space: 'discontinuous' or 'continuous'"},
-    Meaning{"teacher.process_noise", "bandwidth factor of the kernel that moves particles after resampling (eta)"},
-    Meaning{"teacher.response_noise", "blur of the teacher's beliefs after test answers, in radians per axis (nu)"},
-    Meaning{"teacher.resample_below",
-            "beliefs are resampled when the effective sample size falls below this share of the particles"},
-    Meaning{"teacher.beliefs", "rules by which beliefs about the whole team are kept"},
-    Meaning{"teacher.reduce_before_update",
-            "whether the common belief gets only the minimal set of the half-spaces that answers show"},
-    Meaning{"teacher.learner_counterfactuals",
-            "whose expectations say what a demonstration conveys to a person: the teacher's counterfactuals, or the "
-            "person's own ('self')"},
-    Meaning{"teacher.review", "whether every component is taught as if nothing had been taught before"},
-    Meaning{"teacher.scaffold", "'features': components one after the other; 'none': the last one alone"},
-    Meaning{"teacher.max_demonstrations", "demonstrations per lesson at most; 0: as many as the strategy wants"},
-    Meaning{"teacher.objective", "what strategies that look ahead maximise"},
-    Meaning{"teacher.hypotheses",
-            "what the teacher's hypotheses about a member differ in: 'ability' or 'known-components'"},
-    Meaning{"teacher.grouping", "'together': one session for the whole team; 'by-type': one for each learner type"},
-    Meaning{"stop.release", "who leaves a component before the team does: 'none', 'all-right' or 'posterior'"},
-    Meaning{"pace.demonstration_s", "seconds that a demonstration is assumed to take"},
-    Meaning{"pace.test_s", "seconds that a test is assumed to take"},
-    Meaning{"pace.feedback_s", "seconds that the feedback about a test is assumed to take"},
-    Meaning{"stop.mastery", "when a component has been taught enough: 'all-right', 'fixed', 'posterior' or 'exam'"},
-    Meaning{"stop.periods_per_component", "periods of every component, with mastery 'fixed'"},
-    Meaning{"stop.probability",
-            "with mastery 'posterior', the probability that all members answer a random test correctly"},
-    Meaning{"stop.share_right",
-            "with mastery 'exam', the share of a component's starts that everybody is expected to predict correctly"},
-    Meaning{"stop.min_periods", "periods of a component at least, with mastery 'posterior' or 'exam'"},
-    Meaning{"stop.max_periods", "periods after which a session ends at the latest"},
-    Meaning{"stop.consecutive_correct", "consecutive periods in which everybody must answer all tests correctly"},
-    Meaning{"stop.duplicate_sets", "different sets of tests in a period"},
-    Meaning{"record.beliefs", "whether tables say how well the particles of beliefs could represent what was shown"},
-    Meaning{"record.estimates", "whether tables have what the teacher can tell about people, beside the truth"},
-    Meaning{"record.exam", "when simulated people are examined over all starts: 'none', 'end' or 'period'"},
-    Meaning{"record.exam_questions", "questions of the exam that everybody answers at the end"},
-    Meaning{"record.forecast", "imagined sessions of each cell, for forecasts"},
-    Meaning{"record.level", "how much is recorded about every team"},
-    Meaning{"record.proficient_ability", "ability from which a member counts as proficient in the estimates"},
 };
 
 // Whether the key is one that the pattern stands for.
@@ -103,6 +60,14 @@ std::optional<std::string> meaning_of_parameter(std::string_view key, const Lear
   return std::nullopt;
 }
 
+// "stop.probability" of the parameter probability.
+std::optional<std::string> meaning_in(std::span<const Parameter> keys, std::string_view table, std::string_view key) {
+  for (const auto& one : keys) {
+    if (std::string{table}.append(".").append(one.name) == key) return std::string{one.description};
+  }
+  return std::nullopt;
+}
+
 std::string text_of(const TomlValue& value) {
   if (const auto* text = value.string()) return *text;
   const auto* array = value.array();
@@ -114,7 +79,7 @@ std::string text_of(const TomlValue& value) {
 
 class Parameters {
  public:
-  explicit Parameters(const std::vector<LearnerType>& types) : types_{types} {}
+  explicit Parameters(const StudySpec& spec) : spec_{spec} {}
 
   // @param domain  what the study called its domain before it was frozen; may be empty.
   void add_study(const TomlTable& root, const std::string& domain) {
@@ -167,32 +132,41 @@ class Parameters {
     }
   }
   void add(const std::string& group, const std::string& key, const std::string& value) {
-    const auto type = std::find_if(types_.begin(), types_.end(), [&](const LearnerType& one) {
+    const auto& types = spec_.learner_types;
+    const auto type = std::find_if(types.begin(), types.end(), [&](const LearnerType& one) {
       return group == std::string{"learner."} + one.letter;
     });
-    const auto meaning = meaning_of(group + "." + key, type == types_.end() ? bayesian_model() : *type->model);
+    const auto& model = type == types.end() ? bayesian_model() : *type->model;
+    const auto meaning = meaning_of(group + "." + key, model, spec_.teaching);
     table_.add(Json::array({group, key, value, meaning.value_or("")}));
   }
   void add_fact(const std::string& key, const std::string& value, const std::string& meaning) {
     table_.add(Json::array({"domain", key, value, meaning}));
   }
 
-  const std::vector<LearnerType>& types_;
+  const StudySpec& spec_;
   JsonTable table_{{"group", "key", "value", "meaning"}};
 };
 
 }  // namespace
 
-std::optional<std::string> meaning_of(std::string_view key, const LearnerModel& model) {
+std::optional<std::string> meaning_of(std::string_view key, const LearnerModel& model,
+                                      const TeachingOptions& teaching) {
   for (const auto& meaning : kMeanings) {
     if (matches(key, meaning.key)) return std::string{meaning.words};
+  }
+  const auto table = key.substr(0, key.find('.'));
+  if (auto meaning = meaning_in(study_keys(table), table, key)) return meaning;
+  for (const auto* rule : {&teaching.mastery, teaching.release ? &*teaching.release : nullptr}) {
+    if (rule == nullptr) continue;
+    if (auto meaning = meaning_in(rule->kind.parameters, "stop", key)) return meaning;
   }
   const auto dot = key.rfind("learner.", 0) == 0 ? key.find('.', std::string_view{"learner."}.size()) : key.npos;
   return dot == key.npos ? std::nullopt : meaning_of_parameter(key.substr(dot + 1), model);
 }
 
 Json parameters_table(const RunFiles& run) {
-  Parameters parameters{run.types()};
+  Parameters parameters{run.spec()};
   parameters.add_study(parse_toml(run.study_toml, "study.toml").document.value().root, manifest_text(run, "domain"));
   parameters.add_domain(run.domain);
   return std::move(parameters).take();

@@ -9,8 +9,10 @@
 namespace kith::detail {
 
 // What a key of a resolved study means, in words: "learner.N.ability.sd" -> "standard deviation of the initial
-// ability"; nothing for a key that is not known. Parameters of learners are those of `model`.
-[[nodiscard]] std::optional<std::string> meaning_of(std::string_view key, const LearnerModel& model = bayesian_model());
+// ability"; nothing for a key that is not known. Parameters of learners are those of `model`, of stop rules those of
+// `teaching`.
+[[nodiscard]] std::optional<std::string> meaning_of(std::string_view key, const LearnerModel& model = bayesian_model(),
+                                                    const TeachingOptions& teaching = {});
 
 // Every parameter of the run, resolved: columns group, key, value, meaning.
 [[nodiscard]] Json parameters_table(const RunFiles& run);

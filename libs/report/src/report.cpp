@@ -344,7 +344,7 @@ Json document_of(const std::filesystem::path& folder, const ReportOptions& optio
   const auto step = [&](std::string_view text) {
     if (options.on_step) options.on_step(text);
   };
-  const auto run = open_run(folder);
+  const auto run = open_run(folder, options.kinds);
   const auto design = design_of(run);
   step("planning the robot's paths");
   const Atlas atlas{run.domain};

@@ -4,9 +4,9 @@
 
 namespace kith::detail {
 
-RunFiles open_run(const std::filesystem::path& folder) {
+RunFiles open_run(const std::filesystem::path& folder, const StudyKinds& kinds) {
   auto published = PublishedRun::open(folder);
-  auto reading = read_run_folder(folder);
+  auto reading = read_run_folder(folder, kinds);
   if (!reading.study || !reading.domain) throw Error{reading.diagnostics};
   auto teams = published.missing().empty() ? register_teams(*reading.study)
                                            : register_teams(*reading.study, published.read("tables/teams.csv"),

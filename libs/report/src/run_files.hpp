@@ -29,7 +29,7 @@ struct RunFiles {
 
 // Checks that the folder is a finished run and reads what it says about itself.
 // @throws kith::Error as PublishedRun::open() does.
-[[nodiscard]] RunFiles open_run(const std::filesystem::path& folder);
+[[nodiscard]] RunFiles open_run(const std::filesystem::path& folder, const StudyKinds& kinds);
 
 // The text of one of the run's tables, such as "teams.csv". @throws kith::Error as PublishedRun::read() does.
 [[nodiscard]] std::string table_text(const RunFiles& run, const std::string& table);

@@ -103,6 +103,12 @@ class ParametersReader {
   std::map<std::string_view, std::optional<TomlReader>> inner_;
 };
 
+}  // namespace
+
+ParameterValues read_parameters(TomlReader& table, std::span<const Parameter> declared) {
+  return ParametersReader{table, declared}.read();
+}
+
 TomlValue to_toml_value(const ParameterValue& value) {
   if (const auto* real = std::get_if<double>(&value)) return TomlValue{*real};
   if (const auto* count = std::get_if<std::int64_t>(&value)) return TomlValue{*count};
@@ -113,12 +119,6 @@ TomlValue to_toml_value(const ParameterValue& value) {
   if (spread.half_normal) table.append({"half_normal", {}, TomlValue{*spread.half_normal}});
   if (spread.value) table.append({"value", {}, TomlValue{*spread.value}});
   return TomlValue{std::move(table)};
-}
-
-}  // namespace
-
-ParameterValues read_parameters(TomlReader& table, std::span<const Parameter> declared) {
-  return ParametersReader{table, declared}.read();
 }
 
 void write_parameters(const ParameterValues& values, TomlTable& table) {

@@ -1,7 +1,7 @@
 #include "read_study_spec.hpp"
 
 #include <algorithm>
-#include <numbers>
+#include <array>
 #include <set>
 #include <string_view>
 
@@ -11,11 +11,11 @@
 #include "read_contrasts.hpp"
 #include "read_group.hpp"
 #include "read_prior.hpp"
+#include "study_keys.hpp"
 
 namespace kith {
 namespace {
 
-constexpr std::int64_t kMaxParticles = 1'000'000;
 constexpr std::int64_t kMaxTeamSize = 30;
 
 std::string in_quotes(std::string_view word) { return std::string{"'"}.append(word).append("'"); }
@@ -43,8 +43,8 @@ class SpecReader {
     if (auto design = root_.table("design", Presence::kRequired)) read_design(*design);
     if (auto teacher = root_.table("teacher", Presence::kOptional)) read_teacher(*teacher);
     if (auto stop = root_.table("stop", Presence::kOptional)) read_stop(*stop);
-    if (auto pace = root_.table("pace", Presence::kOptional)) read_pace(*pace);
-    if (auto record = root_.table("record", Presence::kOptional)) read_record(*record);
+    if (auto pace = root_.table("pace", Presence::kOptional)) read_all(*pace, pace_keys());
+    if (auto record = root_.table("record", Presence::kOptional)) read_all(*record, record_keys());
     if (auto group = root_.table("group", Presence::kOptional)) read_group_table(*group);
     if (const auto* contrasts = root_.array("contrast", Presence::kOptional)) {
       spec_.contrasts = read_contrasts(*contrasts, spec_, report_);
@@ -82,9 +82,8 @@ class SpecReader {
   void read_design(TomlReader& design) {
     read_strategies(design);
     read_compositions(design);
-    if (const auto pairing = design.word("pairing", Presence::kOptional, kPairingWords)) {
-      spec_.pairing = *pairing == 0 ? Pairing::kReplicate : Pairing::kNone;
-    }
+    static const std::array pairing{option_key<StudySpec, &StudySpec::pairing>("pairing", "")};
+    read_options(design, std::span<const OptionKey<StudySpec>>{pairing}, spec_);
     design.know("vary");
     design.finish();
   }
@@ -318,62 +317,43 @@ class SpecReader {
   }
 
   void read_teacher(TomlReader& teacher) {
-    auto& options = spec_.teaching;
-    set_if(options.filter.particles, teacher.integer("particles", Presence::kOptional, {1, kMaxParticles}));
-    set_if(options.filter.process_noise, teacher.real("process_noise", Presence::kOptional, {0.0, 10.0}));
-    set_if(options.filter.resample_below, teacher.real("resample_below", Presence::kOptional, {0.0, 1.0}));
-    set_if(options.counterfactuals, teacher.integer("counterfactuals", Presence::kOptional, {1, 100'000}));
-    set_if(options.sampling, teacher.word("counterfactual_sampling", Presence::kOptional, kSamplingWords));
-    set_if(options.assumed_ability, teacher.real("assumed_ability", Presence::kOptional, {0.5, 1.0, false, true}));
-    set_if(options.likelihood, teacher.word("likelihood", Presence::kOptional, kLikelihoodWords));
-    set_if(options.response_noise, teacher.real("response_noise", Presence::kOptional, {0.0, std::numbers::pi}));
+    read_options(teacher, teacher_keys(), spec_.teaching);
+    read_options(teacher, more_teacher_keys(), spec_);
     refuse_conflict(teacher);
-    set_if(options.reduce_before_update, teacher.boolean("reduce_before_update", Presence::kOptional));
-    if (const auto whose = teacher.word("learner_counterfactuals", Presence::kOptional, kCounterfactualWords)) {
-      spec_.learner_counterfactuals_self = *whose == 1;
-    }
-    set_if(options.review, teacher.boolean("review", Presence::kOptional));
-    set_if(options.scaffold, teacher.word("scaffold", Presence::kOptional, kScaffoldWords));
-    set_if(options.max_demonstrations, teacher.integer("max_demonstrations", Presence::kOptional, {0, 1000}));
-    set_if(options.objective, teacher.word("objective", Presence::kOptional, kObjectiveWords));
-    set_if(options.hypotheses_about, teacher.word("hypotheses", Presence::kOptional, kHypothesesWords));
     static_cast<void>(teacher.integer("placement_tests", Presence::kOptional, {0, 0}));  // of earlier run folders
-    set_if(spec_.grouping, teacher.word("grouping", Presence::kOptional, kGroupingWords));
     read_beliefs(teacher);
     teacher.finish();
   }
 
   void read_stop(TomlReader& stop) {
     auto& options = spec_.teaching;
-    set_if(options.mastery, stop.word("mastery", Presence::kOptional, kMasteryWords));
-    set_if(options.periods_per_component, stop.integer("periods_per_component", Presence::kOptional, {1, 100'000}));
-    set_if(options.probability, stop.real("probability", Presence::kOptional, {0.0, 1.0, true, true}));
-    set_if(options.share_right, stop.real("share_right", Presence::kOptional, {0.0, 1.0, true, true}));
-    set_if(options.min_periods, stop.integer("min_periods", Presence::kOptional, {1, 100'000}));
-    set_if(options.max_periods, stop.integer("max_periods", Presence::kOptional, {1, 100'000}));
-    set_if(options.consecutive_correct, stop.integer("consecutive_correct", Presence::kOptional, {1, 1000}));
-    set_if(options.release, stop.word("release", Presence::kOptional, kReleaseWords));
-    set_if(options.duplicate_sets, stop.integer("duplicate_sets", Presence::kOptional, {1, 1000}));
+    read_options(stop, stop_keys(), options);
+    std::vector<const StopRuleKind*> all, releasing;
+    for (const auto& kind : kinds_.stop_rules) {
+      all.push_back(&kind);
+      if (kind.released != nullptr) releasing.push_back(&kind);
+    }
+    if (auto rule = read_stop_rule(stop, "mastery", {}, all)) options.mastery = *std::move(rule);
+    options.release = read_stop_rule(stop, "release", {"none"}, releasing);
     stop.finish();
   }
 
-  void read_pace(TomlReader& pace) {
-    constexpr double kHour = 3600.0;
-    set_if(spec_.pace.demonstration_s, pace.real("demonstration_s", Presence::kOptional, {0.0, kHour}));
-    set_if(spec_.pace.test_s, pace.real("test_s", Presence::kOptional, {0.0, kHour}));
-    set_if(spec_.pace.feedback_s, pace.real("feedback_s", Presence::kOptional, {0.0, kHour}));
-    pace.finish();
+  // Nothing if no kind is named.
+  static std::optional<StopChoice> read_stop_rule(TomlReader& stop, std::string_view key,
+                                                  std::vector<std::string> words,
+                                                  const std::vector<const StopRuleKind*>& kinds) {
+    const auto others = words.size();
+    for (const auto* kind : kinds) words.emplace_back(kind->name);
+    const auto word = stop.word(key, Presence::kOptional, words);
+    if (!word || *word < others) return std::nullopt;
+    const auto& kind = *kinds[*word - others];
+    return StopChoice{kind, read_parameters(stop, kind.parameters)};
   }
 
-  void read_record(TomlReader& record) {
-    set_if(spec_.record, record.word("level", Presence::kOptional, kRecordWords));
-    set_if(spec_.exam, record.word("exam", Presence::kOptional, kExamWords));
-    set_if(spec_.forecast_sessions, record.integer("forecast", Presence::kOptional, {0, 100'000}));
-    set_if(spec_.exam_questions, record.integer("exam_questions", Presence::kOptional, {0, 1000}));
-    set_if(spec_.estimates, record.boolean("estimates", Presence::kOptional));
-    set_if(spec_.beliefs, record.boolean("beliefs", Presence::kOptional));
-    set_if(spec_.proficient_ability, record.real("proficient_ability", Presence::kOptional, {0.5, 1.0}));
-    record.finish();
+  template <typename Keys>
+  void read_all(TomlReader& table, const Keys& keys) {
+    read_options(table, keys, spec_);
+    table.finish();
   }
 
   void read_group_table(TomlReader& group) {

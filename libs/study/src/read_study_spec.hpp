@@ -6,19 +6,7 @@
 
 namespace kith {
 
-/// The words that study files use, in the order of the enumerations.
-inline const std::vector<std::string> kPairingWords{"replicate", "none"};
-inline const std::vector<std::string> kRecordWords{"team", "period", "particles"};
-inline const std::vector<std::string> kExamWords{"none", "end", "period"};
-inline const std::vector<std::string> kScaffoldWords{"features", "none"};
-inline const std::vector<std::string> kObjectiveWords{"right", "regret", "worst-member"};
-inline const std::vector<std::string> kMasteryWords{"all-right", "fixed", "posterior", "exam"};
-inline const std::vector<std::string> kReleaseWords{"none", "all-right", "posterior"};
-inline const std::vector<std::string> kGroupingWords{"together", "by-type"};
-inline const std::vector<std::string> kHypothesesWords{"ability", "known-components", "average"};
-inline const std::vector<std::string> kSamplingWords{"systematic", "spread"};
-inline const std::vector<std::string> kLikelihoodWords{"discontinuous", "continuous"};
-inline const std::vector<std::string> kCounterfactualWords{"teacher", "self"};
+/// The words that study files use.
 inline const std::vector<std::string> kContrastFactorWords{"strategy", "composition"};
 inline const std::vector<std::string> kContrastResponseWords{"periods", "knowledge", "exam_share_right", "exam_regret",
                                                              "exam_worst_share_right"};

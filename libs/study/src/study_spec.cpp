@@ -13,8 +13,8 @@ double minutes_of(const Pace& pace, std::size_t demonstrations, std::size_t test
 }
 
 bool has_costs(const StudySpec& spec) noexcept {
-  return spec.exam != ExamLevel::kNone || spec.grouping != Grouping::kTogether ||
-         spec.teaching.release != ReleaseRule::kNone || spec.forecast_sessions > 0;
+  return spec.exam != ExamLevel::kNone || spec.grouping != Grouping::kTogether || spec.teaching.release.has_value() ||
+         spec.forecast_sessions > 0;
 }
 
 const StrategyChoice& strategy_of(const StudySpec& spec, std::string_view name) {

@@ -6,6 +6,7 @@
 #include "parameters_toml.hpp"
 #include "read_group.hpp"
 #include "read_study_spec.hpp"
+#include "study_keys.hpp"
 
 namespace kith {
 namespace {
@@ -59,7 +60,7 @@ TableWriter design(const Study& study) {
   for (const auto& strategy : spec.strategies) names.push_back(strategy.name);
   table.add("strategies", TomlValue{strings(names)});
   table.add("compositions", TomlValue{strings(spec.compositions)});
-  table.add("pairing", kPairingWords[static_cast<std::size_t>(spec.pairing)]);
+  table.add("pairing", std::string{word_for(spec.pairing)});
   if (!spec.factors.empty()) table.add("vary", vary(study));
   return table;
 }
@@ -116,36 +117,41 @@ TomlArray contrasts(const StudySpec& spec) {
   return array;
 }
 
-TableWriter teacher(const StudySpec& spec) {
-  const auto& options = spec.teaching;
-  TableWriter table;
-  table.add_count("particles", options.filter.particles);
-  table.add_count("counterfactuals", options.counterfactuals);
-  table.add("counterfactual_sampling", kSamplingWords[static_cast<std::size_t>(options.sampling)]);
-  table.add("assumed_ability", options.assumed_ability);
-  table.add("likelihood", kLikelihoodWords[static_cast<std::size_t>(options.likelihood)]);
-  table.add("process_noise", options.filter.process_noise);
-  table.add("response_noise", options.response_noise);
-  table.add("resample_below", options.filter.resample_below);
-  table.add("reduce_before_update", options.reduce_before_update);
-  table.add("review", options.review);
-  table.add("scaffold", kScaffoldWords[static_cast<std::size_t>(options.scaffold)]);
-  table.add_count("max_demonstrations", options.max_demonstrations);
-  table.add("objective", kObjectiveWords[static_cast<std::size_t>(options.objective)]);
-  table.add("hypotheses", kHypothesesWords[static_cast<std::size_t>(options.hypotheses_about)]);
-  table.add("grouping", kGroupingWords[static_cast<std::size_t>(spec.grouping)]);
+TomlValue teacher(const StudySpec& spec) {
+  TomlTable table;
+  write_options(teacher_keys(), spec.teaching, table);
   std::vector<std::string> beliefs;
-  for (const auto& rule : options.rules) beliefs.emplace_back(rule.name);
-  table.add("beliefs", TomlValue{strings(beliefs)});
-  table.add("learner_counterfactuals", kCounterfactualWords[spec.learner_counterfactuals_self ? 1 : 0]);
-  return table;
+  for (const auto& rule : spec.teaching.rules) beliefs.emplace_back(rule.name);
+  const auto more = more_teacher_keys();
+  write_options(more.first(1), spec, table);
+  table.append({"beliefs", {}, TomlValue{strings(beliefs)}});
+  write_options(more.subspan(1), spec, table);
+  return TomlValue{std::move(table)};
+}
+
+TomlValue stop(const TeachingOptions& options) {
+  const auto& mastery = options.mastery;
+  const auto& release = options.release;
+  TomlTable table;
+  table.append({"mastery", {}, TomlValue{std::string{mastery.kind.name}}});
+  write_parameters(mastery.parameters, table);
+  write_options(stop_keys(), options, table);
+  table.append({"release", {}, TomlValue{std::string{release ? release->kind.name : "none"}}});
+  if (release && release->kind.name != mastery.kind.name) write_parameters(release->parameters, table);
+  return TomlValue{std::move(table)};
+}
+
+TomlValue written(std::span<const OptionKey<StudySpec>> keys, const StudySpec& spec) {
+  TomlTable table;
+  write_options(keys, spec, table);
+  return TomlValue{std::move(table)};
 }
 
 }  // namespace
 
 std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   const auto& spec = study.variants.at(0);
-  TableWriter root, learners, stop, pace, record;
+  TableWriter root, learners;
   root.add("schema", std::string{kStudySchema});
   root.add("id", spec.id);
   root.add("title", spec.title);
@@ -159,28 +165,9 @@ std::string to_toml(const Study& study, const Domain& domain, GroupText group) {
   for (const auto& type : types) learners.add(std::string{type.letter}, TomlValue{learner(type, domain)});
   root.add("learner", learners);
   root.add("teacher", teacher(spec));
-  stop.add("mastery", kMasteryWords[static_cast<std::size_t>(spec.teaching.mastery)]);
-  stop.add_count("periods_per_component", spec.teaching.periods_per_component);
-  stop.add("probability", spec.teaching.probability);
-  if (spec.teaching.mastery == MasteryRule::kExam) stop.add("share_right", spec.teaching.share_right);
-  stop.add_count("min_periods", spec.teaching.min_periods);
-  stop.add_count("max_periods", spec.teaching.max_periods);
-  stop.add_count("consecutive_correct", spec.teaching.consecutive_correct);
-  stop.add_count("duplicate_sets", spec.teaching.duplicate_sets);
-  stop.add("release", kReleaseWords[static_cast<std::size_t>(spec.teaching.release)]);
-  root.add("stop", stop);
-  pace.add("demonstration_s", spec.pace.demonstration_s);
-  pace.add("test_s", spec.pace.test_s);
-  pace.add("feedback_s", spec.pace.feedback_s);
-  root.add("pace", pace);
-  record.add("level", kRecordWords[static_cast<std::size_t>(spec.record)]);
-  record.add("exam", kExamWords[static_cast<std::size_t>(spec.exam)]);
-  record.add_count("exam_questions", spec.exam_questions);
-  record.add_count("forecast", spec.forecast_sessions);
-  record.add("estimates", spec.estimates);
-  if (spec.beliefs) record.add("beliefs", true);
-  record.add("proficient_ability", spec.proficient_ability);
-  root.add("record", record);
+  root.add("stop", stop(spec.teaching));
+  root.add("pace", written(pace_keys(), spec));
+  root.add("record", written(record_keys(), spec));
   if (group == GroupText::kWritten && spec.has_group) root.add("group", TomlValue{group_table(spec.group)});
   if (!spec.contrasts.empty()) root.add("contrast", TomlValue{contrasts(spec)});
   return to_toml(std::move(root).take());

@@ -66,7 +66,7 @@ TEST(Cost, OfAWholeTeamIsThatOfEveryMember) {
 
 TEST(Release, SavesTheTimeOfThoseWhoAreDone) {
   auto spec = crew_spec();
-  spec.teaching.release = ReleaseRule::kAllRight;
+  spec.teaching.release = stop_rule_named("all-right");
   std::size_t away = 0;
   for (const auto& team : run_crews({{spec}})) {
     std::size_t periods = 0;

@@ -84,14 +84,14 @@ TEST(StudyFile, GivesEveryKeyItsDocumentedDefault) {
   EXPECT_EQ(spec.teaching.response_noise, 0.05);
   EXPECT_EQ(spec.teaching.filter.resample_below, 0.5);
   EXPECT_EQ(spec.teaching.max_periods, 50u);
-  EXPECT_EQ(spec.teaching.mastery, MasteryRule::kAllRight);
+  EXPECT_EQ(spec.teaching.mastery, stop_rule_named("all-right"));
   EXPECT_EQ(spec.teaching.scaffold, Scaffold::kFeatures);
   EXPECT_EQ(spec.teaching.objective, TeachingObjective::kRight);
   EXPECT_EQ(spec.teaching.max_demonstrations, 0u);
   EXPECT_FALSE(spec.teaching.review);
   EXPECT_EQ(spec.exam, ExamLevel::kNone);
   EXPECT_EQ(spec.grouping, Grouping::kTogether);
-  EXPECT_EQ(spec.teaching.release, ReleaseRule::kNone);
+  EXPECT_EQ(spec.teaching.release, std::nullopt);
   EXPECT_EQ(spec.forecast_sessions, 0u);
   EXPECT_FALSE(spec.estimates);
   EXPECT_EQ(spec.pace, Pace{});
@@ -120,7 +120,7 @@ TEST(StudyFile, ReadsHowLongAndWithWhatPeopleAreTaught) {
     EXPECT_EQ(spec.teaching.scaffold, Scaffold::kNone);
     EXPECT_EQ(spec.teaching.max_demonstrations, 3u);
     EXPECT_EQ(spec.teaching.objective, TeachingObjective::kWorstMember);
-    EXPECT_EQ(spec.teaching.mastery, MasteryRule::kPosterior);
+    EXPECT_EQ(spec.teaching.mastery, stop_rule_named("posterior"));
     EXPECT_EQ(spec.teaching.probability, 0.95);
     EXPECT_EQ(spec.teaching.min_periods, 2u);
     EXPECT_EQ(spec.teaching.periods_per_component, 4u);
@@ -135,7 +135,7 @@ TEST(StudyFile, ReadsWhenTheExamStops) {
   ASSERT_TRUE(first.study) << ::testing::PrintToString(ids(first));
   for (const auto& reading : {parse(text), parse(to_toml(*first.study, *first.domain))}) {
     ASSERT_TRUE(reading.study) << ::testing::PrintToString(ids(reading));
-    EXPECT_EQ(reading.study->variants.front().teaching.mastery, MasteryRule::kExam);
+    EXPECT_EQ(reading.study->variants.front().teaching.mastery, stop_rule_named("exam"));
     EXPECT_EQ(reading.study->variants.front().teaching.share_right, 0.85);
   }
   for (const auto* wrong : {"0", "1", "1.5", "-0.1", "\"high\""}) {
@@ -159,7 +159,7 @@ TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
     const auto& spec = reading.study->variants.front();
     EXPECT_EQ(spec.grouping, Grouping::kByType);
     EXPECT_EQ(spec.teaching.hypotheses_about, HypothesesAbout::kKnownComponents);
-    EXPECT_EQ(spec.teaching.release, ReleaseRule::kPosterior);
+    EXPECT_EQ(spec.teaching.release, stop_rule_named("posterior"));
     EXPECT_EQ(spec.pace, (Pace{8.0, 12.5, 0.0}));
     EXPECT_EQ(spec.forecast_sessions, 50u);
     EXPECT_TRUE(spec.estimates);

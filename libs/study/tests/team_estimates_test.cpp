@@ -30,7 +30,7 @@ StudySpec estimated_spec() {
   spec.strategies = {strategy_named("joint")};
   spec.compositions = {"LH"};
   spec.learner_types = {learner_of_ability('L', 0.62), learner_of_ability('H', 0.92)};
-  spec.teaching.mastery = MasteryRule::kFixed;
+  spec.teaching.mastery = stop_rule_named("fixed");
   spec.teaching.periods_per_component = 3;
   spec.estimates = true;
   return spec;

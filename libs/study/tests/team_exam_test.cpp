@@ -26,7 +26,7 @@ Study examined_study(ExamLevel exam, std::size_t questions = 0, std::string_view
   spec.compositions = {"NN"};
   spec.learner_types = {LearnerType{.letter = 'N', .label = {}}};
   spec.learner_types.front().parameters.set("ability.sd", 0.02);
-  spec.teaching.mastery = MasteryRule::kFixed;
+  spec.teaching.mastery = stop_rule_named("fixed");
   spec.teaching.periods_per_component = 1;
   spec.exam = exam;
   spec.exam_questions = questions;

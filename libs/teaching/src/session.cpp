@@ -118,17 +118,13 @@ Session::Session(TeachingCache& cache, TeachingOptions options, StrategyChoice s
   require(persons_.size() <= kMaxMembers, "a team has at most 30 members");
   require(!choice_.is_baseline() || persons_.size() == 1, "the baseline teaches one person per session");
   require(options_.counterfactuals >= 1, "counterfactuals must be at least 1");
-  require(options_.max_periods >= 1, "max_periods must be at least 1");
-  require(options_.consecutive_correct >= 1, "consecutive_correct must be at least 1");
-  require(options_.periods_per_component >= 1, "periods_per_component must be at least 1");
-  require(options_.min_periods >= 1, "min_periods must be at least 1");
-  require(options_.probability > 0.0 && options_.probability < 1.0, "probability must be between 0 and 1");
-  require(options_.share_right > 0.0 && options_.share_right < 1.0, "share_right must be between 0 and 1");
-  require(options_.duplicate_sets >= 1, "duplicate_sets must be at least 1");
+  for (const auto& key : stop_keys()) {
+    require(is_possible(key.parameter, key.get(options_)),
+            std::string{key.parameter.name} + " must be in " + range_of(key.parameter));
+  }
   taught_before_ = cache.constraints().half_spaces(cache.regions().minimal(atlas_->prior()));
   taught_with_unit_ = taught_before_;
-  make_judged(cache);
-  make_bank(cache);
+  make_rules(cache);
   if (options_.scaffold == Scaffold::kNone && !components_.empty()) {
     component_ = components_.size() - 1;
     std::fill(components_.begin(), components_.end() - 1, ComponentStatus::kSkipped);
@@ -228,32 +224,36 @@ const Lesson* Session::last_of_component(std::size_t component) const {
   return &history_.back().lesson;
 }
 
+TeachingView Session::view(const TeamBelief& belief, std::size_t component) const {
+  return {.atlas = *atlas_,
+          .options = options_,
+          .belief = belief,
+          .history = history_,
+          .last_of_component = last_of_component(component),
+          .taught_region = taught_before_,
+          .visited = visited_,
+          .tie_breaks = tie_breaks_,
+          .period = periods() + 1,
+          .component = component,
+          .bank = bank_ ? &*bank_ : nullptr};
+}
+
 // The lesson of one component; nothing if there is nothing to teach.
 std::optional<Session::Prepared> Session::prepare(TeachingCache& cache, std::size_t component, const TeamBelief& belief,
                                                   std::span<const MemberTruth> truth) const {
   const auto random = teacher_.split("lesson").split(periods()).split(component);
   const auto* last = last_of_component(component);
   Prepared next{{}, {}, visited_, taught_with_unit_};
-  const TeachingView view{.atlas = *atlas_,
-                          .options = options_,
-                          .belief = belief,
-                          .history = history_,
-                          .last_of_component = last,
-                          .taught_region = taught_before_,
-                          .visited = visited_,
-                          .tie_breaks = tie_breaks_,
-                          .period = periods() + 1,
-                          .component = component,
-                          .bank = bank_ ? &*bank_ : nullptr,
-                          .truth = truth};
+  auto seen = view(belief, component);
+  seen.truth = truth;
   UnitSelector select{cache,
-                      view,
+                      seen,
                       {.counterfactuals = options_.counterfactuals,
                        .sampling = options_.sampling,
                        .likelihood = belief.options().likelihood,
                        .max_demonstrations = options_.max_demonstrations}};
   auto strategy = strategy_->clone();
-  auto proposal = strategy->propose(view, select, random.split("demonstrations"));
+  auto proposal = strategy->propose(seen, select, random.split("demonstrations"));
   if (proposal.unit.demonstrations.empty() && last == nullptr) select.complete(proposal.unit, random.split("open"));
   next.strategy = std::move(strategy);
 
@@ -387,7 +387,6 @@ const Feedback& Session::close_tests() {
   unanswered.answered = false;
   std::vector<bool> counts;  // who takes part or had answered before leaving
   std::vector<std::vector<HalfSpace>> shown(num_members());
-  bool everybody = true;
   for (std::size_t i = 0; i < num_members(); ++i) {
     counts.push_back(takes_part(i) || has_answered(i));
     auto& verdicts = feedback.verdicts.emplace_back();
@@ -397,7 +396,6 @@ const Feedback& Session::close_tests() {
     const bool all =
         counts[i] && std::all_of(verdicts.begin(), verdicts.end(), [](const auto& v) { return v.correct; });
     feedback.all_correct.push_back(all);
-    everybody = everybody && (all || !counts[i]);
   }
   if (nobody(counts)) throw Error{ErrorKind::kUsage, "the tests cannot be closed: everybody is away"};
   for (const auto& test : lesson_.tests) add_new(feedback.half_spaces, test.covered);
@@ -405,17 +403,12 @@ const Feedback& Session::close_tests() {
   update_both(belief_, judged_, counts,
               [&](TeamBelief& belief) { feedback.excluded = belief.observe_responses(shown, lesson_.period); });
   inform_bank(feedback, counts);
-  if (judged_) judge_beliefs(feedback, counts);
-  auto done = done_members(feedback, counts);
-  const auto num_counted = static_cast<std::size_t>(std::count(counts.begin(), counts.end(), true));
-  feedback.component_learned = is_enough(everybody, counts) || done.size() == num_counted;
-  if (!feedback.component_learned) feedback.released = std::move(done);
+  auto rows = right_in_a_row_;
+  for (std::size_t i = 0; i < num_members(); ++i) rows[i] = feedback.all_correct[i] ? rows[i] + 1 : 0;
+  decide(feedback, counts, rows);
   events_.push_back(std::move(closed));
-  for (std::size_t i = 0; i < num_members(); ++i) {
-    right_in_a_row_[i] = feedback.all_correct[i] ? right_in_a_row_[i] + 1 : 0;
-  }
+  right_in_a_row_ = std::move(rows);
   feedback_ = std::move(feedback);
-  correct_in_a_row_ = everybody ? correct_in_a_row_ + 1 : 0;
   phase_ = SessionPhase::kFeedback;
   return feedback_;
 }
@@ -453,7 +446,6 @@ void Session::conclude_period(const Feedback& feedback) {
   if (feedback.component_learned) {
     components_[component_] = ComponentStatus::kLearned;
     if (!options_.review) taught_before_ = taught_with_unit_;
-    correct_in_a_row_ = 0;
     std::fill(right_in_a_row_.begin(), right_in_a_row_.end(), 0);
     ++component_;
     std::replace(seats_.begin(), seats_.end(), Seat::kReleased, Seat::kReturning);

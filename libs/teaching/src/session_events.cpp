@@ -78,11 +78,11 @@ void Session::apply(const SessionEvent& event, TeachingCache& cache) {
 
 bool operator==(const Session& a, const Session& b) {
   return a.status_ == b.status_ && a.phase_ == b.phase_ && a.component_ == b.component_ &&
-         a.correct_in_a_row_ == b.correct_in_a_row_ && a.right_in_a_row_ == b.right_in_a_row_ &&
-         a.components_ == b.components_ && a.seats_ == b.seats_ && a.is_new_ == b.is_new_ && a.visited_ == b.visited_ &&
-         a.taught_before_ == b.taught_before_ && a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ &&
-         a.pending_ == b.pending_ && a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ &&
-         a.belief_ == b.belief_ && a.judged_ == b.judged_ && a.bank_ == b.bank_;
+         a.right_in_a_row_ == b.right_in_a_row_ && a.components_ == b.components_ && a.seats_ == b.seats_ &&
+         a.is_new_ == b.is_new_ && a.visited_ == b.visited_ && a.taught_before_ == b.taught_before_ &&
+         a.taught_with_unit_ == b.taught_with_unit_ && a.lesson_ == b.lesson_ && a.pending_ == b.pending_ &&
+         a.feedback_ == b.feedback_ && a.history_ == b.history_ && a.events_ == b.events_ && a.belief_ == b.belief_ &&
+         a.judged_ == b.judged_ && a.bank_ == b.bank_;
 }
 
 }  // namespace kith

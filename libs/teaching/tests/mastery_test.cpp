@@ -35,7 +35,7 @@ std::vector<std::vector<Answer>> answers_to(const Session& session, bool right) 
 TEST(Mastery, FixedTeachesEveryComponentEquallyLong) {
   TeachingCache cache{item_delivery()};
   for (const bool right : {true, false}) {
-    auto session = session_of_two(cache, "plan", {.mastery = MasteryRule::kFixed, .periods_per_component = 2});
+    auto session = session_of_two(cache, "plan", {.mastery = stop_rule_named("fixed"), .periods_per_component = 2});
     while (session.propose(cache)) session.submit(answers_to(session, right));
     EXPECT_EQ(session.status(), SessionStatus::kComplete);
     ASSERT_EQ(session.periods(), 6u);
@@ -46,13 +46,13 @@ TEST(Mastery, FixedTeachesEveryComponentEquallyLong) {
 TEST(Mastery, PosteriorStopsOnceItIsSureEnough) {
   TeachingCache cache{item_delivery()};
   auto periods_for = [&](double probability) {
-    auto session = session_of_two(cache, "plan", {.mastery = MasteryRule::kPosterior, .probability = probability});
+    auto session = session_of_two(cache, "plan", {.mastery = stop_rule_named("posterior"), .probability = probability});
     while (session.propose(cache)) {
       session.submit(answers_to(session, true));
-      EXPECT_GE(session.probability_of_mastery(), 0.0);
-      EXPECT_LE(session.probability_of_mastery(), 1.0);
+      EXPECT_GE(session.level_of_mastery(), 0.0);
+      EXPECT_LE(session.level_of_mastery(), 1.0);
       if (session.history().back().feedback.component_learned) {
-        EXPECT_GE(session.probability_of_mastery(), probability);
+        EXPECT_GE(session.level_of_mastery(), probability);
       }
     }
     return session.periods();
@@ -64,7 +64,7 @@ TEST(Mastery, MinPeriodsHoldsBackThePosterior) {
   TeachingCache cache{item_delivery()};
   const auto periods_of_components = [&](std::size_t min_periods) {
     auto session = session_of_two(
-        cache, "joint", {.mastery = MasteryRule::kPosterior, .probability = 0.01, .min_periods = min_periods});
+        cache, "joint", {.mastery = stop_rule_named("posterior"), .probability = 0.01, .min_periods = min_periods});
     std::vector<std::size_t> periods(3, 0);
     while (session.propose(cache)) {
       ++periods[session.lesson().component];
@@ -83,13 +83,13 @@ TEST(Mastery, ExamStopsOnceEverybodyIsExpectedToPredictEnoughStarts) {
   for (const auto* atlas : {&item_delivery(), &on_demand}) {
     TeachingCache cache{*atlas};
     const auto taught = [&](double share_right, bool right) {
-      auto session = session_of_two(cache, "joint",
-                                    {.mastery = MasteryRule::kExam, .max_periods = 20, .share_right = share_right});
+      auto session = session_of_two(
+          cache, "joint", {.mastery = stop_rule_named("exam"), .max_periods = 20, .share_right = share_right});
       while (session.propose(cache)) {
         session.submit(answers_to(session, right));
-        EXPECT_GT(session.least_share_right(), 0.0);
-        EXPECT_LE(session.least_share_right(), 1.0);
-        EXPECT_EQ(session.history().back().feedback.component_learned, session.least_share_right() >= share_right);
+        EXPECT_GT(session.level_of_mastery(), 0.0);
+        EXPECT_LE(session.level_of_mastery(), 1.0);
+        EXPECT_EQ(session.history().back().feedback.component_learned, session.level_of_mastery() >= share_right);
       }
       return session;
     };
@@ -98,10 +98,10 @@ TEST(Mastery, ExamStopsOnceEverybodyIsExpectedToPredictEnoughStarts) {
     EXPECT_EQ(lenient.status(), SessionStatus::kComplete);
     EXPECT_GE(taught(0.5, false).periods(), lenient.periods());
     auto again =
-        session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .max_periods = 20, .share_right = 0.999});
+        session_of_two(cache, "joint", {.mastery = stop_rule_named("exam"), .max_periods = 20, .share_right = 0.999});
     for (const auto& event : strict.events()) again.apply(event, cache);
     EXPECT_EQ(again, strict);
-    EXPECT_EQ(again.least_share_right(), strict.least_share_right());
+    EXPECT_EQ(again.level_of_mastery(), strict.level_of_mastery());
   }
 }
 
@@ -109,14 +109,16 @@ TEST(Mastery, ExamStopsOnceEverybodyIsExpectedToPredictEnoughStarts) {
 TEST(Mastery, ExamJudgesBeliefsWithoutResponseNoise) {
   TeachingCache cache{item_delivery()};
   auto session = session_of_two(
-      cache, "joint", {.response_noise = 0.5, .mastery = MasteryRule::kExam, .max_periods = 20, .share_right = 0.9});
+      cache, "joint",
+      {.response_noise = 0.5, .mastery = stop_rule_named("exam"), .max_periods = 20, .share_right = 0.9});
   while (session.propose(cache)) session.submit(answers_to(session, true));
   EXPECT_EQ(session.status(), SessionStatus::kComplete);
 }
 
 TEST(Mastery, MinPeriodsHoldsBackTheExam) {
   TeachingCache cache{item_delivery()};
-  auto session = session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .share_right = 0.01, .min_periods = 2});
+  auto session =
+      session_of_two(cache, "joint", {.mastery = stop_rule_named("exam"), .share_right = 0.01, .min_periods = 2});
   while (session.propose(cache)) session.submit(answers_to(session, true));
   EXPECT_EQ(session.periods(), 6u);
 }
@@ -124,7 +126,7 @@ TEST(Mastery, MinPeriodsHoldsBackTheExam) {
 TEST(Mastery, ExamNeedsAShareBetweenNothingAndEverything) {
   TeachingCache cache{item_delivery()};
   for (const double share : {0.0, 1.0, -0.5, 2.0}) {
-    EXPECT_THROW((session_of_two(cache, "joint", {.mastery = MasteryRule::kExam, .share_right = share})),
+    EXPECT_THROW((session_of_two(cache, "joint", {.mastery = stop_rule_named("exam"), .share_right = share})),
                  std::invalid_argument);
   }
 }
@@ -141,7 +143,7 @@ std::vector<std::vector<Answer>> answers_of_two_speeds(const Session& session) {
 
 TEST(Release, SendsMembersAwayUntilTheNextComponent) {
   TeachingCache cache{item_delivery()};
-  auto session = session_of_two(cache, "joint", {.release = ReleaseRule::kAllRight});
+  auto session = session_of_two(cache, "joint", {.release = stop_rule_named("all-right")});
   std::vector<std::size_t> present;
   while (session.propose(cache)) {
     present.push_back((session.takes_part(0) ? 1u : 0u) + (session.takes_part(1) ? 1u : 0u));
@@ -152,7 +154,7 @@ TEST(Release, SendsMembersAwayUntilTheNextComponent) {
   EXPECT_EQ(session.history()[0].feedback.released, std::vector<std::size_t>{0});
   EXPECT_TRUE(session.history()[1].answers[0].empty());
   // Repeating the events gives the same session: releasing is no event.
-  auto again = session_of_two(cache, "joint", {.release = ReleaseRule::kAllRight});
+  auto again = session_of_two(cache, "joint", {.release = stop_rule_named("all-right")});
   for (const auto& event : session.events()) again.apply(event, cache);
   EXPECT_EQ(again, session);
 }
@@ -160,7 +162,7 @@ TEST(Release, SendsMembersAwayUntilTheNextComponent) {
 // Those who are released do not have to be right again: everybody needs to be right once.
 TEST(Release, NeedsNoPeriodInWhichAllAreRight) {
   TeachingCache cache{item_delivery()};
-  const auto periods = [&](ReleaseRule release) {
+  const auto periods = [&](std::optional<StopChoice> release) {
     auto session = session_of_two(cache, "joint", {.max_periods = 30, .release = release});
     while (session.propose(cache)) {
       auto answers = answers_to(session, true);
@@ -170,17 +172,17 @@ TEST(Release, NeedsNoPeriodInWhichAllAreRight) {
     }
     return session.periods();
   };
-  EXPECT_EQ(periods(ReleaseRule::kNone), 30u);
-  EXPECT_EQ(periods(ReleaseRule::kAllRight), 6u);
+  EXPECT_EQ(periods(std::nullopt), 30u);
+  EXPECT_EQ(periods(stop_rule_named("all-right")), 6u);
 }
 
 TEST(Release, ByThePosteriorEndsTheComponentOnceEverybodyIsDone) {
   TeachingCache cache{item_delivery()};
   auto session = session_of_two(cache, "joint",
-                                {.mastery = MasteryRule::kFixed,
+                                {.mastery = stop_rule_named("fixed"),
                                  .periods_per_component = 9,
                                  .probability = 0.5,
-                                 .release = ReleaseRule::kPosterior});
+                                 .release = stop_rule_named("posterior")});
   while (session.propose(cache)) session.submit(answers_to(session, true));
   EXPECT_LT(session.periods(), 27u);
   EXPECT_EQ(session.status(), SessionStatus::kComplete);

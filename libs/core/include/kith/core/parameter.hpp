@@ -24,14 +24,14 @@ using ParameterValue = std::variant<double, std::int64_t, bool, std::string, Spr
 /// A parameter of a learner model, a strategy or another row of a registry. It is declared once; study files,
 /// manifests, reports, help and docs take its name, type, default and range from here.
 struct Parameter {
-  std::string_view name;         ///< Key in a study file; "ability.mean" is the key `mean` of the table `ability`.
-  ParameterValue default_value;  ///< Its alternative is the type of the parameter.
-  std::string_view description;  ///< One sentence without a full stop.
-  double min = 0.0;              ///< Of numbers, and of both numbers of a Spread.
-  double max = 1.0;              ///< The same.
-  bool min_is_open = false;      ///< Whether `min` itself is out of range.
-  bool max_is_open = false;      ///< Whether `max` itself is out of range.
-  bool is_required = false;      ///< Whether a study file has to set it.
+  std::string_view name;           ///< Key in a study file; "ability.mean" is the key `mean` of the table `ability`.
+  ParameterValue default_value{};  ///< Its alternative is the type of the parameter.
+  std::string_view description;    ///< One sentence without a full stop.
+  double min = 0.0;                ///< Of numbers, and of both numbers of a Spread.
+  double max = 1.0;                ///< The same.
+  bool min_is_open = false;        ///< Whether `min` itself is out of range.
+  bool max_is_open = false;        ///< Whether `max` itself is out of range.
+  bool is_required = false;        ///< Whether a study file has to set it.
   std::span<const std::string_view> words{};  ///< Of a string: what it may be.
   std::string_view source{};  ///< Key in docs/references.bib of where the default comes from; may be empty.
 };
@@ -40,6 +40,8 @@ struct Parameter {
 [[nodiscard]] std::string type_of(const Parameter& parameter);
 /// "[0, 1]", "(0.5, 1]"; empty if it has no range. Infinite ends are written as "inf".
 [[nodiscard]] std::string range_of(const Parameter& parameter);
+/// Whether the parameter can have this value: of its type, in its range, one of its words.
+[[nodiscard]] bool is_possible(const Parameter& parameter, const ParameterValue& value);
 /// "0.05", "true", "fast", "{ half_normal = 0.05 }": as in a study file, but without quotes.
 [[nodiscard]] std::string to_string(const ParameterValue& value);
 

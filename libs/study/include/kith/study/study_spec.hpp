@@ -83,6 +83,7 @@ struct StudyKinds {
   LearnerModels learners = learner_models();                     ///< `learner.X.kind`; the first is the default.
   std::span<const StrategyKind> strategies = strategy_kinds();   ///< `design.strategies` and `strategy.X.kind`.
   std::span<const AggregationRule> rules = aggregation_rules();  ///< `teacher.beliefs`.
+  std::span<const StopRuleKind> stop_rules = stop_rule_kinds();  ///< `stop.mastery` and `stop.release`.
 };
 
 /// A study as it will be run: every key of a study file, resolved, for one

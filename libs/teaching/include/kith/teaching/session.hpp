@@ -141,12 +141,8 @@ class Session {
   [[nodiscard]] const TeamBelief& belief() const noexcept { return belief_; }
   /// Who the members may be, if the options, the strategy or the stopping rule ask for it; null otherwise.
   [[nodiscard]] const TeamBank* bank() const noexcept { return bank_ ? &*bank_ : nullptr; }
-  /// MasteryRule::kPosterior: the probability that all members answer a random test of the last component right, when
-  /// its tests were closed last; 0 before.
-  [[nodiscard]] double probability_of_mastery() const noexcept { return mastery_; }
-  /// MasteryRule::kExam: the smallest share of the last component's starts that a member is expected to predict right
-  /// after the feedback, when its tests were closed last; 0 before.
-  [[nodiscard]] double least_share_right() const noexcept { return least_share_right_; }
+  /// What TeachingOptions::mastery went by when tests were closed last, StopVerdict::level; 0 before.
+  [[nodiscard]] double level_of_mastery() const noexcept { return level_; }
   /// R_n at the end of the last learned component: minimal, with the prior; sorted.
   [[nodiscard]] const std::vector<HalfSpace>& taught_region() const noexcept { return taught_before_; }
 
@@ -174,16 +170,11 @@ class Session {
   [[nodiscard]] const Lesson* last_of_component(std::size_t component) const;
   [[nodiscard]] bool awaits_newcomer() const;
   void admit_newcomers(TeachingCache& cache);
-  void make_bank(TeachingCache& cache);
+  void make_rules(TeachingCache& cache);
   [[nodiscard]] bool is_anything_open(TeachingCache& cache, std::size_t component) const;
   void inform_bank(const Feedback& feedback, const std::vector<bool>& present);
-  [[nodiscard]] bool reads_beliefs() const;
-  void make_judged(TeachingCache& cache);
-  void judge_beliefs(const Feedback& feedback, const std::vector<bool>& present);
-  [[nodiscard]] std::size_t periods_of_component() const;
-  [[nodiscard]] bool is_enough(bool everybody_right, const std::vector<bool>& present) const;
-  [[nodiscard]] bool shows_learning(const std::vector<bool>& present) const;
-  [[nodiscard]] std::vector<std::size_t> done_members(const Feedback& feedback, const std::vector<bool>& present);
+  void decide(Feedback& feedback, const std::vector<bool>& counted, std::span<const std::size_t> rows);
+  [[nodiscard]] TeachingView view(const TeamBelief& belief, std::size_t component) const;
   void conclude_period(const Feedback& feedback);
 
   std::shared_ptr<const Atlas> atlas_;
@@ -194,19 +185,16 @@ class Session {
   std::vector<std::uint64_t> tie_breaks_;
   RandomStream teacher_;
   TeamBelief belief_;
-  std::optional<TeamBelief> judged_;  // about every member, without response noise; if reads_beliefs()
+  // About every member, without response noise, if a rule reads it; and what ends components and releases members.
+  std::optional<TeamBelief> judged_;
+  std::shared_ptr<const StopRule> mastery_;
+  std::shared_ptr<const StopRule> release_;  // null: nobody is released
+  double level_ = 0.0;
   std::optional<TeamBank> bank_;
-  std::shared_ptr<const Exam> exam_;  // what MasteryRule::kPosterior judges by
-  double mastery_ = 0.0;
-  // Per component what MasteryRule::kExam judges by, or kPosterior where there are no tables.
-  std::vector<std::shared_ptr<const StartSample>> starts_;
-  double least_share_right_ = 0.0;
-  std::vector<double> right_alone_;  // per member, of a random test: for ReleaseRule::kPosterior without tables
 
   SessionStatus status_ = SessionStatus::kRunning;
   SessionPhase phase_ = SessionPhase::kProposal;
   std::size_t component_ = 0;
-  std::size_t correct_in_a_row_ = 0;
   std::vector<std::size_t> right_in_a_row_;  // of every member
   std::vector<ComponentStatus> components_;
   std::vector<Seat> seats_;

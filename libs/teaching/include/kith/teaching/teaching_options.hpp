@@ -1,13 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "kith/belief/aggregation.hpp"
 #include "kith/belief/likelihood.hpp"
 #include "kith/belief/particle_belief.hpp"
+#include "kith/core/option_key.hpp"
 #include "kith/teaching/demonstration_selection.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
+#include "kith/teaching/stop_rule.hpp"
 
 namespace kith {
 
@@ -24,32 +28,11 @@ enum class TeachingObjective {
   kWorstMember,  ///< The tests that the member who is expected to do worst answers right.
 };
 
-/// When a component has been taught enough.
-enum class MasteryRule {
-  kAllRight,   ///< When everybody answered all tests right, `consecutive_correct` periods in a row [jayaraman2024].
-  kFixed,      ///< After `periods_per_component` periods, whatever the answers.
-  kPosterior,  ///< When the probability that all members answer a random test of the component right is at least
-               ///< `probability`, and their answers tell them from people who do not learn: of these at most a share of
-               ///< (1 - probability) / 5 ever gives such answers; see TeamBank.
-  kExam,       ///< When every member is expected to predict the robot right from at least `share_right` of the
-               ///< component's starts, under the teacher's belief about the member without `response_noise`; see
-               ///< StartSample.
-};
-
 /// What the hypotheses of a LearnerBank differ in.
 enum class HypothesesAbout {
   kAbility,          ///< How well people learn: TeachingOptions::hypotheses.
   kKnownComponents,  ///< Which components they know beforehand: grid_of_known_components().
   kNothing,          ///< Nothing: everybody is taken for a person of average ability, one_hypothesis().
-};
-
-/// Which members are done with a component before the team is. They have no part in its remaining periods and return
-/// with the next component. Once nobody is left, the component counts as learned, whatever MasteryRule says.
-enum class ReleaseRule {
-  kNone,       ///< Nobody: all members take part in all periods [jayaraman2024].
-  kAllRight,   ///< Who answered all tests right, `consecutive_correct` periods in a row.
-  kPosterior,  ///< Who answers a random test of the component right with at least `probability`, and shows by the
-               ///< answers that lessons reach the person, as with MasteryRule::kPosterior; see LearnerBank.
 };
 
 /// How a group is taught; every field is a key of the study file.
@@ -68,14 +51,17 @@ struct TeachingOptions {
   std::size_t max_demonstrations = 0;  ///< per lesson; 0: as many as the strategy wants
   TeachingObjective objective = TeachingObjective::kRight;
 
-  MasteryRule mastery = MasteryRule::kAllRight;
-  std::size_t max_periods = 50;           ///< >= 1
-  std::size_t consecutive_correct = 1;    ///< kAllRight: periods in a row that everybody must answer all right, >= 1
-  std::size_t periods_per_component = 3;  ///< kFixed: >= 1
-  double probability = 0.9;               ///< kPosterior: in (0, 1)
-  double share_right = 0.9;               ///< kExam: in (0, 1)
-  std::size_t min_periods = 1;            ///< kPosterior and kExam: periods of a component at least, >= 1
-  ReleaseRule release = ReleaseRule::kNone;
+  StopChoice mastery = stop_rule_named("all-right");  ///< When a component has been taught enough.
+  std::size_t max_periods = 50;                       ///< >= 1
+  std::size_t consecutive_correct = 1;    ///< "all-right": periods in a row that everybody must answer all right, >= 1
+  std::size_t periods_per_component = 3;  ///< "fixed": >= 1
+  double probability = 0.9;               ///< "posterior": in (0, 1)
+  double share_right = 0.9;               ///< "exam": in (0, 1)
+  std::size_t min_periods = 1;            ///< "posterior" and "exam": periods of a component at least, >= 1
+  /// Which members are done with a component before the team is; nothing: nobody [jayaraman2024]. They have no part in
+  /// its remaining periods and return with the next component. Once nobody is left, it counts as learned, whatever
+  /// `mastery` says.
+  std::optional<StopChoice> release{};
   std::size_t duplicate_sets = 1;  ///< test sets per period, >= 1
 
   /// The rules of aggregation that there are: their beliefs are kept where the strategy reads them.
@@ -87,5 +73,9 @@ struct TeachingOptions {
   bool keep_members = false;  ///< beliefs about members are kept even if the strategy does not read them
   bool keep_rules = false;    ///< the same for the beliefs of all rules
 };
+
+/// The keys of `[teacher]` and of `[stop]` that are fields of the options, in the order of written study files.
+[[nodiscard]] std::span<const OptionKey<TeachingOptions>> teacher_keys();
+[[nodiscard]] std::span<const OptionKey<TeachingOptions>> stop_keys();
 
 }  // namespace kith
