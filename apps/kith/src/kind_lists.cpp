@@ -1,4 +1,5 @@
-// The registries of learner models, strategies, rules of aggregation and stop rules, as `kith explain` and help show them.
+// The registries of learner models, strategies, rules of aggregation and stop rules, as `kith explain` and help show
+// them.
 #include "kind_lists.hpp"
 
 #include <algorithm>

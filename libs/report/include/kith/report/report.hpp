@@ -14,7 +14,7 @@ namespace kith {
 struct ReportOptions {
   std::size_t points_per_cell = 150;  ///< Teams of a cell that are listed one by one; fewer where there are many cells.
   std::size_t sphere_particles = 250;  ///< Particles of a belief that are drawn; fewer for long sessions.
-  StudyKinds kinds{};              ///< What the run's study can name.
+  StudyKinds kinds{};                  ///< What the run's study can name.
   /// Called with what is done next ("reading periods.csv"), and again now and then while it is done.
   std::function<void(std::string_view step)> on_step{};
 };

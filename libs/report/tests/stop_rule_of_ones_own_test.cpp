@@ -117,7 +117,7 @@ TEST(OwnStopRule, KeepsItsBounds) {
   const auto reading = parse_study(study_with("mastery = \"enough-right\"\nright_answers = 0\n"), "study.toml",
                                    {.kinds = {.stop_rules = kinds}});
   ASSERT_FALSE(reading.study);
-  EXPECT_EQ(reading.diagnostics.front().id, "E0109");
+  EXPECT_EQ(reading.diagnostics.front().id, "E0110");
 }
 
 // A key of a rule that is not chosen is not known.
