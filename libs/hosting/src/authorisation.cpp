@@ -1,6 +1,10 @@
 #include "kith/hosting/authorisation.hpp"
 
+#include <algorithm>
 #include <array>
+#include <vector>
+
+#include "kith/live/room_event.hpp"
 
 namespace kith {
 namespace {
@@ -9,30 +13,9 @@ constexpr bool kYes = true;
 constexpr bool kNo = false;
 
 // name, nobody, participant, observer, facilitator
-constexpr std::array kPermissions{
+constexpr std::array kOthers{
     Permission{"hello", kYes, kYes, kYes, kYes},
     Permission{"beat", kNo, kYes, kYes, kYes},
-    // What people do in their own seat; the seat is that of their token.
-    Permission{"consent", kNo, kYes, kNo, kNo},
-    Permission{"checked", kNo, kYes, kNo, kNo},
-    Permission{"name", kNo, kYes, kNo, kNo},
-    Permission{"screen", kNo, kYes, kNo, kNo},
-    Permission{"watched", kNo, kYes, kNo, kNo},
-    Permission{"draft", kNo, kYes, kNo, kNo},
-    Permission{"answer", kNo, kYes, kNo, kNo},
-    Permission{"continue", kNo, kYes, kNo, kNo},
-    Permission{"questions", kNo, kYes, kNo, kNo},
-    Permission{"leave", kNo, kYes, kNo, kNo},
-    // What facilitators do to rooms.
-    Permission{"start", kNo, kNo, kNo, kYes},
-    Permission{"pause", kNo, kNo, kNo, kYes},
-    Permission{"resume", kNo, kNo, kNo, kYes},
-    Permission{"extend", kNo, kNo, kNo, kYes},
-    Permission{"message", kNo, kNo, kNo, kYes},
-    Permission{"readmit", kNo, kNo, kNo, kYes},
-    Permission{"simulate", kNo, kNo, kNo, kYes},
-    Permission{"strategy", kNo, kNo, kNo, kYes},
-    Permission{"end", kNo, kNo, kNo, kYes},
     Permission{"room-make", kNo, kNo, kNo, kYes},
     Permission{"room-select", kNo, kNo, kYes, kYes},
     Permission{"link-revoke", kNo, kNo, kNo, kYes},
@@ -59,10 +42,24 @@ Role role_named(std::string_view name) noexcept {
   return Role::kNobody;
 }
 
-std::span<const Permission> permissions() noexcept { return kPermissions; }
+std::span<const Permission> permissions() noexcept {
+  static const std::vector<Permission> kAll = [] {
+    std::vector<Permission> all{kOthers.begin(), kOthers.end()};
+    // What leads to the events of rooms: people in their own seat, which is that of their token, and facilitators.
+    for (const auto& kind : kRoomEventKinds) {
+      const bool is_there =
+          std::any_of(all.begin(), all.end(), [&](const Permission& one) { return one.name == kind.command; });
+      if (kind.command.empty() || kind.sender == RoomSender::kServer || is_there) continue;
+      const bool is_seat = kind.sender == RoomSender::kSeat;
+      all.push_back({kind.command, kNo, is_seat, kNo, !is_seat});
+    }
+    return all;
+  }();
+  return kAll;
+}
 
 bool is_allowed(std::string_view name, Role role) noexcept {
-  for (const auto& permission : kPermissions) {
+  for (const auto& permission : permissions()) {
     if (permission.name != name) continue;
     switch (role) {
       case Role::kNobody:

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t kMostAhead = 4;  // lessons that are begun ahead of time for each one that is taken
 
-// Whether other lessons may be likely after such an event.
-bool changes_lessons(const RoomEvent& event) {
-  constexpr std::string_view kWithout[] = {"draft", "named", "message", "extend", "checked", "consented", "questions"};
-  return std::find(std::begin(kWithout), std::end(kWithout), event.type) == std::end(kWithout);
-}
-
 }  // namespace
 
 StoredEvent to_stored(std::int64_t room, const RoomEvent& event) {
@@ -26,8 +20,8 @@ StoredEvent to_stored(std::int64_t room, const RoomEvent& event) {
           .seq = event.seq,
           .at_us = event.at_us,
           .actor = event.actor,
-          .type = event.type,
-          .json = event.body.dump(),
+          .type = std::string{event.kind().word},
+          .json = body_of(event).dump(),
           .message = {}};
 }
 
@@ -228,8 +222,8 @@ void HostedRoom::on_saved(bool saved, TeachingCache& cache) {
   const auto done = std::exchange(saving_, std::nullopt);
   try {
     for (const auto& event : done->events) {
-      room_->apply(event, cache, event.type == "lesson" ? done->lesson.get() : nullptr);
-      has_changed_ = has_changed_ || changes_lessons(event);
+      room_->apply(event, cache, event.get<happening::LessonChosen>() != nullptr ? done->lesson.get() : nullptr);
+      has_changed_ = has_changed_ || event.kind().changes_lessons;
       last_us_ = event.at_us;
     }
   } catch (const std::exception& error) {

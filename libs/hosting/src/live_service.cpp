@@ -84,16 +84,18 @@ void LiveService::State::on_applied(HostedRoom& room, std::span<const RoomEvent>
   {
     const std::lock_guard lock{mutex};
     for (const auto& event : events) {
-      if (event.type == "joined") {
-        const auto seat = event.body.value("seat", std::int64_t{0});
+      if (const auto* came = event.get<happening::Joined>()) {
+        const auto seat = static_cast<std::int64_t>(came->seat);
         joined.insert({room.number(), seat});
         auto& contact = contacts[{room.number(), seat}];
         if (contact.last_seen_us == 0) contact.last_seen_us = now_us();
       }
-      if (event.type == "consented" || event.type == "declined")
+      if (event.get<happening::Consented>() != nullptr || event.get<happening::Declined>() != nullptr)
         queries.erase({room.number(), static_cast<std::int64_t>(seat_of_actor(event.actor).value_or(0))});
-      if (!is_logged(event.actor, event.type)) continue;
-      write_log(log_entry(room.number(), event.at_us, event.actor, event.type, event.body));
+      const std::string type{event.kind().word};
+      if (is_logged(event.actor, type)) {
+        write_log(log_entry(room.number(), event.at_us, event.actor, type, body_of(event)));
+      }
     }
     changed_rooms.insert(room.number());
   }

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "json_members.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/published_run.hpp"
 
 namespace kith {
+
+using namespace happening;
+
 namespace {
 
 class Collector {
@@ -15,126 +19,134 @@ class Collector {
   explicit Collector(RoomHistory& history) : history_{history} {}
 
   void take(const Room& room, const RoomEvent& event) {
-    const auto& body = event.body;
-    const auto by = seat_of_actor(event.actor);
-    const auto seat = by ? *by : count_at(body, "seat");
     history_.room = room;
-    if (event.type == "joined") {
-      auto& row = history_.seats[count_at(body, "seat")];
-      row.joined_us = event.at_us;
-      note_member(row, body);
-    } else if (event.type == "consented") {
-      note_consent(history_.seats[seat], body);
-    } else if (event.type == "screened") {
-      history_.seats[seat].screened.push_back(body.value("right", false));
-    } else if (event.type == "seated") {
-      auto& row = history_.seats[seat];
-      row.joined_us = event.at_us;
-      note_member(row, body);
-      row.name = text_at(body, "name");
-      row.screened = body.value("screened", std::vector<bool>{});
-      note_consent(row, body);
-    } else if (event.type == "named") {
-      history_.seats[seat].name = text_at(body, "name");
-    } else if (event.type == "started") {
-      history_.started_us = event.at_us;
-      note_stand_ins(room, event.at_us);
-    } else if (event.type == "ended") {
-      history_.ended = text_at(body, "reason");
-    } else if (event.type == "away" || event.type == "present") {
-      note_presence(history_.seats[seat], event.type == "away", event.at_us);
-    } else if (event.type == "dropped" || event.type == "simulate" || event.type == "left") {
-      replace(seat, count_at(body, "by"), event.at_us);
-    } else if (event.type == "lesson") {
-      note_lesson(room, event);
-    } else if (event.type == "answered") {
-      note_answer(seat, event);
-    } else if (event.type == "questions") {
-      if (const auto answers = body.find("answers"); answers != body.end() && answers->is_object())
-        history_.seats[seat].answers = *answers;
-    }
+    seat_ = seat_of_actor(event.actor).value_or(0);
+    at_us_ = event.at_us;
+    std::visit([&](const auto& what) { note(what); }, event.what);
   }
 
  private:
-  // Counted from 0 in events; null for whoever waits in reserve or takes a place over with the next event.
-  static void note_member(SeatRow& row, const Json& body) {
-    const auto member = body.find("member");
-    if (member != body.end() && member->is_number_unsigned()) row.member = member->get<std::size_t>() + 1;
+  void note(const Joined& e) { begin(e); }
+  void note(const Consented& e) { note_consent(history_.seats[seat_], e); }
+  void note(const Screened& e) { history_.seats[seat_].screened.push_back(e.right); }
+  void note(const Seated& e) {
+    auto& row = begin(e);
+    row.name = e.name;
+    row.screened = e.screened;
+    note_consent(row, e);
+  }
+  void note(const Named& e) { history_.seats[seat_].name = e.name; }
+  void note(const Started&) {
+    history_.started_us = at_us_;
+    note_stand_ins();
+  }
+  void note(const Ended& e) { history_.ended = e.reason; }
+  void note(const Away& e) { note_presence(history_.seats[e.seat], true); }
+  void note(const Present& e) { note_presence(history_.seats[e.seat], false); }
+  void note(const Dropped& e) { replace(e.seat, e.by.value_or(0)); }
+  void note(const Simulated& e) { replace(e.seat, e.by); }
+  void note(const Left& e) { replace(seat_, e.by.value_or(0)); }
+  void note(const LessonChosen& e) { note_lesson(e); }
+  void note(const Answered& e) { note_answer(e); }
+  void note(const QuestionsAnswered& e) {
+    if (e.answers.is_object()) history_.seats[seat_].answers = e.answers;
+  }
+  // Tables say nothing of these.
+  void note(const Declined&) {}
+  void note(const Checked&) {}
+  void note(const Watched&) {}
+  void note(const Drafted&) {}
+  void note(const Continued&) {}
+  void note(const Released&) {}
+  void note(const Grouped&) {}
+  void note(const Called&) {}
+  void note(const TimeOver&) {}
+  void note(const Paused&) {}
+  void note(const Resumed&) {}
+  void note(const Extended&) {}
+  void note(const MessageSent&) {}
+  void note(const Readmitted&) {}
+  void note(const StrategyNamed&) {}
+
+  // Somebody has a place, waits in reserve, or takes a place over with the next event.
+  template <typename Event>
+  SeatRow& begin(const Event& e) {
+    auto& row = history_.seats[e.seat];
+    row.joined_us = at_us_;
+    if (e.member) row.member = *e.member + 1;
+    return row;
   }
 
-  static void note_consent(SeatRow& row, const Json& body) {
-    row.consent = text_at(body, "version");
-    if (const auto query = body.find("query"); query != body.end() && query->is_object()) row.query = *query;
+  template <typename Event>
+  static void note_consent(SeatRow& row, const Event& e) {
+    row.consent = e.version;
+    if (e.query.is_object()) row.query = e.query;
   }
 
-  static void note_presence(SeatRow& row, bool is_away, std::int64_t at_us) {
+  void note_presence(SeatRow& row, bool is_away) const {
     if (is_away && row.away_since_us == 0) {
       ++row.times_away;
-      row.away_since_us = at_us;
+      row.away_since_us = at_us_;
     } else if (!is_away && row.away_since_us != 0) {
-      row.away_us += at_us - std::exchange(row.away_since_us, 0);
+      row.away_us += at_us_ - std::exchange(row.away_since_us, 0);
     }
   }
 
   // Those who fill the places of people who did not come.
-  void note_stand_ins(const Room& room, std::int64_t at_us) {
-    const auto shown = room.row({.role = Viewer::Role::kObserver, .seat = 0});
+  void note_stand_ins() {
+    const auto shown = history_.room->row({.role = Viewer::Role::kObserver, .seat = 0});
     for (const auto& seat : shown.at("seats")) {
       const auto number = count_at(seat, "seat");
       if (text_at(seat, "kind") != "simulated" || history_.seats.count(number) != 0) continue;
       auto& row = history_.seats[number];
       row.member = seat.contains("member") ? count_at(seat, "member") : number;
       row.simulated = true;
-      row.joined_us = at_us;
+      row.joined_us = at_us_;
     }
   }
 
-  void replace(std::size_t seat, std::size_t by, std::int64_t at_us) {
+  void replace(std::size_t seat, std::size_t by) {
     if (by == 0) return;
     auto& row = history_.seats[by];
     row.member = history_.seats[seat].member;
     if (row.joined_us != 0) return;
-    row.joined_us = at_us;
+    row.joined_us = at_us_;
     row.simulated = true;
   }
 
-  void note_lesson(const Room& room, const RoomEvent& event) {
-    if (event.body.value("finished", false)) return;
-    const auto& session = room.session();
-    const auto period = count_at(event.body, "period");
+  void note_lesson(const LessonChosen& e) {
+    if (e.finished) return;
+    const auto& session = history_.room->session();
+    const auto period = e.period;
     // Somebody came or went before that lesson was taught, or all who had watched it are gone.
     if (!history_.lessons.empty() && history_.lessons.back().lesson.period == period)
       history_.lessons.back().is_replaced = true;
     // A room without people is done with the lesson at once.
     const bool is_over = session.periods() >= period;
     history_.lessons.push_back({.lesson = is_over ? session.history()[period - 1].lesson : session.lesson(),
-                                .chosen_us = event.at_us,
-                                .digest = text_at(event.body, "digest")});
+                                .chosen_us = at_us_,
+                                .digest = e.digest});
   }
 
-  void note_answer(std::size_t seat, const RoomEvent& event) {
+  void note_answer(const Answered& e) {
     if (history_.lessons.empty()) return;  // not in a history that replays
     AnswerRow row;
     row.lesson = history_.lessons.size() - 1;
     row.period = history_.lessons.back().lesson.period;
-    row.test = count_at(event.body, "test");
-    row.seat = seat;
-    row.member = history_.seats[seat].member.value_or(0);
-    if (const auto actions = event.body.find("actions"); actions != event.body.end() && actions->is_array()) {
-      for (const auto& action : *actions) {
-        if (action.is_number_unsigned()) row.actions.push_back(action.get<std::size_t>());
-      }
-    }
-    const auto for_ever = event.body.find("for_ever");
-    row.for_ever = for_ever != event.body.end() && *for_ever == true;
-    if (const auto keys = event.body.find("keys"); keys != event.body.end()) row.keys = *keys;
-    if (const auto ms = event.body.find("ms"); ms != event.body.end() && ms->is_number_integer())
-      row.ms = ms->get<std::int64_t>();
-    row.at_us = event.at_us;
+    row.test = e.test;
+    row.seat = seat_;
+    row.member = history_.seats[seat_].member.value_or(0);
+    row.actions = e.actions;
+    row.for_ever = e.for_ever;
+    row.keys = e.keys;
+    row.ms = e.ms;
+    row.at_us = at_us_;
     history_.answers.push_back(std::move(row));
   }
 
   RoomHistory& history_;
+  std::size_t seat_ = 0;  // of the actor of the event
+  std::int64_t at_us_ = 0;
 };
 
 }  // namespace

@@ -196,7 +196,7 @@ void LiveService::State::message(const std::shared_ptr<Connection>& connection, 
   if (!body.is_object()) return connection->send(nak_frame(id, {"bad-body", "The body must be an object."}));
   if (identity.role != Role::kParticipant) return facilitate(connection, type, id, body);
   const auto place = current_place(*connection);
-  if (type == "consent") {
+  if (type == happening::Consented::kKind.command) {
     const std::lock_guard lock{mutex};
     const auto query = queries.find(place);
     body["query"] = query == queries.end() ? Json::object() : query->second;
@@ -241,7 +241,7 @@ void LiveService::State::facilitate(const std::shared_ptr<Connection>& connectio
     room->ask({.actor = "facilitator", .type = type, .body = rest, .id = id},
               [this, room, type, rest, reply](const CommandOutcome& outcome) {
                 reply(outcome.refusal);
-                if (outcome.refusal || type != "readmit") return;
+                if (outcome.refusal || type != happening::Readmitted::kKind.command) return;
                 const auto seat = static_cast<std::int64_t>(count_at(rest, "seat"));
                 const bool has_link = [&] {
                   const std::lock_guard lock{mutex};

@@ -196,7 +196,8 @@ LiveService::HttpReply LiveService::State::join(const HttpRequest& request) {
                 [promise](const CommandOutcome& outcome) {
                   std::int64_t taken = 0;
                   for (const auto& event : outcome.events) {
-                    if (event.type == "joined") taken = event.body.value("seat", std::int64_t{0});
+                    const auto* came = event.get<happening::Joined>();
+                    if (came != nullptr) taken = static_cast<std::int64_t>(came->seat);
                   }
                   promise->set_value(taken);
                 });

@@ -21,12 +21,13 @@ LogEntry entry_of(const StoredEvent& event) {
 
 // Why something happened that no facilitator gave a reason for.
 std::string reason_for(const std::string& type, const Json& body) {
-  if (type == "called") {
+  if (type == happening::Called::kKind.word) {
     return "takes over seat " + std::to_string(count_at(body, "for")) + " of room " + text_at(body, "room") +
            (text_at(body, "why") == "left" ? ", whose person left" : ", whose person was away for too long");
   }
   const auto by = count_at(body, "by");
-  if ((type != "dropped" && type != "left") || by == 0) return text_at(body, "reason");
+  if ((type != happening::Dropped::kKind.word && type != happening::Left::kKind.word) || by == 0)
+    return text_at(body, "reason");
   const bool is_simulated = !text_at(body, "type").empty();
   return (is_simulated ? "a simulated learner takes over as seat " : "another person takes over as seat ") +
          std::to_string(by);
@@ -100,10 +101,10 @@ RoomSetup setup_of(const LiveStudy& study, const Wish& wish, const std::map<std:
 }  // namespace
 
 bool is_logged(std::string_view actor, std::string_view type) {
-  constexpr std::string_view kTypes[] = {"joined",  "declined", "left",        "away",      "present",
-                                         "dropped", "released", "started",     "time",      "ended",
-                                         "grouped", "called",   "turned-away", "room-make", "redacted"};
-  return actor == "facilitator" || std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
+  if (actor == "facilitator") return true;
+  const auto* kind = room_event_kind(type);
+  if (kind != nullptr) return kind->is_logged;
+  return type == "turned-away" || type == "room-make" || type == "redacted";  // of the service
 }
 
 LogEntry log_entry(std::int64_t room, std::int64_t at_us, const std::string& actor, const std::string& type,
@@ -154,12 +155,13 @@ void LiveService::State::load_rooms() {
     if (is_logged(event.actor, event.type)) entries.push_back(entry_of(event));
     if (event.room == 0) next_service_seq = event.seq + 1;
     if (event.room == 0 && event.message) seen_messages.insert(*event.message);
-    if (event.room != 0 && (event.type == "joined" || event.type == "seated")) {
+    const bool is_seated = event.type == happening::Seated::kKind.word;
+    if (event.room != 0 && (is_seated || event.type == happening::Joined::kKind.word)) {
       const auto body = Json::parse(event.json);
       const Place place{event.room, body.value("seat", std::int64_t{0})};
       joined.insert(place);
       contacts[place].last_seen_us = now;
-      if (event.type == "seated") seated.emplace_back(origin_of(body), place);
+      if (is_seated) seated.emplace_back(origin_of(body), place);
     }
     events[event.room].push_back(event);
   });

@@ -119,7 +119,7 @@ void LiveService::State::seat_group(const StoredRoom& stored, const std::vector<
     rooms.emplace(stored.number, room);
     changed_rooms.insert(stored.number);
     for (const auto& event : events) {
-      const auto body = room_event_of(event).body;
+      const auto body = body_of(event);
       move_person(origin_of(body), {stored.number, static_cast<std::int64_t>(count_at(body, "seat"))});
     }
   }
@@ -176,7 +176,7 @@ void LiveService::State::on_vacancy(HostedRoom& room, const Vacancy& vacancy) {
     const bool is_filled = !outcome.events.empty();
     if (is_filled) {
       const std::lock_guard lock{mutex};
-      const auto& body = events->front().body;
+      const auto body = body_of(events->front());
       move_person(origin_of(body), {group->number(), static_cast<std::int64_t>(count_at(body, "seat"))});
     }
     post(group->number(), [group, events, is_filled](TeachingCache& cache) {

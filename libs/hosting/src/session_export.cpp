@@ -413,20 +413,20 @@ class Exporter {
   }
 
   void write_event(const StoredEvent& event) {
-    auto body = room_event_of(event).body;
+    auto body = body_of(event);
     if (!options_.with_names && body.is_object()) {
-      if (event.type == "named") body.erase("name");
-      if (event.type == "consented") body.erase("query");
-      if (event.type == "seated") {
-        body.erase("name");
-        body.erase("query");
+      const auto* kind = room_event_kind(event.type);
+      for (const auto& member : kind == nullptr ? std::array<PersonalMember, 2>{} : kind->personal) {
+        const bool is_words =
+            member.what == PersonalMember::What::kWords || member.what == PersonalMember::What::kAnswers;
+        if (!is_words) body.erase(std::string{member.name});
       }
     }
     if (!options_.with_text && body.is_object()) {
       for (const auto* name : {"text", "reason"}) {
-        if (event.type != "ended") body.erase(name);
+        if (event.type != happening::Ended::kKind.word) body.erase(name);
       }
-      if (event.type == "questions" && body.contains("answers")) {
+      if (event.type == happening::QuestionsAnswered::kKind.word && body.contains("answers")) {
         for (const auto& question : study_->group().questions) {
           if (question.kind == GroupQuestion::Kind::kText) body["answers"].erase(question.id);
         }

@@ -1,6 +1,7 @@
 #include "kith/hosting/session_review.hpp"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <set>
 #include <utility>
@@ -38,25 +39,8 @@ std::optional<std::set<std::string>> text_questions(const StoreIdentity& identit
   return questions;
 }
 
-// What identifies people, taken out of the body of an event. @return whether there was anything.
-bool erase_person(const std::string& type, Json& body, const std::optional<std::set<std::string>>& questions) {
-  const auto blank = [&](const char* name, Json empty) {
-    const auto found = body.find(name);
-    if (found == body.end() || *found == empty) return false;
-    *found = std::move(empty);
-    return true;
-  };
-  if (!body.is_object()) return false;
-  if (type == "named") return blank("name", kErased);
-  if (type == "seated") {
-    const auto name = body.find("name");
-    const bool has_name = name != body.end() && *name != Json(std::string{}) && blank("name", kErased);
-    return blank("query", Json::object()) || has_name;
-  }
-  if (type == "consented" || type == "turned-away") return blank("query", Json::object());
-  if (type == "message") return blank("text", kErased);
-  if (type != "questions") return false;
-  const auto answers = body.find("answers");
+bool erase_answers(Json& body, const std::string& name, const std::optional<std::set<std::string>>& questions) {
+  const auto answers = body.find(name);
   if (answers == body.end() || !answers->is_object()) return false;
   bool has_text = false;
   for (auto& [id, value] : answers->items()) {
@@ -68,15 +52,47 @@ bool erase_person(const std::string& type, Json& body, const std::optional<std::
   return has_text;
 }
 
+// What identifies people, taken out of the body of an event. @return whether there was anything.
+bool erase_person(const std::string& type, Json& body, const std::optional<std::set<std::string>>& questions) {
+  const auto blank = [&](const std::string& name, Json empty) {
+    const auto found = body.find(name);
+    if (found == body.end() || *found == empty) return false;
+    *found = std::move(empty);
+    return true;
+  };
+  const auto erased = [&](const PersonalMember& member) {
+    const std::string name{member.name};
+    switch (member.what) {
+      case PersonalMember::What::kNameIfAny:
+        return body.contains(name) && body[name] != Json(std::string{}) && blank(name, kErased);
+      case PersonalMember::What::kName:
+      case PersonalMember::What::kWords:
+        return blank(name, kErased);
+      case PersonalMember::What::kQuery:
+        return blank(name, Json::object());
+      case PersonalMember::What::kAnswers:
+        return erase_answers(body, name, questions);
+    }
+    return false;
+  };
+  if (!body.is_object()) return false;
+  if (type == "turned-away") return blank("query", Json::object());  // of the service, from no room
+  const auto* kind = room_event_kind(type);
+  bool has_any = false;
+  for (const auto& member : kind == nullptr ? std::array<PersonalMember, 2>{} : kind->personal) {
+    if (!member.name.empty()) has_any = erased(member) || has_any;
+  }
+  return has_any;
+}
+
 }  // namespace
 
+Json body_of(const StoredEvent& event) {
+  return json_of(event.json, "event " + std::to_string(event.seq) + " of room " + std::to_string(event.room));
+}
+
 RoomEvent room_event_of(const StoredEvent& event) {
-  const auto what = "event " + std::to_string(event.seq) + " of room " + std::to_string(event.room);
-  return {.seq = event.seq,
-          .at_us = event.at_us,
-          .actor = event.actor,
-          .type = event.type,
-          .body = json_of(event.json, what)};
+  return room_event(event.seq, event.at_us, event.actor, event.type, body_of(event));
 }
 
 std::vector<RoomSummary> list_rooms(EventFile& file) {
@@ -97,11 +113,12 @@ std::vector<RoomSummary> list_rooms(EventFile& file) {
     if (at == rooms.end() || at->number != event.room) return;
     ++at->events;
     at->last_us = event.at_us;
-    at->joined += event.type == "joined" || event.type == "seated" ? 1u : 0u;
-    at->lessons += event.type == "lesson" ? 1u : 0u;
-    at->answers += event.type == "answered" ? 1u : 0u;
-    at->has_started = at->has_started || event.type == "started";
-    if (event.type == "ended") at->ended = room_event_of(event).body.value("reason", std::string{});
+    const auto is = [&](const RoomEventKind& kind) { return event.type == kind.word; };
+    at->joined += is(happening::Joined::kKind) || is(happening::Seated::kKind) ? 1u : 0u;
+    at->lessons += is(happening::LessonChosen::kKind) ? 1u : 0u;
+    at->answers += is(happening::Answered::kKind) ? 1u : 0u;
+    at->has_started = at->has_started || is(happening::Started::kKind);
+    if (is(happening::Ended::kKind)) at->ended = body_of(event).value("reason", std::string{});
   });
   return rooms;
 }
@@ -129,7 +146,7 @@ ReplayedRoom replay_room(EventFile& file, const StoredRoom& stored, const std::s
       const auto event = room_event_of(stored_event);
       room.apply(event, cache);
       ++replayed.events;
-      replayed.lessons += event.type == "lesson" ? 1u : 0u;
+      replayed.lessons += event.get<happening::LessonChosen>() != nullptr ? 1u : 0u;
       if (on_event) on_event(room, event);
     }
     replayed.digest = room.digest();
@@ -156,7 +173,7 @@ std::size_t redact(const fs::path& folder, std::optional<std::string> room, std:
   file.for_each_event([&](const StoredEvent& event) {
     if (event.room == 0) service_seq = event.seq;
     if (number && event.room != *number) return;
-    auto body = room_event_of(event).body;
+    auto body = body_of(event);
     if (!erase_person(event.type, body, questions)) return;
     changed.push_back(event);
     changed.back().json = body.dump();

@@ -235,10 +235,7 @@ class ParticipantPage {
     for (const auto& seat : state_.seats) {
       if (&seat != &seat_ && gates(seat) && !has_done_phase(state_, seat)) ++missing;
     }
-    const char* what = "teacher";
-    if (state_.phase == RoomPhase::kWatching) what = "others-watching";
-    if (state_.phase == RoomPhase::kTesting) what = "answers";
-    if (state_.phase == RoomPhase::kFeedback) what = "feedback";
+    auto what = rules_of(state_.phase).waits_for;
     const bool has_begun = state_.phase != RoomPhase::kTeaching || num_periods(state_) > 0;
     if (!seat_.has_taken_part && has_begun) what = "joining";
     if (seat_.has_taken_part && !seat_.in_period && state_.phase != RoomPhase::kTeaching) what = "rejoining";

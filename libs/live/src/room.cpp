@@ -16,8 +16,8 @@ namespace {
 
 [[noreturn]] void refuse_setup(const std::string& message) { throw Error{ErrorKind::kInvalidInput, message}; }
 [[noreturn]] void mismatch(const RoomEvent& event, const std::string& why) {
-  throw Error{ErrorKind::kMismatch,
-              "event " + std::to_string(event.seq) + " ('" + event.type + "') does not fit its room: " + why};
+  throw Error{ErrorKind::kMismatch, "event " + std::to_string(event.seq) + " ('" + std::string{event.kind().word} +
+                                        "') does not fit its room: " + why};
 }
 
 std::vector<bool> simulated_members(const LiveStudy& study, const RoomSetup& setup) {
@@ -66,38 +66,24 @@ void check_setup(const LiveStudy& study, const RoomSetup& setup) {
 
 // The command that an event goes back to; nothing for events that no command leads to.
 std::optional<RoomCommand> command_of(const RoomEvent& event) {
-  static const std::vector<std::pair<std::string_view, std::string_view>> kNames{
-      {"joined", "join"},       {"checked", "checked"},  {"screened", "screen"},    {"watched", "watched"},
-      {"draft", "draft"},       {"answered", "answer"},  {"continued", "continue"}, {"left", "leave"},
-      {"away", "away"},         {"present", "present"},  {"pause", "pause"},        {"resume", "resume"},
-      {"extend", "extend"},     {"readmit", "readmit"},  {"simulate", "simulate"},  {"strategy", "strategy"},
-      {"consented", "consent"}, {"declined", "consent"}, {"started", "start"},      {"ended", "end"},
-      {"grouped", "group"},     {"called", "call"},      {"seated", "seat"}};
-  const auto name =
-      std::find_if(kNames.begin(), kNames.end(), [&](const auto& pair) { return pair.first == event.type; });
-  if (name == kNames.end()) return std::nullopt;
-  RoomCommand command{event.actor, std::string{name->second}, event.body, {}};
-  if (event.type == "consented") command.body["accept"] = true;
-  if (event.type == "declined") command.body = {{"accept", false}, {"version", ""}};
+  if (event.kind().command.empty()) return std::nullopt;
+  RoomCommand command{event.actor, std::string{event.kind().command}, body_of(event), {}};
+  if (event.get<happening::Consented>() != nullptr) command.body["accept"] = true;
+  if (event.get<happening::Declined>() != nullptr) command.body = {{"accept", false}, {"version", ""}};
   return command;
 }
 
-// Texts may have been erased from these since; only whether they are possible is checked.
-bool is_free_text(const std::string& type) { return type == "named" || type == "questions" || type == "message"; }
-
+// Texts may have been erased since; only whether they are possible is checked.
 bool fits_without_text(const RoomParts& room, const RoomEvent& event) {
-  const auto has = [&](const char* key) { return event.body.contains(key); };
-  if (event.type == "message") {
-    if (event.actor != "facilitator" || !has("text") || !event.body["text"].is_string() || !has("seat")) return false;
-    const auto& seat = event.body["seat"];
-    return seat.is_null() || (seat.is_number_unsigned() && seat.get<std::size_t>() >= 1 &&
-                              seat.get<std::size_t>() <= room.state.seats.size());
+  const auto is_seat = [&](std::size_t seat) { return seat >= 1 && seat <= room.state.seats.size(); };
+  if (const auto* message = event.get<happening::MessageSent>()) {
+    return event.actor == "facilitator" && (!message->seat || is_seat(*message->seat));
   }
   const auto seat = seat_of_actor(event.actor);
-  if (!seat || *seat > room.state.seats.size()) return false;
+  if (!event.kind().is_free_text || !seat || !is_seat(*seat)) return false;
   const auto& person = room.state.seats[*seat - 1];
   if (!person.is_person || person.status == SeatStatus::kEmpty || person.status == SeatStatus::kGone) return false;
-  if (event.type == "named") return has("name") && event.body["name"].is_string();
+  if (event.get<happening::Named>() != nullptr) return true;
   return room.state.phase == RoomPhase::kQuestions && !person.has_answered_questions;
 }
 
@@ -153,21 +139,12 @@ void Room::release() {
 std::size_t Room::num_seats() const noexcept { return state_->seats.size(); }
 
 RoomStage Room::stage() const noexcept {
-  switch (state_->phase) {
-    case RoomPhase::kLobby:
-      return RoomStage::kLobby;
-    case RoomPhase::kEnded:
-      return RoomStage::kEnded;
-    case RoomPhase::kQuestions: {
-      const bool all = study_->group().questions.empty() ||
-                       std::all_of(state_->seats.begin(), state_->seats.end(), [](const LiveSeat& seat) {
-                         return !seat.is_person || seat.status != SeatStatus::kActive || seat.has_answered_questions;
-                       });
-      return all ? RoomStage::kEnded : RoomStage::kQuestions;
-    }
-    default:
-      return RoomStage::kRunning;
-  }
+  if (state_->phase != RoomPhase::kQuestions) return rules_of(state_->phase).stage;
+  const bool all = study_->group().questions.empty() ||
+                   std::all_of(state_->seats.begin(), state_->seats.end(), [](const LiveSeat& seat) {
+                     return !seat.is_person || seat.status != SeatStatus::kActive || seat.has_answered_questions;
+                   });
+  return all ? RoomStage::kEnded : RoomStage::kQuestions;
 }
 
 bool Room::is_person(std::size_t seat) const { return state_->seats.at(seat - 1).is_person; }
@@ -178,7 +155,8 @@ std::optional<std::size_t> Room::seat_of(std::size_t member) const {
 }
 
 bool Room::has_free_seat() const {
-  return decide({"server", "join", Json::object(), {}}, state_->last_us).refusal == std::nullopt;
+  return decide({"server", std::string{happening::Joined::kKind.command}, Json::object(), {}}, state_->last_us)
+             .refusal == std::nullopt;
 }
 
 std::string Room::stage_of(std::size_t seat) const {
@@ -272,11 +250,8 @@ RoomEvent Room::taught(const TaughtLesson& lesson, std::int64_t now_us) const {
     throw std::invalid_argument{"Room::taught: the room does not wait for this lesson"};
   }
   const bool finished = lesson.after->finished();
-  Json body{{"key", lesson.key},
-            {"digest", lesson.digest},
-            {"period", lesson.after->periods() + (finished ? 0 : 1)},
-            {"finished", finished}};
-  return {state_->seq + 1, std::max(now_us, state_->last_us), "server", "lesson", std::move(body)};
+  return {state_->seq + 1, std::max(now_us, state_->last_us), "server",
+          happening::LessonChosen{lesson.key, lesson.digest, lesson.after->periods() + (finished ? 0 : 1), finished}};
 }
 
 // --- events --------------------------------------------------------------------------------------------------------
@@ -285,9 +260,8 @@ void Room::apply(const RoomEvent& event, TeachingCache& cache, const TaughtLesso
   const RoomParts parts{*study_, *setup_, *state_};
   if (event.seq != state_->seq + 1) mismatch(event, "number " + std::to_string(state_->seq + 1) + " is expected");
   if (event.at_us < state_->last_us) mismatch(event, "it is older than the one before");
-  if (!event.body.is_object()) mismatch(event, "its body is not an object");
   std::optional<TaughtLesson> again;
-  if (event.type == "lesson") {
+  if (event.get<happening::LessonChosen>() != nullptr) {
     const auto task = teaching();
     if (!task || event.actor != "server") mismatch(event, "the room does not wait for a lesson");
     if (lesson == nullptr || lesson->key != task->key()) lesson = &again.emplace(task->run(cache));
@@ -297,25 +271,21 @@ void Room::apply(const RoomEvent& event, TeachingCache& cache, const TaughtLesso
     if (event.actor == "server") {
       const auto clock = clock_events(parts);
       fits = std::any_of(clock.begin(), clock.end(), [&](const ClockEvent& one) {
-        return one.at_us <= event.at_us && one.event.type == event.type && one.event.body == event.body;
+        return one.at_us <= event.at_us && one.event.what == event.what;
       });
     }
     if (auto command = command_of(event); !fits && command) {
       // A new seat is not asked for by its number.
-      const bool is_new_seat = event.type == "joined" && event.body.value("seat", std::size_t{0}) > num_seats();
-      if (is_new_seat) command->body.erase("seat");
+      const auto* joined = event.get<happening::Joined>();
+      if (joined != nullptr && joined->seat > num_seats()) command->body.erase("seat");
       const auto decision = decide_in(parts, *command, event.at_us);
       fits = decision.events.size() == 1 && decision.events.front() == event;
     }
-    if (!fits && !(is_free_text(event.type) && fits_without_text(parts, event))) {
+    if (!fits && !fits_without_text(parts, event)) {
       mismatch(event, "it is not possible in this state");
     }
   }
-  try {
-    state_ = std::make_shared<const State>(state_after(parts, event, cache, lesson));
-  } catch (const Json::exception& error) {
-    mismatch(event, error.what());
-  }
+  state_ = std::make_shared<const State>(state_after(parts, event, cache, lesson));
 }
 
 Room replay(std::shared_ptr<const LiveStudy> study, RoomSetup setup, std::span<const RoomEvent> events,

@@ -18,6 +18,35 @@ namespace kith {
 }
 [[nodiscard]] inline Decision nothing_to_do() { return {}; }
 
+/// Names a kind of event.
+template <typename Event>
+struct OfKind {};
+
+/// Whether this sender may ask so.
+[[nodiscard]] constexpr bool is_command(RoomSender sender, std::string_view command) {
+  for (const auto& kind : kRoomEventKinds) {
+    if (kind.sender == sender && !kind.command.empty() && kind.command == command) return true;
+  }
+  return false;
+}
+
+/// What ask(OfKind<Event>{}) decides for the first kind of event that the command leads to. Every kind that this sender
+/// can ask for needs an overload. @pre is_command()
+template <RoomSender kSender, typename Ask>
+[[nodiscard]] Decision asked(std::string_view command, Ask ask) {
+  std::optional<Decision> decision;
+  const auto try_kind = [&]<typename Event>(OfKind<Event> kind) {
+    if constexpr (Event::kKind.sender == kSender && !Event::kKind.command.empty()) {
+      if (!decision && Event::kKind.command == command) decision = ask(kind);
+    }
+  };
+  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
+    (try_kind(OfKind<std::variant_alternative_t<kIndex, RoomHappening>>{}), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<RoomHappening>>{});
+  return *std::move(decision);
+}
+
 /// A member that is an integer in [min, max].
 [[nodiscard]] std::optional<std::int64_t> integer_in(const Json& body, std::string_view key, std::int64_t min,
                                                      std::int64_t max);

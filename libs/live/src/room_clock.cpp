@@ -3,6 +3,9 @@
 #include "room_state.hpp"
 
 namespace kith {
+
+using namespace happening;
+
 namespace {
 
 // Collects what the clock demands, now or later.
@@ -27,8 +30,8 @@ class RoomClock {
   }
 
  private:
-  void add(std::int64_t at_us, std::string type, Json body) {
-    events_.push_back({std::max(at_us, state_.last_us), {0, 0, "server", std::move(type), std::move(body)}});
+  void add(std::int64_t at_us, RoomHappening what) {
+    events_.push_back({std::max(at_us, state_.last_us), {0, 0, "server", std::move(what)}});
   }
 
   void lobby() {
@@ -38,7 +41,7 @@ class RoomClock {
       return !seat.is_person ||
              (seat.status == SeatStatus::kActive && seat.readiness == Readiness::kReady && seat.is_here);
     });
-    if (is_complete && group_.auto_start) add(state_.last_us, "started", {{"by", "server"}, {"fill", false}});
+    if (is_complete && group_.auto_start) add(state_.last_us, Started{"server", false});
     release();
     if (!state_.lobby_us || group_.time.lobby_s == 0 || !group_.auto_start) return;
     const auto limit = *state_.lobby_us + group_.time.lobby_s * kSecond;
@@ -47,9 +50,9 @@ class RoomClock {
              state_.seats[*member.seat].readiness == Readiness::kReady;
     });
     if (group_.dropout.policy == DropoutPolicy::kSimulate && ready > 0) {
-      add(limit, "started", {{"by", "server"}, {"fill", true}});
+      add(limit, Started{"server", true});
     } else {
-      add(limit, "ended", {{"reason", "lobby-time"}, {"text", "Not enough people came in time."}});
+      add(limit, Ended{"lobby-time", "Not enough people came in time."});
     }
   }
 
@@ -58,9 +61,9 @@ class RoomClock {
     for (std::size_t i = 0; i < state_.seats.size(); ++i) {
       const auto& seat = state_.seats[i];
       if (!seat.is_person || seat.status != SeatStatus::kActive) continue;
-      if (!seat.is_here) add(seat.presence_us + grace_, "released", {{"seat", i + 1}, {"why", "away"}});
+      if (!seat.is_here) add(seat.presence_us + grace_, Released{i + 1, "away"});
       if (group_.time.lobby_s > 0 && seat.readiness != Readiness::kReady) {
-        add(seat.joined_us + group_.time.lobby_s * kSecond, "released", {{"seat", i + 1}, {"why", "not-ready"}});
+        add(seat.joined_us + group_.time.lobby_s * kSecond, Released{i + 1, "not-ready"});
       }
     }
   }
@@ -73,7 +76,7 @@ class RoomClock {
     for (std::size_t i = 0; i < state_.seats.size(); ++i) {
       const auto& seat = state_.seats[i];
       if (seat.status != SeatStatus::kActive || seat.readiness != Readiness::kReady) continue;
-      add(seat.ready_us + wait_us, "released", {{"seat", i + 1}, {"why", "lobby-time"}});
+      add(seat.ready_us + wait_us, Released{i + 1, "lobby-time"});
     }
   }
 
@@ -85,20 +88,20 @@ class RoomClock {
       const auto& seat = state_.seats[i];
       if (!seat.is_person || seat.status != SeatStatus::kActive || seat.is_here) continue;
       if (!seat.member) {
-        add(seat.presence_us + grace_, "released", {{"seat", i + 1}, {"why", "away"}});
+        add(seat.presence_us + grace_, Released{i + 1, "away"});
         continue;
       }
-      Json body{{"seat", i + 1}, {"policy", std::string{name_of(policy)}}, {"by", nullptr}, {"type", nullptr}};
+      Dropped dropped{.seat = i + 1, .policy = std::string{name_of(policy)}};
       const auto reserve = first_reserve(state_);
       if (runs && policy == DropoutPolicy::kReplaceFromPool && reserve) {
-        body["by"] = *reserve + 1;
+        dropped.by = *reserve + 1;
       } else if (runs && group_.dropout.without_reserve() == DropoutPolicy::kSimulate &&
                  num_active_people(state_) > 1) {
-        body["by"] = state_.seats.size() + 1;
-        body["type"] = std::string{seat.type};
+        dropped.by = state_.seats.size() + 1;
+        dropped.type = std::string{seat.type};
       }
       if (!runs && is_done(seat)) continue;
-      add(seat.presence_us + wait, "dropped", std::move(body));
+      add(seat.presence_us + wait, std::move(dropped));
     }
   }
 
@@ -106,13 +109,10 @@ class RoomClock {
 
   void limits() {
     if (state_.deadline_us) {
-      const auto* what = state_.phase == RoomPhase::kWatching  ? "watch"
-                         : state_.phase == RoomPhase::kTesting ? "predict"
-                                                               : "feedback";
-      add(*state_.deadline_us, "time", {{"what", what}});
+      add(*state_.deadline_us, TimeOver{std::string{rules_of(state_.phase).word}});
     }
     if (state_.session_deadline_us && is_running(state_)) {
-      add(*state_.session_deadline_us, "time", {{"what", "session"}});
+      add(*state_.session_deadline_us, TimeOver{"session"});
     }
   }
 

@@ -1,11 +1,13 @@
 #include <algorithm>
-#include <map>
 
 #include "kith/domains/judgement.hpp"
 #include "room_body.hpp"
 #include "room_state.hpp"
 
 namespace kith {
+
+using namespace happening;
+
 namespace {
 
 constexpr std::int64_t kMostMillis = 86'400'000;
@@ -19,58 +21,53 @@ class SeatDecider {
       : room_{room}, state_{room.state}, seat_{room.state.seats[seat]}, command_{command}, now_us_{now_us} {}
 
   [[nodiscard]] Decision decide() const {
-    using Rule = Decision (SeatDecider::*)() const;
-    static const std::map<std::string_view, Rule> kRules{
-        {"consent", &SeatDecider::consent}, {"checked", &SeatDecider::checked}, {"name", &SeatDecider::name},
-        {"screen", &SeatDecider::screen},   {"watched", &SeatDecider::watched}, {"draft", &SeatDecider::draft},
-        {"answer", &SeatDecider::answer},   {"continue", &SeatDecider::go_on},  {"questions", &SeatDecider::questions},
-        {"leave", &SeatDecider::leave}};
-    const auto rule = kRules.find(command_.type);
-    if (rule == kRules.end()) return refused("unknown-type", "This message is not known.");
+    if (!is_command(RoomSender::kSeat, command_.type)) return refused("unknown-type", "This message is not known.");
     if (!command_.body.is_object()) return bad_body();
     if (seat_.status == SeatStatus::kEmpty) return refused("not-joined", "Nobody has joined with this link yet.");
     if (seat_.status == SeatStatus::kGone) {
-      if (command_.type == "leave") return nothing_to_do();
+      if (command_.type == Left::kKind.command) return nothing_to_do();
       return refused("gone", "Your part in this session is over.");
     }
-    return (this->*rule->second)();
+    return asked<RoomSender::kSeat>(command_.type, [&](auto kind) { return ask(kind); });
   }
 
  private:
   [[nodiscard]] static Decision bad_body() { return refused("bad-body", "This message is not complete."); }
   [[nodiscard]] static Decision not_now() { return refused("not-now", "This is not possible at the moment."); }
   [[nodiscard]] static Decision too_late() { return refused("too-late", "The group has moved on."); }
-  [[nodiscard]] Decision accepted(std::string type, Json body) const {
-    return {{{state_.seq + 1, now_us_, command_.actor, std::move(type), std::move(body)}}, {}};
+  [[nodiscard]] Decision accepted(RoomHappening what) const {
+    return {{{state_.seq + 1, now_us_, command_.actor, std::move(what)}}, {}};
   }
 
-  [[nodiscard]] Decision consent() const {
+  [[nodiscard]] Decision ask(OfKind<Consented>) const {
     const auto accept = command_.body.find("accept");
     const auto version = text_in(command_.body, "version", 100);
     if (accept == command_.body.end() || !accept->is_boolean() || !version) return bad_body();
     if (seat_.readiness != Readiness::kConsent) return *accept ? nothing_to_do() : not_now();
-    if (!accept->get<bool>()) return accepted("declined", Json::object());
+    if (!accept->get<bool>()) return accepted(Declined{});
     if (*version != room_.study.group().consent_version) {
       return refused("other-version", "The text has changed. Please reload the page and read it again.");
     }
     auto query = collected_query(room_.study, command_.body.value("query", Json{}));
-    return accepted("consented", {{"version", *version}, {"query", std::move(query)}});
+    return accepted(Consented{*version, std::move(query)});
   }
 
-  [[nodiscard]] Decision checked() const {
+  [[nodiscard]] Decision ask(OfKind<Declined>) const { return ask(OfKind<Consented>{}); }
+
+  [[nodiscard]] Decision ask(OfKind<Checked>) const {
     if (seat_.readiness == Readiness::kConsent) return not_now();
     if (seat_.readiness != Readiness::kCheck) return nothing_to_do();
-    return accepted("checked", Json::object());
+    return accepted(Checked{});
   }
 
-  [[nodiscard]] Decision name() const {
+  [[nodiscard]] Decision ask(OfKind<Named>) const {
     const auto name = text_in(command_.body, "name", kMostNameBytes);
     if (!name || name->find('\n') != std::string::npos) return bad_body();
     if (!room_.study.group().ask_name || seat_.readiness == Readiness::kConsent) return not_now();
-    return *name == seat_.name ? nothing_to_do() : accepted("named", {{"name", *name}});
+    return *name == seat_.name ? nothing_to_do() : accepted(Named{*name});
   }
 
-  [[nodiscard]] Decision screen() const {
+  [[nodiscard]] Decision ask(OfKind<Screened>) const {
     const auto test = integer_in(command_.body, "test", 0, 1000);
     const auto actions = actions_in(command_.body);
     const auto for_ever = flag_in(command_.body, "for_ever");
@@ -86,9 +83,7 @@ class SeatDecider {
     if (!judged.is_legal) return illegal(judged);
     const bool is_right =
         judged.counts && judge_path(atlas.domain(), atlas.feature_counts(demo), *judged.counts).is_right;
-    Json body{{"test", number}, {"actions", *actions}, {"right", is_right}, {"ms", *ms}};
-    if (*for_ever) body["for_ever"] = true;
-    return accepted("screened", std::move(body));
+    return accepted(Screened{number, *actions, is_right, *ms, *for_ever});
   }
 
   [[nodiscard]] Decision illegal(const JudgedPath& judged) const {
@@ -100,7 +95,7 @@ class SeatDecider {
     return refused("illegal-path", "The robot cannot move like this. Please reset the path and try again.");
   }
 
-  [[nodiscard]] Decision watched() const {
+  [[nodiscard]] Decision ask(OfKind<Watched>) const {
     const auto demo = integer_in(command_.body, "demo", 0, 1000);
     if (!demo) return bad_body();
     if (state_.phase != RoomPhase::kWatching || !seat_.in_period) {
@@ -109,14 +104,14 @@ class SeatDecider {
     const auto number = static_cast<std::size_t>(*demo);
     if (number < seat_.watched) return nothing_to_do();
     if (number > seat_.watched) return not_now();
-    return accepted("watched", {{"demo", number}});
+    return accepted(Watched{number});
   }
 
   [[nodiscard]] JudgedPath judged_at(std::size_t test, const std::vector<std::size_t>& actions, bool for_ever) const {
     return judged_path(*room_.study.atlas, state_.session->lesson().tests[test].demo, actions, for_ever);
   }
 
-  [[nodiscard]] Decision draft() const {
+  [[nodiscard]] Decision ask(OfKind<Drafted>) const {
     const auto test = integer_in(command_.body, "test", 0, 1000);
     const auto actions = actions_in(command_.body);
     if (!test || !actions) return bad_body();
@@ -125,10 +120,10 @@ class SeatDecider {
     if (number != current_test(seat_)) return nothing_to_do();
     if (*actions == seat_.draft) return nothing_to_do();
     if (const auto judged = judged_at(number, *actions, false); !judged.is_legal) return illegal(judged);
-    return accepted("draft", {{"test", number}, {"actions", *actions}});
+    return accepted(Drafted{number, *actions});
   }
 
-  [[nodiscard]] Decision answer() const {
+  [[nodiscard]] Decision ask(OfKind<Answered>) const {
     const auto test = integer_in(command_.body, "test", 0, 1000);
     const auto actions = actions_in(command_.body);
     const auto for_ever = flag_in(command_.body, "for_ever");
@@ -146,19 +141,17 @@ class SeatDecider {
     if (seat_.has_answered) return too_late();
     if (number != current_test(seat_)) return not_now();
     if (const auto judged = judged_at(number, *actions, *for_ever); !judged.is_legal) return illegal(judged);
-    Json body{{"test", number}, {"actions", *actions}, {"keys", *keys}, {"ms", *ms}};
-    if (*for_ever) body["for_ever"] = true;
-    return accepted("answered", std::move(body));
+    return accepted(Answered{number, *actions, *keys, *ms, *for_ever});
   }
 
-  [[nodiscard]] Decision go_on() const {
+  [[nodiscard]] Decision ask(OfKind<Continued>) const {
     if (state_.phase != RoomPhase::kFeedback || !seat_.in_period) {
       return is_running(state_) || state_.phase == RoomPhase::kQuestions ? nothing_to_do() : not_now();
     }
-    return seat_.has_continued ? nothing_to_do() : accepted("continued", Json::object());
+    return seat_.has_continued ? nothing_to_do() : accepted(Continued{});
   }
 
-  [[nodiscard]] Decision questions() const {
+  [[nodiscard]] Decision ask(OfKind<QuestionsAnswered>) const {
     if (state_.phase != RoomPhase::kQuestions || !seat_.member) return not_now();
     if (seat_.has_answered_questions || room_.study.group().questions.empty()) return nothing_to_do();
     const auto given = command_.body.find("answers");
@@ -177,7 +170,7 @@ class SeatDecider {
       if (!answer) return bad_body();
       answers[question.id] = *std::move(answer);
     }
-    return accepted("questions", {{"answers", answers}});
+    return accepted(QuestionsAnswered{std::move(answers)});
   }
 
   // A step from 1 for Likert items, the option's text for choices, a text.
@@ -204,23 +197,22 @@ class SeatDecider {
     return std::nullopt;
   }
 
-  [[nodiscard]] Decision leave() const {
-    if (!seat_.member || state_.phase == RoomPhase::kEnded)
-      return accepted("left", {{"by", nullptr}, {"type", nullptr}});
+  [[nodiscard]] Decision ask(OfKind<Left>) const {
+    if (!seat_.member || state_.phase == RoomPhase::kEnded) return accepted(Left{});
     if (stage_of_seat(room_, seat_) == "debrief") return nothing_to_do();
-    Json body{{"by", nullptr}, {"type", nullptr}};
+    Left left;
     if (is_running(state_)) {
       const auto& dropout = room_.study.group().dropout;
       const auto reserve = first_reserve(state_);
       const auto others = num_active_people(state_) - (seat_.status == SeatStatus::kActive ? 1 : 0);
       if (dropout.policy == DropoutPolicy::kReplaceFromPool && reserve) {
-        body["by"] = *reserve + 1;
+        left.by = *reserve + 1;
       } else if (dropout.without_reserve() == DropoutPolicy::kSimulate && others > 0) {
-        body["by"] = state_.seats.size() + 1;
-        body["type"] = std::string{seat_.type};
+        left.by = state_.seats.size() + 1;
+        left.type = std::string{seat_.type};
       }
     }
-    return accepted("left", std::move(body));
+    return accepted(std::move(left));
   }
 
   const RoomParts& room_;
@@ -238,20 +230,18 @@ class ServerDecider {
 
   [[nodiscard]] Decision decide() const {
     if (!command_.body.is_object()) return refused("bad-body", "the body is not an object");
-    if (command_.type == "join") return join();
-    if (command_.type == "away" || command_.type == "present") return presence();
-    if (command_.type == "group") return group();
-    if (command_.type == "call") return call();
-    if (command_.type == "seat") return seat();
-    return refused("unknown-type", "the server has no command '" + command_.type + "'");
+    if (!is_command(RoomSender::kServer, command_.type)) {
+      return refused("unknown-type", "the server has no command '" + command_.type + "'");
+    }
+    return asked<RoomSender::kServer>(command_.type, [&](auto kind) { return ask(kind); });
   }
 
  private:
-  [[nodiscard]] Decision accepted(std::string type, Json body) const {
-    return {{{state_.seq + 1, now_us_, command_.actor, std::move(type), std::move(body)}}, {}};
+  [[nodiscard]] Decision accepted(RoomHappening what) const {
+    return {{{state_.seq + 1, now_us_, command_.actor, std::move(what)}}, {}};
   }
 
-  [[nodiscard]] Decision join() const {
+  [[nodiscard]] Decision ask(OfKind<Joined>) const {
     if (state_.phase != RoomPhase::kLobby) return refused("started", "This group has already started.");
     const auto asked = integer_in(command_.body, "seat", 1, 1000);
     if (command_.body.contains("seat") && !command_.body["seat"].is_null() && !asked)
@@ -282,20 +272,21 @@ class ServerDecider {
   }
 
   [[nodiscard]] Decision joined(std::size_t seat, std::optional<std::size_t> member) const {
-    return accepted("joined", {{"seat", seat + 1}, {"member", member ? Json(*member) : Json{}}});
+    return accepted(Joined{seat + 1, member});
   }
 
-  [[nodiscard]] Decision group() const {
+  [[nodiscard]] Decision ask(OfKind<Grouped>) const {
     const auto room = text_in(command_.body, "room", 100);
     const auto planned = next_group_in(room_, now_us_);
     if (!room || !planned) return refused("not-now", "No group can be formed at the moment.");
     auto body = to_json(*planned);
     body["room"] = *room;
     if (body != command_.body) return refused("not-now", "Somebody has come or gone since this group was planned.");
-    return accepted("grouped", std::move(body));
+    return accepted(
+        Grouped{planned->cell.strategy, planned->cell.composition, planned->simulated, planned->seats, *room});
   }
 
-  [[nodiscard]] Decision call() const {
+  [[nodiscard]] Decision ask(OfKind<Called>) const {
     const auto seat = integer_in(command_.body, "seat", 1, static_cast<std::int64_t>(state_.seats.size()));
     const auto room = text_in(command_.body, "room", 100);
     const auto whose = integer_in(command_.body, "for", 1, 1000);
@@ -308,13 +299,11 @@ class ServerDecider {
     if (next_for_in(room_, type->front()) != number - 1) {
       return refused("not-now", "Somebody has come or gone since this person was chosen.");
     }
-    return accepted(
-        "called",
-        {{"seat", number}, {"room", *room}, {"for", static_cast<std::size_t>(*whose)}, {"type", *type}, {"why", *why}});
+    return accepted(Called{number, *room, static_cast<std::size_t>(*whose), *type, *why});
   }
 
   // Without a member: takes over the place of somebody who drops out at the same moment.
-  [[nodiscard]] Decision seat() const {
+  [[nodiscard]] Decision ask(OfKind<Seated>) const {
     const auto given = command_.body.find("member");
     const bool takes_over = given != command_.body.end() && given->is_null();
     const bool is_possible =
@@ -338,14 +327,9 @@ class ServerDecider {
     if (!takes_over && (!state_.seats[number].is_person || state_.seats[number].status != SeatStatus::kEmpty)) {
       return refused("full", "The place is taken.");
     }
-    return accepted("seated", {{"seat", number + 1},
-                               {"member", takes_over ? Json{} : Json(number)},
-                               {"from", *from},
-                               {"version", *version},
-                               {"query", collected_query(room_.study, command_.body.value("query", Json{}))},
-                               {"name", *name},
-                               {"screened", *screened},
-                               {"ready_us", *ready}});
+    return accepted(Seated{number + 1, takes_over ? std::nullopt : std::optional{number}, *from, *version,
+                           collected_query(room_.study, command_.body.value("query", Json{})), *name, *screened,
+                           *ready});
   }
 
   // Whether each answer to the tests of the screening was right.
@@ -360,15 +344,18 @@ class ServerDecider {
     return screened;
   }
 
-  [[nodiscard]] Decision presence() const {
+  [[nodiscard]] Decision ask(OfKind<Away>) const { return presence<Away>(false); }
+  [[nodiscard]] Decision ask(OfKind<Present>) const { return presence<Present>(true); }
+  template <typename Event>
+  [[nodiscard]] Decision presence(bool is_here) const {
     const auto number = integer_in(command_.body, "seat", 1, static_cast<std::int64_t>(state_.seats.size()));
     if (!number) return refused("no-seat", "There is no such place in this group.");
     const auto& seat = state_.seats[static_cast<std::size_t>(*number) - 1];
     if (!seat.is_person || seat.status == SeatStatus::kEmpty) {
       return refused("not-joined", "Nobody has joined with this link yet.");
     }
-    if (seat.is_here == (command_.type == "present")) return nothing_to_do();
-    return accepted(command_.type, {{"seat", *number}});
+    if (seat.is_here == is_here) return nothing_to_do();
+    return accepted(Event{static_cast<std::size_t>(*number)});
   }
 
   const RoomParts& room_;

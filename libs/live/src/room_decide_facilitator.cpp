@@ -1,10 +1,12 @@
 #include <algorithm>
-#include <map>
 
 #include "room_body.hpp"
 #include "room_state.hpp"
 
 namespace kith {
+
+using namespace happening;
+
 namespace {
 
 constexpr std::size_t kMostReasonBytes = 500;
@@ -16,38 +18,28 @@ class FacilitatorDecider {
       : room_{room}, state_{room.state}, command_{command}, now_us_{now_us} {}
 
   [[nodiscard]] Decision decide() {
-    using Rule = Decision (FacilitatorDecider::*)() const;
-    static const std::map<std::string_view, Rule> kRules{{"start", &FacilitatorDecider::start},
-                                                         {"pause", &FacilitatorDecider::pause},
-                                                         {"resume", &FacilitatorDecider::resume},
-                                                         {"extend", &FacilitatorDecider::extend},
-                                                         {"message", &FacilitatorDecider::message},
-                                                         {"readmit", &FacilitatorDecider::readmit},
-                                                         {"simulate", &FacilitatorDecider::simulate},
-                                                         {"strategy", &FacilitatorDecider::strategy},
-                                                         {"end", &FacilitatorDecider::end}};
-    const auto rule = kRules.find(command_.type);
-    if (rule == kRules.end()) return refused("unknown-type", "There is no command '" + command_.type + "'.");
+    if (!is_command(RoomSender::kFacilitator, command_.type)) {
+      return refused("unknown-type", "There is no command '" + command_.type + "'.");
+    }
     if (!command_.body.is_object()) return refused("bad-body", "The body of a command must be an object.");
     const auto reason = text_in(command_.body, "reason", kMostReasonBytes);
     if (!reason) return refused("no-reason", "State a reason; it is kept with the data.");
     reason_ = *reason;
     if (state_.phase == RoomPhase::kEnded) return refused("not-now", "This session has ended.");
-    const bool is_for_groups = command_.type != "message" && command_.type != "end";
+    const bool is_for_groups = command_.type != MessageSent::kKind.command && command_.type != Ended::kKind.command;
     if (room_.setup.is_waiting_list && is_for_groups) {
       return not_now("This is the waiting list: it forms groups by itself, and each gets a room of its own.");
     }
-    return (this->*rule->second)();
+    return asked<RoomSender::kFacilitator>(command_.type, [&](auto kind) { return ask(kind); });
   }
 
  private:
-  [[nodiscard]] Decision accepted(std::string type, Json body) const {
-    body["reason"] = reason_;
-    return {{{state_.seq + 1, now_us_, command_.actor, std::move(type), std::move(body)}}, {}};
+  [[nodiscard]] Decision accepted(RoomHappening what) const {
+    return {{{state_.seq + 1, now_us_, command_.actor, std::move(what)}}, {}};
   }
   [[nodiscard]] static Decision not_now(std::string text) { return refused("not-now", std::move(text)); }
 
-  [[nodiscard]] Decision start() const {
+  [[nodiscard]] Decision ask(OfKind<Started>) const {
     if (state_.phase != RoomPhase::kLobby) return not_now("This session has already started.");
     std::size_t ready = 0, people = 0;
     for (const auto& member : state_.members) {
@@ -64,33 +56,32 @@ class FacilitatorDecider {
                                     std::to_string(room_.study.group().dropout.min_active) +
                                     " people are ready in the lobby.");
     }
-    return accepted("started", {{"by", "facilitator"}, {"fill", false}});
+    return accepted(Started{"facilitator", false, reason_});
   }
 
-  [[nodiscard]] Decision pause() const {
+  [[nodiscard]] Decision ask(OfKind<Paused>) const {
     if (!is_running(state_) && state_.phase != RoomPhase::kQuestions) return not_now("This session is not running.");
-    return state_.paused_us ? nothing_to_do() : accepted("pause", Json::object());
+    return state_.paused_us ? nothing_to_do() : accepted(Paused{reason_});
   }
-  [[nodiscard]] Decision resume() const {
-    return state_.paused_us ? accepted("resume", Json::object()) : nothing_to_do();
+  [[nodiscard]] Decision ask(OfKind<Resumed>) const {
+    return state_.paused_us ? accepted(Resumed{reason_}) : nothing_to_do();
   }
 
-  [[nodiscard]] Decision extend() const {
+  [[nodiscard]] Decision ask(OfKind<Extended>) const {
     const auto seconds = integer_in(command_.body, "seconds", 1, 86'400);
     if (!seconds) return refused("bad-body", "'seconds' must be a number from 1 to 86400.");
     if (!state_.deadline_us && !state_.session_deadline_us) return not_now("No time limit applies at the moment.");
-    return accepted("extend", {{"seconds", *seconds}});
+    return accepted(Extended{*seconds, reason_});
   }
 
-  [[nodiscard]] Decision message() const {
+  [[nodiscard]] Decision ask(OfKind<MessageSent>) const {
     const auto text = text_in(command_.body, "text", kMostMessageBytes);
     if (!text) return refused("bad-body", "'text' is missing or too long.");
     const auto seat = command_.body.find("seat");
-    if (seat == command_.body.end() || seat->is_null())
-      return accepted("message", {{"text", *text}, {"seat", nullptr}});
+    if (seat == command_.body.end() || seat->is_null()) return accepted(MessageSent{*text, std::nullopt, reason_});
     const auto number = seat_number();
     if (!number) return no_seat();
-    return accepted("message", {{"text", *text}, {"seat", *number + 1}});
+    return accepted(MessageSent{*text, *number + 1, reason_});
   }
 
   [[nodiscard]] std::optional<std::size_t> seat_number() const {
@@ -100,7 +91,7 @@ class FacilitatorDecider {
   }
   [[nodiscard]] static Decision no_seat() { return refused("no-seat", "There is no such place in this group."); }
 
-  [[nodiscard]] Decision readmit() const {
+  [[nodiscard]] Decision ask(OfKind<Readmitted>) const {
     const auto number = seat_number();
     if (!number || !state_.seats[*number].is_person) return no_seat();
     const auto& seat = state_.seats[*number];
@@ -112,10 +103,10 @@ class FacilitatorDecider {
     if (holder && *holder != *number && state_.seats[*holder].is_person) {
       return not_now("Another person has taken the place.");
     }
-    return accepted("readmit", {{"seat", *number + 1}});
+    return accepted(Readmitted{*number + 1, reason_});
   }
 
-  [[nodiscard]] Decision simulate() const {
+  [[nodiscard]] Decision ask(OfKind<Simulated>) const {
     const auto number = seat_number();
     if (!number || !state_.seats[*number].is_person) return no_seat();
     const auto& seat = state_.seats[*number];
@@ -135,7 +126,7 @@ class FacilitatorDecider {
     if (is_running(state_) && num_active_people(state_) <= (is_counted ? 1 : 0)) {
       return not_now("No person would be left in the group; end the session instead.");
     }
-    return accepted("simulate", {{"seat", *number + 1}, {"type", type}, {"by", state_.seats.size() + 1}});
+    return accepted(Simulated{*number + 1, type, state_.seats.size() + 1, reason_});
   }
 
   [[nodiscard]] bool is_type(char letter) const {
@@ -143,7 +134,7 @@ class FacilitatorDecider {
     return std::any_of(types.begin(), types.end(), [&](const LearnerType& type) { return type.letter == letter; });
   }
 
-  [[nodiscard]] Decision strategy() const {
+  [[nodiscard]] Decision ask(OfKind<StrategyNamed>) const {
     const auto name = text_in(command_.body, "name", 200);
     if (!name) return refused("bad-body", "'name' is missing.");
     const auto& all = room_.study.spec.strategies;
@@ -153,11 +144,11 @@ class FacilitatorDecider {
       return refused("no-strategy", "The baseline teaches one person at a time.");
     }
     if (!is_running(state_) && state_.phase != RoomPhase::kLobby) return not_now("The lessons are over.");
-    return accepted("strategy", {{"name", *name}});
+    return accepted(StrategyNamed{*name, reason_});
   }
 
-  [[nodiscard]] Decision end() const {
-    return accepted("ended", {{"text", "The session was ended by the people who run it."}});
+  [[nodiscard]] Decision ask(OfKind<Ended>) const {
+    return accepted(Ended{reason_, "The session was ended by the people who run it."});
   }
 
   const RoomParts& room_;

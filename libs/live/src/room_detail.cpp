@@ -52,12 +52,11 @@ class RoomDetailPage {
       components.push_back(
           {{"name", component_in_words(atlas_, i)}, {"status", kWords[static_cast<std::size_t>(all[i])]}});
     }
-    constexpr std::array kPhases{"lobby", "teacher", "watch", "predict", "feedback", "questions", "ended"};
     const auto* lesson = current_lesson();
     return {{"period", num_periods(state_)},
             {"component", lesson != nullptr ? Json(lesson->component + 1) : Json{}},
             {"components", components},
-            {"phase", kPhases[static_cast<std::size_t>(state_.phase)]}};
+            {"phase", rules_of(state_.phase).word}};
   }
 
   // The one that people see; while they read the feedback that of the period behind them.

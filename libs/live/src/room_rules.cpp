@@ -8,6 +8,26 @@ bool gates(const LiveSeat& seat) noexcept {
   return seat.is_person && seat.status == SeatStatus::kActive && seat.in_period;
 }
 
+PhaseRules rules_of(RoomPhase phase) noexcept {
+  switch (phase) {
+    case RoomPhase::kLobby:
+      return {RoomStage::kLobby, "lobby", "teacher"};
+    case RoomPhase::kTeaching:
+      return {RoomStage::kRunning, "teacher", "teacher"};
+    case RoomPhase::kWatching:
+      return {RoomStage::kRunning, "watch", "others-watching", &GroupTime::watch_s};
+    case RoomPhase::kTesting:
+      return {RoomStage::kRunning, "predict", "answers", &GroupTime::predict_s};
+    case RoomPhase::kFeedback:
+      return {RoomStage::kRunning, "feedback", "feedback", &GroupTime::feedback_s};
+    case RoomPhase::kQuestions:
+      return {RoomStage::kQuestions, "questions", "teacher"};
+    case RoomPhase::kEnded:
+      return {RoomStage::kEnded, "ended", "teacher"};
+  }
+  return {};
+}
+
 bool has_done_phase(const Room::State& state, const LiveSeat& seat) noexcept {
   switch (state.phase) {
     case RoomPhase::kWatching:
@@ -16,9 +36,13 @@ bool has_done_phase(const Room::State& state, const LiveSeat& seat) noexcept {
       return seat.has_answered;
     case RoomPhase::kFeedback:
       return seat.has_continued;
-    default:
-      return true;
+    case RoomPhase::kLobby:
+    case RoomPhase::kTeaching:
+    case RoomPhase::kQuestions:
+    case RoomPhase::kEnded:
+      break;
   }
+  return true;
 }
 
 std::size_t num_active_people(const Room::State& state) noexcept {
@@ -31,10 +55,7 @@ bool is_taken(const Room::State& state, const LiveMember& member) noexcept {
   return member.seat && state.seats[*member.seat].status == SeatStatus::kActive;
 }
 
-bool is_running(const Room::State& state) noexcept {
-  return state.phase == RoomPhase::kTeaching || state.phase == RoomPhase::kWatching ||
-         state.phase == RoomPhase::kTesting || state.phase == RoomPhase::kFeedback;
-}
+bool is_running(const Room::State& state) noexcept { return rules_of(state.phase).stage == RoomStage::kRunning; }
 
 std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat) {
   if (!seat.is_person) return {};
@@ -48,9 +69,8 @@ std::string stage_of_seat(const RoomParts& room, const LiveSeat& seat) {
   if (room.state.phase == RoomPhase::kQuestions || room.state.phase == RoomPhase::kEnded) {
     return room.study.group().questions.empty() || seat.has_answered_questions ? "debrief" : "questions";
   }
-  if (!seat.in_period || room.state.phase == RoomPhase::kTeaching || has_done_phase(room.state, seat)) return "wait";
-  if (room.state.phase == RoomPhase::kWatching) return "watch";
-  return room.state.phase == RoomPhase::kTesting ? "predict" : "feedback";
+  if (!seat.in_period || has_done_phase(room.state, seat)) return "wait";
+  return std::string{rules_of(room.state.phase).word};
 }
 
 std::size_t current_test(const LiveSeat& seat) noexcept {

@@ -139,6 +139,15 @@ struct Room::State {
   std::shared_ptr<const std::vector<RunnerUp>> runners_up;
 };
 
+/// What holds in a phase: one row per phase.
+struct PhaseRules {
+  RoomStage stage;
+  std::string_view word;             ///< Also the page of who has something to do, and the limit in TimeOver.
+  std::string_view waits_for;        ///< What who has done their part waits for.
+  std::int64_t GroupTime::*limit{};  ///< In seconds; null: none.
+};
+[[nodiscard]] PhaseRules rules_of(RoomPhase phase) noexcept;
+
 /// A room as its parts see it.
 struct RoomParts {
   const LiveStudy& study;

@@ -57,7 +57,7 @@ void RoomStepper::begin() {
   if (study_.group().time.max_minutes > 0) {
     state_.session_deadline_us = at_us_ + study_.group().time.max_minutes * 60 * kSecond;
   }
-  begin_phase(RoomPhase::kTeaching, 0);
+  begin_phase(RoomPhase::kTeaching);
 }
 
 void RoomStepper::end(const std::string& reason, const std::string& text) {
@@ -75,7 +75,7 @@ void RoomStepper::end(const std::string& reason, const std::string& text) {
   state_.end_text = text;
   state_.ended_us = at_us_;
   state_.paused_us.reset();
-  begin_phase(RoomPhase::kEnded, 0);
+  begin_phase(RoomPhase::kEnded);
 }
 
 void RoomStepper::begin_questions(const std::string& reason) {
@@ -88,7 +88,7 @@ void RoomStepper::begin_questions(const std::string& reason) {
       dismiss(i, "full", "not-needed", study_.group().completion.pay_full);
     }
   }
-  begin_phase(RoomPhase::kQuestions, 0);
+  begin_phase(RoomPhase::kQuestions);
 }
 
 // --- steps of the group --------------------------------------------------------------------------------------------
@@ -148,7 +148,7 @@ void RoomStepper::sync_members() {
   }
   // Nobody who watched this lesson is left: those who are here begin with a new one.
   revert();
-  begin_phase(RoomPhase::kTeaching, 0);
+  begin_phase(RoomPhase::kTeaching);
   sync_members();
 }
 
@@ -181,18 +181,22 @@ void RoomStepper::advance() {
       case RoomPhase::kFeedback:
         if (!all_done()) return;
         state_.durations_us.push_back(at_us_ - state_.period_us);
-        begin_phase(RoomPhase::kTeaching, 0);
+        begin_phase(RoomPhase::kTeaching);
         break;
-      default:
+      case RoomPhase::kLobby:
+      case RoomPhase::kQuestions:
+      case RoomPhase::kEnded:
         return;
     }
   }
 }
 
-void RoomStepper::begin_phase(RoomPhase phase, std::int64_t limit_s) {
+void RoomStepper::begin_phase(RoomPhase phase) {
   state_.phase = phase;
   state_.phase_us = at_us_;
   state_.deadline_us.reset();
+  const auto limit = rules_of(phase).limit;
+  const auto limit_s = limit != nullptr ? study_.group().time.*limit : 0;
   if (limit_s > 0) state_.deadline_us = at_us_ + limit_s * kSecond;
 }
 
@@ -225,7 +229,7 @@ void RoomStepper::begin_watching() {
     seat.has_continued = false;
   }
   state_.period_us = at_us_;
-  begin_phase(RoomPhase::kWatching, study_.group().time.watch_s);
+  begin_phase(RoomPhase::kWatching);
 }
 
 void RoomStepper::begin_tests() {
@@ -236,7 +240,26 @@ void RoomStepper::begin_tests() {
     if (member.learner && session.takes_part(m)) session.answer(m, member.response.answers);
   }
   state_.session = std::make_shared<const Session>(std::move(session));
-  begin_phase(RoomPhase::kTesting, study_.group().time.predict_s);
+  begin_phase(RoomPhase::kTesting);
+}
+
+void RoomStepper::finish_phase(std::size_t seat) {
+  auto& who = state_.seats[seat];
+  switch (state_.phase) {
+    case RoomPhase::kWatching:
+      who.watched = state_.session->lesson().demonstrations.size();
+      return;
+    case RoomPhase::kTesting:
+      return give_answers(seat);  // those that were given: a path that was not submitted is none
+    case RoomPhase::kFeedback:
+      who.has_continued = true;
+      return;
+    case RoomPhase::kLobby:
+    case RoomPhase::kTeaching:
+    case RoomPhase::kQuestions:
+    case RoomPhase::kEnded:
+      return;
+  }
 }
 
 void RoomStepper::give_answers(std::size_t seat) {
@@ -268,7 +291,7 @@ void RoomStepper::finish_tests() {
   state_.members_before.clear();
   record_answers();
   record_curves();
-  begin_phase(RoomPhase::kFeedback, study_.group().time.feedback_s);
+  begin_phase(RoomPhase::kFeedback);
 }
 
 void RoomStepper::record_answers() {

@@ -19,6 +19,7 @@ class RoomStepper {
 
   void begin();                                                  ///< The lobby is over.
   void take_lesson(const TaughtLesson& lesson);                  ///< The teacher has chosen.
+  void finish_phase(std::size_t seat);                           ///< The time of the phase is over for a seat.
   void give_answers(std::size_t seat);                           ///< All tests, or those that were answered in time.
   void begin_questions(const std::string& reason);               ///< Teaching is over.
   void end(const std::string& reason, const std::string& text);  ///< Early, for everybody.
@@ -34,7 +35,7 @@ class RoomStepper {
   void sync_members();
   void revert();
   void advance();
-  void begin_phase(RoomPhase phase, std::int64_t limit_s);
+  void begin_phase(RoomPhase phase);
   void begin_watching();
   void begin_tests();
   void finish_tests();

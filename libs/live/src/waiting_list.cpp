@@ -160,26 +160,31 @@ std::optional<Vacancy> Room::vacancy(const RoomEvent& departure) const {
   const auto& state = *state_;
   const auto dropout = study_->group().dropout;
   if (dropout.policy != DropoutPolicy::kReplaceFromPool || !study_->seats_by_ability() || !is_running(state)) return {};
-  const bool is_drop = departure.type == "dropped";
-  if (!is_drop && departure.type != "left") return {};
-  const bool has_reserve = departure.body.at("type").is_null() && !departure.body.at("by").is_null();
-  const auto seat = is_drop ? departure.body.at("seat").get<std::size_t>() : seat_of_actor(departure.actor).value_or(0);
+  const auto* dropped = departure.get<happening::Dropped>();
+  const auto* left = departure.get<happening::Left>();
+  if (dropped == nullptr && left == nullptr) return {};
+  const bool has_reserve = dropped != nullptr ? dropped->by && !dropped->type : left->by && !left->type;
+  const auto seat = dropped != nullptr ? dropped->seat : seat_of_actor(departure.actor).value_or(0);
   if (has_reserve || seat == 0 || seat > state.seats.size()) return {};
   const auto& member = state.seats[seat - 1].member;
   if (!member || state.members[*member].seat != seat - 1) return {};
-  return Vacancy{seat, setup_->composition[*member], is_drop ? "away" : "left"};
+  return Vacancy{seat, setup_->composition[*member], dropped != nullptr ? "away" : "left"};
 }
 
 std::vector<RoomEvent> Room::replaced(const RoomEvent& departure, Json person, std::int64_t now_us) const {
   person["member"] = nullptr;
-  auto decision = decide({"server", "seat", std::move(person), {}}, std::max(now_us, departure.at_us));
+  auto decision = decide({"server", std::string{happening::Seated::kKind.command}, std::move(person), {}},
+                         std::max(now_us, departure.at_us));
   if (decision.refusal) throw Error{ErrorKind::kMismatch, decision.refusal->text};
   auto events = std::move(decision.events);
   auto second = departure;
   second.seq = events.front().seq + 1;
   second.at_us = events.front().at_us;
-  second.body["by"] = events.front().body.at("seat");
-  second.body["type"] = nullptr;
+  const auto seat = std::get<happening::Seated>(events.front().what).seat;
+  if (auto* dropped = std::get_if<happening::Dropped>(&second.what))
+    std::tie(dropped->by, dropped->type) = std::tuple{seat, std::nullopt};
+  if (auto* left = std::get_if<happening::Left>(&second.what))
+    std::tie(left->by, left->type) = std::tuple{seat, std::nullopt};
   events.push_back(std::move(second));
   return events;
 }

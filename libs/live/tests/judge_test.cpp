@@ -140,9 +140,9 @@ void expect_session_agrees(TeachingCache& cache, RandomStream random) {
 // Whether the last answer to a screening was right.
 bool screened(const Play& play) {
   const auto& events = play.events();
-  const auto last =
-      std::find_if(events.rbegin(), events.rend(), [](const RoomEvent& event) { return event.type == "screened"; });
-  return last->body["right"].get<bool>();
+  const auto last = std::find_if(events.rbegin(), events.rend(),
+                                 [](const RoomEvent& event) { return event.get<happening::Screened>() != nullptr; });
+  return last->get<happening::Screened>()->right;
 }
 
 // The share of beliefs that the curriculum finds right in its first component is that of the judge.

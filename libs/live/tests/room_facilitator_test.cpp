@@ -36,7 +36,7 @@ TEST(RoomFacilitator, LetsFacilitatorsInterveneWithAReason) {
   EXPECT_EQ(play.facilitator("end"), "");
   EXPECT_EQ(play.room().stage_of(1), "ended");
   EXPECT_TRUE(page(play, 1)["end"].contains("code"));
-  EXPECT_EQ(play.events().back().body["reason"], "a test");
+  EXPECT_EQ(body_of(play.events().back())["reason"], "a test");
   EXPECT_EQ(play.facilitator("pause"), "not-now");
   play.expect_replay();
 }

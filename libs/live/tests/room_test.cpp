@@ -39,7 +39,7 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   const Json query{{"PID", "p 1"}, {"x", "y"}};
   for (const std::size_t i : {1u, 2u}) {
     ASSERT_EQ(play.seat(i, "consent", {{"accept", true}, {"version", "1"}, {"query", query}}), "");
-    EXPECT_EQ(play.events().back().body["query"], (Json{{"PID", "p 1"}}));
+    EXPECT_EQ(body_of(play.events().back())["query"], (Json{{"PID", "p 1"}}));
   }
   EXPECT_EQ(play.room().stage_of(1), "check");
   EXPECT_TRUE(page(play, 1)["check"]["board"].contains("map"));
@@ -96,7 +96,7 @@ TEST(Room, TakesAGroupFromTheConsentToTheDebrief) {
   EXPECT_EQ(play.seat(2, "questions", {{"answers", {{"clear", 9}}}}), "bad-body");
   EXPECT_EQ(play.seat(2, "questions", {{"answers", {{"why", "so"}}}}), "missing-answer");
   EXPECT_EQ(play.seat(2, "questions", {{"answers", {{"clear", 7}, {"why", "so"}, {"age", 1}}}}), "");
-  EXPECT_EQ(play.events().back().body["answers"]["age"], "old");
+  EXPECT_EQ(body_of(play.events().back())["answers"]["age"], "old");
   EXPECT_EQ(play.room().stage_of(2), "debrief");
   const auto debrief = page(play, 2)["debrief"];
   EXPECT_THAT(debrief["code"].get<std::string>(), ::testing::StartsWith("LAB-"));
@@ -402,21 +402,20 @@ TEST(Room, AppliesOnlyEventsThatItsStateCanHaveLedTo) {
     return false;
   };
   const auto next = last.seq + 1;
-  EXPECT_TRUE(refused({next + 1, last.at_us, "seat:2", "watched", {{"demo", 0}}}));
-  EXPECT_TRUE(refused({next, last.at_us - 1, "seat:2", "watched", {{"demo", 0}}}));
-  EXPECT_TRUE(refused({next, last.at_us, "seat:2", "watched", {{"demo", 1}}}));
-  EXPECT_TRUE(refused({next, last.at_us, "seat:2", "watched", Json::array()}));
-  EXPECT_TRUE(refused({next, last.at_us, "seat:2", "danced", Json::object()}));
-  EXPECT_TRUE(refused({next, last.at_us, "server", "dropped", {{"seat", 1}}}));
-  EXPECT_TRUE(refused({next, last.at_us, "server", "lesson", {{"key", ""}}}));
-  EXPECT_TRUE(refused({next, last.at_us, "server", "time", {{"what", "watch"}}}));
-  room.apply({next, last.at_us, "seat:2", "watched", {{"demo", 0}}}, play.cache());
+  EXPECT_TRUE(refused({next + 1, last.at_us, "seat:2", happening::Watched{0}}));
+  EXPECT_TRUE(refused({next, last.at_us - 1, "seat:2", happening::Watched{0}}));
+  EXPECT_TRUE(refused({next, last.at_us, "seat:2", happening::Watched{1}}));
+  EXPECT_TRUE(refused({next, last.at_us, "server", happening::Dropped{1, "", {}, {}}}));
+  EXPECT_TRUE(refused({next, last.at_us, "server", happening::LessonChosen{}}));
+  EXPECT_TRUE(refused({next, last.at_us, "server", happening::TimeOver{"watch"}}));
+  room.apply({next, last.at_us, "seat:2", happening::Watched{0}}, play.cache());
   EXPECT_NE(room.digest(), digest);
   // A lesson with another digest.
   auto events = play.events();
-  const auto lesson =
-      std::find_if(events.begin(), events.end(), [](const RoomEvent& event) { return event.type == "lesson"; });
-  lesson->body["digest"] = "0";
+  const auto lesson = std::find_if(events.begin(), events.end(), [](const RoomEvent& event) {
+    return event.get<happening::LessonChosen>() != nullptr;
+  });
+  std::get<happening::LessonChosen>(lesson->what).digest = "0";
   EXPECT_THROW((void)replay(live_study(), play.room().setup(), events, play.cache()), Error);
 }
 

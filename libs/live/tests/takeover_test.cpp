@@ -44,7 +44,7 @@ class Takeover : public ::testing::Test {
     list_.pass(21);
     const auto due = group_.room().due(group_.now());
     EXPECT_EQ(due.size(), 1u);
-    EXPECT_EQ(due.front().type, "dropped");
+    EXPECT_TRUE(due.front().get<happening::Dropped>() != nullptr);
     return due.front();
   }
   [[nodiscard]] static Json call(std::size_t seat, const Vacancy& vacancy) {
@@ -194,11 +194,11 @@ TEST_F(Takeover, RefusesWhatDoesNotFit) {
 
 TEST_F(Takeover, HasNoVacancyWhereNobodyDropsOutOfARunningGroup) {
   group_.join(3);
-  const RoomEvent left{1, group_.now(), seat_actor(1), "left", {{"by", nullptr}, {"type", nullptr}}};
+  const RoomEvent left{1, group_.now(), seat_actor(1), happening::Left{}};
   EXPECT_EQ(group_.room().vacancy(left), std::nullopt) << "in the lobby";
   for (std::size_t i = 1; i <= 3; ++i) group_.get_ready(i);
   EXPECT_TRUE(group_.room().vacancy(left));
-  EXPECT_EQ(group_.room().vacancy({1, 0, seat_actor(1), "watched", {{"demo", 0}}}), std::nullopt);
+  EXPECT_EQ(group_.room().vacancy({1, 0, seat_actor(1), happening::Watched{0}}), std::nullopt);
   Play other{live_study("[group]\nsize = 3\nscreening = { tests = 2, cut = 0.6, high = \"P\" }\n")};
   other.start(3);
   EXPECT_EQ(other.room().vacancy(left), std::nullopt) << "another policy";

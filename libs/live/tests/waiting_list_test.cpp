@@ -228,7 +228,7 @@ TEST_F(WaitingList, RefusesAGroupThatIsNotTheOnePlanned) {
   auto events = play_.events();
   other = body;
   std::swap(other["seats"][0], other["seats"][2]);
-  events.push_back({play_.room().seq() + 1, play_.now(), "server", "grouped", other});
+  events.push_back(room_event(play_.room().seq() + 1, play_.now(), "server", "grouped", other));
   EXPECT_THROW((void)replay(screened_study(), waiting_list_setup(), events, play_.cache()), Error);
 }
 
@@ -299,8 +299,8 @@ TEST_F(WaitingList, HandsPeopleOverToTheirRoom) {
   EXPECT_EQ(row["seats"][2]["name"], "Ada");
   EXPECT_EQ(row["seats"][2]["estimate"], 0.75);
   EXPECT_EQ(row["seats"][0]["estimate_is_high"], false);
-  EXPECT_EQ(room.events()[2].body["query"], (Json{{"PID", "77"}}));
-  EXPECT_EQ(room.events()[0].body["from"], (Json{{"room", "r1"}, {"seat", a}})) << b;
+  EXPECT_EQ(body_of(room.events()[2])["query"], (Json{{"PID", "77"}}));
+  EXPECT_EQ(body_of(room.events()[0])["from"], (Json{{"room", "r1"}, {"seat", a}})) << b;
   room.play_on({1, 2, 3});
   EXPECT_EQ(room.room().stage_of(3), "debrief");
   room.expect_replay();

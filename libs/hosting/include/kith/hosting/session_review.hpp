@@ -47,6 +47,8 @@ struct ReplayedRoom {
 
 /// The event as rooms take it. @throws kith::Error (kMismatch, E1612) if its text is no JSON.
 [[nodiscard]] RoomEvent room_event_of(const StoredEvent& event);
+/// Its members as they are stored. @throws the same.
+[[nodiscard]] Json body_of(const StoredEvent& event);
 
 /// Computes a room again from its setup and events, and compares every lesson with what was taught then.
 /// @param on_event  is told every event after it was applied; may be empty.
