@@ -128,6 +128,17 @@ check_quotes() {
   done | none
 }
 
+# Kinds of events are compared by their rows, not by their words, and nothing is the default over phases and events.
+check_rows() {
+  local words
+  words=$(files '*.hpp' | grep '^libs/live/include/kith/live/room_event.hpp$' | xargs -r cat | tr '\n' ' ' |
+    grep -oE 'kKind\{ *"[a-z]+", *"[a-z]*"' | grep -oE '"[a-z]+"' | tr -d '"' | sort -u | paste -sd'|')
+  {
+    files '*.cpp' '*.hpp' | grep -E '^libs/(live|hosting)/src/' | search -nE "type [!=]= \"(${words:-none})\""
+    files '*.cpp' '*.hpp' | grep '^libs/live/src/' | search -nE '^ *default:'
+  } | none
+}
+
 check_format() {  # C++ is as clang-format 14 writes it
   if ! command -v clang-format >/dev/null; then
     echo "clang-format is not installed"

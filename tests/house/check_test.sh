@@ -10,10 +10,14 @@ failures=0
 
 tidy_tree() {
   rm -rf ./*
-  mkdir -p libs/low/include libs/high docs
+  mkdir -p libs/low/include libs/high libs/live/include/kith/live libs/live/src docs
   printf 'add_subdirectory(low)\nadd_subdirectory(high)\n' >libs/CMakeLists.txt
   printf 'kith_module(low)\n' >libs/low/CMakeLists.txt
   printf 'kith_module(high DEPENDS kith::low\n  PRIVATE_DEPENDS z)\n' >libs/high/CMakeLists.txt
+  printf 'add_subdirectory(live)\n' >>libs/CMakeLists.txt
+  printf 'kith_module(live)\n' >libs/live/CMakeLists.txt
+  printf '#pragma once\nstruct Left {\n  constexpr Kind kKind{"left", "leave"};\n};\n' >libs/live/include/kith/live/room_event.hpp
+  printf '// Tells kinds apart.\n' >libs/live/src/room.cpp
   printf '#pragma once\n\n// A claim [known2001, section 2].\nint x();\n' >libs/low/include/x.hpp
   printf '@misc{known2001,\n}\n' >docs/references.bib
   printf '```cpp libs/low/include/x.hpp\nint x();\n```\n' >docs/quotes.md
@@ -38,7 +42,7 @@ breaks() {  # breaks RULE FILE TEXT: the tree fails the rule once the text is ap
 }
 
 tidy_tree
-for rule in ascii places pragma layers newline links map quotes citations errors types; do expect 0 "$rule" 'a tidy tree'; done
+for rule in ascii places pragma layers newline links map quotes citations errors types rows; do expect 0 "$rule" 'a tidy tree'; done
 expect 2 nonsense 'an unknown rule'
 breaks ascii libs/low/include/x.hpp '// \xc3\xa9\n'
 breaks places README.md 'see /home''/somebody/kith\n'
@@ -53,6 +57,9 @@ breaks map docs/architecture.md 'gone.cpp\n'
 breaks citations libs/low/include/x.hpp '// [unknown1999]\n'
 breaks quotes README.md '```cpp libs/low/include/x.hpp\nint y();\n```\n'
 breaks errors docs/errors.md '| E0101 | x | y |\n| E0101 | z | y |\n'
+breaks rows libs/live/src/room.cpp 'if (event.type == "left") return;\n'
+breaks rows libs/live/src/room.cpp 'if (command.type != "leave") return;\n'
+breaks rows libs/live/src/room.cpp '    default:\n'
 breaks types libs/low/include/x.hpp 'namespace kith {\nstruct A {};\n}  // namespace kith\nnamespace kith {\nclass A final : B {\n'
 tidy_tree
 mkdir libs/stray
