@@ -225,6 +225,53 @@ const std::vector<std::string>& all_action_names() {
   return kNames;
 }
 
+namespace {
+
+std::optional<FeatureThing> thing_of(const Atom& atom, const World& world) {
+  switch (atom.kind) {
+    case Atom::Kind::kLeaveTerrain:
+      return FeatureThing{"leave", "terrain", world.terrain_names[atom.index]};
+    case Atom::Kind::kEnterTerrain:
+      return FeatureThing{"enter", "terrain", world.terrain_names[atom.index]};
+    case Atom::Kind::kLeaveStation:
+      return FeatureThing{"leave", "station", world.station_names[atom.index]};
+    case Atom::Kind::kEnterStation:
+      return FeatureThing{"enter", "station", world.station_names[atom.index]};
+    case Atom::Kind::kCarrying:
+      return FeatureThing{"carrying", "item", world.items[atom.index].name};
+    case Atom::Kind::kDeliver:
+      return FeatureThing{"deliver", "item", world.items[atom.index].name};
+    case Atom::Kind::kGoal:
+      return FeatureThing{"goal", "goal", world.goal_names[atom.index]};
+    case Atom::Kind::kAnyGoal:
+      return FeatureThing{"goal", "goal", "goal"};
+    case Atom::Kind::kAnyAction:
+    case Atom::Kind::kAction:
+    case Atom::Kind::kNever:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<FeatureThing> things_of(const Condition& condition, const std::vector<Atom>& atoms, const World& world) {
+  std::vector<std::vector<FeatureThing>> stack;
+  for (const Condition::Step& step : condition.steps) {
+    if (step.op == Condition::Op::kAtom) {
+      const auto thing = thing_of(atoms[step.atom], world);
+      stack.push_back(thing ? std::vector{*thing} : std::vector<FeatureThing>{});
+    } else if (step.op == Condition::Op::kNot) {
+      stack.back().clear();
+    } else {
+      const auto right = std::move(stack.back());
+      stack.pop_back();
+      stack.back().insert(stack.back().end(), right.begin(), right.end());
+    }
+  }
+  return stack.empty() ? std::vector<FeatureThing>{} : std::move(stack.back());
+}
+
 bool Condition::holds(AtomMask mask) const {
   std::vector<bool> stack;
   for (const Step& step : steps) {

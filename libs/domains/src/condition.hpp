@@ -53,6 +53,10 @@ class Condition {
   bool names_absent_things = false;
 };
 
+// What has to be there for the condition to hold, in its order.
+[[nodiscard]] std::vector<FeatureThing> things_of(const Condition& condition, const std::vector<Atom>& atoms,
+                                                  const World& world);
+
 // What conditions may name.
 struct Vocabulary {
   const World& world;

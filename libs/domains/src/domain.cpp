@@ -90,6 +90,10 @@ const std::vector<std::string>& Domain::feature_names() const noexcept { return 
 const std::vector<std::string>& Domain::action_names() const noexcept { return data_->action_names; }
 const std::string& Domain::feature_words(std::size_t k) const { return wording(k).one; }
 const Wording& Domain::wording(std::size_t k) const { return data_->wordings.at(k); }
+const std::vector<FeatureThing>& Domain::feature_things(std::size_t k) const {
+  static const std::vector<FeatureThing> kNone;
+  return k < data_->feature_things.size() ? data_->feature_things[k] : kNone;
+}
 const RewardWeights& Domain::weights() const noexcept { return data_->weights; }
 const std::vector<HalfSpace>& Domain::prior() const noexcept { return data_->prior; }
 std::size_t Domain::max_steps() const noexcept { return data_->max_steps; }
@@ -137,6 +141,29 @@ std::string Domain::describe_variant(MdpIndex m) const {
   check_mdp(*data_, m, "Domain::describe_variant");
   if (!data_->has_map()) return data_->model().members[m.value()].name;
   return variant_text(data_->grid().world, m.value());
+}
+
+std::string Domain::world_name(MdpIndex m) const {
+  check_mdp(*data_, m, "Domain::world_name");
+  if (!data_->has_map()) return data_->model().members[m.value()].name;
+  const auto& names = data_->grid().world.variant_names;
+  return names.empty() ? std::string{} : names[m.value()];
+}
+
+std::optional<MdpIndex> Domain::find_world(std::string_view number_or_name) const {
+  const auto lower = [](std::string_view text) {
+    std::string result{text};
+    for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+    return result;
+  };
+  const auto wanted = lower(number_or_name);
+  for (MdpIndex m{0}; m.value() < num_mdps(); ++m) {
+    if (std::to_string(m.value()) == wanted) return m;
+  }
+  for (MdpIndex m{0}; m.value() < num_mdps() && !wanted.empty(); ++m) {
+    if (lower(world_name(m)) == wanted) return m;
+  }
+  return std::nullopt;
 }
 
 std::vector<OptionalGroup> Domain::optional_groups() const {

@@ -51,6 +51,7 @@ struct Domain::Data {
   std::vector<std::string> feature_names;
   std::vector<std::string> action_names;
   std::vector<Wording> wordings;
+  std::vector<std::vector<FeatureThing>> feature_things{};  // per feature
   RewardWeights weights;
   std::vector<HalfSpace> prior;
   std::size_t max_steps = 0;

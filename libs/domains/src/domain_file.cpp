@@ -105,6 +105,9 @@ std::optional<Domain::Data> read_grid(TomlReader& file, const DomainLimits& limi
   for (const detail::Action action : dynamics.actions) {
     data.action_names.push_back(detail::all_action_names()[static_cast<std::size_t>(action)]);
   }
+  for (const detail::Feature& feature : dynamics.features) {
+    data.feature_things.push_back(detail::things_of(feature.when, dynamics.atoms, world));
+  }
   data.family = grid_from(std::move(world), std::move(members));
   return data;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kith/domains/grid_map.hpp"
@@ -47,6 +48,15 @@ struct Wording {
   friend bool operator==(const Wording&, const Wording&) = default;
 };
 
+/// Something that the condition of a feature names: in "leave:charger" the verb "leave", the kind "station" and the
+/// name "charger".
+struct FeatureThing {
+  std::string verb;  ///< "leave", "enter", "carrying", "deliver" or "goal".
+  std::string kind;  ///< "terrain", "station", "item" or "goal".
+  std::string name;
+  friend bool operator==(const FeatureThing&, const FeatureThing&) = default;
+};
+
 /// Things that are there or not together: one bit of an MDP's index.
 struct OptionalGroup {
   std::string name;         ///< What it is: "rubble", "charger".
@@ -81,6 +91,9 @@ class Domain {
   [[nodiscard]] const std::string& feature_words(std::size_t k) const;
   /// All that the file says about how people call feature k, completed by rule where it says less.
   [[nodiscard]] const Wording& wording(std::size_t k) const;
+  /// What has to be there for feature k to count, by its condition (`when`), in the order in which that names it; not
+  /// what must not be there. Empty without a map.
+  [[nodiscard]] const std::vector<FeatureThing>& feature_things(std::size_t k) const;
   [[nodiscard]] const RewardWeights& weights() const noexcept;
   /// What every learner is assumed to know; all hold at the weights. Empty for a single feature.
   [[nodiscard]] const std::vector<HalfSpace>& prior() const noexcept;
@@ -105,6 +118,10 @@ class Domain {
   /// The optional things that MDP m has, in words: "rubble@{(2,1),(2,2)} charger@{}". Here cells are
   /// (column, row) from the top left, as in all messages about domain files. Without a map the name of the MDP.
   [[nodiscard]] std::string describe_variant(MdpIndex m) const;
+  /// What people call MDP m; empty if the file gives it no name.
+  [[nodiscard]] std::string world_name(MdpIndex m) const;
+  /// The MDP of this number or name, in any case; nothing if there is none.
+  [[nodiscard]] std::optional<MdpIndex> find_world(std::string_view number_or_name) const;
   /// The optional groups in the order of variant().
   [[nodiscard]] std::vector<OptionalGroup> optional_groups() const;
 
