@@ -139,11 +139,11 @@ std::size_t count_ties(const Mdp& mdp, const ExactSolution& solution, const Inte
 
 void warn_of_ties(std::size_t num_ties, const TomlPlace& weights_place, TomlReport& report) {
   if (num_ties == 0) return;
-  report.warning(
-      "W0302", weights_place,
-      "from " + std::to_string(num_ties) + " states there are equally good paths with different feature counts",
-      "people may answer with either; the path that the robot takes is taught as at least as good, unless "
-      "its choices between equally good paths contradict each other");
+  report.warning("W0302", weights_place,
+                 "from " + std::to_string(num_ties) + (num_ties == 1 ? " state" : " states") +
+                     " there are equally good paths with different feature counts",
+                 "people may answer with either; the path that the robot takes is taught as at least as good, unless "
+                 "its choices between equally good paths contradict each other");
 }
 
 void check_optimum(const World& world, const Dynamics& dynamics, const Reward& reward,

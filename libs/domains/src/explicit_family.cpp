@@ -216,7 +216,7 @@ class MemberBuilder {
     }
     if (count == 0) return;
     report_.warning("W0205", first->place,
-                    "left out " + std::to_string(count) + " states" + in_mdp() +
+                    "left out " + std::to_string(count) + (count == 1 ? " state" : " states") + in_mdp() +
                         " from which an end cannot be reached with certainty, with all actions that may lead there",
                     "the first is '" + first->key + "'; if the robot stays there for ever, mark it as terminal");
   }
@@ -253,10 +253,10 @@ class MemberBuilder {
       ++count;
     }
     if (count > 0) {
-      report_.warning(
-          "W0204", first->place,
-          "left out " + std::to_string(count) + " states" + in_mdp() + " that cannot be reached from a start",
-          "the first is '" + first->key + "'");
+      report_.warning("W0204", first->place,
+                      "left out " + std::to_string(count) + (count == 1 ? " state" : " states") + in_mdp() +
+                          " that cannot be reached from a start",
+                      "the first is '" + first->key + "'");
     }
   }
 

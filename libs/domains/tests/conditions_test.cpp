@@ -71,6 +71,15 @@ TEST(Condition, LeaveAndEnterFireWhenThePositionChanges) {
             (Fired{"-", "1", "-", "-", "0", "1", "0"}));
 }
 
+TEST(Condition, NamesWhatHasToBeThere) {
+  const Domain domain = corridor({"enter:grass & !carrying:parcel", "leave:charger | deliver:parcel", "!goal", "exit"});
+  using Things = std::vector<FeatureThing>;
+  EXPECT_EQ(domain.feature_things(0), (Things{{"enter", "terrain", "grass"}}));
+  EXPECT_EQ(domain.feature_things(1), (Things{{"leave", "station", "charger"}, {"deliver", "item", "parcel"}}));
+  EXPECT_TRUE(domain.feature_things(2).empty());
+  EXPECT_TRUE(domain.feature_things(3).empty());
+}
+
 TEST(Condition, AStationFiresOnceAndIsGone) {
   const Domain domain = corridor({"leave:charger", "enter:charger"});
   EXPECT_EQ(fired(domain, {"right", "right", "left", "right", "left"}), (Fired{"-", "1", "0", "-", "-"}));

@@ -141,6 +141,12 @@ TEST(Layers, DrawWorldsWithStartsAndWallsOfTheirOwn) {
   EXPECT_EQ(domain.map()->state(MdpIndex{1}, domain.initial_state(MdpIndex{1})).robot, (Cell{5, 2}));
   EXPECT_EQ(domain.mdp(MdpIndex{0}).num_states(), 8u) << "ten cells without wall and goal";
   EXPECT_THAT(domain.describe_variant(MdpIndex{0}), HasSubstr("from the west: "));
+  EXPECT_EQ(domain.world_name(MdpIndex{0}), "from the west");
+  EXPECT_EQ(domain.world_name(MdpIndex{1}), "");
+  EXPECT_EQ(domain.find_world("From the West"), MdpIndex{0});
+  EXPECT_EQ(domain.find_world("1"), MdpIndex{1});
+  for (const auto* nowhere : {"", "2", "from the east"})
+    EXPECT_FALSE(domain.find_world(nowhere).has_value()) << nowhere;
 }
 
 TEST(Layers, NameSingleThingsInListedWorlds) {
