@@ -34,6 +34,9 @@ Reply Answerer::reply() {
     case Question::Kind::kHowMuch:
       how_much();
       break;
+    case Question::Kind::kWhether:
+      whether();
+      break;
   }
   return std::move(reply_);
 }

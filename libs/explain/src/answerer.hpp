@@ -167,6 +167,16 @@ class Answerer {
   // What people can conclude about a feature's weight from all that the robot does, each with a demonstration.
   void how_much();
 
+  // --- whether ----------------------------------------------------------------
+  // Whether a statement about its reward holds, by what it does.
+  void whether();
+
+  // "if coming home is worth something, 16 steps cost more than falling into the water".
+  [[nodiscard]] std::string statement_text(const HalfSpace& said) const;
+
+  // A demonstration that shows it; two if one alone does not.
+  void show_why_true(const HalfSpace& said, const std::vector<HalfSpace>& known);
+
   // The shortest demonstration that conveys a constraint.
   [[nodiscard]] std::optional<DemoIndex> demonstration_of(const HalfSpace& constraint) const;
 

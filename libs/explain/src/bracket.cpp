@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -96,6 +97,29 @@ std::vector<Bracket> brackets(const Domain& domain, std::span<const HalfSpace> k
     if (bracket.low || bracket.high) all.push_back(bracket);
   }
   return all;
+}
+
+Bracket while_others_stay(const Domain& domain, std::span<const HalfSpace> known, std::size_t k,
+                          std::size_t reference) {
+  const auto& weights = domain.weights().integer;
+  Bracket bracket{k, reference, {}, {}};
+  for (const auto& half_space : known) {
+    const auto& normal = half_space.normal();
+    if (normal[k] == 0) continue;
+    Int128 others = 0;
+    for (std::size_t j = 0; j < normal.size(); ++j) {
+      if (j != k) others += Int128{normal[j]} * weights[j];
+    }
+    const Int128 denominator = Int128{std::abs(normal[k])} * std::abs(weights[reference]);
+    const Int128 numerator = normal[k] > 0 ? -others : others;
+    constexpr auto kMost = Int128{std::numeric_limits<std::int64_t>::max()};
+    if (numerator > kMost || numerator < -kMost || denominator > kMost || denominator == 0) continue;
+    const auto end = in_lowest_terms(static_cast<std::int64_t>(numerator), static_cast<std::int64_t>(denominator));
+    auto& known_end = normal[k] > 0 ? bracket.low : bracket.high;
+    const bool is_tighter = !known_end || (normal[k] > 0 ? is_less(*known_end, end) : is_less(end, *known_end));
+    if (is_tighter) known_end = end;
+  }
+  return bracket;
 }
 
 std::string bracket_in_words(const Domain& domain, const Bracket& bracket) {

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cctype>
 
+#include "kith/core/diagnostic.hpp"
+#include "kith/explain/words.hpp"
+#include "question_words.hpp"
+
 namespace kith::detail {
 namespace {
 
@@ -26,10 +30,20 @@ std::vector<std::string> plain_words(const std::string& text) {
 }  // namespace
 
 std::string stem(std::string word) {
+  static const std::map<std::string, std::string> kIrregular{
+      {"fell", "fall"},    {"fallen", "fall"},  {"took", "take"},     {"taken", "take"},     {"came", "come"},
+      {"drove", "drive"},  {"driven", "drive"}, {"went", "go"},       {"left", "left"},      {"ate", "eat"},
+      {"eaten", "eat"},    {"ran", "run"},      {"person", "people"}, {"persons", "people"}, {"humans", "people"},
+      {"human", "people"}, {"met", "meet"}};
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ends_with(word, "'s")) word.resize(word.size() - 2);
+  const auto irregular = kIrregular.find(word);
+  if (irregular != kIrregular.end()) word = irregular->second;
   constexpr std::size_t kShort = 4;
   const auto drop = [&](std::size_t n) { word.resize(word.size() - n); };
-  if (word.size() > kShort && ends_with(word, "ing")) {
+  if (word.size() > kShort && ends_with(word, "ies")) {
+    drop(2);
+  } else if (word.size() > kShort && ends_with(word, "ing")) {
     drop(3);
   } else if (word.size() > kShort && ends_with(word, "ed")) {
     drop(2);
@@ -38,39 +52,25 @@ std::string stem(std::string word) {
   }
   if (word.size() > 3 && ends_with(word, "e")) drop(1);
   if (word.size() > 3 && word.back() == word[word.size() - 2]) drop(1);
+  if (word.size() > 3 && word.back() == 'y') word.back() = 'i';
   return word;
-}
-
-const std::set<std::string>& filler_words() {
-  static const std::set<std::string> kWords{
-      "a",       "an",      "the",    "it",     "its",     "he",     "she",    "robot",   "does",    "do",
-      "did",     "is",      "are",    "be",     "will",    "would",  "should", "could",   "can",     "may",
-      "there",   "then",    "to",     "of",     "in",      "at",     "on",     "from",    "for",     "by",
-      "go",      "goes",    "going",  "move",   "moves",   "take",   "takes",  "taking",  "make",    "makes",
-      "happen",  "happens", "this",   "that",   "one",     "n",      "times",  "were",    "was",     "if",
-      "or",      "tell",    "me",     "show",   "please",  "ever",   "here",   "any",     "some",    "exactly",
-      "about",   "start",   "cell",   "choose", "chooses", "use",    "uses",   "using",   "have",    "has",
-      "when",    "where",   "why",    "what",   "you",     "i",      "their",  "over",    "through", "across",
-      "into",    "onto",    "along",  "toward", "towards", "walk",   "walks",  "drive",   "drives",  "travel",
-      "travels", "turn",    "turns",  "head",   "heads",   "rather", "prefer", "prefers", "moving",  "walking",
-      "driving", "turning", "worlds", "way",    "many",    "how",    "try",    "tries",   "decide",  "decides"};
-  return kWords;
 }
 
 namespace {
 
 // Words that people use for each other. Where a domain knows one of a row, it understands the others.
 const std::vector<std::vector<std::string>>& synonyms() {
-  static const std::vector<std::vector<std::string>> kRows{{"recharge", "charge", "charger", "refuel", "battery"},
-                                                           {"up", "north", "upward", "upwards"},
-                                                           {"down", "south", "downward", "downwards"},
-                                                           {"left", "west", "leftward", "leftwards"},
-                                                           {"right", "east", "rightward", "rightwards"},
-                                                           {"pickup", "pick", "collect", "grab", "fetch", "load"},
-                                                           {"dropoff", "drop", "deliver", "unload", "put", "drop-off"},
-                                                           {"exit", "leave", "finish"},
-                                                           {"cross", "traverse", "enter"},
-                                                           {"wait", "stay", "stop", "pause"}};
+  static const std::vector<std::vector<std::string>> kRows{
+      {"recharge", "charge", "charger", "refuel", "battery"},
+      {"up", "north", "upward", "upwards"},
+      {"down", "south", "downward", "downwards"},
+      {"left", "west", "leftward", "leftwards"},
+      {"right", "east", "rightward", "rightwards"},
+      {"pickup", "pick", "collect", "grab", "fetch", "load", "lift"},
+      {"dropoff", "drop", "deliver", "delivery", "unload", "put", "drop-off", "bring"},
+      {"exit", "leave", "finish"},
+      {"disinfect", "disinfection", "clean", "sanitise", "sanitize"},
+      {"wait", "stay", "pause"}};
   return kRows;
 }
 
@@ -90,12 +90,29 @@ Lexicon::Lexicon(const Domain& domain) : domain_{domain} {
   for (std::size_t k = 0; k < d; ++k) {
     add_words(domain.wording(k).one, k);
     add_words(domain.wording(k).do_one, k);
+    for (const auto* text : {&domain.wording(k).one, &domain.wording(k).do_one}) {
+      const auto words = plain_words(*text);
+      const bool is_verb = text != &domain.wording(k).one || (!words.empty() && ends_with(words.front(), "ing"));
+      if (!words.empty() && is_verb && stem(domain.feature_names()[k]) != stem(words.front())) {
+        verbs_.insert(stem(words.front()));
+      }
+    }
+  }
+  for (std::size_t k = 0; k < d; ++k) add_things(k);
+}
+
+// The things that a feature's condition names, and what kind of thing they are, where no other feature has the word.
+void Lexicon::add_things(std::size_t feature) {
+  for (const auto& thing : domain_.feature_things(feature)) {
+    for (const auto& word : thing.kind == "station" ? std::vector{thing.name, thing.kind} : std::vector{thing.name}) {
+      if (thing.kind != "item" && meanings_.count(stem(word)) == 0) add_words(word, feature);
+    }
   }
 }
 
 void Lexicon::add_words(const std::string& text, std::size_t feature) {
   for (const auto& word : plain_words(text)) {
-    if (filler_words().count(word) != 0) continue;
+    if (is_filler(word)) continue;
     // An action's name stays the action's, also where the words about a feature use it.
     auto& meanings = meanings_[stem(word)];
     const bool names_action =
@@ -133,10 +150,43 @@ std::string Lexicon::known_stem(const std::string& word) const {
   return own;
 }
 
+bool Lexicon::is_weak(const std::string& stem_of_word) const {
+  return verbs_.count(stem_of_word) != 0 || is_contact(stem_of_word);
+}
+
 bool Lexicon::knows(const std::string& word) const {
   // "drop off" is two words for one action.
   if (stem(word) == "off" && has_action("dropoff")) return true;
-  return is_item(stem(word)) || meanings_.count(known_stem(word)) != 0;
+  return is_item(stem(word)) || meanings_.count(known_stem(word)) != 0 || is_contact(stem(word));
+}
+
+bool Lexicon::names_something(const std::string& word) const {
+  const auto own = known_stem(word);
+  const auto& names = domain_.feature_names();
+  const bool is_name = std::any_of(names.begin(), names.end(), [&](const auto& name) { return stem(name) == own; });
+  return meanings_.count(own) != 0 && (is_name || !is_weak(stem(word)));
+}
+
+std::set<std::size_t> Lexicon::common_meanings(const std::vector<std::string>& stems) const {
+  const auto meanings_of = [&](const std::string& word) {
+    const auto found = meanings_.find(word);
+    return found == meanings_.end() ? std::set<std::size_t>{} : found->second;
+  };
+  std::optional<std::set<std::size_t>> common;
+  for (const auto& word : stems) {
+    if (is_weak(word)) continue;
+    const auto meanings = meanings_of(word);
+    if (!common) common = meanings;
+    std::erase_if(*common, [&](std::size_t m) { return meanings.count(m) == 0; });
+  }
+  for (const auto& word : stems) {
+    if (!is_weak(word)) continue;
+    const auto meanings = meanings_of(word);
+    auto narrowed = common ? *common : meanings;
+    std::erase_if(narrowed, [&](std::size_t m) { return meanings.count(m) == 0; });
+    if (!narrowed.empty()) common = narrowed;
+  }
+  return common.value_or(std::set<std::size_t>{});
 }
 
 std::vector<Happening> Lexicon::happenings(const std::vector<std::string>& words) const {
@@ -144,38 +194,38 @@ std::vector<Happening> Lexicon::happenings(const std::vector<std::string>& words
   stems.reserve(words.size());
   for (const auto& word : words) stems.push_back(known_stem(word));
   // "pick up the parcel", "put it down", "drop the parcel off": what is carried is clear without saying.
-  const bool takes = has_action("pickup") && stems.front() == stem("pickup");
-  const bool leaves = has_action("dropoff") && stems.front() == stem("dropoff");
+  const auto is_said = [&](const char* action) {
+    return has_action(action) && std::find(stems.begin(), stems.end(), stem(action)) != stems.end();
+  };
+  const bool leaves = is_said("dropoff");
+  const bool is_item_alone = std::all_of(stems.begin(), stems.end(),
+                                         [&](const auto& word) { return is_item(word) && meanings_.count(word) == 0; });
+  if (is_item_alone && has_action("pickup")) stems.insert(stems.begin(), stem("pickup"));  // "take the parcel"
+  const bool takes = !leaves && is_said("pickup");
   if (takes || leaves) {
     const auto says_nothing = [&](const std::string& word) {
       return is_item(word) || (takes && word == "up") || (leaves && (word == "off" || word == "down"));
     };
-    stems.erase(std::remove_if(stems.begin() + 1, stems.end(), says_nothing), stems.end());
+    stems.erase(std::remove_if(stems.begin(), stems.end(), says_nothing), stems.end());
   }
 
-  std::optional<std::set<std::size_t>> common;
-  for (const auto& word : stems) {
-    const auto found = meanings_.find(word);
-    const auto meanings = found == meanings_.end() ? std::set<std::size_t>{} : found->second;
-    if (!common) {
-      common = meanings;
-      continue;
-    }
-    std::erase_if(*common, [&](std::size_t m) { return meanings.count(m) == 0; });
-  }
+  auto common = common_meanings(stems);
   std::vector<Happening> result;
-  if (!common) return result;
   const auto d = domain_.num_features();
   const auto is_named = [&](std::size_t m) { return m < d && stem(domain_.feature_names()[m]) == stems.front(); };
-  const auto named = std::find_if(common->begin(), common->end(), is_named);
-  if (stems.size() == 1 && named != common->end()) common = std::set<std::size_t>{*named};
-  for (const auto m : *common) {
+  const auto named = std::find_if(common.begin(), common.end(), is_named);
+  if (stems.size() == 1 && named != common.end()) common = std::set<std::size_t>{*named};
+  for (const auto m : common) {
     Happening happening;
     if (m >= d) happening.action = ActionIndex{m - d};
     if (m < d) happening.feature = m;
     result.push_back(happening);
   }
   return result;
+}
+
+bool Lexicon::says_only_contact(const std::string& word) const {
+  return is_contact(stem(word)) && meanings_.count(known_stem(word)) == 0;
 }
 
 std::string Lexicon::name_of(const Happening& happening) const {
@@ -189,9 +239,44 @@ std::vector<std::string> Lexicon::happening_names() const {
   return names;
 }
 
+std::vector<std::string> Lexicon::all_words() const {
+  auto words = words_;
+  const auto add = [&](const std::vector<std::string>& more) { words.insert(words.end(), more.begin(), more.end()); };
+  add(optional_things());
+  if (const auto map = domain_.map()) add(map->item_names());
+  return words;
+}
+
+void fail_unknown(const Lexicon& lexicon, const std::string& question, const std::string& word, const Place& place,
+                  const std::vector<std::string>& candidates) {
+  constexpr std::size_t kNearest = 3;
+  auto left = candidates;
+  std::vector<std::string> nearest;
+  for (auto next = nearest_word(word, left); !next.empty() && nearest.size() < kNearest;
+       next = nearest_word(word, left)) {
+    if (std::find(nearest.begin(), nearest.end(), next) == nearest.end()) nearest.push_back(next);
+    std::erase(left, next);
+  }
+  std::string choice;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    choice += (i == 0 ? "'" : i + 1 == nearest.size() ? " or '" : ", '") + nearest[i] + "'";
+  }
+  fail(question, place, "E1103", "kith does not know the word '" + word + "'",
+       nearest.empty() ? "it knows " + listed(lexicon.happening_names()) : "did you mean " + choice + "?");
+}
+
 std::optional<std::string> Lexicon::optional_thing(const std::string& word) const {
-  for (const auto& thing : optional_things()) {
+  const auto things = optional_things();
+  for (const auto& thing : things) {
     if (stem(thing) == stem(word)) return thing;
+  }
+  // By a feature that it brings: "what if it cannot recharge?".
+  const auto found = meanings_.find(known_stem(word));
+  if (found == meanings_.end() || found->second.size() != 1 || *found->second.begin() >= domain_.num_features()) {
+    return std::nullopt;
+  }
+  for (const auto& named : domain_.feature_things(*found->second.begin())) {
+    if (std::find(things.begin(), things.end(), named.name) != things.end()) return named.name;
   }
   return std::nullopt;
 }

@@ -3,26 +3,31 @@
 #include <algorithm>
 #include <set>
 
+#include "comparison.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
-#include "lexicon.hpp"
-#include "question_tokens.hpp"
+#include "question_context.hpp"
+#include "question_words.hpp"
 
 namespace kith::detail {
 namespace {
 
-// Words that may stand anywhere and say nothing.
-bool is_filler(const std::string& word) { return filler_words().count(word) != 0; }
-
-class Parser {
+class Parser : private ContextReader {
  public:
-  Parser(const Domain& domain, const std::string& text)
-      : domain_{domain}, map_{domain.map()}, text_{text}, lexicon_{domain}, tokens_{tokens_of(text)} {}
+  Parser(const Domain& domain, const std::string& text) : ContextReader{domain, text} {}
 
   Question parse() {
+    if (const auto sentence = read_sentence(domain_, text_)) {
+      question_.kind = Kind::kWhether;
+      question_.said = sentence->said;
+      question_.condition = sentence->condition;
+      return std::move(question_);
+    }
     read_kind();
+    if (question_.kind == Kind::kWhether) return whether();
     while (at_ < tokens_.size()) read_next();
     close_phrase();
+    settle_kind();
     check();
     return std::move(question_);
   }
@@ -30,107 +35,196 @@ class Parser {
  private:
   using Kind = Question::Kind;
 
-  [[noreturn]] void fail_at(const Place& place, const std::string& id, const std::string& message,
-                            const Advice& advice = {}) const {
-    fail(text_, place, id, message, advice);
-  }
+  struct Word {
+    std::string text;
+    Place place;
+  };
 
-  // "Does it recharge?" asks when it does; "how much does rubble cost?" what can be concluded about its weight.
+  // A question word anywhere, with what stands before it; or a verb at the beginning, which asks when.
   void read_kind() {
     if (tokens_.empty()) {
       fail_at({1, std::max<std::size_t>(text_.size(), 1)}, "E1102", "the question is empty", kForms);
     }
-    static const std::set<std::string> kAuxiliaries{"does", "do",  "did",   "is",     "are",  "will",
-                                                    "can",  "may", "could", "should", "would"};
-    for (std::size_t i = 0; i < tokens_.size(); ++i) {
-      const auto& word = tokens_[i].text;
-      at_ = i + 1;
-      if (is_question_word(word)) return read_question_word(word);
-      if (word == "how") return read_how(tokens_[i]);
-      if (!is_filler(word)) break;
-    }
-    if (kAuxiliaries.count(tokens_.front().text) != 0) {
-      at_ = 1;
+    const auto opening = find_opening(tokens_);
+    const auto verb = first_verb(opening ? opening->begin : tokens_.size());
+    if (opening && !verb) {
+      question_.kind = opening->kind;
+      removes_ = opening->removes;
+      const bool how_many = question_.kind == Kind::kHowMuch && tokens_[opening->end - 1].text == "many";
+      tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(opening->begin),
+                    tokens_.begin() + static_cast<std::ptrdiff_t>(opening->end));
+      if (how_many) drop_what_is_counted(opening->begin);
+      if (question_.kind == Kind::kWhat && asks_of_a_world(opening->begin)) question_.kind = Kind::kWhatIf;
+    } else if (verb) {
       question_.kind = Kind::kWhen;
-      return;
+    } else if (compares(lexicon_, tokens_)) {
+      question_.kind = Kind::kWhether;  // said rather than asked
+    } else {
+      fail_kind();
     }
-    const auto nearest = nearest_word(tokens_.front().text, {"when", "where", "why", "what", "how"});
-    fail_at(tokens_.front().place, "E1102", "a question begins with when, where, why, what or how much",
+    negated_ = removes_;
+    settle_value();
+  }
+
+  // "how many steps is rubble worth" is about rubble.
+  void drop_what_is_counted(std::size_t begin) {
+    auto end = begin;
+    while (end < tokens_.size() && !is_auxiliary(tokens_[end].text)) ++end;
+    const bool values = std::any_of(tokens_.begin(), tokens_.end(),
+                                    [](const Token& token) { return valued(token.text) != Valued::kNo; });
+    if (!values) {
+      fail_at({1, 3}, "E1102", "a question with 'how' begins with 'how much' or 'how often'", kForms);
+    }
+    tokens_.erase(tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
+                  tokens_.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+
+  // The verb with which a question begins, if it stands before any question word: "does it recharge".
+  [[nodiscard]] std::optional<std::size_t> first_verb(std::size_t end) const {
+    for (std::size_t i = 0; i < end; ++i) {
+      const auto& token = tokens_[i];
+      if (token.kind != Token::Kind::kWord) continue;
+      const auto next = i + 1 < tokens_.size() ? tokens_[i + 1].text : std::string{};
+      const bool is_to_us = next == "you" || next == "i" || next == "we";  // "could you tell me when"
+      if (is_auxiliary(token.text) || (denies(token.text) && token.text.ends_with("n't"))) {
+        if (is_to_us) continue;
+        return i;
+      }
+      if (!is_filler(token.text) && !lexicon_.is_only_item(token.text) && token.text != "world") return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  [[noreturn]] void fail_kind() const {
+    for (const auto& token : tokens_) {
+      if (token.text != "how") continue;
+      fail_at(token.place, "E1102", "a question with 'how' begins with 'how much' or 'how often'", kForms);
+    }
+    const auto nearest = nearest_word(tokens_.front().text, {"when", "where", "why", "what", "how", "does", "would"});
+    fail_at(tokens_.front().place, "E1102", "a question begins with when, where, why, what, how much, does or would",
             nearest.empty() ? kForms : "did you mean '" + nearest + "'?");
   }
 
-  static bool is_question_word(const std::string& word) {
-    return word == "when" || word == "where" || word == "why" || word == "what";
-  }
-
-  void read_question_word(const std::string& word) {
-    question_.kind = word == "when"    ? Kind::kWhen
-                     : word == "where" ? Kind::kWhere
-                     : word == "why"   ? Kind::kWhy
-                                       : Kind::kWhat;
-    if (word != "what") return;
-    // "what if", "what happens if", "what would it do without".
-    for (auto i = at_; i < tokens_.size(); ++i) {
+  // "what would it do without the charger", "what happens if".
+  [[nodiscard]] bool asks_of_a_world(std::size_t begin) {
+    for (auto i = begin; i < tokens_.size(); ++i) {
       const auto& next = tokens_[i].text;
-      if (next == "if" || next == "without" || next == "with") {
-        question_.kind = Kind::kWhatIf;
-        at_ = next == "if" ? i + 1 : i;
-        return;
+      at_ = i + 1;
+      if (next == "with" && names_item_next()) return false;
+      at_ = 0;
+      if (next == "if" || next == "without" || next == "with") return true;
+      if (lexicon_.names_something(next) || !(is_filler(next) || next == "change" || next == "changes")) return false;
+    }
+    return false;
+  }
+
+  // Words for likes and costs turn questions of other kinds into those about the reward: "does it mind rubble".
+  void settle_value() {
+    if (question_.kind == Kind::kWhatIf) return;
+    const bool prefers_here = question_.kind == Kind::kWhy || question_.kind == Kind::kWhere;
+    bool values = false;
+    for (const auto& token : tokens_) {
+      const bool is_choice = token.text == "rather" || token.text.starts_with("prefer") || token.text == "something";
+      const bool is_polite = token.text == "like" && &token != tokens_.data() && (&token - 1)->text == "would";
+      if (token.kind != Token::Kind::kWord || lexicon_.knows(token.text) || valued(token.text) == Valued::kNo) continue;
+      values = values || !(is_polite || (prefers_here && is_choice) || (opened_by_when() && is_choice));
+    }
+    if (!values && question_.kind != Kind::kWhether) return;
+    values_ = true;
+    if (prefers_here) return;
+    question_.kind = compares(lexicon_, tokens_) ? Kind::kWhether : Kind::kHowMuch;
+  }
+
+  // "when does it prefer the stairs" asks when it takes them, "does it prefer the stairs" what it likes.
+  [[nodiscard]] bool opened_by_when() const {
+    return question_.kind == Kind::kWhen &&
+           (tokens_.empty() || !first_verb(tokens_.size()) || find_opening(tokens_of(text_)).has_value());
+  }
+
+  // Of two things that happen one is worth more; of two steps the robot takes one.
+  Question whether() {
+    if (auto said = read_comparison(domain_, lexicon_, text_, without_contexts())) {
+      question_.said = std::move(said);
+      return std::move(question_);
+    }
+    question_.kind = Kind::kWhat;
+    for (at_ = 0; at_ < tokens_.size();) {
+      if (lexicon_.names_something(tokens_[at_].text) || valued(tokens_[at_].text) != Valued::kNo ||
+          tokens_[at_].text == "than") {
+        ++at_;
+      } else {
+        read_next();
       }
-      if (lexicon_.knows(next) || !is_filler(next)) return;
+    }
+    close_phrase();
+    check();
+    return std::move(question_);
+  }
+
+  // The tokens of a comparison without the world, which makes no difference to what things are worth.
+  [[nodiscard]] std::vector<Token> without_contexts() const {
+    std::vector<Token> left;
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      const bool is_number = tokens_[i].kind == Token::Kind::kNumber && i > 0 && tokens_[i - 1].text == "world";
+      if (tokens_[i].kind == Token::Kind::kWorld || tokens_[i].text == "world" || is_number) continue;
+      left.push_back(tokens_[i]);
+    }
+    return left;
+  }
+
+  // What a question turns out to be once all of it is read.
+  void settle_kind() {
+    const bool is_feature = question_.happening && !question_.happening->action && !question_.instead;
+    if (question_.kind == Kind::kWhy && values_ && is_feature && !question_.is_about_a_step()) {
+      question_.kind = Kind::kHowMuch;  // "why does it mind rubble": the reward is what there is to tell
+    }
+    const bool names_nothing = !question_.happening && !question_.instead;
+    if (question_.kind == Kind::kWhere && names_nothing && question_.is_about_a_step()) {
+      question_.kind = Kind::kWhat;  // "where does it go from (2,3)"
+    }
+    if (question_.carried && !question_.is_about_a_step() && names_nothing && !map_actions("pickup").empty()) {
+      question_.happening = map_actions("pickup").front();  // "does it carry the parcel"
+      question_.carried.reset();
     }
   }
 
-  void read_how(const Token& how) {
-    const auto next = at_ < tokens_.size() ? tokens_[at_].text : std::string{};
-    if (next != "much" && next != "often") {
-      fail_at(how.place, "E1102", "a question with 'how' begins with 'how much' or 'how often'", kForms);
-    }
-    ++at_;
-    question_.kind = next == "much" ? Kind::kHowMuch : Kind::kWhen;
-  }
-
-  // Words that deny what follows: "not", "doesn't", "avoid".
-  static bool denies(const std::string& word) {
-    static const std::set<std::string> kWords{"not",      "no",    "never",  "without",  "cannot", "instead",
-                                              "than",     "avoid", "avoids", "avoiding", "around", "bypass",
-                                              "bypasses", "skip",  "skips",  "skipping"};
-    return kWords.count(word) != 0 || (word.size() > 3 && word.substr(word.size() - 3) == "n't");
+  [[nodiscard]] std::vector<Happening> map_actions(const std::string& name) const {
+    const bool has = std::ranges::count(domain_.action_names(), name) > 0;
+    return has ? lexicon_.happenings({name}) : std::vector<Happening>{};
   }
 
   void read_next() {
     const Token token = tokens_[at_++];
     const auto& word = token.text;
+    if (begins_context(token)) close_phrase();
     if (token.kind == Token::Kind::kCell) return take_cell(token);
+    if (token.kind == Token::Kind::kWorld) return set_world(MdpIndex{token.number});
     if (token.kind == Token::Kind::kName) return take_state(token);
     if (word == "world" || word == "mdp") return take_world(token);
     if (word == "state" && !map_ && !lexicon_.knows(word)) return take_unquoted_state(token);
-    if (token.kind == Token::Kind::kNumber) {
-      fail_at(token.place, "E1103", "it is not clear what the number " + word + " stands for",
-              "write 'world " + word + "', or a cell as (COLUMN,ROW)");
-    }
-    if (word == "carrying") return take_item(token);
-    if (word == "with" && question_.kind != Kind::kWhatIf && names_item_next()) return take_item(token);
-    if (!is_structure(word) && lexicon_.knows(word)) {
+    if (word == "column" && map_ && take_column_and_row(token)) return;
+    if (token.kind == Token::Kind::kNumber) return take_number(token);
+    static const std::set<std::string> kCarries{"carrying", "carries", "carry", "holding", "holds", "hold"};
+    const bool has_item =
+        names_item_next() && (kCarries.count(word) != 0 || (word == "with" && question_.kind != Kind::kWhatIf));
+    if (has_item) close_phrase();
+    if (has_item || word == "carrying") return take_item(token);
+    if (is_way_of_speaking(word)) return;
+    if (!is_structure(word) && !denies_here(word) && lexicon_.knows(word)) {
       phrase_.push_back({word, token.place});
       return;
     }
-    if (denies(word)) {
-      if (stem(word) == "around") drop_verbs_of_motion();
+    if (denies(word) || denies_here(word)) return deny(word);
+    const bool begins_second = is_second_choice(word);
+    if (word == "and" || word == "with" || word == "but" || begins_second) {
       close_phrase();
-      // "does not avoid" denies twice, "rather than not" and "instead of not" do not.
-      const bool denied_just_before = negated_ && negated_at_ + 1 == at_ - 1;
-      negated_ = !denied_just_before || word == "instead" || word == "than" || after_instead_;
-      after_instead_ = word == "instead" || word == "than";
-      negated_at_ = at_ - 1;
+      negated_ = begins_second;
       return;
     }
-    if (word == "and" || word == "with" || word == "but") {
-      close_phrase();
-      negated_ = false;
-      return;
-    }
-    if (is_question_word(word) && question_.kind != Kind::kWhat) {
+    const bool asks_again = word == "when" || word == "where" || word == "why";
+    const bool has_asked = question_.happening || question_.instead || !phrase_.empty();
+    const bool follows_up = question_.kind == Kind::kWhatIf || question_.is_about_a_step() || values_;
+    if (asks_again && question_.kind != Kind::kWhat && has_asked && !follows_up) {
       fail_at(token.place, "E1106", "one question at a time: '" + word + "' begins another one",
               "ask about it in a question of its own");
     }
@@ -139,6 +233,59 @@ class Parser {
       return;
     }
     phrase_.push_back({word, token.place});
+  }
+
+  // Whether it says where the robot is, or in which world.
+  [[nodiscard]] bool begins_context(const Token& token) const {
+    const bool is_place = token.kind != Token::Kind::kWord && token.kind != Token::Kind::kNumber;
+    const bool says_state = token.text == "state" && !map_ && !lexicon_.knows(token.text);
+    return is_place || token.text == "world" || token.text == "mdp" || token.text == "carrying" || says_state ||
+           (token.text == "column" && map_);
+  }
+
+  void deny(const std::string& word) {
+    if (stem(word) == "around") drop_verbs_of_motion();
+    close_phrase();
+    // "does not avoid" denies twice, "rather than not" and "instead of not" do not.
+    const bool denied_just_before = negated_ && negated_at_ + 1 == at_ - 1;
+    const bool says_so_again = word == "off" || word == "away" || word == "past" || word == "clear";
+    negated_ = !denied_just_before || word == "instead" || word == "than" || after_instead_ || says_so_again;
+    after_instead_ = word == "instead" || word == "than";
+    negated_at_ = at_ - 1;
+  }
+
+  // "prefers left to up": what it does, and what it does not.
+  [[nodiscard]] bool is_second_choice(const std::string& word) const {
+    if (question_.kind != Kind::kWhy || (word != "to" && word != "over") || phrase_.empty()) return false;
+    const bool prefers = std::any_of(tokens_.begin(), tokens_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                     [](const Token& token) { return token.text.starts_with("prefer"); });
+    return prefers && std::any_of(phrase_.begin(), phrase_.end(),
+                                  [&](const Word& one) { return lexicon_.names_something(one.text); });
+  }
+
+  [[nodiscard]] std::string word_before() const { return at_ >= 2 ? tokens_[at_ - 2].text : std::string{}; }
+
+  // "keep off", "stay away".
+  [[nodiscard]] bool denies_here(const std::string& word) const {
+    static const std::set<std::string> kVerbs{"keep", "keeps", "keeping", "stay", "stays", "staying"};
+    return word == "off" && kVerbs.count(word_before()) != 0;
+  }
+
+  // "end up in the water", "go up the stairs": no action.
+  [[nodiscard]] bool is_way_of_speaking(const std::string& word) const {
+    if (word != "up" && word != "down") return false;
+    if (word_before() == "end" || word_before() == "ends" || word_before() == "ending") return true;
+    auto next = at_;
+    while (next < tokens_.size() && (tokens_[next].text == "the" || tokens_[next].text == "a")) ++next;
+    if (next == at_ || next == tokens_.size() || stem(word_before()) == "pick" || stem(word_before()) == "put")
+      return false;
+    return lexicon_.names_something(tokens_[next].text);
+  }
+
+  void take_number(const Token& token) const {
+    if (question_.kind == Kind::kHowMuch) return;
+    fail_at(token.place, "E1103", "it is not clear what the number " + token.text + " stands for",
+            "write 'world " + token.text + "', or a cell as (COLUMN,ROW)");
   }
 
   // Words that hold a question together, whatever words a domain uses.
@@ -155,10 +302,10 @@ class Parser {
 
   // Words that say nothing in questions of one kind.
   [[nodiscard]] bool is_filler_here(const std::string& word) const {
-    static const std::set<std::string> kOfCosts{"cost",    "costs", "worth", "mind",     "minds",  "like",    "likes",
-                                                "dislike", "want",  "wants", "dislikes", "matter", "matters", "value"};
-    static const std::set<std::string> kOfThings{"everywhere", "anywhere", "change", "changes", "all"};
-    if (question_.kind == Kind::kHowMuch) return kOfCosts.count(word) != 0;
+    static const std::set<std::string> kOfThings{"change",  "changes", "different", "differ", "present",
+                                                 "exist",   "exists",  "existed",   "added",  "add",
+                                                 "appears", "appear",  "find",      "finds"};
+    if (values_ && valued(word) != Valued::kNo) return true;
     return question_.kind == Kind::kWhatIf && kOfThings.count(word) != 0;
   }
 
@@ -170,24 +317,50 @@ class Parser {
 
   // Ends what stands before a separator, a cell or the end of the question.
   void close_phrase() {
+    std::erase_if(phrase_, [&](const Word& word) { return lexicon_.says_only_contact(word.text); });
     if (phrase_.empty()) return;
     const auto place = Place{phrase_.front().place.column,
                              phrase_.back().place.column + phrase_.back().place.length - phrase_.front().place.column};
     if (question_.kind == Kind::kWhatIf) {
-      question_.conditions.push_back({!negated_, thing_of_phrase(place), std::nullopt, place});
+      take_condition(place);
+    } else if ((question_.kind == Kind::kWhat || question_.is_about_a_step()) && is_item(phrase_)) {
+      carry(phrase_.front().text);
     } else {
       take_happening(place);
     }
     phrase_.clear();
   }
 
+  // "there is no charger", "the charger is gone", "we remove the charger".
+  void take_condition(const Place& place) {
+    static const std::set<std::string> kGone{"gone",        "missing", "removed", "remove",   "absent",
+                                             "cleared",     "broken",  "deleted", "vanished", "disappear",
+                                             "disappeared", "lacking", "less"};
+    bool is_gone = false;
+    std::erase_if(phrase_, [&](const Word& word) {
+      is_gone = is_gone || kGone.count(word.text) != 0;
+      return kGone.count(word.text) != 0;
+    });
+    if (phrase_.empty()) {
+      if (is_gone && !question_.conditions.empty()) question_.conditions.back().present = false;
+      return;
+    }
+    question_.conditions.push_back({!(negated_ || is_gone), thing_of_phrase(place), std::nullopt, place});
+  }
+
+  [[nodiscard]] bool is_item(const std::vector<Word>& words) const {
+    return std::all_of(words.begin(), words.end(), [&](const Word& word) { return lexicon_.is_only_item(word.text); });
+  }
+
+  void carry(const std::string& word) {
+    const auto names = map_->item_names();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (stem(names[i]) == stem(word)) question_.carried = i;
+    }
+  }
+
   void take_happening(const Place& place) {
     check_words();
-    auto& slot = negated_ ? question_.instead : question_.happening;
-    if (slot) {
-      fail_at(place, "E1106", "one thing at a time: '" + phrase_text() + "' is one too many",
-              "ask about it in a question of its own");
-    }
     const auto found = lexicon_.happenings(words_of_phrase());
     if (found.empty()) {
       fail_at(place, "E1103", "'" + phrase_text() + "' is neither an action nor a feature of this robot",
@@ -200,6 +373,12 @@ class Parser {
       fail_at(place, "E1103", "'" + phrase_text() + "' could mean several things: " + listed(names),
               "use one of these names");
     }
+    auto& slot = negated_ ? question_.instead : question_.happening;
+    const bool is_known = slot && slot->action == found.front().action && slot->feature == found.front().feature;
+    if (slot && !is_known) {
+      fail_at(place, "E1106", "one thing at a time: '" + phrase_text() + "' is one too many",
+              "ask about it in a question of its own");
+    }
     slot = found.front();
     slot->place = place;
   }
@@ -207,15 +386,8 @@ class Parser {
   // Every word must be one that somebody could use here; the first that is not is named.
   void check_words() const {
     for (const auto& word : phrase_) {
-      if (!lexicon_.knows(word.text)) fail_unknown(word.text, word.place, lexicon_.all_words());
+      if (!lexicon_.knows(word.text)) fail_unknown(lexicon_, text_, word.text, word.place, lexicon_.all_words());
     }
-  }
-
-  [[noreturn]] void fail_unknown(const std::string& word, const Place& place,
-                                 const std::vector<std::string>& candidates) const {
-    const auto nearest = nearest_word(word, candidates);
-    fail_at(place, "E1103", "kith does not know the word '" + word + "'",
-            nearest.empty() ? "it knows " + listed(lexicon_.happening_names()) : "did you mean '" + nearest + "'?");
   }
 
   [[nodiscard]] std::string thing_of_phrase(const Place& place) const {
@@ -229,7 +401,7 @@ class Parser {
       if (thing) named = thing;
     }
     for (const auto& word : phrase_) {
-      if (named && !lexicon_.optional_thing(word.text)) fail_unknown(word.text, word.place, things);
+      if (named && !lexicon_.optional_thing(word.text)) fail_unknown(lexicon_, text_, word.text, word.place, things);
     }
     if (named) return *named;
     const auto nearest = nearest_word(phrase_.front().text, things);
@@ -238,120 +410,6 @@ class Parser {
                       : things.empty() ? "all its worlds are the same"
                                        : "optional in this domain: " + listed(things);
     fail_at(place, "E1108", "'" + phrase_text() + "' is not optional in this domain", hint);
-  }
-
-  // "state 0", "state on the bank at a1": the longest stretch of words that is a name, or the next word.
-  void take_unquoted_state(const Token& word) {
-    if (at_ >= tokens_.size())
-      fail_at(word.place, "E1104", "which state?", Advice{"write its name", Remedy::kShowStates});
-    if (tokens_[at_].kind == Token::Kind::kName) return;  // quoted after all
-    const auto names = state_names();
-    const auto begin = tokens_[at_].place.column - 1;
-    for (auto last = tokens_.size(); last-- > at_;) {
-      const auto end = tokens_[last].place.column - 1 + tokens_[last].place.length;
-      auto name = text_.substr(begin, end - begin);
-      if (names.count(name) == 0) name.insert(0, "state ");
-      if (names.count(name) == 0 && last > at_) continue;
-      Token found{Token::Kind::kName, names.count(name) != 0 ? name : text_.substr(begin, end - begin), 0, 0, {}};
-      found.place = {begin + 1, end - begin};
-      at_ = last + 1;
-      return take_state(found);
-    }
-  }
-
-  [[nodiscard]] std::set<std::string> state_names() const {
-    std::set<std::string> names;
-    for (MdpIndex m{0}; m.value() < domain_.num_mdps(); ++m) {
-      for (StateIndex s{0}; s.value() < domain_.mdp(m).num_states(); ++s) names.insert(domain_.state_name(m, s));
-    }
-    return names;
-  }
-
-  // The name of a state, in models without a map.
-  void take_state(const Token& token) {
-    close_phrase();
-    if (map_) {
-      fail_at(token.place, "E1104", "states have no names in a domain with a map",
-              "name a cell: (COLUMN,ROW), or an action or a feature without quotes");
-    }
-    const auto names = state_names();
-    question_.spot = token.place;
-    question_.state = token.text;
-    if (names.count(token.text) > 0) return;
-    // Part of a name will do, if it is part of no other.
-    std::vector<std::string> found;
-    for (const auto& name : names) {
-      if (name.find(token.text) != std::string::npos) found.push_back(name);
-    }
-    if (found.size() == 1) {
-      question_.state = found.front();
-      return;
-    }
-    fail_at(token.place, "E1104",
-            found.empty() ? "there is no state '" + token.text + "' in which the robot has a choice"
-                          : "'" + token.text + "' could be " + std::to_string(found.size()) + " states",
-            hint_of_states(token.text, found.empty() ? std::vector<std::string>{names.begin(), names.end()} : found));
-  }
-
-  static Advice hint_of_states(const std::string& name, const std::vector<std::string>& names) {
-    constexpr std::size_t kListed = 8;
-    constexpr std::size_t kMostCompared = 5'000;  // comparing with more takes too long
-    const auto nearest = names.size() > kMostCompared ? "" : nearest_word(name, names);
-    if (!nearest.empty()) return "did you mean '" + nearest + "'?";
-    if (names.size() > kListed) return Remedy::kShowStates;
-    return "its states are " + listed(names);
-  }
-
-  void take_cell(const Token& token) {
-    close_phrase();
-    if (!map_) {
-      fail_at(token.place, "E1104", "this domain has no map, so there are no cells",
-              Advice{"name a state, in quotes", Remedy::kShowStates});
-    }
-    const Cell cell{static_cast<int>(token.number), map_->height() + 1 - static_cast<int>(token.row)};
-    if (token.number < 1 || token.number > static_cast<std::size_t>(map_->width()) || token.row < 1 ||
-        token.row > static_cast<std::size_t>(map_->height())) {
-      fail_at(token.place, "E1104",
-              "the map has no cell (" + std::to_string(token.number) + "," + std::to_string(token.row) + ")",
-              "it has " + std::to_string(map_->width()) + " columns and " + std::to_string(map_->height()) +
-                  " rows, counted from the top left, from 1");
-    }
-    if (question_.kind == Kind::kWhatIf && !question_.conditions.empty()) {
-      question_.conditions.back().cell = cell;
-      return;
-    }
-    question_.cell = cell;
-    question_.spot = token.place;
-  }
-
-  void take_world(const Token& token) {
-    close_phrase();
-    if (at_ >= tokens_.size() || tokens_[at_].kind != Token::Kind::kNumber) {
-      fail_at(token.place, "E1105", "which world?", "write its number, 0 to " + std::to_string(domain_.num_mdps() - 1));
-    }
-    const Token number = tokens_[at_++];
-    if (number.number >= domain_.num_mdps()) {
-      fail_at(number.place, "E1105", "there is no world " + number.text,
-              "they are numbered 0 to " + std::to_string(domain_.num_mdps() - 1));
-    }
-    question_.world = MdpIndex{number.number};
-  }
-
-  void take_item(const Token& token) {
-    close_phrase();
-    while (at_ < tokens_.size() && is_filler(tokens_[at_].text)) ++at_;
-    const auto names = map_ ? map_->item_names() : std::vector<std::string>{};
-    if (at_ < tokens_.size()) {
-      const auto& word = tokens_[at_].text;
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        if (stem(names[i]) != stem(word)) continue;
-        ++at_;
-        question_.carried = i;
-        return;
-      }
-    }
-    fail_at(at_ < tokens_.size() ? tokens_[at_].place : token.place, "E1103", "carrying what?",
-            names.empty() ? "there is nothing to carry in this domain" : "it can carry " + listed(names));
   }
 
   void check() {
@@ -411,25 +469,12 @@ class Parser {
     return text;
   }
 
-  static constexpr const char* kForms =
-      "ask for instance 'when up', 'where up', 'why up not left at (2,1)', 'what at (2,1)', 'what if no wall' or "
-      "'how much step'";
-
-  struct Word {
-    std::string text;
-    Place place;
-  };
-  const Domain& domain_;
-  std::optional<GridMap> map_;
-  const std::string& text_;
-  Lexicon lexicon_;
-  std::vector<Token> tokens_;
-  std::size_t at_ = 0;
   bool negated_ = false;
   bool after_instead_ = false;
+  bool removes_ = false;        // "what difference does ... make"
+  bool values_ = false;         // it is about what something is worth
   std::size_t negated_at_ = 0;  // position of the last word that denied
   std::vector<Word> phrase_;
-  Question question_;
 };
 
 }  // namespace

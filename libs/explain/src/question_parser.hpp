@@ -31,7 +31,7 @@ struct WorldCondition {
 };
 
 struct Question {
-  enum class Kind { kWhen, kWhere, kWhy, kWhatIf, kWhat, kHowMuch };
+  enum class Kind { kWhen, kWhere, kWhy, kWhatIf, kWhat, kHowMuch, kWhether };
   Kind kind = Kind::kWhen;
   std::optional<Happening> happening, instead;
   bool negated = false;  // of kWhen and kWhere: that the happening does not happen
@@ -41,6 +41,7 @@ struct Question {
   Place spot;                          // of either in the text
   std::optional<std::size_t> carried;  // index into GridMap::item_names()
   std::optional<MdpIndex> world;
+  std::optional<HalfSpace> said, condition;  // of kWhether: a statement about the robot's reward, and where it is made
 
   [[nodiscard]] bool is_about_a_step() const { return cell || state; }
 };

@@ -1,7 +1,9 @@
 #include "question_tokens.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <optional>
+#include <set>
 
 namespace kith::detail {
 namespace {
@@ -55,6 +57,11 @@ std::vector<Token> tokens_of(const std::string& text) {
     for (const char c : text.substr(begin, i - begin)) {
       token.text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
+    // Apostrophes as editors set them, and "what's", "robot's".
+    for (auto at = token.text.find("\xE2\x80\x99"); at != std::string::npos; at = token.text.find("\xE2\x80\x99")) {
+      token.text.replace(at, 3, "'");
+    }
+    if (token.text.size() > 2 && token.text.ends_with("'s")) token.text.resize(token.text.size() - 2);
     if (digit) {
       token.kind = Token::Kind::kNumber;
       token.number = number_of(token.text);
@@ -68,6 +75,76 @@ std::vector<Token> tokens_of(const std::string& text) {
       tokens.push_back(token);
     }
     comma = false;
+  }
+  return tokens;
+}
+
+namespace {
+
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words;
+  for (const auto& token : tokens_of(name)) words.push_back(token.text);
+  return words;
+}
+
+// Words behind which a name of one word is that of a world.
+bool introduces_world(const std::vector<Token>& tokens, std::size_t begin) {
+  static const std::set<std::string> kArticles{"the", "a", "an"};
+  static const std::set<std::string> kWords{"in", "during", "on", "at", "world", "mdp", "under"};
+  while (begin > 0 && kArticles.count(tokens[begin - 1].text) != 0) --begin;
+  return begin > 0 && kWords.count(tokens[begin - 1].text) != 0;
+}
+
+bool stands_at(const std::vector<std::string>& words, const std::vector<Token>& tokens, std::size_t begin) {
+  if (words.empty() || begin + words.size() > tokens.size()) return false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto kind = tokens[begin + i].kind;
+    const bool is_plain = kind == Token::Kind::kWord || kind == Token::Kind::kNumber;
+    if (!is_plain || tokens[begin + i].text != words[i]) return false;
+  }
+  return true;
+}
+
+bool is_state(const Domain& domain, const std::string& name) {
+  if (domain.map()) return false;
+  for (StateIndex s{0}; s.value() < domain.mdp(MdpIndex{0}).num_states(); ++s) {
+    if (domain.state_name(MdpIndex{0}, s) == name) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Token> with_world_names(const Domain& domain, std::vector<Token> tokens) {
+  struct Name {
+    std::vector<std::string> words;
+    std::size_t world;
+  };
+  std::vector<Name> names;
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    if (auto words = words_of(domain.world_name(m)); !words.empty()) names.push_back({std::move(words), m.value()});
+  }
+  std::stable_sort(names.begin(), names.end(),
+                   [](const Name& a, const Name& b) { return a.words.size() > b.words.size(); });
+  for (std::size_t i = 0; i < tokens.size() && !names.empty(); ++i) {
+    if (tokens[i].kind == Token::Kind::kName) {
+      const bool is_said = i > 0 && tokens[i - 1].text == "world";
+      const auto found = domain.find_world(tokens[i].text);
+      if (!found || (!is_said && is_state(domain, tokens[i].text))) continue;
+      tokens[i].kind = Token::Kind::kWorld;
+      tokens[i].number = found->value();
+      continue;
+    }
+    for (const auto& name : names) {
+      if (!stands_at(name.words, tokens, i) || (name.words.size() == 1 && !introduces_world(tokens, i))) continue;
+      const auto& last = tokens[i + name.words.size() - 1].place;
+      tokens[i].kind = Token::Kind::kWorld;
+      tokens[i].number = name.world;
+      tokens[i].place.length = last.column + last.length - tokens[i].place.column;
+      const auto next = tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      tokens.erase(next, next + static_cast<std::ptrdiff_t>(name.words.size()) - 1);
+      break;
+    }
   }
   return tokens;
 }

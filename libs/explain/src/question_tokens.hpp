@@ -9,14 +9,18 @@
 namespace kith::detail {
 
 struct Token {
-  enum class Kind { kWord, kNumber, kCell, kName };
+  enum class Kind { kWord, kNumber, kCell, kName, kWorld };
   Kind kind = Kind::kWord;
-  std::string text;  // lower case, except for names
-  std::size_t number = 0, row = 0;
+  std::string text;                 // lower case, except for names
+  std::size_t number = 0, row = 0;  // of a world its number
   Place place;
 };
 
 // Words, numbers, cells and names in quotes; whatever else is there separates them.
 [[nodiscard]] std::vector<Token> tokens_of(const std::string& text);
+
+// The same with the names of worlds as one token each: in quotes, behind words such as "in", "during" or "world", or
+// anywhere if the name has several words.
+[[nodiscard]] std::vector<Token> with_world_names(const Domain& domain, std::vector<Token> tokens);
 
 }  // namespace kith::detail

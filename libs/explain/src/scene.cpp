@@ -24,7 +24,7 @@ std::string Scene::spot() const {
 std::string Scene::context() const {
   std::string text = spot();
   if (question_.carried) text += " carrying " + map_->item_names()[*question_.carried];
-  if (question_.world) text += " in world " + std::to_string(question_.world->value());
+  if (question_.world) text += " in " + name_of(*question_.world);
   return text;
 }
 
@@ -76,7 +76,7 @@ DemoIndex Scene::needed_start(MdpIndex world) const {
   fail(text_, question_.spot, "E1104",
        "the robot is never " +
            (question_.carried ? "carrying " + map_->item_names()[*question_.carried] + " " : std::string{}) + "at " +
-           cell_text(*map_, *question_.cell) + " in world " + std::to_string(world.value()),
+           cell_text(*map_, *question_.cell) + " in " + name_of(world),
        "there may be a wall, or the episode ends there");
 }
 
@@ -220,11 +220,7 @@ std::optional<Contrast> Scene::way_of_others(DemoIndex demo, const Happening& ha
   return std::nullopt;
 }
 
-std::string Scene::name_of(MdpIndex world) const {
-  const auto name = map_ ? std::string{} : domain_.describe_variant(world);
-  return name.empty() ? "world " + std::to_string(world.value())
-                      : "world " + std::to_string(world.value()) + " (" + name + ")";
-}
+std::string Scene::name_of(MdpIndex world) const { return world_text(domain_, world); }
 
 std::string Scene::spot_text(MdpIndex world, StateIndex s) const {
   return map_ ? "at " + cell_text(*map_, map_->state(world, s).robot)

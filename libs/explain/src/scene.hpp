@@ -35,7 +35,7 @@ class Scene {
   // The best path on which it happens, or does not (where chance has a part: on average more or less often), in
   // contrast to the robot's; one that is no detour if there is any.
   [[nodiscard]] std::optional<Contrast> contrast_to(DemoIndex demo, const Happening& happening, bool happens) const;
-  // "world 3", in models with the MDP's name.
+  // "world 3", or "world 3 (visiting hours)" where it has a name.
   [[nodiscard]] std::string name_of(MdpIndex world) const;
   // "at (2,1)", "in state 'on the ice'".
   [[nodiscard]] std::string spot_text(MdpIndex world, StateIndex s) const;

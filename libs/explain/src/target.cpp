@@ -1,12 +1,14 @@
 #include "kith/explain/target.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <tuple>
 
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
+#include "question_parser.hpp"
 #include "target_region.hpp"
 
 namespace kith {
@@ -103,6 +105,28 @@ std::map<std::string, HalfSpace> sentences(const Atlas& atlas) {
   return known;
 }
 
+// A sentence, or a comparison in other words. Of a sentence with a condition a constraint from which it follows.
+std::optional<HalfSpace> said_in_words(const Atlas& atlas, const std::string& text) {
+  detail::Question question;
+  try {
+    question = detail::parse_question(atlas.domain(), text);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  if (!question.said || !question.condition) return question.said;
+  const auto follows = [&](const HalfSpace& constraint) {
+    auto region = atlas.prior_cone();
+    return region.clip(std::array{constraint, *question.condition}) && region.implies(*question.said);
+  };
+  for (const auto& constraint : atlas.policy_bec_half_spaces()) {
+    if (follows(constraint)) return constraint;
+  }
+  for (ConstraintIndex c{0}; c.value() < atlas.constraints().size(); ++c) {
+    if (follows(atlas.constraints()[c])) return atlas.constraints()[c];
+  }
+  return question.said;
+}
+
 HalfSpace understood(const Atlas& atlas, const std::string& text) {
   const auto d = atlas.domain().num_features();
   if (const auto numbers = numbers_in(text)) {
@@ -118,6 +142,7 @@ HalfSpace understood(const Atlas& atlas, const std::string& text) {
   const auto known = sentences(atlas);
   const auto found = known.find(plain(text));
   if (found != known.end()) return found->second;
+  if (const auto said = said_in_words(atlas, text)) return *said;
   std::vector<std::string> all;
   all.reserve(known.size());
   for (const auto& [sentence, half_space] : known) all.push_back(sentence);
@@ -149,6 +174,26 @@ std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace&
   }
   if (!best) return std::nullopt;
   return std::get<DemoIndex>(*best);
+}
+
+NotIsolated why_not_isolated(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
+  Remainders regions{atlas};
+  NotIsolated why;
+  for (DemoIndex demo{0}; demo.value() < atlas.num_demos(); ++demo) {
+    if (!atlas.is_candidate(demo)) continue;
+    const auto& facets = regions.facets(set_for(atlas, demo, purpose));
+    auto region = atlas.prior_cone();
+    if (facets.empty() || !region.clip(facets) || !region.implies(constraint)) continue;
+    ++why.conveying;
+    std::vector<HalfSpace> besides;
+    for (const auto& facet : beyond_prior(atlas, region)) {
+      if (facet != constraint) besides.push_back(facet);
+    }
+    if (why.nearest && why.besides.size() <= besides.size()) continue;
+    why.nearest = demo;
+    why.besides = std::move(besides);
+  }
+  return why;
 }
 
 std::vector<Isolated> isolated_constraints(const Atlas& atlas) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "atlases.hpp"
 #include "kith/explain/curriculum.hpp"
 #include "kith/geometry/cone.hpp"
@@ -90,6 +92,35 @@ TEST(Bracket, ClosesAsALessonGoesOn) {
 TEST(Bracket, SaysNothingWhereTheReferenceIsUnknown) {
   const auto& domain = atlas_of("item-delivery").domain();
   EXPECT_TRUE(brackets(domain, {}, std::vector<std::size_t>{0, 1}, 2).empty());
+}
+
+// Just inside of an end nothing changes; just outside the robot does something else somewhere.
+TEST(WhileOthersStay, EndsWhereThePolicyChanges) {
+  const std::string file = std::string{KITH_SOURCE_DIR} + "/domains/item_delivery.toml";
+  std::ifstream stream{file};
+  const std::string text{std::istreambuf_iterator<char>{stream}, {}};
+  const auto& atlas = testing::atlas_of("item-delivery");
+  const auto counts_with = [&](std::size_t k, double weight) {
+    auto changed = text;
+    const std::string from = k == 0 ? "rubble = -3.0" : "recharge = 3.5";
+    const auto at = changed.find(from);
+    changed.replace(at, from.size(), (k == 0 ? "rubble = " : "recharge = ") + std::to_string(weight));
+    const Atlas other{parse_domain(changed, "changed").domain.value()};
+    std::vector<IntegerVector> counts;
+    for (DemoIndex demo{0}; demo.value() < other.num_demos(); ++demo) counts.push_back(other.feature_counts(demo));
+    return counts;
+  };
+  const auto own = counts_with(0, -3.0);
+  for (const std::size_t k : {0u, 1u}) {
+    const auto same = while_others_stay(atlas.domain(), atlas.policy_bec_half_spaces(), k, 2);
+    constexpr double kLittle = 0.01;
+    ASSERT_TRUE(same.low || same.high);
+    for (const auto& [end, outside] : {std::pair{same.low, -kLittle}, std::pair{same.high, kLittle}}) {
+      if (!end) continue;
+      EXPECT_EQ(counts_with(k, end->value() - outside), own) << k << " inside of " << end->value();
+      EXPECT_NE(counts_with(k, end->value() + outside), own) << k << " outside of " << end->value();
+    }
+  }
 }
 
 }  // namespace

@@ -41,6 +41,13 @@ struct Bracket {
 [[nodiscard]] std::vector<Bracket> brackets(const Domain& domain, std::span<const HalfSpace> known,
                                             std::span<const std::size_t> features, std::size_t reference);
 
+/// Between which bounds the weight of one feature may lie so that all half-spaces hold, while all other weights are the
+/// robot's own: with those of its behaviour equivalence class, how far it may change without any change of the policy.
+/// Ends are exact. Without one where there is none, or where it cannot be written as a ratio of 64-bit numbers.
+/// @param k  not the reference.
+[[nodiscard]] Bracket while_others_stay(const Domain& domain, std::span<const HalfSpace> known, std::size_t k,
+                                        std::size_t reference);
+
 /// "crossing rubble costs 2 to 4 steps", "stopping at the charger is worth more than 2 steps", "crossing rubble costs
 /// less than 4 steps". Ends have two decimals at most, from 10 on none, rounded so that the sentence stays true.
 [[nodiscard]] std::string bracket_in_words(const Domain& domain, const Bracket& bracket);

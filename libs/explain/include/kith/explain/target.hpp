@@ -26,6 +26,14 @@ enum class Purpose {
 [[nodiscard]] std::optional<DemoIndex> simplest_isolating(const Atlas& atlas, const HalfSpace& constraint,
                                                           Purpose purpose);
 
+/// Why no demonstration isolates a constraint.
+struct NotIsolated {
+  std::size_t conveying = 0;            ///< Starts that teach (or test) it among other things.
+  std::optional<DemoIndex> nearest;     ///< Of those the one with the fewest other things.
+  std::vector<HalfSpace> besides = {};  ///< What that one conveys besides, without what is known beforehand.
+};
+[[nodiscard]] NotIsolated why_not_isolated(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose);
+
 /// How many demonstrations isolate a constraint.
 struct Isolated {
   HalfSpace constraint;
@@ -37,8 +45,9 @@ struct Isolated {
 /// sorted. Without what is known beforehand.
 [[nodiscard]] std::vector<Isolated> isolated_constraints(const Atlas& atlas);
 
-/// The constraint that people mean: its normal ("(-1,0,2)", "-1 0 2") or its sentence as in_words() has it, in any case
-/// and with or without the full stop.
+/// The constraint that people mean: its normal ("(-1,0,2)", "-1 0 2"), any sentence that in_words() makes, in any case
+/// and with or without the full stop, or a comparison in other words ("rubble is worse than two steps"). Of a sentence
+/// with a condition a constraint of the robot's from which it follows.
 /// @throws kith::Error (kInvalidInput, E1109) if it is neither, (kInfeasible, E1110) if the robot's weights contradict
 /// it or everybody knows it beforehand.
 [[nodiscard]] HalfSpace parse_constraint(const Atlas& atlas, const std::string& text);
