@@ -5,6 +5,7 @@
 #include <memory>
 #include <system_error>
 
+#include "extend.hpp"
 #include "journal_file.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
@@ -178,9 +179,23 @@ void RunFolder::check_content(bool replace) {
     throw Error{ErrorKind::kUsage, path_.string() + " is not empty and is not a run folder", Remedy::kReplaceContents};
   }
   if (!study && !begun) return;  // only a journal that cannot be read, which is for whoever opens it to say
+  RunInputs earlier{study.value_or(""), domain.value_or(""), {}};
+  for (const auto& file : inputs_.files) {
+    const auto text = text_if_any(path_ / "inputs" / file.name).value_or("");
+    earlier.files.push_back({file.name, sha256(text), text});
+  }
+  if (begun) earlier = begun->inputs;
+  if (extends(earlier, inputs_)) return;
+  constexpr std::size_t kMost = 6;
+  auto different = differences(earlier, inputs_);
+  const auto more = different.size() > kMost ? different.size() - kMost : 0;
+  if (more > 0) different.resize(kMost);
+  std::string listed;
+  for (const auto& one : different) listed += (listed.empty() ? "" : ", ") + one;
+  if (more > 0) listed += " and " + std::to_string(more) + " more";
   throw Error{ErrorKind::kUsage,
-              path_.string() + " holds the results of a different study" +
-                  (study ? " (see its inputs/study.toml)" : ", unfinished"),
+              path_.string() + " holds the results of a different study" + (study ? "" : ", unfinished") +
+                  (listed.empty() ? "" : "; it differs in " + listed),
               Remedy::kReplaceContents};
 }
 

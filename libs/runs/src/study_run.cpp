@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "extend.hpp"
 #include "journal_writer.hpp"
 #include "kith/core/assert.hpp"
 #include "kith/core/error.hpp"
@@ -100,6 +101,7 @@ struct StudyRun::State {
   void open_folder();
   void open_journal();
   void begin_journal();
+  void extend(const JournalIdentity& found);
   [[nodiscard]] bool open_own_journal();
   void refuse_other_journal(const JournalIdentity& found);
   void take_up_rank_journals();
@@ -160,6 +162,11 @@ bool StudyRun::State::open_own_journal() {
 
 // What keeps us from going on with the work of somebody else, or from replacing it without being told.
 void StudyRun::State::refuse_other_journal(const JournalIdentity& found) {
+  if (found.inputs != identity.inputs && identity.shard.count > 1) {
+    throw Error{ErrorKind::kUsage,
+                path.string() + " holds a shard of this study with fewer replicates, and shards cannot be extended",
+                "extend the folder that they are merged into"};
+  }
   if (found.shard != identity.shard) {
     throw Error{ErrorKind::kUsage,
                 path.string() + " holds shard " + std::to_string(found.shard.index) + "/" +
@@ -210,8 +217,21 @@ void StudyRun::State::open_journal() {
                     "); there is nothing to resume",
                 Remedy::kAllowStart};
   }
-  if (!options.replace && found->inputs == identity.inputs) refuse_other_journal(*found);
+  const bool is_part = extends(found->inputs, identity.inputs);
+  auto extended = *found;
+  extended.inputs = identity.inputs;
+  extended.teams = identity.teams;
+  if (is_part && extended == identity && identity.shard.count == 1) return extend(*found);
+  if (!options.replace && (is_part || found->inputs == identity.inputs)) refuse_other_journal(*found);
   begin_journal();  // RunFolder has asked
+}
+
+// The same study with more teams: those that are there count.
+void StudyRun::State::extend(const JournalIdentity& found) {
+  extend_journal(path / kJournalFile, found, identity, *reading.study, options.on_instant);
+  if (!open_own_journal()) return begin_journal();
+  notes.push_back(path.string() + " held " + std::to_string(found.teams) + " teams of this study; " +
+                  std::to_string(identity.teams - found.teams) + " are added");
 }
 
 void StudyRun::State::take_up_rank_journals() {
@@ -233,6 +253,7 @@ void StudyRun::State::take_up_rank_journals() {
 void StudyRun::State::open_folder() {
   folder.emplace(path, identity.inputs, options.replace);
   folder->watch(options.on_instant);
+  Journal::remove(extended_file(path / kJournalFile));
   open_journal();
   folder->freeze_inputs();
   take_up_rank_journals();

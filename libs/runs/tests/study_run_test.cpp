@@ -112,6 +112,56 @@ TEST_F(StudyRunTest, RefusesUnfinishedWorkOfAnotherStudyUnlessTold) {
   EXPECT_EQ((StudyRun{folder_, other(), replace}).num_resumed(), 0u);
 }
 
+// Twenty teams more, later, are the same as all of them at once, whatever ends the program in between.
+TEST_F(StudyRunTest, AddsTeamsToFewerReplicatesWithTheSameBytes) {
+  struct End : std::exception {};
+  const auto fewer = [] { return quick_study({"replicates=2"}); };
+  for (const bool is_finished : {true, false}) {
+    for (const std::string instant : {"extending", "extended", "team", "none"}) {
+      const auto folder = scratch_.path() / (instant + (is_finished ? "1" : "0"));
+      if (is_finished) {
+        StudyRun first{folder, fewer(), how()};
+        ASSERT_TRUE(first.teach(item_delivery()));
+        (void)first.publish({});
+      } else {
+        std::atomic<bool> stop{false};
+        auto options = how();
+        options.threads = 1;
+        options.on_progress = [&](std::size_t done, std::size_t, std::size_t) { stop = stop || done >= 1; };
+        options.stopped = [&] { return stop.load(); };
+        StudyRun first{folder, fewer(), options};
+        EXPECT_FALSE(first.teach(item_delivery()));
+      }
+      auto options = how();
+      options.on_instant = [&](const std::string& now) {
+        if (now == instant) throw End{};
+      };
+      try {
+        StudyRun cut_short{folder, quick_study(), options};
+        (void)cut_short.teach(item_delivery());
+      } catch (const std::exception&) {  // as if the program had ended there
+      }
+      StudyRun rest{folder, quick_study(), how()};
+      EXPECT_GE(rest.num_resumed(), is_finished ? 4u : 1u) << instant;
+      ASSERT_TRUE(rest.teach(item_delivery()));
+      (void)rest.publish({});
+      EXPECT_EQ(tables_in(folder), expected()) << instant;
+      EXPECT_FALSE(fs::exists(folder / "study.extended.sqlite"));
+    }
+  }
+}
+
+TEST_F(StudyRunTest, NamesTheKeysInWhichAnotherStudyDiffers) {
+  (void)run(folder_);
+  const auto said = [&](const std::vector<std::string>& sets) {
+    return std::string{failure_of([&] { StudyRun{folder_, quick_study(sets), how()}; }).what()};
+  };
+  EXPECT_THAT(said({"seed=2", "teacher.particles=400"}),
+              AllOf(HasSubstr("it differs in seed 1 -> 2, teacher.particles "), HasSubstr(" -> 400")));
+  EXPECT_THAT(said({"replicates=2"}), HasSubstr("replicates 3 -> 2"));
+  EXPECT_THAT(said({"replicates=4", "seed=2"}), HasSubstr("replicates 3 -> 4"));
+}
+
 // Results of another study stay until those of the new one are complete, whatever happens in between.
 TEST_F(StudyRunTest, KeepsOtherResultsUntilItsOwnAreComplete) {
   (void)run(folder_);
