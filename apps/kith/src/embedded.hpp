@@ -13,6 +13,7 @@ extern const std::string_view kDemoStudy;
 extern const std::string_view kReadmeTemplate;
 extern const std::string_view kHumanStudyReadme;
 extern const std::string_view kConsentTemplate;
+extern const std::string_view kTrialsTemplate;
 
 // The pages that show a report and a curriculum, made from web/; empty if kith was built without pages.
 extern const std::string_view kReportPage;

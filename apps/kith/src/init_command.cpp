@@ -14,6 +14,7 @@ namespace {
 struct InitOptions {
   std::string folder = ".";
   std::string template_name = "item-delivery";
+  bool trials = false;  ///< An example of people's answers, for `kith fit`, and nothing else.
 };
 
 struct NewFile {
@@ -36,11 +37,13 @@ void declare(OptionList& list, InitOptions& options) {
   list.text("folder", options.folder, "DIR", "Where to write them");
   list.word("--template", options.template_name, "NAME", {"item-delivery", "blank", "human-study"},
             "What to start from");
+  list.flag("--trials", options.trials, "Write trials.csv instead: people's answers as kith fit reads them");
 }
 
 int run(const InitOptions& options, Console& console) {
   const std::filesystem::path folder{options.folder};
-  const auto files = files_of(options.template_name);
+  const auto files = options.trials ? std::vector<NewFile>{{"trials.csv", std::string{detail::kTrialsTemplate}}}
+                                    : files_of(options.template_name);
   // Everything or nothing: what people have written is never replaced.
   for (const auto& file : files) {
     std::error_code failure;
@@ -54,6 +57,11 @@ int run(const InitOptions& options, Console& console) {
 
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.name);
+  if (options.trials) {
+    console.print(fmt::format("wrote {}; try\n  kith fit {} --folds 0\n", (folder / "trials.csv").string(),
+                              (folder / "trials.csv").string()));
+    return 0;
+  }
   const auto enter = folder == "." ? std::string{} : "  cd " + folder.string() + "\n";
   console.print(
       fmt::format("wrote {} in {}; try\n{}  kith validate domain.toml study.toml\n"
@@ -66,7 +74,8 @@ int run(const InitOptions& options, Console& console) {
 
 void add_init(Commands& commands) {
   commands.add<InitOptions>("init", "Write a domain, a study and a README to start from",
-                            {"kith init my-robot", "kith init my-robot --template blank"}, declare, run);
+                            {"kith init my-robot", "kith init my-robot --template blank", "kith init answers --trials"},
+                            declare, run);
 }
 
 }  // namespace kith::cli

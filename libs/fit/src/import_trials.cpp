@@ -29,6 +29,7 @@ struct Trial {
 
 struct Participant {
   std::string condition;
+  std::string type;
   std::size_t line = 0;  // of the first row
   std::vector<Trial> trials;
 };
@@ -45,6 +46,12 @@ const std::map<std::string, TrialKind>& kinds() {
 const std::set<std::string>& conditions() {
   static const std::set<std::string> kConditions{"open", "pl", "cl", "wt", "wtcl"};
   return kConditions;
+}
+
+std::string listed_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
 }
 
 std::optional<bool> verdict_of(const std::string& text) {
@@ -137,7 +144,7 @@ class TrialImport {
     const auto optional = [](std::string name) { return Column{.name = std::move(name), .type = ColumnType::kText}; };
     detail::read_open_csv(path_, {needed("user_id"), needed("domain"), needed("interaction_type")},
                           {optional("loop_condition"), optional("is_opt_response"), optional("mdp_parameters"),
-                           optional("kc_id"), optional("group")},
+                           optional("kc_id"), optional("group"), optional("learner_type")},
                           logs_.notes, [&](const OpenRow& row) { add_row(row); });
   }
 
@@ -149,7 +156,7 @@ class TrialImport {
       for (const auto& [name, one] : kinds()) known.push_back(name);
       const auto nearest = nearest_word(type, known);
       complain(row.line(), "E0709", "'" + type + "' is no type of interaction",
-               nearest.empty() ? "" : "did you mean '" + nearest + "'?");
+               (nearest.empty() ? "known" : "did you mean '" + nearest + "'? Known") + ": " + listed_words(known));
       return;
     }
     auto person = part_of_name(*row.text("user_id"));
@@ -157,6 +164,7 @@ class TrialImport {
     auto& participant = participants_[{person, part_of_name(*row.text("domain"))}];
     if (participant.trials.empty()) participant.line = row.line();
     note_condition(row, participant);
+    note_type(row, participant);
     if (auto trial = trial_of(row, kind->second)) participant.trials.push_back(*std::move(trial));
   }
 
@@ -171,6 +179,18 @@ class TrialImport {
       remark(row.line(), "W0701",
              "loop_condition changes from '" + participant.condition + "' to '" + condition +
                  "' within a person; the first one counts");
+    }
+  }
+
+  void note_type(const OpenRow& row, Participant& participant) {
+    const auto type = row.text("learner_type").value_or("");
+    if (type.empty()) return;
+    if (participant.type.empty()) {
+      participant.type = type;
+    } else if (participant.type != type) {
+      complain(row.line(), "E0709",
+               "learner_type changes from '" + participant.type + "' to '" + type + "' within a person",
+               "a person is of one type, in every row or in the first");
     }
   }
 
@@ -246,6 +266,7 @@ class TrialImport {
     }
     PersonLog log;
     log.id = name;
+    log.type = participant.type;
     fill(log, participant, feedback);
     logs_.people.push_back(std::move(log));
   }

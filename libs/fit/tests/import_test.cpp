@@ -318,6 +318,41 @@ TEST(Trials, NameRowAndFaultOfWhatCannotBeRead) {
   EXPECT_EQ(fault(kHeader + std::string{"a,cl,at\n"}), "E0505 t.csv:2");
 }
 
+TEST(Trials, SayWhatTypeALearnerIsOf) {
+  const testing::ScratchFolder folder;
+  const std::string header = "user_id,domain,interaction_type,is_opt_response,learner_type\n";
+  const auto read = [&](const std::string& rows) { return import_trials(folder.write("t.csv", header + rows)); };
+  const auto logs = read("a,at,demo,,N\na,at,final test,1,\nb,at,demo,,P\nb,at,final test,0,P\n");
+  ASSERT_EQ(logs.people.size(), 2u);
+  EXPECT_EQ(logs.people[0].type, "N");
+  EXPECT_EQ(logs.people[1].type, "P");
+  EXPECT_EQ(import_fault(folder.write("t.csv", header + "a,at,demo,,N\na,at,final test,1,P\n")), "E0709 t.csv:3");
+}
+
+// As Excel saves a sheet in countries with a decimal comma, and as pandas writes truth.
+TEST(Trials, AreReadInTheDialectsOfSpreadsheets) {
+  const testing::ScratchFolder folder;
+  const std::string rows =
+      "user_id;domain;interaction_type;is_opt_response;mdp_parameters\r\n"
+      "\"1\";at;demo;;\"{\"\"constraints\"\": [[-1, 0, 2]]}\"\r\n\"1\";at;diagnostic test;TRUE;\r\n"
+      "1;at;final test;False;\r\n1;at;final test;\"1\";\r\n";
+  const auto logs = import_trials(folder.write("t.csv", "\xEF\xBB\xBF" + rows));
+  ASSERT_EQ(logs.people.size(), 1u);
+  EXPECT_EQ(logs.people[0].answered, 3u);
+  EXPECT_EQ(logs.people[0].correct, 2u);
+}
+
+TEST(Trials, ListTheWordsThatAreKnown) {
+  const testing::ScratchFolder folder;
+  try {
+    static_cast<void>(import_trials(folder.write("t.csv", kHeader + row("a", "cl", "test", "1"))));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.diagnostics().at(0).hint.find("final test"), std::string::npos);
+    EXPECT_NE(error.diagnostics().at(0).hint.find("diagnostic feedback"), std::string::npos);
+  }
+}
+
 // Going through lists in lists in lists would use up the stack.
 TEST(Trials, AreRefusedWithListsNestedTooDeep) {
   const testing::ScratchFolder folder;
