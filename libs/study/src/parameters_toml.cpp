@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 
 namespace kith {
@@ -46,9 +47,30 @@ class ParametersReader {
       const bool required = std::any_of(declared_.begin(), declared_.end(), [&](const Parameter& one) {
         return one.is_required && Name{one.name}.table == name;
       });
+      if (const auto* value = table_.content().find(name); value != nullptr && value->table() == nullptr) {
+        show_table(name, *value);
+        return nullptr;
+      }
       found = inner_.emplace(name, table_.table(name, required ? Presence::kRequired : Presence::kOptional)).first;
     }
     return found->second ? &*found->second : nullptr;
+  }
+
+  // "ability = 0.7" where a table is wanted.
+  void show_table(std::string_view name, const TomlValue& value) {
+    table_.know(name);
+    std::string keys;
+    for (const auto& parameter : declared_) {
+      const Name own{parameter.name};
+      if (own.table != name) continue;
+      const auto text = keys.empty() && value.is_number() ? to_toml(value) : to_string(parameter.default_value);
+      keys += (keys.empty() ? "" : ", ") + std::string{own.key} + " = " + text;
+    }
+    const auto key = std::string{name};
+    if (!shown_.insert(key).second) return;
+    table_.report().error("E0108", value.place(),
+                          "'" + key + "' must be a table, not " + std::string{value.kind_name()},
+                          "write " + key + " = { " + keys + " }");
   }
 
   void read_one(TomlReader& table, std::string_view key, const Parameter& parameter) {
@@ -101,6 +123,7 @@ class ParametersReader {
   std::span<const Parameter> declared_;
   ParameterValues values_;
   std::map<std::string_view, std::optional<TomlReader>> inner_;
+  std::set<std::string> shown_;  // tables that are none
 };
 
 }  // namespace
