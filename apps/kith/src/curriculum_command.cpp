@@ -56,7 +56,7 @@ class CurriculumText {
   void demonstration(std::size_t j, const CurriculumDemonstration& shown) {
     const auto world = atlas_.id(shown.demo).mdp;
     const auto& contrast = shown.contrast;
-    out_ += fmt::format("\n   Demonstration {}: world {}\n", j + 1, world.value());
+    out_ += fmt::format("\n   Demonstration {}: {}\n", j + 1, world_text(atlas_.domain(), world));
     line(shown.reason, 3);
     out_ += start_and_path(domain_, atlas_.id(shown.demo), contrast.robot, 5);
     line("the robot: " + with_chance(world, contrast.robot), 5);
@@ -69,7 +69,7 @@ class CurriculumText {
       line(fmt::format("they differ from step {}, {}", contrast.decisive + 1, place(world, fork)), 5);
     }
     if (shown.flip) {
-      line(fmt::format("world {}: {}", atlas_.id(shown.flip->demo).mdp.value(),
+      line(fmt::format("{}: {}", world_text(atlas_.domain(), atlas_.id(shown.flip->demo).mdp),
                        flip_in_words(atlas_, contrast, *shown.flip)),
            5);
       out_ += start_and_path(domain_, atlas_.id(shown.flip->demo), shown.flip->robot, 5);
@@ -106,8 +106,8 @@ class CurriculumText {
   void test(std::size_t j, const CurriculumTest& test) {
     const auto id = atlas_.id(test.demo);
     const auto path = atlas_.trajectory(test.demo);
-    out_ += fmt::format("\n   Test {}: world {}, {} (before it about {:.0f} % would answer correctly)\n", j + 1,
-                        id.mdp.value(), name_of(test.difficulty), 100.0 * test.share_right);
+    out_ += fmt::format("\n   Test {}: {}, {} (before it about {:.0f} % would answer correctly)\n", j + 1,
+                        world_text(domain_, id.mdp), name_of(test.difficulty), 100.0 * test.share_right);
     out_ += start_and_path(domain_, id, path, 5);
     line("answer: " + with_chance(id.mdp, path), 5);
     runs(test.demo, test.runs);

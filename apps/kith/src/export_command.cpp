@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "command.hpp"
+#include "input.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/domains/export_model.hpp"
 #include "kith/files/atomic_file.hpp"
@@ -15,28 +16,26 @@ namespace {
 
 struct ExportOptions {
   std::string domain;
-  std::string format;              ///< One of model_format_names().
-  std::optional<std::size_t> mdp;  ///< Needed where the domain has several.
-  std::string out;                 ///< A file, or with "prism" what the names of all files begin with; "-": stdout.
-  bool yes = false;                ///< Replace files that are there.
+  std::string format;  ///< One of model_format_names().
+  std::string mdp;     ///< Needed where the domain has several.
+  std::string out;     ///< A file, or with "prism" what the names of all files begin with; "-": stdout.
+  bool yes = false;    ///< Replace files that are there.
 };
 
 namespace fs = std::filesystem;
 
 MdpIndex mdp_of(const Domain& domain, const ExportOptions& options) {
-  if (!options.mdp && domain.num_mdps() > 1) {
+  if (options.mdp.empty() && domain.num_mdps() > 1) {
     refuse(fmt::format("the domain has {} MDPs; say which one with --mdp N, 0 to {}", domain.num_mdps(),
                        domain.num_mdps() - 1));
   }
-  const MdpIndex m{options.mdp.value_or(0)};
-  if (m.value() < domain.num_mdps()) return m;
-  refuse(fmt::format("there is no MDP {}: they are numbered 0 to {}", m.value(), domain.num_mdps() - 1));
+  return options.mdp.empty() ? MdpIndex{0} : mdp_called(domain, options.mdp);
 }
 
 void declare(OptionList& list, ExportOptions& options) {
   list.domain(options.domain).required();
   list.word("--to", options.format, "FORMAT", model_format_names(), "The format").required();
-  list.integer("--mdp", options.mdp, {}, "Number of the MDP (default: the only one)");
+  list.text("--mdp", options.mdp, "MDP", "Number or name of the MDP (default: the only one)");
   list.text("-o,--out", options.out, "FILE",
             "File to write (default: '-', stdout), or with prism what the names of all files begin with");
   list.flag("--yes", options.yes, "Replace existing files");

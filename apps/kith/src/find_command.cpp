@@ -27,6 +27,7 @@ struct FindOptions {
   std::string domain;
   std::vector<std::string> constraint;  ///< A normal or a sentence, in one argument or in several; empty: list all.
   bool test = false;                    ///< Wanted for a test rather than for a demonstration.
+  std::size_t changes = 2;              ///< Most cells in which a world that is made may differ.
   bool no_make = false;                 ///< Make no world where the family has none.
   std::string out;                      ///< Where the world goes as a domain file; empty: nowhere.
 };
@@ -77,8 +78,8 @@ void print_finding(const Domain& family, const FoundDemo& found, const HalfSpace
   const std::string verb = purpose == Purpose::kTeach ? "teaches" : "tests";
   std::string text;
   if (found.made == nullptr) {
-    text = fmt::format("World {}, start {} {} exactly this: {}\n", id.mdp.value(), id.start.value(), verb,
-                       described(domain, constraint));
+    text = fmt::format("W{}, start {} {} exactly this: {}\n", world_text(domain, id.mdp).substr(1), id.start.value(),
+                       verb, described(domain, constraint));
   } else {
     std::vector<std::string> changes;
     for (const auto& change : found.made->changes) changes.push_back(change_in_words(*family.map(), change));
@@ -149,14 +150,32 @@ void write_world(const std::string& out, const std::string& family_text, const F
   console.info(fmt::format("world in {}; kith curriculum {} shows it", out, out));
 }
 
-Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose, bool tried_making) {
+// Whether any start conveys it, and what comes with it.
+std::string why_none(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose) {
+  const auto why = why_not_isolated(atlas, constraint, purpose);
+  const std::string verb = name_of(purpose);
+  const auto third_person = verb + (purpose == Purpose::kTeach ? "es" : "s");
+  if (!why.nearest) return "none " + third_person + " it together with something else either";
+  std::vector<std::string> besides;
+  for (const auto& one : why.besides) besides.push_back(described(atlas.domain(), one));
+  const auto id = atlas.id(*why.nearest);
+  return fmt::format("{} can {} it, but never alone: the nearest, {}, start {}, also {} {}",
+                     counted(why.conveying, "start state"), verb, world_text(atlas.domain(), id.mdp), id.start.value(),
+                     third_person, besides.empty() ? "more than it says" : listed(besides));
+}
+
+Error not_found(const Atlas& atlas, const HalfSpace& constraint, Purpose purpose, const FindOptions& options) {
   auto message = fmt::format("no start state of '{}' {} exactly {}", atlas.domain().id(),
                              purpose == Purpose::kTeach ? "teaches" : "tests", described(atlas.domain(), constraint));
   const bool can_make = can_make_worlds(atlas.domain());
-  if (tried_making && can_make) message += ", and no world that differs in few cells does";
-  return infeasible(
-      "E1111", message,
-      tried_making || !can_make ? "`kith find DOMAIN` lists what can be isolated" : "without --no-make one is made");
+  if (!options.no_make && can_make) {
+    message +=
+        fmt::format(", and no world was found that differs in {} at most and does", counted(options.changes, "cell"));
+  }
+  const auto next = options.no_make && can_make ? "without --no-make a world is made"
+                    : can_make ? fmt::format("--changes {} also tries worlds that differ more", options.changes + 1)
+                               : "`kith find DOMAIN` lists what can be isolated";
+  return infeasible("E1111", message, why_none(atlas, constraint, purpose) + "; " + next);
 }
 
 void declare(OptionList& list, FindOptions& options) {
@@ -165,6 +184,8 @@ void declare(OptionList& list, FindOptions& options) {
              "A normal, such as '(-1,0,2)', or its sentence; without one, all that can be isolated are listed");
   list.flag("--test", options.test, "For a test rather than for a demonstration");
   list.flag("--no-make", options.no_make, "Do not make a world where the domain has none");
+  list.integer("--changes", options.changes, {1, 6},
+               "Most cells in which a world that is made may differ");
   list.text("-o,--out", options.out, "FILE", "Write the world to this file, as a domain of its own");
   list.json();
 }
@@ -182,8 +203,8 @@ int run(const FindOptions& options, Console& console) {
   const auto demo = simplest_isolating(atlas, constraint, purpose);
   std::optional<MadeWorld> made;
   const auto text = !demo || !options.out.empty() ? read_named(options.domain).text : std::string{};
-  if (!demo && !options.no_make) made = make_world(atlas, text, constraint, purpose);
-  if (!demo && !made) throw not_found(atlas, constraint, purpose, !options.no_make);
+  if (!demo && !options.no_make) made = make_world(atlas, text, constraint, purpose, {.max_changes = options.changes});
+  if (!demo && !made) throw not_found(atlas, constraint, purpose, options);
   const FoundDemo found = demo ? FoundDemo{atlas, *demo, nullptr} : FoundDemo{made->atlas, made->demo, &*made};
   if (!options.out.empty()) write_world(options.out, text, found, console);
   if (console.json()) {

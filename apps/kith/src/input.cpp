@@ -9,8 +9,12 @@
 #include <fstream>
 #include <system_error>
 
+#include <fmt/format.h>
+
+#include "command.hpp"
 #include "kith/core/error.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/words.hpp"
 #include "kith/toml/document.hpp"
 
 namespace kith::cli {
@@ -70,6 +74,38 @@ StudyReading study_of(const std::string& name, const std::vector<std::string>& o
   }();
   if (!reading.study) throw Error{reading.diagnostics};
   return reading;
+}
+
+void show_warnings(const StudyReading& reading, Console& console) {
+  std::vector<Diagnostic> shown;
+  std::vector<std::string> of_domain;
+  std::string file;
+  for (const auto& one : reading.diagnostics) {
+    const bool is_of_domain =
+        one.severity == Severity::kWarning && (one.id.starts_with("W02") || one.id.starts_with("W03"));
+    if (!is_of_domain) {
+      shown.push_back(one);
+    } else if (std::find(of_domain.begin(), of_domain.end(), one.id) == of_domain.end()) {
+      of_domain.push_back(one.id);
+      file = one.file;
+    }
+  }
+  console.show(shown);
+  if (!of_domain.empty()) console.info(fmt::format("about the domain: {} (kith validate {})", listed(of_domain), file));
+}
+
+MdpIndex mdp_called(const Domain& domain, const std::string& number_or_name) {
+  if (const auto found = domain.find_world(number_or_name)) return *found;
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> names;
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    if (!domain.world_name(m).empty()) names.push_back(domain.world_name(m));
+  }
+  const bool is_number = number_or_name.find_first_not_of("0123456789") == std::string::npos;
+  const auto shown = is_number ? number_or_name : "'" + number_or_name + "'";
+  auto message = fmt::format("there is no MDP {}: they are numbered 0 to {}", shown, domain.num_mdps() - 1);
+  if (!names.empty() && names.size() <= kMost) message += ", or called " + listed(names);
+  refuse(message);
 }
 
 }  // namespace kith::cli

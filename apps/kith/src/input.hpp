@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "console.hpp"
 #include "kith/domains/domain_file.hpp"
 #include "kith/study/study_file.hpp"
 
@@ -26,5 +27,11 @@ struct InputText {
 /// The study of a built-in name, a file or "-", with its overrides; warnings are
 /// returned, errors thrown.
 [[nodiscard]] StudyReading study_of(const std::string& name, const std::vector<std::string>& overrides);
+
+/// Shows what there is to say about a study file, and names what `kith validate` says about its domain.
+void show_warnings(const StudyReading& reading, Console& console);
+
+/// The MDP of this number or name. @throws UsageError if there is none; it lists the names.
+[[nodiscard]] MdpIndex mdp_called(const Domain& domain, const std::string& number_or_name);
 
 }  // namespace kith::cli

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "command.hpp"
+#include "input.hpp"
 #include "kith/bec/comparison.hpp"
 #include "kith/domains/domain_file.hpp"
+#include "kith/explain/bracket.hpp"
 #include "kith/explain/expected_ways.hpp"
 #include "kith/explain/words.hpp"
 #include "kith/mdp/behaviour.hpp"
@@ -22,10 +26,10 @@ namespace {
 
 struct InspectOptions {
   std::string domain;
-  std::vector<std::string> show;   ///< Some of inspect_parts(); empty: the overview.
-  std::optional<std::size_t> mdp;  ///< The MDP whose map, policy or demonstrations are shown.
-  bool all = false;                ///< No list is cut short.
-  std::string svg;                 ///< Folder for pictures; empty: none.
+  std::vector<std::string> show;  ///< Some of inspect_parts(); empty: the overview.
+  std::string mdp;                ///< The MDP whose map, policy or demonstrations are shown: number or name.
+  bool all = false;               ///< No list is cut short.
+  std::string svg;                ///< Folder for pictures; empty: none.
 };
 
 constexpr std::size_t kListLength = 20;  // without --all
@@ -45,8 +49,10 @@ class Inspection {
         out_ += policy();
       } else {
         bec();
+        what_matters();
         components();
         coverage();
+        what_works();
       }
     }
     for (const auto& part : parts) show(part);
@@ -80,7 +86,7 @@ class Inspection {
     if (!map) return model();
     const DemoId start{mdp_, domain_.initial_state(mdp_)};
     return (map->is_picture() ? model() : "") +
-           heading_text(fmt::format("Map of MDP {}, and its first start", mdp_.value())) +
+           heading_text(fmt::format("Map of {}, and its first start", mdp_text(domain_, mdp_))) +
            beside({bare_picture(*map, start), start_picture(*map, start)}, 2) + "\n" + legend(domain_, 2);
   }
 
@@ -136,7 +142,7 @@ class Inspection {
 
   // For every configuration on the way from the start, or as a table.
   [[nodiscard]] std::string policy() const {
-    auto text = heading_text(fmt::format("The robot's policy in MDP {}", mdp_.value()));
+    auto text = heading_text(fmt::format("The robot's policy in {}", mdp_text(domain_, mdp_)));
     const auto& mdp = domain_.mdp(mdp_);
     const auto map = domain_.drawing();
     if (!map) return text + policy_table();
@@ -172,6 +178,42 @@ class Inspection {
           "  {:.2g} % of the regret that people have before any lesson\n",
           100.0 * *left);
     }
+  }
+
+  // How far every weight may change before the robot does anything else anywhere.
+  void what_matters() {
+    heading("What matters: as long as the other weights stay, it does the same in every world if");
+    const auto reference = reference_feature(domain_, atlas_->knowledge_components());
+    const auto& unit = domain_.wording(reference).one;
+    for (std::size_t k = 0; k < domain_.num_features(); ++k) {
+      if (k == reference) continue;
+      const auto same = while_others_stay(domain_, atlas_->policy_bec_half_spaces(), k, reference);
+      const auto& weights = domain_.weights().raw;
+      if (same.low || same.high) {
+        const Ratio own{domain_.weights().integer[k], std::abs(domain_.weights().integer[reference])};
+        out_ += fmt::format("  {} (here {:.4g} times what {} weighs)\n", bracket_in_words(domain_, same),
+                            std::abs(own.value()), unit);
+      } else {
+        out_ += "  " + domain_.wording(k).one + " has any weight: no world tests it, and nothing about it is taught\n";
+        out_ += fmt::format("    kith find {} '{} {} something' looks for a world that would\n", domain_.id(),
+                            domain_.wording(k).one, weights[k] < 0 ? "costs" : "is worth");
+      }
+    }
+  }
+
+  // Said here, not in the eighth hour.
+  void what_works() {
+    heading("What works with this robot");
+    out_ += "  lessons, questions, studies and live sessions\n";
+    const bool has_tables = atlas_->is_tabulated();
+    const bool is_solid = domain_.num_features() == 3;
+    out_ += has_tables && is_solid
+                ? "  kith fit and kith audit, and beliefs drawn on a sphere\n"
+                : fmt::format(
+                      "  kith audit; not kith fit, which takes exact domains of three features (this one has {}{})\n",
+                      counted(domain_.num_features(), "feature"), domain_.is_exact() ? "" : " and chance");
+    if (!is_solid) out_ += "  beliefs and regions are drawn for pairs of features, areas are estimates\n";
+    out_ += "  kith study STUDY --dry-run says how long a study takes and how much space it needs\n";
   }
 
   void components() {
@@ -213,7 +255,7 @@ class Inspection {
   void demos() {
     const auto& starts = domain_.starts(mdp_);
     const auto n = starts.size();
-    heading(fmt::format("Demonstrations of MDP {}: {}", mdp_.value(), n));
+    heading(fmt::format("Demonstrations of {}: {}", mdp_text(domain_, mdp_), n));
     for (std::size_t i = 0; i < limited(n); ++i) {
       const auto demo = atlas_->index({mdp_, starts[i]});
       const auto path = atlas_->trajectory(demo);
@@ -235,7 +277,7 @@ class Inspection {
       out_ += "  " + described(domain_, half_space) + fmt::format(": {} start states\n", tests.size());
       if (tests.empty()) continue;
       const auto id = atlas_->id(tests.front());
-      out_ += fmt::format("    for instance MDP {}, start {}\n", id.mdp.value(), id.start.value());
+      out_ += fmt::format("    for instance {}, start {}\n", mdp_text(domain_, id.mdp), id.start.value());
       const auto path = atlas_->trajectory(tests.front());
       out_ += start_and_path(domain_, id, path, 4);
       if (path.repeats_from) out_ += "    and so on: " + never_in_words(domain_, id.mdp, path) + "\n";
@@ -244,7 +286,7 @@ class Inspection {
 
   void counterfactuals() {
     const auto demo = atlas_->index({mdp_, domain_.initial_state(mdp_)});
-    heading(fmt::format("What people could expect from the start of MDP {}", mdp_.value()));
+    heading(fmt::format("What people could expect from the start of {}", mdp_text(domain_, mdp_)));
     if (const auto map = domain_.drawing()) {
       out_ += beside({bare_picture(*map, atlas_->id(demo)), start_picture(*map, atlas_->id(demo))}, 4);
     } else {
@@ -301,7 +343,7 @@ void declare(OptionList& list, InspectOptions& options) {
   list.domain(options.domain).required();
   list.words("--show", options.show, "PARTS", {"map", "policy", "bec", "kc", "demos", "tests", "counterfactuals"},
              "What to show, separated by commas");
-  list.integer("--mdp", options.mdp, {}, "Number of the MDP to show (default: the last, with everything)");
+  list.text("--mdp", options.mdp, "MDP", "Number or name of the MDP to show (default: the last, with everything)");
   list.flag("--all", options.all, "Do not shorten long lists");
   list.text("--svg", options.svg, "DIR", "Write pictures to this folder: map, policy, region, coverage");
   list.json();
@@ -310,9 +352,7 @@ void declare(OptionList& list, InspectOptions& options) {
 int run(const InspectOptions& options, Console& console) {
   const WorkNotice notice{console, "planning " + options.domain};
   const auto domain = load_domain(options.domain);
-  const MdpIndex mdp{options.mdp.value_or(domain.num_mdps() - 1)};
-  if (mdp.value() >= domain.num_mdps())
-    refuse(fmt::format("there is no MDP {}: they are numbered 0 to {}", mdp.value(), domain.num_mdps() - 1));
+  const auto mdp = options.mdp.empty() ? MdpIndex{domain.num_mdps() - 1} : mdp_called(domain, options.mdp);
   std::optional<const Atlas> atlas;
   if (domain.num_features() > 1) atlas.emplace(domain);
   if (!options.svg.empty()) {
@@ -328,7 +368,8 @@ int run(const InspectOptions& options, Console& console) {
   const bool demos = std::find(options.show.begin(), options.show.end(), "demos") != options.show.end();
   console.print(
       [&] {
-        return atlas ? inspection_json(*atlas, {demos, options.mdp}) : inspection_json(domain);
+        return atlas ? inspection_json(*atlas, {demos, options.mdp.empty() ? std::nullopt : std::optional{mdp.value()}})
+                     : inspection_json(domain);
       },
       [&] {
         return Inspection{domain, atlas ? &*atlas : nullptr, mdp, options.all, console}.text(options.show);

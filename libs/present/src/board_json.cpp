@@ -117,8 +117,8 @@ Json board_json(const Domain& domain, DemoId id) {
   if (map) json["map"] = map->draw(id.mdp, std::nullopt);
   const auto fences = map ? map->fences(id.mdp) : std::vector<std::pair<Cell, Cell>>{};
   for (const auto& [a, b] : fences) json["fences"].push_back({cell_json(*map, a), cell_json(*map, b)});
-  const auto name = domain.describe_variant(id.mdp);
-  if ((!map || map->is_picture()) && !name.empty()) json["world_name"] = name;
+  const auto name = domain.world_name(id.mdp);
+  if (!name.empty()) json["world_name"] = name;
   json["start"] = frame_json(domain, id.mdp, id.start);
   return json;
 }

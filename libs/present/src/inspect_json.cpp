@@ -60,6 +60,9 @@ Json inspection_json(const Domain& domain) {
                 {"actions", domain.action_names()},
                 {"weights", {{"raw", domain.weights().raw}, {"unit", to_json(domain.weights().unit)}}},
                 {"prior", to_json(domain.prior(), d)}};
+  for (MdpIndex m{0}; m.value() < domain.num_mdps(); ++m) {
+    if (!domain.world_name(m).empty()) document["mdp_names"][std::to_string(m.value())] = domain.world_name(m);
+  }
   if (const auto map = domain.map()) document["maps"] = maps_to_json(*map, domain.num_mdps());
   return document;
 }

@@ -97,7 +97,7 @@ void for_each_cell_from_bottom(const GridMap& map, const Visit& visit) {
 }
 
 SvgFile map_picture(const Domain& domain, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
-  Sheet sheet{boards, fmt::format("{}, MDP {}", title_of(domain), m.value())};
+  Sheet sheet{boards, fmt::format("{}, {}", title_of(domain), mdp_text(domain, m))};
   sheet.add(boards.board(m, map.state(m, domain.initial_state(m))), "");
   return {"map.svg", sheet.file()};
 }
@@ -108,7 +108,7 @@ std::optional<SvgFile> policy_picture(const Domain& domain, const GridMap& map, 
   if (!policy) return std::nullopt;
   const auto& choice_in = policy->choice;
   const auto& path = policy->path;
-  Sheet sheet{boards, fmt::format("What the robot does in MDP {} of {}", m.value(), domain.id())};
+  Sheet sheet{boards, fmt::format("What the robot does in {} of {}", mdp_text(domain, m), domain.id())};
   for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
     for_each_cell_from_bottom(map, [&](const Cell& cell) {
@@ -135,8 +135,8 @@ SvgFile region_picture(const Atlas& atlas) {
 SvgFile coverage_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& boards, MdpIndex m) {
   const auto& domain = atlas.domain();
   const auto path = atlas.trajectory(atlas.index({m, domain.initial_state(m)}));
-  Sheet sheet{boards, fmt::format("How many ways people could expect from where the robot stands, MDP {} of {}",
-                                  m.value(), domain.id())};
+  Sheet sheet{boards, fmt::format("How many ways people could expect from where the robot stands, {} of {}",
+                                  mdp_text(domain, m), domain.id())};
   const auto largest = std::max<std::size_t>(2, atlas.coverage().max);
   for (const auto& configuration : configurations_on(domain, map, m, path)) {
     auto board = boards.board(m, configuration, true);
@@ -163,7 +163,8 @@ SvgFile likely_picture(const Atlas& atlas, const GridMap& map, const BoardSvg& b
   const auto demo = atlas.index({m, domain.initial_state(m)});
   const auto start = map.state(m, domain.initial_state(m));
   const auto& robot = atlas.feature_counts(demo);
-  Sheet sheet{boards, fmt::format("What people could expect from the start of MDP {} of {}", m.value(), domain.id())};
+  Sheet sheet{boards,
+              fmt::format("What people could expect from the start of {} of {}", mdp_text(domain, m), domain.id())};
   const auto add = [&](const Trajectory& path, const std::string& text, bool is_own) {
     auto board = boards.board(m, start);
     board.add(0, 0, boards.path(m, path, is_own ? "#0b5cad" : "#b8480a", !is_own));
@@ -189,7 +190,8 @@ SvgFile expected_picture(const Atlas& atlas, const GridMap& map, const BoardSvg&
   const auto& domain = atlas.domain();
   const auto demo = atlas.index({m, domain.initial_state(m)});
   const auto start = map.state(m, domain.initial_state(m));
-  Sheet sheet{boards, fmt::format("What people could expect from the start of MDP {} of {}", m.value(), domain.id())};
+  Sheet sheet{boards,
+              fmt::format("What people could expect from the start of {} of {}", mdp_text(domain, m), domain.id())};
   const auto& robot = atlas.feature_counts(demo);
   auto own = boards.board(m, start);
   own.add(0, 0, boards.path(m, atlas.trajectory(demo), "#0b5cad"));

@@ -87,7 +87,7 @@ class TranscriptWriter {
     taught(lesson);
     for (std::size_t t = 0; t < lesson.tests.size(); ++t) test(period, t);
     beliefs(period);
-    conclusion(period);
+    conclusion(period, begins);
   }
 
   [[nodiscard]] std::string weighed(const KnowledgeComponent& component) const {
@@ -134,7 +134,7 @@ class TranscriptWriter {
   }
 
   [[nodiscard]] std::string start_text(DemoId id) const {
-    auto text = fmt::format("MDP {}, start {}", id.mdp.value(), id.start.value());
+    auto text = fmt::format("{}, start {}", mdp_text(domain_, id.mdp), id.start.value());
     const auto map = domain_.drawing();
     if (!map) return text + ": " + domain_.state_name(id.mdp, id.start);
     const auto state = map->state(id.mdp, id.start);
@@ -236,7 +236,8 @@ class TranscriptWriter {
     line();
   }
 
-  void conclusion(const TranscriptPeriod& period) {
+  // A new component resets every ability: it has not fallen by itself.
+  void conclusion(const TranscriptPeriod& period, bool begins) {
     line();
     for (std::size_t i = 0; i < members_.size(); ++i) {
       const auto& before = period.before.abilities[i];
@@ -246,9 +247,9 @@ class TranscriptWriter {
         continue;
       }
       const auto* verdict = period.feedback.all_correct[i] ? "all answers correct" : "corrected";
-      line(before && after
-               ? fmt::format("  Member {}: ability {:.4f} -> {:.4f} ({})", members_[i], *before, *after, verdict)
-               : fmt::format("  Member {}: {}", members_[i], verdict));
+      line(before && after ? fmt::format("  Member {}: ability {:.4f}{} -> {:.4f} ({})", members_[i], *before,
+                                         begins ? ", reset for this component" : "", *after, verdict)
+                           : fmt::format("  Member {}: {}", members_[i], verdict));
     }
     for (const auto member : period.feedback.excluded) {
       line(fmt::format("  Member {} is left out of the common belief in this period: the answers conflict",

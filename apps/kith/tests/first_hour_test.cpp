@@ -1,0 +1,53 @@
+// What somebody with a robot of her own meets in the first hour.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_kith.hpp"
+
+namespace kith::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string kHospital = std::string{KITH_SOURCE_DIR} + "/libs/explain/tests/questions/hospital.toml";
+
+TEST(FirstHour, WorldsGoByTheirNames) {
+  EXPECT_THAT(run_kith({"inspect", kHospital, "--mdp", "visiting hours"}).out,
+              HasSubstr("Map of MDP 2 (visiting hours)"));
+  EXPECT_EQ(run_kith({"inspect", kHospital, "--mdp", "Visiting Hours"}).out,
+            run_kith({"inspect", kHospital, "--mdp", "2"}).out);
+  const auto wrong = run_kith({"inspect", kHospital, "--mdp", "noon"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("no MDP 'noon'"), HasSubstr("night, morning round")));
+  EXPECT_THAT(run_kith({"teach", kHospital, "--group", "NP"}).out, HasSubstr("MDP "));
+  EXPECT_THAT(run_kith({"inspect", kHospital, "--json"}).out, HasSubstr("morning round"));
+}
+
+TEST(FirstHour, InspectSaysWhatMattersAndWhatWorks) {
+  const auto out = run_kith({"inspect", kHospital}).out;
+  EXPECT_THAT(out, AllOf(HasSubstr("What matters: "), HasSubstr("crossing a wet floor costs"),
+                         HasSubstr("What works with this robot"), HasSubstr("not kith fit")));
+  EXPECT_THAT(run_kith({"inspect", "item-delivery"}).out, HasSubstr("  kith fit and kith audit"));
+}
+
+TEST(FirstHour, AnExampleOfTrialsCanBeFitted) {
+  const Scratch scratch;
+  const auto folder = scratch / "answers";
+  EXPECT_THAT(run_kith({"init", folder, "--trials"}).out, HasSubstr("trials.csv"));
+  const auto ran = run_kith({"fit", folder + "/trials.csv", "--folds", "0", "--replicates", "1"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+}
+
+TEST(FirstHour, MessagesShowTheMend) {
+  const auto table = run_kith({"study", "quick", "--dry-run", "--set", "learner.N.ability=0.7"});
+  EXPECT_EQ(table.code, 3);
+  EXPECT_THAT(table.err,
+              AllOf(HasSubstr("'ability' must be a table"), HasSubstr("write ability = { mean = 0.7, sd = ")));
+  EXPECT_THAT(run_kith({"study", "quick", "--dry-run", "--set", "replicates=1000000"}).out, HasSubstr("GB on disk"));
+  const auto none = run_kith({"find", "item-delivery", "(1,1,0)", "--no-make"});
+  EXPECT_THAT(none.err, HasSubstr("without --no-make a world is made"));
+}
+
+}  // namespace
+}  // namespace kith::testing
