@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -41,7 +44,8 @@ struct AnalyzeOptions {
   std::string correction = "bonferroni";
   std::uint64_t seed = 1;
   std::size_t permutations = 999;
-  bool brief = false;  ///< Findings in words, without tables.
+  bool brief = false;  ///< A few lines in words.
+  bool all = false;    ///< Every finding of a run with all of its tables.
 };
 
 AnalysisOptions analysis_options(const AnalyzeOptions& options) {
@@ -175,14 +179,105 @@ std::string text_of(const ResultTable& table, const Console& console) {
   return "\n" + console.dim(table.caption) + "\n" + text.text(console, height == 1);
 }
 
-std::string text_of(const Finding& finding, bool brief, const Console& console) {
+std::string note_text(const std::string& note) { return wrapped("Note: " + note + ".", kTextWidth, "      ") + "\n"; }
+
+std::string title_and_sentence(const Finding& finding, const Console& console) {
   std::string text = console.bold(finding.title) + "\n";
   if (finding.model != finding.title) text += console.dim(finding.model) + "\n";
-  text += wrapped(finding.sentence, kTextWidth) + "\n";
-  for (const auto& warning : finding.warnings) text += wrapped("Note: " + warning + ".", kTextWidth, "      ") + "\n";
-  if (brief) return text;
+  return text + wrapped(finding.sentence, kTextWidth) + "\n";
+}
+
+std::string text_of(const Finding& finding, const Console& console) {
+  auto text = title_and_sentence(finding, console);
+  for (const auto& warning : finding.warnings) text += note_text(warning);
   if (!finding.results.empty()) text += "\n" + wrapped("For a paper: " + finding.results, kTextWidth) + "\n";
   for (const auto& table : finding.tables) text += text_of(table, console);
+  return text;
+}
+
+// What was planned, or else what the design asks: effects on each outcome. Everything else says the same in other ways,
+// or of parts.
+bool is_on_the_page(const Finding& finding) {
+  static constexpr std::array<std::string_view, 5> kOthers{"-within-composition", "-beliefs", "-variation", "-paired",
+                                                           "-baseline"};
+  return finding.id != "demonstrations" && std::none_of(kOthers.begin(), kOthers.end(), [&](std::string_view ending) {
+           return finding.id.ends_with(ending);
+         });
+}
+
+// Findings for a page, and those that are left; all of them if there would be none.
+struct Page {
+  std::vector<const Finding*> shown, left;
+};
+Page page_of(const Analysis& analysis) {
+  Page page;
+  for (const auto& finding : analysis.findings) (is_on_the_page(finding) ? page.shown : page.left).push_back(&finding);
+  if (page.shown.empty()) std::swap(page.shown, page.left);
+  return page;
+}
+
+// Once each, with the findings that they are about.
+std::string notes_text(const std::vector<const Finding*>& findings) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+  for (const auto* finding : findings) {
+    for (const auto& warning : finding->warnings) {
+      const auto known =
+          std::find_if(notes.begin(), notes.end(), [&](const auto& note) { return note.first == warning; });
+      auto& note = known != notes.end() ? *known : notes.emplace_back(warning, std::vector<std::string>{});
+      note.second.push_back(finding->id);
+    }
+  }
+  std::string text;
+  for (const auto& [note, ids] : notes) {
+    text += wrapped("Note (" + (ids.size() == findings.size() ? "all" : fmt::format("{}", fmt::join(ids, ", "))) +
+                        "): " + note + ".",
+                    kTextWidth, "      ") +
+            "\n";
+  }
+  return text;
+}
+
+std::string left_text(const std::vector<const Finding*>& left, const std::string& input) {
+  if (left.empty()) return "";
+  std::vector<std::string> ids;
+  for (const auto* finding : left) ids.push_back(finding->id);
+  return "\n" +
+         wrapped(fmt::format("Also analysed, and shown with every table by `kith analyze {} --all`: {}.", input,
+                             fmt::join(ids, ", ")),
+                 kTextWidth) +
+         "\n";
+}
+
+// The findings of a run on a page: the answers, how a paper reports them, and one table each.
+std::string page_text(const Analysis& analysis, const Console& console) {
+  const auto page = page_of(analysis);
+  std::string text;
+  for (const auto* finding : page.shown) {
+    text += (text.empty() ? "" : "\n") + title_and_sentence(*finding, console);
+    if (!finding->tables.empty()) text += text_of(finding->tables.front(), console);
+  }
+  const auto notes = notes_text(page.shown);
+  return text + (notes.empty() ? "" : "\n" + notes) + left_text(page.left, analysis.subject);
+}
+
+// The same in no more than 25 lines.
+std::string brief_text(const Analysis& analysis, const std::string& notes) {
+  constexpr long kMostLines = 25;
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  auto page = page_of(analysis);
+  page.shown.insert(page.shown.end(), page.left.begin(), page.left.end());
+  std::string text;
+  std::size_t shown = 0;
+  for (; shown < page.shown.size(); ++shown) {
+    const auto next = wrapped("* " + page.shown[shown]->sentence, kTextWidth, "  ") + "\n";
+    if (lines(notes) + lines(text) + lines(next) > kMostLines - 2 && shown > 0) break;
+    text += next;
+  }
+  if (shown < page.shown.size()) {
+    text += wrapped(fmt::format("{} more: kith analyze {} --all", page.shown.size() - shown, analysis.subject),
+                    kTextWidth) +
+            "\n";
+  }
   return text;
 }
 
@@ -233,7 +328,8 @@ void declare(OptionList& list, AnalyzeOptions& options) {
   list.text("--csv", options.csv, "DIR", "Write every table to this folder as CSV");
   list.text("--r", options.r, "DIR", "Write data, codebook and an R script that repeats the analysis to this folder")
       .needs(model);
-  list.flag("--brief", options.brief, "Findings in words only, without tables");
+  auto brief = list.flag("--brief", options.brief, "The findings in words, in at most 25 lines");
+  list.flag("--all", options.all, "Of a run every finding, with all notes and tables").excludes(brief);
   // Far below 10^-6 and as near to 1 there are no quantiles any more.
   list.number("--alpha", options.alpha, "P", {1e-6, 1.0 - 1e-6}, "Significance level; intervals use 1 - alpha");
   list.word("--correct", options.correction, "HOW", {"bonferroni", "holm", "fdr", "none"},
@@ -253,10 +349,15 @@ int run(const AnalyzeOptions& options, Console& console) {
     return 0;
   }
   std::string text;
-  for (const auto& note : analysis.notes) text += wrapped("Note: " + note + ".", kTextWidth, "      ") + "\n";
-  for (const auto& finding : analysis.findings)
-    text += (text.empty() ? "" : "\n") + text_of(finding, options.brief, console);
-  if (!analysis.not_analysed.empty()) text += "\n" + wrapped(not_analysed_text(analysis), kTextWidth) + "\n";
+  for (const auto& note : analysis.notes) text += note_text(note);
+  if (options.brief) {
+    text += brief_text(analysis, text);
+  } else if (options.all || !options.model.empty()) {
+    for (const auto& finding : analysis.findings) text += (text.empty() ? "" : "\n") + text_of(finding, console);
+    if (!analysis.not_analysed.empty()) text += "\n" + wrapped(not_analysed_text(analysis), kTextWidth) + "\n";
+  } else {
+    text += (text.empty() ? "" : "\n") + page_text(analysis, console);
+  }
   console.print(text);
   return 0;
 }

@@ -29,7 +29,7 @@ class AnalyzeCommand : public ::testing::Test {
 Scratch* AnalyzeCommand::scratch_ = nullptr;
 
 TEST_F(AnalyzeCommand, AnswersTheQuestionsOfAStudyInWordsAndTables) {
-  const auto ran = run_kith({"analyze", folder()});
+  const auto ran = run_kith({"analyze", folder(), "--all"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, AllOf(HasSubstr("Effects of strategy and composition: periods"),
                              HasSubstr("(32 teams in 8 groups)"), HasSubstr("Tests of the fixed effects"),
@@ -44,7 +44,7 @@ TEST_F(AnalyzeCommand, TakesTeamsOfOtherPeopleAsIndependent) {
       run_kith({"study", "paper", "-o", others, "-q", "--set", "replicates=2", "--set", "design.pairing=\"none\""})
           .code,
       0);
-  const auto ran = run_kith({"analyze", others});
+  const auto ran = run_kith({"analyze", others, "--all"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out,
               AllOf(HasSubstr("(32 teams)"), HasSubstr("Permutation and rank tests"), HasSubstr("Kaplan-Meier"),
@@ -54,6 +54,23 @@ TEST_F(AnalyzeCommand, TakesTeamsOfOtherPeopleAsIndependent) {
 TEST_F(AnalyzeCommand, IsBriefWhenAsked) {
   const auto ran = run_kith({"analyze", folder(), "--brief"});
   EXPECT_THAT(ran.out, AllOf(HasSubstr("No effect of strategy was found"), Not(HasSubstr("  p-value"))));
+  EXPECT_LE(std::count(ran.out.begin(), ran.out.end(), '\n'), 25);
+}
+
+// What stands there is what the design asks; everything else is named, and nothing is said twice.
+TEST_F(AnalyzeCommand, FitsOnAPage) {
+  const auto page = run_kith({"analyze", folder()}).out;
+  const auto all = run_kith({"analyze", folder(), "--all"}).out;
+  const auto num_lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  EXPECT_LE(num_lines(page), 90);
+  EXPECT_GT(num_lines(all), 3 * num_lines(page));
+  EXPECT_THAT(page, AllOf(HasSubstr("Effects of strategy and composition: periods"), HasSubstr("--all`: "),
+                          Not(HasSubstr("Manipulation check"))));
+  const auto findings = Json::parse(run_kith({"analyze", folder(), "--json"}).out).at("findings");
+  for (const auto& finding : findings) {
+    EXPECT_THAT(page, HasSubstr(finding.at("id").get<std::string>()));
+    EXPECT_THAT(all, HasSubstr(finding.at("title").get<std::string>()));
+  }
 }
 
 TEST_F(AnalyzeCommand, PrintsOneDocument) {
