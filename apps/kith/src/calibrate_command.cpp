@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/explain/words.hpp"
@@ -386,7 +387,7 @@ int run(const CalibrateOptions& options, Console& console) {
   check_out(options);
   const StudyText source{options.study, options.set};
   const auto reading = source.read({});
-  if (!console.quiet()) console.show(reading.diagnostics);
+  if (!console.quiet()) show_warnings(reading, console);
   check_single_variant(options.study, *reading.study);
   const auto set = targets_of(options.targets, source);
   if (set.targets.empty() || set.parameters.empty()) {

@@ -9,6 +9,7 @@
 
 #include "build_facts.hpp"
 #include "command.hpp"
+#include "input.hpp"
 #include "interrupt.hpp"
 #include "kith/core/error.hpp"
 #include "kith/files/atomic_file.hpp"
@@ -267,7 +268,7 @@ void declare(OptionList& list, PowerCommandOptions& options) {
 int run(const PowerCommandOptions& options, Console& console) {
   const StudyText source{options.study, options.set};
   const auto reading = source.read({});
-  if (!console.quiet()) console.show(reading.diagnostics);
+  if (!console.quiet()) show_warnings(reading, console);
   check_single_variant(options.study, *reading.study);
   watch_signals();
   const Atlas atlas = planned(*reading.domain, console);

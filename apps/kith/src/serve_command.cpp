@@ -340,7 +340,7 @@ int run(const ServeOptions& options, Console& console) {
   const auto address = serve_address(options);
   for (const auto& warning : address.warnings) console.warning(warning);
   const auto reading = reading_of(options);
-  if (!console.quiet()) console.show(reading.diagnostics);
+  if (!console.quiet()) show_warnings(reading, console);
   watch_signals();
   raise_file_limit();
   share_freed_memory();

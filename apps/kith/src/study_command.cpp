@@ -77,14 +77,29 @@ void say_how_long(const Study& study, const Domain& domain, std::size_t threads,
   console.info(work_text(atlas, study.variants.front(), threads, teams));
 }
 
+// Tables and journal, measured with several studies of item delivery; others differ by a factor of two.
+std::string disk_text(const Study& study) {
+  constexpr double kBytesPerMember = 3500.0;
+  double members = 0.0;
+  for (const auto& spec : study.variants) {
+    for (const auto& composition : spec.compositions) {
+      members += static_cast<double>(composition.size() * spec.strategies.size() * spec.replicates);
+    }
+  }
+  constexpr double kMega = 1e6, kGiga = 1e9;
+  const double bytes = members * kBytesPerMember;
+  if (bytes < kMega) return "less than 1 MB";
+  return bytes < kGiga ? fmt::format("about {:.0f} MB", bytes / kMega) : fmt::format("about {:.1f} GB", bytes / kGiga);
+}
+
 int dry_run(const Study& study, std::size_t teams, Console& console) {
   const auto& spec = study.variants.front();
   if (console.json()) refuse("kith study --dry-run prints no JSON");
-  console.print(
-      fmt::format("study {}: {} in {}, seed {}\n  {} x {} x {} x {}\nNothing was run.\n", spec.id,
-                  counted(teams, "team"), spec.domain, spec.seed, counted(study.variants.size(), "variant"),
-                  spec.strategies.size() == 1 ? "1 strategy" : fmt::format("{} strategies", spec.strategies.size()),
-                  counted(spec.compositions.size(), "composition"), counted(spec.replicates, "replicate")));
+  console.print(fmt::format(
+      "study {}: {} in {}, seed {}\n  {} x {} x {} x {}\n  {} on disk\nNothing was run.\n", spec.id,
+      counted(teams, "team"), spec.domain, spec.seed, counted(study.variants.size(), "variant"),
+      spec.strategies.size() == 1 ? "1 strategy" : fmt::format("{} strategies", spec.strategies.size()),
+      counted(spec.compositions.size(), "composition"), counted(spec.replicates, "replicate"), disk_text(study)));
   return 0;
 }
 
@@ -168,7 +183,7 @@ int run(const StudyOptions& options, Console& console) {
   };
 
   auto reading = study_of(options.study, overrides_of(options));
-  if (!console.quiet()) console.show(reading.diagnostics);
+  if (!console.quiet()) show_warnings(reading, console);
   if (options.dry_run && !options.out.empty()) check_folder(options, reading);
   if (options.dry_run) {
     const auto teams = num_teams(*reading.study);
