@@ -350,6 +350,59 @@ void ParticleBelief::move(double angle, RandomStream& random) {
   }
 }
 
+void ParticleBelief::weigh_by(std::span<const double> factors) {
+  const bool is_good = factors.size() == size() && std::all_of(factors.begin(), factors.end(), [](double factor) {
+                         return factor >= 0.0 && std::isfinite(factor);
+                       });
+  double sum = 0.0;
+  for (std::size_t i = 0; is_good && i < size(); ++i) sum += weights_[i] * factors[i];
+  if (!(sum > 0.0))
+    throw std::invalid_argument("ParticleBelief::weigh_by: a factor per point, some weight must remain");
+  lose_product();
+  for (std::size_t i = 0; i < size(); ++i) weights_[i] *= factors[i] / sum;
+  take_logs_of_weights();
+}
+
+void ParticleBelief::blend(const ParticleBelief& other, double share, RandomStream random) {
+  if (!(share >= 0.0 && share <= 1.0) || other.dimension_ != dimension_ || other.size() != size()) {
+    throw std::invalid_argument("ParticleBelief::blend: a share in [0, 1], and beliefs of one shape");
+  }
+  if (share == 0.0) return;
+  constexpr double kFewest = 0.05;  // of the points, from either belief
+  const auto count = static_cast<double>(size());
+  const double wanted = share < 1.0 ? std::clamp(share, kFewest, 1.0 - kFewest) : 1.0;
+  const auto others = static_cast<std::size_t>(std::lround(wanted * count));
+  std::vector<double> points(points_.size()), weights;
+  weights.reserve(size());
+  const auto take = [&](const ParticleBelief& from, std::size_t n, double mass, RandomStream stream) {
+    for (const auto& [index, times] : from.systematic_draws(n, stream)) {
+      for (std::size_t i = 0; i < times; ++i) {
+        for (std::size_t k = 0; k < dimension_; ++k) points[k * size() + weights.size()] = from.axis(k)[index];
+        weights.push_back(mass / static_cast<double>(n));
+      }
+    }
+  };
+  if (others < size()) take(*this, size() - others, 1.0 - share, random.split("own"));
+  if (others > 0) take(other, others, share, random.split("other"));
+  lose_product();
+  points_ = std::move(points);
+  weights_ = std::move(weights);
+  ++num_resamplings_;  // the points are others now
+  take_logs_of_weights();
+}
+
+// From weights that sum to 1, or nearly so.
+void ParticleBelief::take_logs_of_weights() {
+  const double top = *std::max_element(weights_.begin(), weights_.end());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    log_weights_[i] = std::log(weights_[i] / top);
+    sum += weights_[i] / top;
+  }
+  log_sum_ = std::log(sum);
+  detail::scale_by(1.0 / (sum * top), weights_);
+}
+
 double ParticleBelief::mass_in(std::span<const HalfSpace> half_spaces) const {
   if (half_spaces.empty()) return 1.0;
   const double inside = dimension_ == kSpace

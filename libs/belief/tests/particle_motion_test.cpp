@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -117,6 +118,41 @@ TEST(ParticleMotion, DependsOnItsArgumentsAndTheStreamOnly) {
   }
   EXPECT_EQ(a, b);
   EXPECT_NE(a, c);
+}
+
+TEST(ParticleMotion, WeighsByFactors) {
+  const HalfSpace side{IntegerVector{1, 2, 0}};
+  ParticleBelief belief{lower_hemisphere(), {}};
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < belief.size(); ++i) factors.push_back(side.contains(belief.point(i)) ? 1.0 : 3.0);
+  const double before = belief.mass_in(std::array{side});
+  belief.weigh_by(factors);
+  EXPECT_NEAR(belief.mass_in(std::array{side}), before / (before + 3.0 * (1.0 - before)), 1e-12);
+  EXPECT_NEAR(total(belief.weights()), 1.0, 1e-12);
+  EXPECT_THROW(belief.weigh_by(std::vector<double>(belief.size(), 0.0)), std::invalid_argument);
+  EXPECT_THROW(belief.weigh_by(std::vector<double>(3, 1.0)), std::invalid_argument);
+}
+
+// Every mass is the mixture of both beliefs' masses, up to what systematic draws leave: a few of the points that come
+// from either. Later updates go on from there.
+TEST(ParticleMotion, BlendsTwoBeliefs) {
+  const HalfSpace side{IntegerVector{1, 2, 0}};
+  const auto list = std::array{side};
+  ParticleBelief one{lower_hemisphere(), {}};
+  const auto start = one;
+  RandomStream random{20};
+  for (std::uint64_t i = 0; i < 4; ++i) one.observe(list, HalfSpaceLikelihood{0.8}, random.split(i));
+  for (const double share : {0.0, 0.01, 0.3, 0.9, 1.0}) {
+    auto blended = one;
+    blended.blend(start, share, random.split("blend"));
+    EXPECT_NEAR(blended.mass_in(list), (1.0 - share) * one.mass_in(list) + share * start.mass_in(list),
+                share > 0.0 ? 0.005 + 0.03 * share : 0.0);
+    EXPECT_NEAR(total(blended.weights()), 1.0, 1e-12);
+    const double before = blended.mass_in(list);
+    blended.observe(list, HalfSpaceLikelihood{0.8}, random.split("after"));
+    EXPECT_GE(blended.mass_in(list), before);
+  }
+  EXPECT_THROW(one.blend(start, 1.1, random), std::invalid_argument);
 }
 
 }  // namespace

@@ -93,6 +93,15 @@ class ParticleBelief {
   /// inside the prior; weights stay. The teacher's doubt after a test.
   void diffuse(double angle, RandomStream random);
 
+  /// Multiplies the weights by these factors, without a resampling. Shape [size()].
+  /// @throws std::invalid_argument unless there is a factor >= 0 for every point, and some weight remains.
+  void weigh_by(std::span<const double> factors);
+
+  /// Becomes (1 - share) times this belief plus share times another one, as many points as before: at least a twentieth
+  /// of them from either, drawn systematically; all from one if share is 0 or 1.
+  /// @throws std::invalid_argument unless 0 <= share <= 1 and both have the same dimension and as many points.
+  void blend(const ParticleBelief& other, double share, RandomStream random);
+
   /// Sum of the weights of the points that satisfy all half-spaces; 1 for an empty list.
   [[nodiscard]] double mass_in(std::span<const HalfSpace> half_spaces) const;
 
@@ -148,6 +157,7 @@ class ParticleBelief {
   void remember(std::span<const HalfSpace> half_spaces, const HalfSpaceLikelihood& likelihood, double share);
   [[nodiscard]] bool keeps_product() const noexcept;
   void lose_product();
+  void take_logs_of_weights();
   void move_in_product(bool is_resampled, RandomStream& random);
 
   // All observations of one half-space; see detail::FallingDensity.
