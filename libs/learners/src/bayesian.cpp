@@ -9,6 +9,7 @@
 #include "kith/learners/learner_model.hpp"
 #include "kith/random/distributions.hpp"
 #include "kith/teaching/learner_hypothesis.hpp"
+#include "like_bayesian.hpp"
 
 namespace kith {
 namespace {
@@ -248,8 +249,10 @@ std::vector<HalfSpace> known_by_chance(double probability, const std::vector<std
   return known;
 }
 
-std::unique_ptr<Learner> make_bayesian(const ParameterValues& values, std::span<const double> traits,
-                                       const LearnerStart& start, RandomStream random) {
+}  // namespace
+
+BayesianLearner bayesian_person(const ParameterValues& values, std::span<const double> traits,
+                                const LearnerStart& start, const RandomStream& random) {
   const FilterOptions filter{.particles = num_particles(values),
                              .process_noise = values.real("process_noise"),
                              .records_support = start.records_support};
@@ -260,7 +263,14 @@ std::unique_ptr<Learner> make_bayesian(const ParameterValues& values, std::span<
     belief.observe(known_by_chance(values.real("known"), start.components(), random.split("known")),
                    HalfSpaceLikelihood{ability, start.likelihood, belief.dimension()}, random.split("knows"));
   }
-  return std::make_unique<BayesianLearner>(std::move(belief), person, start.likelihood, random);
+  return BayesianLearner{std::move(belief), person, start.likelihood, random};
+}
+
+namespace {
+
+std::unique_ptr<Learner> make_bayesian(const ParameterValues& values, std::span<const double> traits,
+                                       const LearnerStart& start, RandomStream random) {
+  return std::make_unique<BayesianLearner>(bayesian_person(values, traits, start, random));
 }
 
 std::string describe_bayesian(const ParameterValues& values, std::span<const double> traits) {

@@ -6,8 +6,9 @@
 namespace kith {
 
 LearnerModels learner_models() {
-  static const std::array<const LearnerModel*, 1> kModels{
-      &bayesian_model(),
+  static const std::array<const LearnerModel*, 6> kModels{
+      &bayesian_model(),  &slipping_model(),     &noisy_rational_model(),
+      &imitating_model(), &misconceived_model(), &decaying_model(),
   };
   return kModels;
 }

@@ -47,8 +47,10 @@ std::optional<std::vector<HalfSpace>> read_prior(const TomlArray& list, const To
   if (!readable) return std::nullopt;
   for (std::size_t i = 0; i < half_spaces.size(); ++i) {
     if (half_spaces[i].contains(domain->weights().integer)) continue;
-    report.infeasible("E0411", list[i].place(), "this prior does not hold at the robot's weights",
-                      "learners who start from it could never learn the policy");
+    report.infeasible(
+        "E0411", list[i].place(), "this prior does not hold at the robot's weights",
+        "learners who start from it could never learn the policy; people with a false belief from which they can "
+        "recover are of the kind 'misconceived'");
     return std::nullopt;
   }
   if (!has_interior(half_spaces)) {

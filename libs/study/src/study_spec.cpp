@@ -5,13 +5,6 @@
 
 namespace kith {
 
-double minutes_of(const Pace& pace, std::size_t demonstrations, std::size_t tests) noexcept {
-  constexpr double kMinute = 60.0;
-  return (static_cast<double>(demonstrations) * pace.demonstration_s +
-          static_cast<double>(tests) * (pace.test_s + pace.feedback_s)) /
-         kMinute;
-}
-
 bool has_costs(const StudySpec& spec) noexcept {
   return spec.exam != ExamLevel::kNone || spec.grouping != Grouping::kTogether || spec.teaching.release.has_value() ||
          spec.forecast_sessions > 0;

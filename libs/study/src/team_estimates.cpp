@@ -15,7 +15,7 @@ RandomTest random_test(TeachingCache& cache, std::size_t component) { return {ca
 
 // Nothing if the answers of the person do not come from a belief.
 std::optional<std::vector<double>> right_answers(const RandomTest& test, const Learner& learner) {
-  if (const auto* belief = learner.belief()) return test.right(*belief);
+  if (learner.answers_as_believed()) return test.right(*learner.belief());
   return std::nullopt;
 }
 

@@ -8,8 +8,10 @@
 namespace kith {
 namespace {
 
-// Of people whose model has no belief to grade.
-constexpr std::size_t kQuestionsInstead = 60;
+// Of people whose answers do not follow from a belief that could be graded.
+constexpr std::size_t kQuestionsInstead = 240;
+constexpr std::size_t kTimes = 4;                 // that each is answered
+constexpr std::size_t kNextTime = 1'000'000'000;  // answers are drawn by period: this many periods later
 
 // The sum in the order of size, so that seats do not matter to the last bit.
 double mean(std::vector<double> values) {
@@ -22,14 +24,17 @@ double mean(std::vector<double> values) {
 }  // namespace
 
 ExamGrades TeamExaminer::grades_of(const Learner& learner, std::size_t period) const {
-  if (const auto* belief = learner.belief()) return cache_.exam().grade(*belief, cache_.behaviours());
+  if (learner.answers_as_believed()) return cache_.exam().grade(*learner.belief(), cache_.behaviours());
   const auto starts = cache_.exam().questions(kQuestionsInstead, {}, RandomStream{0}.split("exam"));
-  const auto response = learner.answer(cache_.behaviours(), starts, period);
+  const double weight = 1.0 / static_cast<double>(kTimes * starts.size());
   ExamGrades grades;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const auto grade = grade_answer(cache_.atlas(), starts[i], response.answers[i]);
-    grades.all.share_right += grade.share_right / static_cast<double>(starts.size());
-    grades.all.regret += grade.regret / static_cast<double>(starts.size());
+  for (std::size_t time = 0; time < kTimes; ++time) {
+    const auto response = learner.answer(cache_.behaviours(), starts, period + time * kNextTime);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      const auto grade = grade_answer(cache_.atlas(), starts[i], response.answers[i]);
+      grades.all.share_right += weight * grade.share_right;
+      grades.all.regret += weight * grade.regret;
+    }
   }
   return grades;
 }

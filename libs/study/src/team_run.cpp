@@ -154,7 +154,8 @@ class TeamRun {
     }
     const auto period =
         run_period(session, cache_, learners,
-                   {.own_counterfactuals = spec_.learner_counterfactuals_self ? spec_.teaching.counterfactuals : 0});
+                   {.own_counterfactuals = spec_.learner_counterfactuals_self ? spec_.teaching.counterfactuals : 0,
+                    .pace = spec_.pace});
     const auto& [lesson, answers, feedback] = session.history().back();
     for (const auto i : present) {
       ++rows[i].periods;

@@ -78,8 +78,11 @@ TEST_P(LearnerModelFiles, RefuseParametersOutOfRangeWithNameAndRange) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllModels, LearnerModelFiles,
-                         ::testing::ValuesIn(learner_models().begin(), learner_models().end()),
-                         [](const auto& one) { return std::string{one.param->kind}; });
+                         ::testing::ValuesIn(learner_models().begin(), learner_models().end()), [](const auto& one) {
+                           std::string name{one.param->kind};
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 // --- strategies and rules of aggregation -------------------------------------------
 

@@ -3,9 +3,16 @@
 #include <span>
 #include <vector>
 
+#include "kith/bec/atlas.hpp"
 #include "kith/geometry/half_space.hpp"
 
 namespace kith {
+
+/// A path that somebody gave as the answer to a test.
+struct GivenAnswer {
+  DemoIndex test;
+  IntegerVector counts;  ///< Of its features.
+};
 
 /// What one answer says about the weights that a person had in mind: that they lie in the cone, or that they do not.
 struct AnswerRegion {
@@ -22,6 +29,10 @@ class AnswerEvidence {
   /// @param chance  probability of these answers by guessing, in [0, 1].
   AnswerEvidence(std::span<const HalfSpace> possible, std::span<const AnswerRegion> answers, double chance);
 
+  /// With paths: which weights give these answers, and, for people whose answers are not always the best path for some
+  /// weights, the answers themselves. The atlas must outlive it. @pre atlas.is_tabulated().
+  AnswerEvidence(const Atlas& atlas, std::span<const GivenAnswer> answers);
+
   /// Whether there are no answers.
   [[nodiscard]] bool empty() const noexcept { return is_empty_; }
   /// Whether no weights give these answers.
@@ -33,6 +44,10 @@ class AnswerEvidence {
   [[nodiscard]] const std::vector<HalfSpace>& consistent() const noexcept { return consistent_; }
   /// The cones of the other answers: weights in any of them give another answer.
   [[nodiscard]] const std::vector<std::vector<HalfSpace>>& outside() const noexcept { return outside_; }
+  /// The answers themselves, if they were given as paths; else empty.
+  [[nodiscard]] const std::vector<GivenAnswer>& paths() const noexcept { return paths_; }
+  /// Of the tests. @pre paths() is not empty.
+  [[nodiscard]] const Atlas& atlas() const noexcept { return *atlas_; }
 
  private:
   bool is_empty_;
@@ -41,6 +56,8 @@ class AnswerEvidence {
   std::vector<HalfSpace> possible_;
   std::vector<HalfSpace> consistent_;
   std::vector<std::vector<HalfSpace>> outside_;
+  std::vector<GivenAnswer> paths_;
+  const Atlas* atlas_ = nullptr;
 };
 
 }  // namespace kith

@@ -68,6 +68,8 @@ class BayesianLearner final : public Learner {
   /// From now on this is another person, with the same belief and ability at this moment: what `fit` uses to share the
   /// past of people who differ in what has not mattered yet.
   void become(const BayesianPerson& person) noexcept { person_ = person; }
+  /// From now on this is what the person believes: for models of people whose beliefs change otherwise, too.
+  void believe(ParticleBelief belief) { belief_ = std::move(belief); }
 
  private:
   void learn(std::span<const HalfSpace> half_spaces, std::size_t period, RandomStream random);

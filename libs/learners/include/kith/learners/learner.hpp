@@ -22,8 +22,9 @@ struct LearningAbilities {
 /// A simulated person who watches demonstrations, answers tests and hears feedback. What a person is like is up to
 /// the model (LearnerModel) that made them.
 ///
-/// Calls: begin_component() when a knowledge component begins, also the first one; then in every period watch(),
-/// answer() and hear_feedback(), in this order. Periods are numbered from 1 and do not begin again with a component.
+/// Calls: begin_component() when a knowledge component begins, also the first one; then in every period, in this order,
+/// let_time_pass() (from the second period on), see(), watch(), answer() and hear_feedback(). Periods are numbered from
+/// 1 and do not begin again with a component.
 ///
 /// What every model promises, and the tests check for all registered ones (docs/library.md):
 /// * What a person does depends on their parameters, their random stream and the calls so far only. What is drawn in
@@ -38,6 +39,13 @@ class Learner {
   [[nodiscard]] virtual std::unique_ptr<Learner> clone() const = 0;
 
   virtual void begin_component() = 0;
+
+  /// Time passes before the lesson of a period: what the period before took, in minutes. Does nothing to most people.
+  virtual void let_time_pass(double /*minutes*/, std::size_t /*period*/) {}
+
+  /// Sees the demonstrations of a period themselves, right before watch() tells what they convey. Most people keep only
+  /// that.
+  virtual void see(const Atlas& /*atlas*/, std::span<const DemoIndex> /*demonstrations*/) {}
 
   /// Watches the demonstrations of a period, which convey these half-spaces.
   virtual void watch(std::span<const HalfSpace> half_spaces, std::size_t period) = 0;
@@ -55,7 +63,7 @@ class Learner {
   virtual void hear_feedback(bool all_correct, std::span<const HalfSpace> half_spaces, std::size_t period) = 0;
 
   /// The probability, in [0, 1], that answer() gives exactly these answers in the present state; nothing if the
-  /// person has no answer to these tests. @pre evidence is not empty.
+  /// person has no answer to these tests. @pre evidence is not empty, and has paths if LearnerModel::needs_paths.
   [[nodiscard]] virtual std::optional<double> likelihood(const AnswerEvidence& evidence) const = 0;
 
   /// How sure the person is that the robot's weights satisfy all of the half-spaces, in [0, 1].
@@ -63,6 +71,9 @@ class Learner {
 
   /// The person's belief about the robot's weights, to record and to draw; null if the model has none.
   [[nodiscard]] virtual const ParticleBelief* belief() const { return nullptr; }
+
+  /// Whether every answer is the best path for weights drawn from belief(), so that an exam can grade the belief.
+  [[nodiscard]] virtual bool answers_as_believed() const { return belief() != nullptr; }
 
   /// How well the person learns now, in the model's own measure; nothing if the model has no such number.
   [[nodiscard]] virtual std::optional<double> ability() const { return std::nullopt; }

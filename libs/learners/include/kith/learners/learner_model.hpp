@@ -41,6 +41,12 @@ struct LearnerStart {
   bool records_support = false;  ///< As in FilterOptions.
 };
 
+/// A parameter of a model that `kith fit --kinds` estimates, with the values that it compares, ascending.
+struct FittedParameter {
+  std::string_view name;
+  std::span<const double> values;
+};
+
 /// A kind of simulated learner: a row of the registry. To add one, see docs/library.md.
 struct LearnerModel {
   std::string_view kind;                   ///< `learner.X.kind` in study files.
@@ -48,6 +54,10 @@ struct LearnerModel {
   std::span<const Parameter> parameters;   ///< Keys of `[learner.X]` besides kind, label and prior.
   std::span<const LearnerTrait> traits{};  ///< What draw() returns.
   bool has_ability = false;                ///< Whether Learner::ability() has a value.
+  bool needs_paths = false;                ///< Whether Learner::likelihood() takes only evidence with paths.
+
+  /// What is estimated of people besides their ability, which may be nothing; see fit_kinds().
+  std::span<const FittedParameter> fitted{};
 
   /// What is wrong with parameters that are each in their range, if anything. May be null.
   std::optional<ParameterProblem> (*check)(const ParameterValues& values) = nullptr;
@@ -67,6 +77,13 @@ using LearnerModels = std::span<const LearnerModel* const>;
 [[nodiscard]] LearnerModels learner_models();
 /// The built-in model "bayesian" (see BayesianLearner).
 [[nodiscard]] const LearnerModel& bayesian_model();
+/// The built-in models of other minds: people who learn like those of "bayesian" but for what their description says.
+/// They have its parameters and traits, and some of their own.
+[[nodiscard]] const LearnerModel& slipping_model();
+[[nodiscard]] const LearnerModel& noisy_rational_model();
+[[nodiscard]] const LearnerModel& imitating_model();
+[[nodiscard]] const LearnerModel& misconceived_model();
+[[nodiscard]] const LearnerModel& decaying_model();
 /// The model of this kind, or null.
 [[nodiscard]] const LearnerModel* find_learner_model(std::string_view kind, LearnerModels models = learner_models());
 

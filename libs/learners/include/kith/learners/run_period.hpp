@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kith/learners/learner.hpp"
+#include "kith/learners/pace.hpp"
 #include "kith/teaching/session.hpp"
 
 namespace kith {
@@ -14,10 +15,14 @@ struct PeriodOptions {
   /// If positive, learners work out for themselves what a demonstration conveys, from so many weights that they take
   /// the robot's to be, instead of learning what it conveys to the teacher's counterfactuals.
   std::size_t own_counterfactuals = 0;
+  Pace pace{};  ///< For people who forget with time.
 };
 
 /// Whether the session's lesson is the first one of its component: Learner::begin_component() is called before it.
 [[nodiscard]] bool begins_component(const Session& session);
+
+/// The time that the period before took passes for a learner. @param session  in which a lesson was chosen.
+void pass_time(Learner& learner, const Session& session, const PeriodOptions& options = {});
 
 /// A learner watches the demonstrations of a lesson. @param cache  of the session's atlas; changes no result.
 void watch_lesson(Learner& learner, const Lesson& lesson, TeachingCache& cache, const PeriodOptions& options = {});

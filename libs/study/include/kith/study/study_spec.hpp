@@ -9,6 +9,7 @@
 
 #include "kith/geometry/half_space.hpp"
 #include "kith/learners/learner_model.hpp"
+#include "kith/learners/pace.hpp"
 #include "kith/study/group_options.hpp"
 #include "kith/teaching/session.hpp"
 
@@ -21,6 +22,7 @@ struct LearnerType {
   const LearnerModel* model = &bayesian_model();
   ParameterValues parameters{model->parameters};
   std::optional<std::vector<HalfSpace>> prior{};  ///< What this type starts from; none: the domain's prior.
+};
 };
 
 /// Whether compared strategies teach the same simulated people.
@@ -48,16 +50,6 @@ enum class Grouping {
   kTogether,  ///< The whole team [jayaraman2024].
   kByType,    ///< A session for each learner type of the team, one after the other, by the same teacher.
 };
-
-/// How long people take, for times in minutes: assumptions, unless they were measured.
-struct Pace {
-  double demonstration_s = 10.0;  ///< Seconds to watch one.
-  double test_s = 15.0;           ///< Seconds to answer one, until the slowest of the group has.
-  double feedback_s = 10.0;       ///< Seconds of feedback about one.
-  friend bool operator==(const Pace&, const Pace&) = default;
-};
-/// Minutes of demonstrations and tests with feedback.
-[[nodiscard]] double minutes_of(const Pace& pace, std::size_t demonstrations, std::size_t tests) noexcept;
 
 /// One setting of the varied keys of a design, such as {"teacher.process_noise", "0.5"}.
 struct FactorSetting {
