@@ -10,7 +10,7 @@ std::shared_ptr<const Learner> make_stand_in(const LiveStudy& study, const RoomS
                                              char type, bool is_first, TeachingCache& cache) {
   auto person = person_stream(team_stream(study.spec, address_of(setup)), member + 1);
   if (!is_first) person = person.split("stand-in");
-  const auto& learner_of_type = learner_type(study.spec, type);
+  const auto& learner_of_type = type_of_person(study.spec, type, person);
   return make_learner(study.spec, learner_of_type, draw_traits(learner_of_type, person), person, cache);
 }
 

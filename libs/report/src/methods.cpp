@@ -136,8 +136,16 @@ class Paragraph {
   }
 
   [[nodiscard]] bool is_used(const LearnerType& type) const {
-    return std::any_of(spec_.compositions.begin(), spec_.compositions.end(),
-                       [&](const auto& composition) { return composition.find(type.letter) != std::string::npos; });
+    const auto is_named = [&](char letter) {
+      return std::any_of(spec_.compositions.begin(), spec_.compositions.end(),
+                         [&](const auto& composition) { return composition.find(letter) != std::string::npos; });
+    };
+    return is_named(type.letter) ||
+           std::any_of(spec_.learner_types.begin(), spec_.learner_types.end(), [&](const LearnerType& mixed) {
+             return is_named(mixed.letter) &&
+                    std::any_of(mixed.mixture.begin(), mixed.mixture.end(),
+                                [&](const LearnerShare& part) { return part.letter == type.letter; });
+           });
   }
   [[nodiscard]] static std::string name_of_type(const LearnerType& type) {
     return type.label.empty() ? std::string{type.letter} : type.label;
@@ -159,7 +167,7 @@ class Paragraph {
   [[nodiscard]] std::vector<const LearnerType*> types_of(const LearnerModel* model) const {
     std::vector<const LearnerType*> types;
     for (const auto& type : spec_.learner_types) {
-      if (is_used(type) && (model == nullptr || type.model == model)) types.push_back(&type);
+      if (type.mixture.empty() && is_used(type) && (model == nullptr || type.model == model)) types.push_back(&type);
     }
     return types;
   }
@@ -168,6 +176,15 @@ class Paragraph {
     if (const auto types = types_of(&bayesian_model()); !types.empty()) bayesian_learners(types);
     for (const auto* type : types_of(nullptr)) {
       if (type->model != &bayesian_model()) other_learners(*type);
+    }
+    for (const auto& type : spec_.learner_types) {
+      std::vector<std::string> parts;
+      for (const auto& [letter, share] : type.mixture) {
+        parts.push_back("'" + name_of_type(learner_type(spec_, letter)) + "' with probability " + shortest(share));
+      }
+      if (!parts.empty() && is_used(type)) {
+        say("Learners of the type '" + name_of_type(type) + "' were of the type " + listed(parts) + ".");
+      }
     }
     for (const auto& type : spec_.learner_types) {
       if (type.prior) say("Learners of the type '" + type.label + "' started from their own prior.");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <string_view>
 
@@ -209,6 +211,10 @@ class SpecReader {
     }
     const auto* learners = root_.value("learner", Presence::kOptional);
     for (const auto& type : spec_.learner_types) {
+      if (used.count(type.letter) == 0) continue;
+      for (const auto& part : type.mixture) used.insert(part.letter);
+    }
+    for (const auto& type : spec_.learner_types) {
       if (used.count(type.letter) > 0) continue;
       const std::string name{type.letter};
       report_.warning("W0401", learners->table()->find_entry(name)->place,
@@ -244,9 +250,55 @@ class SpecReader {
         continue;
       }
       if (auto table = learners->table(entry.key, Presence::kRequired)) {
-        spec_.learner_types.push_back(read_learner_type(*table, letter));
+        spec_.learner_types.push_back(table->has("mixture") ? read_mixed_type(*table, letter)
+                                                            : read_learner_type(*table, letter));
       }
     }
+    for (const auto& type : spec_.learner_types) check_mixture(type, *learners);
+  }
+
+  // [learner.X] mixture = { N = 0.7, S = 0.3 }
+  [[nodiscard]] LearnerType read_mixed_type(TomlReader& table, char letter) {
+    LearnerType type;
+    type.letter = letter;
+    type.label = std::string{letter};
+    set_if(type.label, table.string("label", Presence::kOptional));
+    type.model = kinds_.learners.front();
+    type.parameters = ParameterValues{type.model->parameters};
+    if (auto shares = table.table("mixture", Presence::kRequired)) {
+      for (const auto& entry : shares->content().entries()) {
+        const auto share = shares->real(entry.key, Presence::kRequired, {0.0, 1.0, true, false});
+        if (entry.key.size() == 1 && share) {
+          type.mixture.push_back({entry.key.front(), *share});
+        } else if (entry.key.size() != 1) {
+          report_.error("E0423", entry.place, "'" + entry.key + "' is not the letter of a learner type");
+        }
+      }
+    }
+    table.finish();
+    return type;
+  }
+
+  void check_mixture(const LearnerType& type, TomlReader& learners) {
+    const auto* table = learners.content().find(std::string{type.letter})->table();
+    const auto* shares = table != nullptr ? table->find("mixture") : nullptr;
+    if (shares == nullptr || shares->table() == nullptr) return;
+    double sum = 0.0;
+    for (const auto& [letter, share] : type.mixture) {
+      sum += share;
+      const auto part = std::find_if(spec_.learner_types.begin(), spec_.learner_types.end(),
+                                     [&, wanted = letter](const auto& other) { return other.letter == wanted; });
+      if (part != spec_.learner_types.end() && part->mixture.empty()) continue;
+      report_.error("E0423", shares->table()->find_entry(std::string{letter})->place,
+                    part == spec_.learner_types.end()
+                        ? std::string{"there is no learner type '"} + letter + "'"
+                        : std::string{"learner type '"} + letter + "' is a mixture itself",
+                    "add a table [learner." + std::string{letter} + "] with a kind");
+    }
+    constexpr double kRounding = 1e-9;
+    if (std::abs(sum - 1.0) <= kRounding || report_.num_errors() > 0) return;
+    report_.error("E0423", shares->place(), "the shares of this mixture sum to " + to_string(ParameterValue{sum}),
+                  "shares must sum to 1");
   }
 
   [[nodiscard]] LearnerType read_learner_type(TomlReader& table, char letter) {

@@ -19,7 +19,14 @@ constexpr std::uint64_t kNumber = 8;
 // Particles of all beliefs about a team and of its members themselves.
 std::uint64_t num_particles(const StudySpec& spec, const std::string& composition) {
   std::uint64_t sum = (composition.size() + 2) * spec.teaching.filter.particles;  // of each, common and joint
-  for (const char letter : composition) sum += num_particles(learner_type(spec, letter).parameters);
+  for (const char letter : composition) {
+    const auto& type = learner_type(spec, letter);
+    std::uint64_t most = type.mixture.empty() ? num_particles(type.parameters) : 0;
+    for (const auto& part : type.mixture) {
+      most = std::max<std::uint64_t>(most, num_particles(learner_type(spec, part.letter).parameters));
+    }
+    sum += most;
+  }
   return sum;
 }
 

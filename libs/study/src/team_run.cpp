@@ -68,7 +68,8 @@ class TeamRun {
     std::size_t member = 0;
     for (const char letter : record_.address.composition) {
       const auto stream = person_stream(stream_, ++member);
-      people_.push_back({letter, draw_traits(learner_type(spec_, letter), stream), stream, member});
+      const auto& type = type_of_person(spec_, letter, stream);
+      people_.push_back({type.letter, draw_traits(type, stream), stream, member});
     }
   }
 

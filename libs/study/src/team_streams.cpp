@@ -1,6 +1,7 @@
 #include "kith/study/team_streams.hpp"
 
 #include "kith/core/assert.hpp"
+#include "kith/random/distributions.hpp"
 #include "kith/teaching/known_components.hpp"
 
 namespace kith {
@@ -24,6 +25,15 @@ RandomStream belief_stream(const RandomStream& person) { return person.split("te
 RandomStream teacher_stream(const RandomStream& team) { return team.split("teacher"); }
 
 RandomStream lone_teacher_stream(const RandomStream& person) { return person.split("alone"); }
+
+const LearnerType& type_of_person(const StudySpec& spec, char letter, const RandomStream& person) {
+  const auto& type = learner_type(spec, letter);
+  if (type.mixture.empty()) return type;
+  std::vector<double> shares;
+  for (const auto& part : type.mixture) shares.push_back(part.share);
+  auto random = person.split("type");
+  return learner_type(spec, type.mixture[categorical(shares, random)].letter);
+}
 
 std::vector<double> draw_traits(const LearnerType& type, const RandomStream& person) {
   return type.model->draw(type.parameters, person.split("parameters"));

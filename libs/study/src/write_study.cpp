@@ -79,7 +79,13 @@ TomlArray prior(const std::vector<HalfSpace>& half_spaces, const Domain& domain)
 }
 
 TomlTable learner(const LearnerType& type, const Domain& domain) {
-  TableWriter table;
+  TableWriter table, shares;
+  if (!type.mixture.empty()) {
+    for (const auto& [letter, share] : type.mixture) shares.add(std::string{letter}, share);
+    table.add("label", type.label);
+    table.add("mixture", std::move(shares));
+    return std::move(table).take();
+  }
   table.add("kind", std::string{type.model->kind});
   table.add("label", type.label);
   auto result = std::move(table).take();

@@ -1,7 +1,9 @@
 #include "kith/study/study_file.hpp"
+#include "kith/study/team_streams.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 #include <filesystem>
@@ -146,6 +148,31 @@ TEST(StudyFile, ReadsWhenTheExamStops) {
   }
 }
 
+// Everybody of a mixed type is of one of its parts; n = 200 people, shares within 5 standard errors.
+TEST(StudyFile, ReadsMixturesAndDrawsPeopleFromThem) {
+  const auto text = study_with("[learner.N]",
+                               "[learner.N]\nmixture = { M = 0.7, S = 0.3 }\n[learner.S]\nkind = \"slipping\"\n"
+                               "ability = { mean = 0.8, sd = 0.03 }\nconfirm_gain = { value = 0 }\n"
+                               "correct_gain = { value = 0.01 }\n[learner.M]");
+  const auto first = parse(text);
+  ASSERT_TRUE(first.study) << ::testing::PrintToString(ids(first));
+  EXPECT_TRUE(first.diagnostics.empty()) << ::testing::PrintToString(ids(first));
+  const auto second = parse(to_toml(*first.study, *first.domain));
+  ASSERT_TRUE(second.study) << ::testing::PrintToString(ids(second));
+  const auto& spec = second.study->variants.front();
+  EXPECT_EQ(learner_type(spec, 'N').mixture, (std::vector<LearnerShare>{{'M', 0.7}, {'S', 0.3}}));
+  EXPECT_EQ(to_toml(*second.study, *second.domain), to_toml(*first.study, *first.domain));
+  constexpr int n = 200;
+  int slipping = 0;
+  for (std::uint64_t person = 0; person < n; ++person) {
+    const char letter = type_of_person(spec, 'N', RandomStream{person}).letter;
+    EXPECT_TRUE(letter == 'M' || letter == 'S');
+    slipping += letter == 'S' ? 1 : 0;
+  }
+  EXPECT_NEAR(slipping / double{n}, 0.3, 5.0 * std::sqrt(0.3 * 0.7 / n));
+  EXPECT_EQ(type_of_person(spec, 'M', RandomStream{1}).letter, 'M');
+}
+
 TEST(StudyFile, ReadsWhoIsTaughtTogetherAndWhatIsForecast) {
   const auto text = study_with("[learner.N]",
                                "[teacher]\ngrouping = \"by-type\"\nhypotheses = \"known-components\"\n"
@@ -227,6 +254,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"E0403", "[learner.N]", "vary = { \"stop.max_periods\" = [3, 3] }\n[learner.N]", 9},
         Mistake{"E0110", "[learner.N]", "vary = { \"stop.max_periods\" = [3, 0] }\n[learner.N]", 9},
         Mistake{"E0107", "[learner.N]", "vary = { \"stop.max_perids\" = [3, 4] }\n[learner.N]", 9},
+        Mistake{"E0423", "[learner.N]", "[learner.N]\nmixture = { M = 0.5 }\n[learner.M]", 10},
+        Mistake{"E0423", "[learner.N]", "[learner.N]\nmixture = { M = 0.5, S = 0.5 }\n[learner.M]", 10},
+        Mistake{"E0423", "[learner.N]", "[learner.N]\nmixture = { M = 0.5, MM = 0.5 }\n[learner.M]", 10},
         Mistake{"E0421", "[design]", "group.questions = [{ id = \"a b\", kind = \"text\", text = \"?\" }]\n[design]",
                 6},
         Mistake{"E0421", "[design]", "group.questions = [{ id = \"a\", kind = \"choice\", text = \"?\" }]\n[design]",

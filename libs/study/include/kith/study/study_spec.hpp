@@ -15,6 +15,13 @@
 
 namespace kith {
 
+/// How often people of a mixed type are of another one.
+struct LearnerShare {
+  char letter = 'N';
+  double share = 1.0;
+  friend bool operator==(const LearnerShare&, const LearnerShare&) = default;
+};
+
 /// A type of simulated learner, named by one letter in compositions.
 struct LearnerType {
   char letter = 'N';
@@ -22,7 +29,9 @@ struct LearnerType {
   const LearnerModel* model = &bayesian_model();
   ParameterValues parameters{model->parameters};
   std::optional<std::vector<HalfSpace>> prior{};  ///< What this type starts from; none: the domain's prior.
-};
+  /// If not empty, everybody is drawn from these types, which are not mixed themselves, with shares that sum to 1; all
+  /// the rest but the label means nothing then.
+  std::vector<LearnerShare> mixture{};
 };
 
 /// Whether compared strategies teach the same simulated people.

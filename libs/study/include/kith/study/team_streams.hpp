@@ -30,6 +30,9 @@ namespace kith {
 /// The same in the baseline, where every person has a teacher of their own.
 [[nodiscard]] RandomStream lone_teacher_stream(const RandomStream& person);
 
+/// The type of a person of whom a composition has this letter: that of the letter, or one drawn from its mixture.
+/// @throws std::invalid_argument if there is no such type.
+[[nodiscard]] const LearnerType& type_of_person(const StudySpec& spec, char letter, const RandomStream& person);
 /// The numbers that describe a person of this type.
 /// @throws kith::Error (kInfeasible) if no person meets the parameters of the type.
 [[nodiscard]] std::vector<double> draw_traits(const LearnerType& type, const RandomStream& person);
