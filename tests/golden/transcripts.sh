@@ -1,32 +1,39 @@
 #!/usr/bin/env bash
-# transcripts.sh compare|update KITH FOLDER: the transcript of one team per
-# strategy that kith knows against (or into) FOLDER/STRATEGY.txt.
+# transcripts.sh compare|update KITH FOLDER: the transcript of one team per strategy and per learner model that kith
+# knows against (or into) FOLDER/STRATEGY.txt and FOLDER/learner-KIND.txt.
 set -uo pipefail
 mode=$1 kith=$2 folder=$3
 unset "${!KITH_@}"
 status=0
-# `kith explain strategies` begins the lines of names, and only these, with a small letter.
-mapfile -t strategies < <("$kith" explain strategies | grep -o '^[a-z][a-z0-9-]*$')
-if (( ${#strategies[@]} < 2 )); then
+declare -A command  # by the name of the transcript
+# `kith explain TOPIC` begins the lines of names, and only these, with a small letter.
+names_of() { "$kith" explain "$1" | grep -o '^[a-z][a-z0-9-]*$'; }
+for strategy in $(names_of strategies); do command[$strategy]="--strategy $strategy"; done
+# With "bayesian", the first kind, as the teacher assumes: that is what the strategies have.
+for kind in $(names_of learners | tail -n +2); do
+  command[learner-$kind]="--strategy joint --set learner.N.kind=\"$kind\" --set learner.P.kind=\"$kind\""
+done
+if (( ${#command[@]} < 2 )); then
   echo "kith explain strategies does not list strategies"
   exit 1
 fi
-for strategy in "${strategies[@]}"; do
-  file=$folder/$strategy.txt
+for name in $(printf '%s\n' "${!command[@]}" | sort); do
+  file=$folder/$name.txt
+  read -ra arguments <<<"${command[$name]}"
   if [[ $mode == update ]]; then
-    "$kith" teach item-delivery --group NNP --strategy "$strategy" --seed 1 >"$file" || exit
+    "$kith" teach item-delivery --group NNP --seed 1 "${arguments[@]}" >"$file" || exit
   elif [[ ! -f $file ]]; then
-    echo "the strategy $strategy has no transcript; to write it, run: cmake --build BUILD --target update_transcripts"
+    echo "$name has no transcript; to write it, run: cmake --build BUILD --target update_transcripts"
     status=1
-  elif ! "$kith" teach item-delivery --group NNP --strategy "$strategy" --seed 1 | diff -u "$file" -; then
-    echo "the transcript of $strategy has changed; if it should, run: cmake --build BUILD --target update_transcripts"
+  elif ! "$kith" teach item-delivery --group NNP --seed 1 "${arguments[@]}" | diff -u "$file" -; then
+    echo "the transcript of $name has changed; if it should, run: cmake --build BUILD --target update_transcripts"
     status=1
   fi
 done
 for file in "$folder"/*.txt; do
   name=$(basename "$file" .txt)
-  [[ " ${strategies[*]} " == *" $name "* ]] && continue
-  echo "there is no strategy $name, but a transcript: remove $file"
+  [[ -n ${command[$name]:-} ]] && continue
+  echo "there is neither a strategy nor a learner model of the name $name, but a transcript: remove $file"
   status=1
 done
 exit $status
